@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace cases {
+
+// Where something stands in a text file; line and column count from 1, 0 means unknown.
+struct SourceLocation {
+    std::string file;
+    uint32_t line = 0;
+    uint32_t column = 0;
+};
+
+// One thing wrong with a file or a request, told in one sentence: what is wrong, where, what to do.
+struct Error {
+    SourceLocation where;
+    std::string message;
+};
+using Errors = std::vector<Error>;
+
+template <class T>
+using Expected = tl::expected<T, Error>;
+template <class T>
+using ExpectedAll = tl::expected<T, Errors>;
+
+// "file:line:column: error: message"; parts of the location that are unknown are left out.
+std::string to_string(const Error& error);
+
+}  // namespace cases

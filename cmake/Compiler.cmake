@@ -1,0 +1,20 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+# Warnings live on an INTERFACE target that is never exported. -ffp-contract=off everywhere: a fused
+# multiply-add would change the reference's rounding (docs/design.md, number formats).
+add_library(edgecase_warnings INTERFACE)
+target_compile_options(edgecase_warnings INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion
+    -Wfloat-equal -Wold-style-cast -Wundef $<$<BOOL:${EDGECASE_WERROR}>:-Werror>)
+add_compile_options(-ffp-contract=off -fno-fast-math)
+if(EDGECASE_SANITIZE)
+    add_compile_options(-fsanitize=${EDGECASE_SANITIZE} -fno-omit-frame-pointer)
+    if(EDGECASE_SANITIZE MATCHES "undefined")
+        add_compile_options(-fno-sanitize-recover=undefined)
+    endif()
+    add_link_options(-fsanitize=${EDGECASE_SANITIZE})
+endif()
+find_program(EDGECASE_MOLD mold)
+if(EDGECASE_MOLD)
+    add_link_options(-fuse-ld=mold)
+endif()

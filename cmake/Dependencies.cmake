@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+# Every third-party package, in one place, as SYSTEM targets. All are Debian 12 packages
+# (scripts/packages.txt).
+find_package(Threads REQUIRED)
+find_package(fmt REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(PkgConfig REQUIRED)
+
+function(edgecase_header_only name header)
+    find_path(EDGECASE_${name}_INCLUDE ${header} REQUIRED)
+    add_library(edgecase_${name} INTERFACE)
+    target_include_directories(edgecase_${name} SYSTEM INTERFACE ${EDGECASE_${name}_INCLUDE})
+    add_library(edgecase::${name} ALIAS edgecase_${name})
+endfunction()
+edgecase_header_only(expected tl/expected.hpp)
+edgecase_header_only(glm glm/glm.hpp)
+edgecase_header_only(vulkan_headers vulkan/vulkan.h)
+
+# Static where Debian has an archive: the program then starts faster and runs under another C library.
+add_library(edgecase::fmt ALIAS fmt::fmt-header-only)
+find_library(EDGECASE_GMPXX libgmpxx.a REQUIRED)
+find_library(EDGECASE_GMP libgmp.a REQUIRED)
+add_library(edgecase_gmp INTERFACE)
+target_link_libraries(edgecase_gmp INTERFACE ${EDGECASE_GMPXX} ${EDGECASE_GMP})
+add_library(edgecase::gmp ALIAS edgecase_gmp)
+
+add_library(edgecase_tomlplusplus INTERFACE)
+target_link_libraries(edgecase_tomlplusplus INTERFACE tomlplusplus::tomlplusplus)
+add_library(edgecase::tomlplusplus ALIAS edgecase_tomlplusplus)
+add_library(edgecase::json ALIAS nlohmann_json)
+if(NOT TARGET edgecase::json)
+    add_library(edgecase::json ALIAS nlohmann_json::nlohmann_json)
+endif()
+add_library(edgecase::cli11 ALIAS CLI11::CLI11)
+add_library(edgecase_vulkan INTERFACE)
+target_link_libraries(edgecase_vulkan INTERFACE edgecase::vulkan_headers ${CMAKE_DL_LIBS} Threads::Threads)
+add_library(edgecase::vulkan ALIAS edgecase_vulkan)
+
+find_package(OpenImageIO QUIET)
+if(TARGET OpenImageIO::OpenImageIO)
+    add_library(edgecase_openimageio INTERFACE)
+    target_link_libraries(edgecase_openimageio INTERFACE OpenImageIO::OpenImageIO)
+else()
+    pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+    add_library(edgecase_openimageio INTERFACE)
+    target_link_libraries(edgecase_openimageio INTERFACE PkgConfig::OIIO)
+endif()
+add_library(edgecase::openimageio ALIAS edgecase_openimageio)

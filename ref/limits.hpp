@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace ref {
+
+// What the reference has to know of the device it judges.
+struct Limits {
+    int subpixel_bits = 8;  // VkPhysicalDeviceLimits::subPixelPrecisionBits, 4..16
+    friend bool operator==(const Limits&, const Limits&) = default;
+};
+
+}  // namespace ref

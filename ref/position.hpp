@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a vertex's clip-space quadruple to the positions that a device may use for it.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/profile.hpp"
+#include "ref/limits.hpp"
+#include "ref/sample.hpp"
+
+namespace ref {
+
+// Exact framebuffer position of a vertex with w != 0 and finite components. Source: Vulkan
+// specification, "Controlling the Viewport" (x_f = p_x/2 x_d + o_x, ...).
+struct IdealPosition {
+    mpq_class x, y;   // pixels
+    mpq_class z;      // z_f = p_z z_d + o_z
+    mpq_class inv_w;  // 1/w_c
+};
+IdealPosition ideal_position(const glm::vec4& clip, const cases::Viewport& viewport);
+
+// True if every component is finite and w > 0.
+bool is_projectable(const glm::vec4& clip);
+
+// Bound on |computed - ideal| of x_f and y_f in pixels for a binary32 evaluation of divide and viewport
+// transform; 0 if every step is exact in binary32. The derivation stands in position.cpp.
+struct TransformError {
+    mpq_class x, y;
+};
+TransformError transform_error(const glm::vec4& clip, const cases::Viewport& viewport);
+
+// A closed box of positions, S47.16.
+struct Box {
+    int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    bool is_point() const { return x0 == x1 && y0 == y1; }
+    friend bool operator==(const Box&, const Box&) = default;
+};
+
+// The box of positions that a device may use for a vertex under a profile (docs/design.md,
+// "Positions"; shared words in docs/rules.md, snap.nearest):
+//   direct3d  hull of the subpixel grid points within 0.6 units (plus the transform error) of the ideal
+//             position;
+//   practice  floor..ceil of the ideal position (widened by the transform error) on the subpixel grid;
+//   vulkan    practice, widened by 1e-5 (2 |p/2 x_d| + |x_f|), outward to 2^-16.
+// Nothing if a coordinate's magnitude exceeds 2^32 pixels (outside the range that Vulkan guarantees).
+std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& viewport, const Limits& limits,
+                                cases::Profile profile);
+
+// The ideal position rounded to the nearest subpixel grid point, ties to even. Nothing beyond 2^32.
+std::optional<FixedPoint> snap_nearest(const glm::vec4& clip, const cases::Viewport& viewport,
+                                       const Limits& limits);
+
+}  // namespace ref

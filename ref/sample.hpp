@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Framebuffer coordinates in fixed point: S47.16, unit 2^-16 pixel. Any snap grid of 4 to 16 subpixel
+// bits and every standard sample location (multiples of 1/16 pixel) is exact in it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace ref {
+
+inline constexpr int kFixedBits = 16;
+inline constexpr int64_t kFixedOne = int64_t{1} << kFixedBits;  // one pixel
+
+struct FixedPoint {
+    int64_t x = 0, y = 0;  // S47.16 pixels
+    friend bool operator==(const FixedPoint&, const FixedPoint&) = default;
+};
+
+// Sample locations inside a pixel in 1/16 pixel, sample 0 first. Source: Vulkan specification,
+// "Standard sample locations". `samples` is 1, 2, 4, 8 or 16.
+std::span<const std::array<uint8_t, 2>> standard_sample_locations(uint32_t samples);
+
+// Where sample s of pixel (i,j) lies.
+FixedPoint sample_position(uint32_t i, uint32_t j, uint32_t s, uint32_t samples);
+
+}  // namespace ref

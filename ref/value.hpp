@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What values a fragment may carry: attributes (smooth, noperspective, flat), FragCoord and depth.
+//
+// A smooth value is f = N/D with N = sum b_i f_i/w_i and D = sum b_i/w_i (Vulkan specification, "Polygon
+// barycentrics"; Brown, "Barycentric Coordinates as Interpolants", eq. 4 and 5); a noperspective value,
+// depth and 1/w are linear. The device may set the planes up from snapped or unsnapped positions, or from
+// a clipped piece's vertices, but one basis has to explain all values of a fragment. Around each basis
+// the binary32 budget of docs/design.md, times kBudgetFactor, is accepted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/profile.hpp"
+#include "ref/limits.hpp"
+#include "ref/triangle.hpp"
+
+namespace ref {
+
+// Accepted error in units of the budget. Measured maxima of every driver stand in docs/precision.md.
+inline constexpr int kBudgetFactor = 2;  // K
+
+// What the device drew at one sample.
+struct FragmentValues {
+    glm::vec4 frag_coord{};
+    float depth = 0;
+    std::array<glm::vec4, cases::kMaxAttributes> attributes{};
+};
+
+struct SampleId {
+    uint32_t x = 0, y = 0, sample = 0;
+};
+
+// From what the device may have set up its planes.
+enum class Basis : uint8_t { unsnapped, snapped, clipped_piece };
+
+// One value that no basis explains.
+struct ValueMismatch {
+    std::string quantity;  // "attribute 1.x", "depth", "frag_coord.w"
+    std::string rule;      // rule id
+    cases::Profile level = cases::Profile::practice;  // loosest profile at which it is wrong
+    std::string expected;  // exact value, budget, as text
+    std::string got;       // value and bits
+    double ratio = 0;      // |got - expected| / budget of the best basis; may be infinite
+};
+
+struct FragmentVerdict {
+    bool ok = true;
+    Basis basis = Basis::unsnapped;  // the basis that explains the fragment best
+    double worst_ratio = 0;          // largest |error| / budget over its values under that basis
+    std::vector<ValueMismatch> mismatches;
+};
+
+// One value as the reference has it, for pictures and explanations.
+struct ExpectedValue {
+    std::string quantity;
+    std::string exact;      // "p/q"
+    double nearest = 0;     // the exact value rounded
+    double budget = 0;      // one budget, absolute
+    bool is_flat = false;   // compared bit for bit
+};
+
+// Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
+class ValueReference {
+  public:
+    ValueReference(const cases::Case& c, const Limits& limits, cases::Profile profile);
+    ~ValueReference();
+    ValueReference(ValueReference&&) noexcept;
+
+    // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
+    FragmentVerdict judge(uint32_t t, SampleId sample, const FragmentValues& device);
+
+    // The exact values of triangle t at a sample, unsnapped basis.
+    std::vector<ExpectedValue> expected(uint32_t t, SampleId sample);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ref

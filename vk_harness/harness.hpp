@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Headless Vulkan 1.3: draws cases on a real driver and reads every sample back. Used only in worker
+// processes; nothing else in the program loads the Vulkan loader (through volk, at run time).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "diff/capture.hpp"
+
+namespace vk_harness {
+
+// What a report has to say about a device.
+struct DeviceInfo {
+    uint32_t index = 0;
+    std::string name, driver_name, driver_info, uuid;  // uuid: 32 hex digits
+    uint32_t vendor_id = 0, device_id = 0, api_version = 0, driver_version = 0, driver_id = 0;
+    std::string device_type;  // "cpu", "discrete-gpu", ...
+    uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0, max_color_attachments = 0, max_target_size = 0;
+    bool has_primitive_id = false;  // geometryShader or tessellationShader
+    std::vector<std::string> missing;  // features without which no case can run, one sentence each
+};
+
+enum class Stage { loader, instance, device, shader, pipeline, memory, submit, readback };
+std::string_view to_string(Stage stage);
+
+// What went wrong in Vulkan.
+struct Failure {
+    Stage stage = Stage::loader;
+    int vk_result = 0;       // VkResult, 0 if none
+    std::string message;     // one sentence: what, and what to do
+    std::vector<std::string> reasons;  // one a rejected device
+};
+template <class T>
+using Result = tl::expected<T, Failure>;
+
+struct Options {
+    std::string device;       // "" = first usable; an index, a part of the name, or a UUID
+    std::string icd_file;     // not empty: VK_DRIVER_FILES / VK_ICD_FILENAMES are set to it
+    bool validation = false;  // the Khronos validation layer; its messages end up in Rendered::messages
+};
+
+// All devices of the machine; for doctor and for error texts.
+Result<std::vector<DeviceInfo>> list_devices(const Options& options);
+
+// The outcome for one case.
+struct Rendered {
+    enum class Status { drawn, unsupported, device_lost, error } status = Status::error;
+    std::string reason;                 // of unsupported, device_lost, error
+    diff::Capture capture;              // if drawn
+    std::vector<std::string> messages;  // of the validation layer
+};
+
+class Renderer {
+  public:
+    static Result<Renderer> create(const Options& options);
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+
+    const DeviceInfo& device() const;
+
+    // Draws the cases in one submission and reads each back. Results in the order of the cases.
+    // `step` is called with the name of each stage before it starts ("pipeline", "submit", ...).
+    std::vector<Rendered> render(std::span<const cases::Case> batch,
+                                 const std::function<void(std::string_view)>& step);
+
+    // As render, without read-back and without capture memory traffic: the bare cost of drawing,
+    // for benchmarks. Returns false if any case could not be drawn.
+    bool render_bare(std::span<const cases::Case> batch);
+
+  private:
+    struct Impl;
+    explicit Renderer(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vk_harness
