@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Image files, through the module edgecase-image-io (OpenImageIO), opened only when one is written.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cases/error.hpp"
+
+namespace report {
+
+struct Image {
+    uint32_t width = 0, height = 0;
+    std::vector<std::string> channels;  // names, in order
+    std::vector<float> pixels;          // [(j * width + i) * channels + c]
+};
+// Format by extension: .exr (binary32), .png (8 bits, values 0..1), .tif. Errors: module missing, unknown
+// format, unwritable path.
+cases::Expected<void> write_image(const std::filesystem::path& file, const Image& image);
+
+}  // namespace report

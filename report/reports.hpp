@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every report is a pure function of a Run.
+#pragma once
+
+#include <string>
+
+#include "report/run.hpp"
+
+namespace report {
+
+// results.json, schema docs/schema/results-1.json. Floats never appear as NaN or infinity.
+std::string to_json(const Run& run);
+
+// junit.xml: valid XML 1.0 and UTF-8 whatever bytes a driver printed.
+std::string to_junit(const Run& run);
+
+// report.html: one file that opens by double click and loads nothing.
+std::string to_html(const Run& run);
+
+struct ConsoleStyle {
+    bool color = false;
+    bool verbose = false;  // adds an ASCII picture of each unexpected case
+    uint32_t width = 100;
+};
+// First line of a run: tool version, device, driver, Vulkan version, subpixel bits, profile, seed.
+std::string console_header(const Run& run, const ConsoleStyle& style);
+// What is printed at once for an unexpected result: three lines (what, why, how to repeat it).
+std::string console_case(const CaseRecord& record, const ConsoleStyle& style);
+// Last lines: totals, worst error in budgets, where the report lies, exit code with its meaning.
+std::string console_summary(const Run& run, const std::string& report_path, const ConsoleStyle& style);
+
+// Text that a driver or file may have filled with anything, made safe for a terminal or XML:
+// valid UTF-8, no control characters but newline and tab (shown as \xNN).
+std::string printable(std::string_view bytes);
+
+}  // namespace report
