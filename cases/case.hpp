@@ -26,9 +26,10 @@ enum class FrontFace : uint8_t { counter_clockwise, clockwise };
 enum class Interpolation : uint8_t { smooth, noperspective, flat };
 
 inline constexpr uint32_t kMaxAttributes = 4;
-inline constexpr uint32_t kMaxTargetSize = 16384;         // pixels a side
-inline constexpr uint32_t kRestartIndex = 0xffffffffU;    // primitive restart, 32-bit indices
-inline constexpr float kMaxAttributeMagnitude = 0x1p126F;  // larger ones could look like the clear value
+inline constexpr uint32_t kMaxTargetSize = 16384;       // pixels a side
+inline constexpr uint32_t kRestartIndex = 0xffffffffU;  // primitive restart, 32-bit indices
+inline constexpr float kMaxAttributeMagnitude =
+    0x1p126F;  // larger ones could look like the clear value
 
 // As VkViewport: pixels; height may be negative; depths in [0,1].
 struct Viewport {
@@ -57,7 +58,7 @@ struct Draw {
     Topology topology = Topology::triangle_list;
     std::vector<glm::vec4> positions;  // clip space, binary32, bits as they reach the device
     std::optional<std::vector<uint32_t>> indices;
-    bool primitive_restart = false;  // only with indices
+    bool primitive_restart = false;     // only with indices
     std::vector<Attribute> attributes;  // at most kMaxAttributes
     Viewport viewport;
     Rect scissor;  // the whole target unless the file says otherwise
@@ -83,10 +84,10 @@ struct ExpectedHits {
 struct Case {
     std::string id;  // path below the suite without .toml, plus ":key=value,..." for a matrix leaf
     SourceLocation where;
-    std::string description;             // what is claimed
-    std::string catches;                 // which fault would break it; may be empty
-    std::vector<std::string> rules;      // rule ids, rule.hpp
-    std::vector<std::string> links;      // reports from the field
+    std::string description;         // what is claimed
+    std::string catches;             // which fault would break it; may be empty
+    std::vector<std::string> rules;  // rule ids, rule.hpp
+    std::vector<std::string> links;  // reports from the field
     std::vector<std::pair<std::string, std::string>> parameters;  // matrix leaf, in file order
     Target target;
     std::vector<Draw> draws;

@@ -9,7 +9,8 @@ std::string to_string(const Error& error) {
     if (!error.where.file.empty()) {
         text = error.where.file + ":";
         if (error.where.line != 0) {
-            text += std::to_string(error.where.line) + ":" + std::to_string(error.where.column) + ":";
+            text +=
+                std::to_string(error.where.line) + ":" + std::to_string(error.where.column) + ":";
         }
         text += " ";
     }

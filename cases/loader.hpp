@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Case files: strict TOML (docs/cases.md). Every mistake is an Error with file, line and column, one
-// sentence and the nearest valid name; a file with any error yields no case.
+// Case files: strict TOML (docs/cases.md). Every mistake is an Error with file, line and column,
+// one sentence and the nearest valid name; a file with any error yields no case.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,8 @@ namespace cases {
 ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::string& file_name,
                                          const std::string& id_base);
 
-// As load_text, from disk. The id is the path below `suite_root` without ".toml"; a file outside the
-// root has its stem as id.
+// As load_text, from disk. The id is the path below `suite_root` without ".toml"; a file outside
+// the root has its stem as id.
 ExpectedAll<std::vector<Case>> load_file(const std::filesystem::path& file,
                                          const std::filesystem::path& suite_root);
 

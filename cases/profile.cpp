@@ -6,9 +6,12 @@ namespace cases {
 
 std::string_view to_string(Profile profile) {
     switch (profile) {
-        case Profile::vulkan: return "vulkan";
-        case Profile::practice: return "practice";
-        case Profile::direct3d: return "direct3d";
+        case Profile::vulkan:
+            return "vulkan";
+        case Profile::practice:
+            return "practice";
+        case Profile::direct3d:
+            return "direct3d";
     }
     return "";
 }

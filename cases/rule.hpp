@@ -13,13 +13,14 @@
 namespace cases {
 
 struct Rule {
-    std::string_view id;        // "cover.inside"
-    Profile profile;            // the loosest profile at which breaking it is a finding
-    std::string_view title;     // one line, as a report shows it
-    std::string_view text;      // what is demanded and what is left free, in a few sentences
-    std::string_view anchor;    // the Vulkan specification's HTML anchor; may be empty
-    std::string_view direct3d;  // section of the Direct3D 11.3 functional specification; may be empty
-    std::string_view code;      // the reference code that decides it
+    std::string_view id;      // "cover.inside"
+    Profile profile;          // the loosest profile at which breaking it is a finding
+    std::string_view title;   // one line, as a report shows it
+    std::string_view text;    // what is demanded and what is left free, in a few sentences
+    std::string_view anchor;  // the Vulkan specification's HTML anchor; may be empty
+    std::string_view
+        direct3d;           // section of the Direct3D 11.3 functional specification; may be empty
+    std::string_view code;  // the reference code that decides it
 };
 
 // All rules, in the order of docs/rules.md.

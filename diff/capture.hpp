@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What any renderer produced for a case, sample by sample, float bits as they are. A sample's index is
-// (j * width + i) * samples + s. Header only, so that the harness needs nothing else of this room.
+// What any renderer produced for a case, sample by sample, float bits as they are. A sample's index
+// is (j * width + i) * samples + s. Header only, so that the harness needs nothing else of this
+// room.
 #pragma once
 
 #include <array>
@@ -18,22 +19,24 @@
 namespace diff {
 
 // Attachments are cleared to values that no case can draw (kMaxAttributeMagnitude is smaller), and
-// read-back memory is filled with the poison first: 'not drawn', 'drawn with zero' and 'not copied' never
-// look alike.
+// read-back memory is filled with the poison first: 'not drawn', 'drawn with zero' and 'not copied'
+// never look alike.
 inline constexpr float kClearValue = -0x1.5p127F;
-inline constexpr float kClearDepth = 0.375F;  // only meaningful where hits == 0; depth is drawn with ALWAYS
+inline constexpr float kClearDepth =
+    0.375F;  // only meaningful where hits == 0; depth is drawn with ALWAYS
 inline constexpr uint32_t kClearId = 0xfffffff0U;
 inline constexpr uint32_t kPoison = 0xffbadbadU;  // as a float: a NaN with a payload
-// The two spare channels of the hit counter: additive blending must leave kGuard alone and add 1 a hit
-// to the other, so that a broken clear or blend is seen.
+// The two spare channels of the hit counter: additive blending must leave kGuard alone and add 1 a
+// hit to the other, so that a broken clear or blend is seen.
 inline constexpr float kHitGuard = 4096.0F;
 
 // The last fragment's origin.
 struct Writer {
     uint32_t draw = kClearId;
-    uint32_t primitive = kClearId;        // gl_PrimitiveID, kNoPrimitive if the device has none
-    uint32_t provoking_vertex = kClearId;  // gl_VertexIndex of the provoking vertex, by a flat input
-    uint32_t spare = kClearId;             // always kClearId
+    uint32_t primitive = kClearId;  // gl_PrimitiveID, kNoPrimitive if the device has none
+    uint32_t provoking_vertex =
+        kClearId;               // gl_VertexIndex of the provoking vertex, by a flat input
+    uint32_t spare = kClearId;  // always kClearId
     friend bool operator==(const Writer&, const Writer&) = default;
 };
 inline constexpr uint32_t kNoPrimitive = 0xffffffefU;
@@ -49,9 +52,7 @@ struct Capture {
     std::vector<float> depth;           // D32_SFLOAT, of the last writer
     std::array<std::vector<glm::vec4>, cases::kMaxAttributes> attributes;  // of the last writer
 
-    size_t sample_count() const {
-        return size_t{target.width} * target.height * target.samples;
-    }
+    size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
 };
 
 // What the sample's bits say before any expectation is asked.

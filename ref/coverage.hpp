@@ -5,10 +5,11 @@
 // (64/128-bit fixed point). Same signature, same answers; property tests hold them together.
 //
 // Sign and ties: y points down. The edge function is E_ab(p) = (b-a) x (p-a) = (b_x-a_x)(p_y-a_y) -
-// (b_y-a_y)(p_x-a_x) (Pineda 1988; Giesen, "The barycentric conspiracy"). Vertices are taken in the order
-// that makes the area positive (clockwise on screen), so inside means E > 0 for all three edges. A sample
-// on an edge is `either`; only profile direct3d decides it, by the top-left rule: an edge a->b of a
-// positive triangle is a top edge if b_y = a_y and b_x > a_x, a left edge if b_y < a_y.
+// (b_y-a_y)(p_x-a_x) (Pineda 1988; Giesen, "The barycentric conspiracy"). Vertices are taken in the
+// order that makes the area positive (clockwise on screen), so inside means E > 0 for all three
+// edges. A sample on an edge is `either`; only profile direct3d decides it, by the top-left rule:
+// an edge a->b of a positive triangle is a top edge if b_y = a_y and b_x > a_x, a left edge if b_y
+// < a_y.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a device may show at each sample of a case: how many hits by front and back faces, and which
-// triangles may have written last. Exactly-one rules (shared edges, mesh interiors) narrow the bounds.
+// triangles may have written last. Exactly-one rules (shared edges, mesh interiors) narrow the
+// bounds.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@
 
 namespace ref {
 
-// Allowed hits at one sample. All of: front in [front_min, front_max], back in [back_min, back_max],
-// front - back in [signed_min, signed_max], front + back in [total_min, total_max].
+// Allowed hits at one sample. All of: front in [front_min, front_max], back in [back_min,
+// back_max], front - back in [signed_min, signed_max], front + back in [total_min, total_max].
 struct HitBounds {
     uint32_t front_min = 0, front_max = 0;
     uint32_t back_min = 0, back_max = 0;
@@ -32,7 +33,8 @@ struct HitBounds {
 struct SampleExpectation {
     HitBounds hits;
     uint32_t writers_begin = 0;  // into Expectation::writers
-    uint32_t writers_count = 0;  // triangles that may have written last, ascending; 0 if none may hit
+    uint32_t writers_count =
+        0;  // triangles that may have written last, ascending; 0 if none may hit
     friend bool operator==(const SampleExpectation&, const SampleExpectation&) = default;
 };
 

@@ -29,8 +29,8 @@ IdealPosition ideal_position(const glm::vec4& clip, const cases::Viewport& viewp
 // True if every component is finite and w > 0.
 bool is_projectable(const glm::vec4& clip);
 
-// Bound on |computed - ideal| of x_f and y_f in pixels for a binary32 evaluation of divide and viewport
-// transform; 0 if every step is exact in binary32. The derivation stands in position.cpp.
+// Bound on |computed - ideal| of x_f and y_f in pixels for a binary32 evaluation of divide and
+// viewport transform; 0 if every step is exact in binary32. The derivation stands in position.cpp.
 struct TransformError {
     mpq_class x, y;
 };
@@ -45,13 +45,15 @@ struct Box {
 
 // The box of positions that a device may use for a vertex under a profile (docs/design.md,
 // "Positions"; shared words in docs/rules.md, snap.nearest):
-//   direct3d  hull of the subpixel grid points within 0.6 units (plus the transform error) of the ideal
+//   direct3d  hull of the subpixel grid points within 0.6 units (plus the transform error) of the
+//   ideal
 //             position;
-//   practice  floor..ceil of the ideal position (widened by the transform error) on the subpixel grid;
-//   vulkan    practice, widened by 1e-5 (2 |p/2 x_d| + |x_f|), outward to 2^-16.
-// Nothing if a coordinate's magnitude exceeds 2^32 pixels (outside the range that Vulkan guarantees).
-std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& viewport, const Limits& limits,
-                                cases::Profile profile);
+//   practice  floor..ceil of the ideal position (widened by the transform error) on the subpixel
+//   grid; vulkan    practice, widened by 1e-5 (2 |p/2 x_d| + |x_f|), outward to 2^-16.
+// Nothing if a coordinate's magnitude exceeds 2^32 pixels (outside the range that Vulkan
+// guarantees).
+std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& viewport,
+                                const Limits& limits, cases::Profile profile);
 
 // The ideal position rounded to the nearest subpixel grid point, ties to even. Nothing beyond 2^32.
 std::optional<FixedPoint> snap_nearest(const glm::vec4& clip, const cases::Viewport& viewport,

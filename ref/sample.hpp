@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Framebuffer coordinates in fixed point: S47.16, unit 2^-16 pixel. Any snap grid of 4 to 16 subpixel
-// bits and every standard sample location (multiples of 1/16 pixel) is exact in it.
+// Framebuffer coordinates in fixed point: S47.16, unit 2^-16 pixel. Any snap grid of 4 to 16
+// subpixel bits and every standard sample location (multiples of 1/16 pixel) is exact in it.
 #pragma once
 
 #include <array>

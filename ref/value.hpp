@@ -3,11 +3,12 @@
 //
 // What values a fragment may carry: attributes (smooth, noperspective, flat), FragCoord and depth.
 //
-// A smooth value is f = N/D with N = sum b_i f_i/w_i and D = sum b_i/w_i (Vulkan specification, "Polygon
-// barycentrics"; Brown, "Barycentric Coordinates as Interpolants", eq. 4 and 5); a noperspective value,
-// depth and 1/w are linear. The device may set the planes up from snapped or unsnapped positions, or from
-// a clipped piece's vertices, but one basis has to explain all values of a fragment. Around each basis
-// the binary32 budget of docs/design.md, times kBudgetFactor, is accepted.
+// A smooth value is f = N/D with N = sum b_i f_i/w_i and D = sum b_i/w_i (Vulkan specification,
+// "Polygon barycentrics"; Brown, "Barycentric Coordinates as Interpolants", eq. 4 and 5); a
+// noperspective value, depth and 1/w are linear. The device may set the planes up from snapped or
+// unsnapped positions, or from a clipped piece's vertices, but one basis has to explain all values
+// of a fragment. Around each basis the binary32 budget of docs/design.md, times kBudgetFactor, is
+// accepted.
 #pragma once
 
 #include <array>
@@ -24,7 +25,8 @@
 
 namespace ref {
 
-// Accepted error in units of the budget. Measured maxima of every driver stand in docs/precision.md.
+// Accepted error in units of the budget. Measured maxima of every driver stand in
+// docs/precision.md.
 inline constexpr int kBudgetFactor = 2;  // K
 
 // What the device drew at one sample.
@@ -43,12 +45,12 @@ enum class Basis : uint8_t { unsnapped, snapped, clipped_piece };
 
 // One value that no basis explains.
 struct ValueMismatch {
-    std::string quantity;  // "attribute 1.x", "depth", "frag_coord.w"
-    std::string rule;      // rule id
+    std::string quantity;                             // "attribute 1.x", "depth", "frag_coord.w"
+    std::string rule;                                 // rule id
     cases::Profile level = cases::Profile::practice;  // loosest profile at which it is wrong
-    std::string expected;  // exact value, budget, as text
-    std::string got;       // value and bits
-    double ratio = 0;      // |got - expected| / budget of the best basis; may be infinite
+    std::string expected;                             // exact value, budget, as text
+    std::string got;                                  // value and bits
+    double ratio = 0;  // |got - expected| / budget of the best basis; may be infinite
 };
 
 struct FragmentVerdict {
@@ -61,10 +63,10 @@ struct FragmentVerdict {
 // One value as the reference has it, for pictures and explanations.
 struct ExpectedValue {
     std::string quantity;
-    std::string exact;      // "p/q"
-    double nearest = 0;     // the exact value rounded
-    double budget = 0;      // one budget, absolute
-    bool is_flat = false;   // compared bit for bit
+    std::string exact;     // "p/q"
+    double nearest = 0;    // the exact value rounded
+    double budget = 0;     // one budget, absolute
+    bool is_flat = false;  // compared bit for bit
 };
 
 // Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.

@@ -18,8 +18,8 @@ struct Image {
     std::vector<std::string> channels;  // names, in order
     std::vector<float> pixels;          // [(j * width + i) * channels + c]
 };
-// Format by extension: .exr (binary32), .png (8 bits, values 0..1), .tif. Errors: module missing, unknown
-// format, unwritable path.
+// Format by extension: .exr (binary32), .png (8 bits, values 0..1), .tif. Errors: module missing,
+// unknown format, unwritable path.
 cases::Expected<void> write_image(const std::filesystem::path& file, const Image& image);
 
 }  // namespace report

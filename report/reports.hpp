@@ -29,7 +29,8 @@ std::string console_header(const Run& run, const ConsoleStyle& style);
 // What is printed at once for an unexpected result: three lines (what, why, how to repeat it).
 std::string console_case(const CaseRecord& record, const ConsoleStyle& style);
 // Last lines: totals, worst error in budgets, where the report lies, exit code with its meaning.
-std::string console_summary(const Run& run, const std::string& report_path, const ConsoleStyle& style);
+std::string console_summary(const Run& run, const std::string& report_path,
+                            const ConsoleStyle& style);
 
 // Text that a driver or file may have filled with anything, made safe for a terminal or XML:
 // valid UTF-8, no control characters but newline and tab (shown as \xNN).

@@ -63,11 +63,11 @@ struct Device {
 
 // Pictures of a case, one byte a sample, row by row; empty if none were kept.
 struct Pictures {
-    uint32_t width = 0, height = 0;       // pixels of the pictures (a window of the target)
-    uint32_t left = 0, top = 0;           // where the window lies in the target
-    std::vector<uint8_t> expected_hits;   // Verdict::expected_hits
-    std::vector<uint8_t> device_hits;     // Verdict::device_hits
-    std::vector<uint8_t> marks;           // Verdict::marks
+    uint32_t width = 0, height = 0;      // pixels of the pictures (a window of the target)
+    uint32_t left = 0, top = 0;          // where the window lies in the target
+    std::vector<uint8_t> expected_hits;  // Verdict::expected_hits
+    std::vector<uint8_t> device_hits;    // Verdict::device_hits
+    std::vector<uint8_t> marks;          // Verdict::marks
 };
 
 struct CaseRecord {
@@ -100,10 +100,11 @@ struct CaseRecord {
 
 struct Run {
     std::string tool_version;
-    std::vector<std::string> arguments;                              // argv
-    std::vector<std::pair<std::string, std::string>> environment;    // VK_*, EDGECASE_*, LP_*, MESA_* ... that were set
-    std::string started, ended;                                      // ISO 8601 UTC; ended empty if the run was cut off
-    std::string host;                                                // operating system and machine
+    std::vector<std::string> arguments;  // argv
+    std::vector<std::pair<std::string, std::string>>
+        environment;             // VK_*, EDGECASE_*, LP_*, MESA_* ... that were set
+    std::string started, ended;  // ISO 8601 UTC; ended empty if the run was cut off
+    std::string host;            // operating system and machine
     cases::Profile profile = cases::Profile::direct3d;
     uint64_t seed = 0;
     std::string suite_root;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Headless Vulkan 1.3: draws cases on a real driver and reads every sample back. Used only in worker
-// processes; nothing else in the program loads the Vulkan loader (through volk, at run time).
+// Headless Vulkan 1.3: draws cases on a real driver and reads every sample back. Used only in
+// worker processes; nothing else in the program loads the Vulkan loader (through volk, at run
+// time).
 #pragma once
 
 #include <functional>
@@ -23,8 +24,9 @@ struct DeviceInfo {
     std::string name, driver_name, driver_info, uuid;  // uuid: 32 hex digits
     uint32_t vendor_id = 0, device_id = 0, api_version = 0, driver_version = 0, driver_id = 0;
     std::string device_type;  // "cpu", "discrete-gpu", ...
-    uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0, max_color_attachments = 0, max_target_size = 0;
-    bool has_primitive_id = false;  // geometryShader or tessellationShader
+    uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0, max_color_attachments = 0,
+             max_target_size = 0;
+    bool has_primitive_id = false;     // geometryShader or tessellationShader
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
 };
 
@@ -34,17 +36,18 @@ std::string_view to_string(Stage stage);
 // What went wrong in Vulkan.
 struct Failure {
     Stage stage = Stage::loader;
-    int vk_result = 0;       // VkResult, 0 if none
-    std::string message;     // one sentence: what, and what to do
+    int vk_result = 0;                 // VkResult, 0 if none
+    std::string message;               // one sentence: what, and what to do
     std::vector<std::string> reasons;  // one a rejected device
 };
 template <class T>
 using Result = tl::expected<T, Failure>;
 
 struct Options {
-    std::string device;       // "" = first usable; an index, a part of the name, or a UUID
-    std::string icd_file;     // not empty: VK_DRIVER_FILES / VK_ICD_FILENAMES are set to it
-    bool validation = false;  // the Khronos validation layer; its messages end up in Rendered::messages
+    std::string device;    // "" = first usable; an index, a part of the name, or a UUID
+    std::string icd_file;  // not empty: VK_DRIVER_FILES / VK_ICD_FILENAMES are set to it
+    bool validation =
+        false;  // the Khronos validation layer; its messages end up in Rendered::messages
 };
 
 // All devices of the machine; for doctor and for error texts.
