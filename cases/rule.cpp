@@ -101,6 +101,11 @@ constexpr std::array kRules = {
     Rule{"fragcoord.w", Profile::practice, "FragCoord.w is the interpolated 1/w",
          "Linear in framebuffer space; binary32 budget.", "interfaces-builtin-variables-fragcoord",
          "", "ref/value.hpp"},
+    Rule{"write.consistent", Profile::vulkan, "A fragment writes all its attachments, or none",
+         "Different color attachments of one draw receive the same fragments, and additive "
+         "blending of "
+         "exactly representable values is exact.",
+         "invariance", "", "diff/capture.cpp"},
     Rule{"depth.linear", Profile::practice, "Depth is linear in framebuffer space",
          "z_f is interpolated linearly at the sample; binary32 budget on a D32 target and for "
          "FragCoord.z.",

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/attribution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ref/explain.hpp"
+
+namespace diff {
+
+namespace {
+
+std::string range(uint32_t low, uint32_t high) {
+    if (low == high) {
+        return fmt::format("{}", low);
+    }
+    return high == low + 1 ? fmt::format("{} or {}", low, high)
+                           : fmt::format("{} to {}", low, high);
+}
+
+std::string hits_text(uint32_t front, uint32_t back, bool by_face) {
+    return by_face ? fmt::format("{} front, {} back", front, back)
+                   : fmt::format("{}", front + back);
+}
+
+bool faces_matter(const ref::HitBounds& b, uint32_t front, uint32_t back) {
+    return (b.front_max > 0 || front > 0) && (b.back_max > 0 || back > 0);
+}
+
+std::string name_of(const ref::TriangleExplanation& t) {
+    return fmt::format("triangle {} of draw {}", t.triangle.primitive, t.triangle.draw);
+}
+
+// The triangles whose edge or vertex the sample lies on.
+struct Ties {
+    size_t edges = 0, vertices = 0, clipped = 0;
+    const ref::TriangleExplanation* first = nullptr;
+};
+
+Ties ties_of(const ref::SampleExplanation& s) {
+    Ties ties;
+    for (const ref::TriangleExplanation& t : s.triangles) {
+        if (t.on_edge && t.has_area && !t.culled) {
+            ++ties.edges;
+            ties.vertices += t.on_vertex ? 1 : 0;
+            ties.first = ties.first ? ties.first : &t;
+        }
+        ties.clipped += t.needs_clipping ? 1 : 0;
+    }
+    return ties;
+}
+
+const ref::TriangleExplanation* first_with(const ref::SampleExplanation& s,
+                                           ref::Coverage coverage) {
+    const auto it = std::find_if(s.triangles.begin(), s.triangles.end(),
+                                 [&](const auto& t) { return t.coverage == coverage; });
+    return it == s.triangles.end() ? nullptr : &*it;
+}
+
+struct Cause {
+    std::string_view rule;
+    std::string why;
+};
+
+// Too many hits at a sample that no triangle may cover.
+Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
+    if (!s.in_scissor) {
+        return {"scissor.half-open", "the sample lies outside the scissor rectangle"};
+    }
+    if (!s.in_viewport) {
+        return {"clip.viewport", "the sample lies outside the viewport"};
+    }
+    for (const ref::TriangleExplanation& t : s.triangles) {
+        if (t.culled) {
+            return {"face.cull", fmt::format("{} is culled", name_of(t))};
+        }
+    }
+    if (level == cases::Profile::direct3d) {
+        for (const ref::TriangleExplanation& t : s.triangles) {
+            if (t.on_edge) {
+                return {t.has_area ? "tie.top-left" : "cover.degenerate",
+                        fmt::format("{}: {}", name_of(t), t.reason)};
+            }
+        }
+        return {"snap.nearest",
+                "no vertex position within the rounding of Direct3D covers the sample"};
+    }
+    for (const ref::TriangleExplanation& t : s.triangles) {
+        const bool negative =
+            std::any_of(t.edges.begin(), t.edges.end(), [](const auto& e) { return e.value < 0; });
+        if (t.needs_clipping && (t.edges.empty() || !negative)) {
+            return {"clip.volume", fmt::format("{} is clipped away here", name_of(t))};
+        }
+    }
+    const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must_not);
+    return {"cover.outside", t ? fmt::format("{}: {}", name_of(*t), t->reason)
+                               : std::string("no triangle is within two pixels of the sample")};
+}
+
+// Too few hits, or too many where some hits are allowed.
+Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint32_t total) {
+    const Ties ties = ties_of(s);
+    uint32_t must = 0, may = 0;
+    for (const ref::TriangleExplanation& t : s.triangles) {
+        must += t.coverage == ref::Coverage::must ? 1U : 0U;
+        may += t.coverage != ref::Coverage::must_not ? 1U : 0U;
+    }
+    if (level == cases::Profile::direct3d) {
+        if (ties.first != nullptr) {
+            return {"tie.top-left",
+                    fmt::format("{}: {}", name_of(*ties.first), ties.first->reason)};
+        }
+        const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
+        return {"snap.nearest", t ? fmt::format("{}: {}", name_of(*t), t->reason)
+                                  : std::string("the vertices' nearest subpixel positions decide")};
+    }
+    if (total >= must && total <= may) {
+        // Each triangle alone would allow it: what is broken is that shared edges close exactly.
+        const std::string who = fmt::format("{} triangles meet here", may);
+        if (level == cases::Profile::practice && ties.clipped > 0) {
+            return {"cover.clipped-edge", who + " along edges they share, clipped"};
+        }
+        if (level == cases::Profile::practice && ties.vertices > 0) {
+            return {"cover.shared-vertex", who + " in a vertex they share"};
+        }
+        return {"cover.shared-edge", who + " along edges they share with identical end points"};
+    }
+    if (total < must) {
+        const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
+        return {"cover.inside", fmt::format("{}: {}", name_of(*t), t->reason)};
+    }
+    return {"cover.outside",
+            fmt::format("at most {} of the triangles near the sample may cover it", may)};
+}
+
+}  // namespace
+
+std::string to_text(const ref::HitBounds& b) {
+    if (b.front_max > 0 && b.back_max > 0) {
+        return fmt::format(
+            "{} front, {} back{}", range(b.front_min, b.front_max), range(b.back_min, b.back_max),
+            b.is_decided() ? "" : fmt::format(" ({} in all)", range(b.total_min, b.total_max)));
+    }
+    return range(b.total_min, b.total_max);
+}
+
+const ref::Expectation& Attribution::at(cases::Profile profile) {
+    if (profile == expectation_.profile) {
+        return expectation_;
+    }
+    std::optional<ref::Expectation>& slot = looser_[static_cast<size_t>(profile)];
+    if (!slot) {
+        slot = ref::expect(case_, expectation_.limits, profile);
+    }
+    return *slot;
+}
+
+void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back) {
+    const size_t index =
+        (size_t{finding.y} * case_.target.width + finding.x) * case_.target.samples +
+        finding.sample;
+    finding.level = expectation_.profile;
+    for (const cases::Profile profile : cases::kProfiles) {
+        if (profile <= expectation_.profile &&
+            !at(profile).samples[index].hits.allows(front, back)) {
+            finding.level = profile;
+            break;
+        }
+    }
+    const ref::HitBounds& asked = at(finding.level).samples[index].hits;
+    const bool by_face = faces_matter(asked, front, back);
+    finding.expected = to_text(asked);
+    if (by_face && asked.is_decided()) {
+        finding.expected = hits_text(asked.front_min, asked.back_min, true);
+    }
+    finding.got = hits_text(front, back, by_face);
+
+    const ref::SampleExplanation s = ref::explain_sample(case_, expectation_.limits, finding.level,
+                                                         {finding.x, finding.y, finding.sample});
+    if (finding.kind == FindingKind::value) {
+        finding.rule = "face.area-sign";
+        finding.quantity = "facing";
+        const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
+        finding.why =
+            t ? fmt::format("{}: the sign of its area decides which face shows", name_of(*t))
+              : std::string("the sign of the area decides which face shows");
+        return;
+    }
+    const Cause cause = asked.total_max == 0 ? cause_of_extra(s, finding.level)
+                                             : cause_of_count(s, finding.level, front + back);
+    finding.rule = cause.rule;
+    finding.why = cause.why;
+}
+
+}  // namespace diff

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which rule a wrong number of hits breaks, at which profile, and why.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cases/case.hpp"
+#include "cases/profile.hpp"
+#include "diff/verdict.hpp"
+#include "ref/expectation.hpp"
+
+namespace diff {
+
+// Finds the loosest profile at which hits are wrong; computes the looser expectations once, when
+// first asked.
+class Attribution {
+  public:
+    Attribution(const cases::Case& c, const ref::Expectation& expectation)
+        : case_(c), expectation_(expectation) {}
+
+    // Fills rule, level, expected, got and why of a finding whose kind and sample are set, for a
+    // sample where the device counted `front` and `back` hits.
+    void attribute_hits(Finding& finding, uint32_t front, uint32_t back);
+
+    // The loosest profile at which `writers` of a sample are still those that exclude the device's
+    // writer is the vulkan one: drawing order is free nowhere. What differs is who may hit at all.
+    const ref::Expectation& at(cases::Profile profile);
+
+  private:
+    const cases::Case& case_;
+    const ref::Expectation& expectation_;
+    std::optional<ref::Expectation> looser_[2];
+};
+
+// "1", "0 or 1", "1 to 3"; with facing when both faces play a part: "1 front, 0 back".
+std::string to_text(const ref::HitBounds& bounds);
+
+}  // namespace diff

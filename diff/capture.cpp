@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/capture.hpp"
+
+#include <cmath>
+
+namespace diff {
+
+namespace {
+
+bool is_poison(float value) {
+    return std::bit_cast<uint32_t>(value) == kPoison;
+}
+
+bool is_poison(const glm::vec4& v) {
+    return is_poison(v.x) || is_poison(v.y) || is_poison(v.z) || is_poison(v.w);
+}
+
+bool same_bits(float a, float b) {
+    return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+}
+
+bool is_clear(const glm::vec4& v) {
+    return same_bits(v.x, kClearValue) && same_bits(v.y, kClearValue) &&
+           same_bits(v.z, kClearValue) && same_bits(v.w, kClearValue);
+}
+
+// A count that additive blending of ones can have reached exactly.
+bool is_count(float value) {
+    return value >= 0.0F && value <= 0x1p23F && same_bits(value, std::floor(value));
+}
+
+}  // namespace
+
+SampleState sample_state(const Capture& capture, size_t index) {
+    const glm::vec4& hits = capture.hits[index];
+    const Writer& writer = capture.writers[index];
+    const glm::vec4& frag_coord = capture.frag_coord[index];
+    const float depth = capture.depth[index];
+
+    bool poison = is_poison(hits) || is_poison(frag_coord) || is_poison(depth) ||
+                  writer.draw == kPoison || writer.primitive == kPoison ||
+                  writer.provoking_vertex == kPoison || writer.spare == kPoison;
+    bool attributes_clear = true;
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        poison = poison || is_poison(capture.attributes[a][index]);
+        attributes_clear = attributes_clear && is_clear(capture.attributes[a][index]);
+    }
+    if (poison) {
+        return SampleState::not_copied;
+    }
+
+    const bool guards_hold = same_bits(hits.z, kHitGuard) && is_count(hits.x) && is_count(hits.y) &&
+                             same_bits(hits.w, kHitGuard + hits.x + hits.y);
+    if (!guards_hold || writer.spare != kClearId) {
+        return SampleState::inconsistent;
+    }
+    const bool nothing_written = writer == Writer{} && is_clear(frag_coord) && attributes_clear &&
+                                 same_bits(depth, kClearDepth);
+    if (same_bits(hits.x + hits.y, 0.0F)) {
+        return nothing_written ? SampleState::clear : SampleState::inconsistent;
+    }
+    const bool written = writer.draw != kClearId && writer.primitive != kClearId &&
+                         writer.provoking_vertex != kClearId && !is_clear(frag_coord);
+    return written ? SampleState::drawn : SampleState::inconsistent;
+}
+
+}  // namespace diff
