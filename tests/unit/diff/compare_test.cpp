@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The comparison must see one planted wrong sample of each class, name its rule and the loosest
+// profile that it breaks, and must not see anything in a right picture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diff/verdict.hpp"
+#include "perfect_capture.hpp"
+
+namespace {
+
+using cases::Profile;
+using diff::FindingKind;
+
+constexpr ref::Limits kLimits{8};
+
+// Two triangles that share the diagonal of an 8x8 square, through pixel centres.
+cases::Case diagonal() {
+    return pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}, {8, 0}, {8, 8}, {0, 8}});
+}
+
+struct Checked {
+    cases::Case c;
+    ref::Expectation e;
+    diff::Capture capture;
+    explicit Checked(cases::Case built, Profile profile = Profile::direct3d)
+        : c(std::move(built)),
+          e(ref::expect(c, kLimits, profile)),
+          capture(perfect_capture(c, e)) {}
+    size_t at(uint32_t x, uint32_t y) const { return size_t{y} * c.target.width + x; }
+    diff::Verdict verdict() const { return diff::compare(c, e, capture); }
+};
+
+const diff::Finding& only(const diff::Verdict& v) {
+    static const diff::Finding kNone;
+    EXPECT_EQ(v.error, "");
+    EXPECT_EQ(v.findings.size(), 1U);
+    return v.findings.empty() ? kNone : v.findings[0];
+}
+
+TEST(Compare, RightPicturePassesAtEveryProfile) {
+    for (const Profile profile : cases::kProfiles) {
+        const Checked k(diagonal(), profile);
+        const diff::Verdict v = k.verdict();
+        EXPECT_TRUE(v.ok()) << v.error << (v.findings.empty() ? "" : v.findings[0].why);
+        EXPECT_EQ(v.compared_samples, 64U);
+        EXPECT_GE(v.must_samples, 28U);
+        EXPECT_EQ(v.compared_values, 64U * 4 - (profile == Profile::direct3d ? 0U : 0U));
+    }
+}
+
+TEST(Compare, BlackPictureFails) {
+    Checked k(diagonal());
+    for (size_t i = 0; i < 64; ++i) {
+        clear_sample(k.capture, i);
+    }
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(v.counts[static_cast<size_t>(FindingKind::missing)], 64U);
+    EXPECT_EQ(v.level, Profile::vulkan);
+}
+
+TEST(Compare, MissingInsideBreaksVulkan) {
+    Checked k(diagonal());
+    clear_sample(k.capture, k.at(1, 1));
+    const diff::Verdict v = k.verdict();
+    const diff::Finding& f = only(v);
+    EXPECT_EQ(f.kind, FindingKind::missing);
+    EXPECT_EQ(f.rule, "cover.inside");
+    EXPECT_EQ(f.level, Profile::vulkan);
+    EXPECT_EQ(f.expected, "1");
+    EXPECT_EQ(f.got, "0");
+    EXPECT_EQ(f.x, 1U);
+    EXPECT_EQ(f.y, 1U);
+    EXPECT_EQ(v.min_x, 1U);
+    EXPECT_EQ(v.max_y, 1U);
+}
+
+TEST(Compare, GapOnSharedEdgeBreaksVulkan) {
+    Checked k(diagonal());
+    clear_sample(k.capture, k.at(3, 4));
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::missing);
+    EXPECT_EQ(only(v).rule, "cover.shared-edge");
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+}
+
+TEST(Compare, DoubleHitOnSharedEdgeBreaksVulkan) {
+    Checked k(diagonal());
+    set_hits(k.capture, k.at(3, 4), k.capture.hits[k.at(3, 4)].x * 2,
+             k.capture.hits[k.at(3, 4)].y * 2);
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::double_hit);
+    EXPECT_EQ(only(v).rule, "cover.shared-edge");
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+}
+
+TEST(Compare, OtherOwnerOfATieBreaksDirect3dAlone) {
+    // A single triangle: samples on its unshared hypotenuse are free in Vulkan.
+    const cases::Case c = pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}});
+    Checked k(c);
+    const size_t tie = k.at(3, 4);
+    ASSERT_EQ(k.e.samples[tie].hits.total_max, 0U);
+    ref::ValueReference values(k.c, kLimits, Profile::direct3d);
+    set_hits(k.capture, tie, 0, 1);
+    write_fragment(k.capture, k.c, k.e, values, 0, {3, 4, 0});
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::extra);
+    EXPECT_EQ(only(v).rule, "tie.top-left");
+    EXPECT_EQ(only(v).level, Profile::direct3d);
+    EXPECT_NE(only(v).why.find("= 0 exactly"), std::string::npos) << only(v).why;
+    // The same picture is right where the rule is not asked for.
+    const ref::Expectation loose = ref::expect(k.c, kLimits, Profile::vulkan);
+    EXPECT_TRUE(diff::compare(k.c, loose, k.capture).ok());
+}
+
+TEST(Compare, ExtraOutsideBreaksVulkan) {
+    Checked k(pixel_case(8, 8, {{0, 0}, {4, 0}, {0, 4}}));
+    ref::ValueReference values(k.c, kLimits, Profile::direct3d);
+    set_hits(k.capture, k.at(6, 6), 0, 1);
+    write_fragment(k.capture, k.c, k.e, values, 0, {6, 6, 0});
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::extra);
+    EXPECT_EQ(only(v).rule, "cover.outside");
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+}
+
+TEST(Compare, ExtraOutsideScissorNamesTheScissor) {
+    cases::Case c = diagonal();
+    c.draws[0].scissor = {0, 0, 4, 8};
+    Checked k(c);
+    set_hits(k.capture, k.at(5, 1), 0, 1);
+    k.capture.writers[k.at(5, 1)] = k.capture.writers[k.at(1, 1)];
+    k.capture.frag_coord[k.at(5, 1)] = {5.5F, 1.5F, 0.5F, 1.0F};
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).rule, "scissor.half-open");
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+}
+
+TEST(Compare, CulledTriangleThatShowsNamesTheCulling) {
+    cases::Case c = diagonal();
+    // Reverse the second triangle, then cull one face: only one of the two remains.
+    std::swap(c.draws[0].positions[4], c.draws[0].positions[5]);
+    c.draws[0].cull = cases::CullMode::back;
+    Checked k(c);
+    size_t culled = 64;
+    for (size_t i = 0; i < 64; ++i) {
+        const uint32_t x = static_cast<uint32_t>(i % 8), y = static_cast<uint32_t>(i / 8);
+        if (k.e.samples[i].hits.total_max == 0 && x + y != 7) {
+            culled = i;
+        }
+    }
+    ASSERT_LT(culled, 64U);
+    set_hits(k.capture, culled, 1, 0);
+    k.capture.writers[culled] = {0, 0, 0, diff::kClearId};
+    k.capture.frag_coord[culled] = {0.5F, 0.5F, 0.5F, 1.0F};
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).rule, "face.cull");
+}
+
+TEST(Compare, WrongFaceIsAFacingFinding) {
+    Checked k(diagonal());
+    const glm::vec4 h = k.capture.hits[k.at(1, 1)];
+    set_hits(k.capture, k.at(1, 1), h.y, h.x);
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::value);
+    EXPECT_EQ(only(v).rule, "face.area-sign");
+    EXPECT_EQ(only(v).quantity, "facing");
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+}
+
+TEST(Compare, WrongLastWriterIsAnOrderFinding) {
+    Checked k(pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}, {0, 0}, {8, 0}, {0, 8}}));
+    const size_t i = k.at(1, 1);
+    ASSERT_EQ(k.capture.writers[i].primitive, 1U);
+    k.capture.writers[i].primitive = 0;
+    k.capture.writers[i].provoking_vertex = 0;
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::order);
+    EXPECT_EQ(only(v).rule, "order.primitive");
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+}
+
+TEST(Compare, WrongProvokingVertexIsNamed) {
+    Checked k(diagonal());
+    k.capture.writers[k.at(1, 1)].provoking_vertex = 2;
+    EXPECT_EQ(only(k.verdict()).rule, "provoking.first");
+    k.capture.has_primitive = false;
+    for (diff::Writer& w : k.capture.writers) {
+        w.primitive = w.draw == diff::kClearId ? diff::kClearId : diff::kNoPrimitive;
+    }
+    EXPECT_EQ(only(k.verdict()).rule, "provoking.first");
+}
+
+TEST(Compare, WrongAttributeIsAValueFinding) {
+    cases::Case c = diagonal();
+    add_attribute(c, cases::Interpolation::smooth, {0, 1, 0, 1, 1, 0});
+    Checked k(c);
+    EXPECT_TRUE(k.verdict().ok());
+    k.capture.attributes[0][k.at(2, 2)].x += 1e-4F;
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::value);
+    EXPECT_EQ(only(v).quantity, "attribute 0.x");
+    EXPECT_GT(only(v).ratio, 2.0);
+}
+
+TEST(Compare, NanIsWrongUnderEveryProfile) {
+    cases::Case c = diagonal();
+    add_attribute(c, cases::Interpolation::smooth, {0, 1, 0, 1, 1, 0});
+    for (const Profile profile : cases::kProfiles) {
+        Checked k(c, profile);
+        k.capture.attributes[0][k.at(2, 2)].x = std::nanf("");
+        const diff::Verdict v = k.verdict();
+        EXPECT_EQ(only(v).rule, "interp.hull");
+        EXPECT_EQ(only(v).level, Profile::vulkan);
+    }
+}
+
+TEST(Compare, PoisonIsAnErrorNeverAPass) {
+    Checked k(diagonal());
+    k.capture.depth[k.at(7, 7)] = std::bit_cast<float>(diff::kPoison);
+    const diff::Verdict v = k.verdict();
+    EXPECT_FALSE(v.ok());
+    EXPECT_EQ(
+        v.error,
+        "sample 0 of pixel (7, 7) was not copied from the device: it still holds the read-back "
+        "memory's fill pattern");
+}
+
+TEST(Compare, ContradictingAttachmentsAreAFinding) {
+    Checked k(diagonal());
+    k.capture.hits[k.at(0, 0)].w += 1;
+    EXPECT_EQ(only(k.verdict()).rule, "write.consistent");
+    Checked guard(diagonal());
+    guard.capture.hits[guard.at(0, 0)].z += 1;
+    EXPECT_EQ(only(guard.verdict()).rule, "write.consistent");
+    Checked ghost(pixel_case(8, 8, {{0, 0}, {4, 0}, {0, 4}}));
+    ghost.capture.depth[ghost.at(7, 7)] = 0.5F;  // depth written without a hit
+    EXPECT_EQ(only(ghost.verdict()).rule, "write.consistent");
+}
+
+TEST(Compare, CaseWithoutControlIsAnError) {
+    const Checked k(pixel_case(8, 8, {{0.6, 0.6}, {1.4, 0.6}, {1, 1.4}}));
+    EXPECT_NE(k.verdict().error.find("no sample that must be covered"), std::string::npos);
+}
+
+TEST(Compare, CaptureOfAnotherSizeIsAnError) {
+    Checked k(diagonal());
+    k.capture.depth.pop_back();
+    EXPECT_NE(k.verdict().error.find("another size"), std::string::npos);
+    Checked attributes(diagonal());
+    add_attribute(attributes.c, cases::Interpolation::smooth, {0, 1, 0, 1, 1, 0});
+    EXPECT_EQ(attributes.verdict().error, "the capture lacks attribute 0 of the case");
+}
+
+TEST(Compare, FindingsAreCappedButCounted) {
+    Checked k(pixel_case(64, 64, {{0, 0}, {64, 0}, {0, 64}, {64, 0}, {64, 64}, {0, 64}}));
+    for (size_t i = 0; i < 64 * 64; ++i) {
+        clear_sample(k.capture, i);
+    }
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(v.findings.size(), diff::kMaxFindings);
+    EXPECT_EQ(v.counts[static_cast<size_t>(FindingKind::missing)], 4096U);
+}
+
+TEST(ExpectedHits, AgreesOrNamesTheFirstPixel) {
+    cases::Case c = pixel_case(4, 4, {{0, 0}, {4, 0}, {0, 4}});
+    EXPECT_EQ(diff::check_expected_hits(c), "");
+    c.expected_hits = cases::ExpectedHits{{"111.", "11..", "1...", "...."}, {}};
+    EXPECT_EQ(diff::check_expected_hits(c), "");
+    c.expected_hits->rows[1] = "111.";
+    EXPECT_EQ(diff::check_expected_hits(c),
+              "the picture has '1' at pixel (2, 1), the reference says 0 hit(s)");
+}
+
+}  // namespace

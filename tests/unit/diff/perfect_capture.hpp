@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Captures made from the reference itself, to plant faults in.
+#pragma once
+
+#include "diff/capture.hpp"
+#include "ref/expectation.hpp"
+#include "ref/value.hpp"
+
+// A case of one draw, list topology, vertices in pixels of a power-of-two target, w = 1, z = 1/2.
+inline cases::Case pixel_case(uint32_t width, uint32_t height,
+                              const std::vector<std::array<double, 2>>& vertices) {
+    cases::Case c;
+    c.id = "test/case";
+    c.target = {width, height, 1};
+    cases::Draw draw;
+    for (const auto& v : vertices) {
+        draw.positions.emplace_back(static_cast<float>(v[0] * 2 / width - 1),
+                                    static_cast<float>(v[1] * 2 / height - 1), 0.5F, 1.0F);
+    }
+    draw.viewport = {0, 0, static_cast<float>(width), static_cast<float>(height), 0, 1};
+    draw.scissor = {0, 0, width, height};
+    c.draws.push_back(draw);
+    return c;
+}
+
+inline void add_attribute(cases::Case& c, cases::Interpolation interpolation,
+                          const std::vector<float>& values) {
+    cases::Attribute a;
+    a.name = "a";
+    a.interpolation = interpolation;
+    a.components = 1;
+    for (const float v : values) {
+        a.values.emplace_back(v, 0.0F, 0.0F, 0.0F);
+    }
+    c.draws[0].attributes.push_back(a);
+}
+
+inline void clear_sample(diff::Capture& capture, size_t index) {
+    const glm::vec4 clear(diff::kClearValue);
+    capture.hits[index] = {0, 0, diff::kHitGuard, diff::kHitGuard};
+    capture.writers[index] = diff::Writer{};
+    capture.frag_coord[index] = clear;
+    capture.depth[index] = diff::kClearDepth;
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        capture.attributes[a][index] = clear;
+    }
+}
+
+inline void set_hits(diff::Capture& capture, size_t index, float front, float back) {
+    capture.hits[index] = {front, back, diff::kHitGuard, diff::kHitGuard + front + back};
+}
+
+// What triangle t leaves at a sample: nearest values of the reference.
+inline void write_fragment(diff::Capture& capture, const cases::Case& c, const ref::Expectation& e,
+                           ref::ValueReference& values, uint32_t t, ref::SampleId id) {
+    const size_t index = size_t{id.y} * c.target.width + id.x;
+    const ref::Triangle& triangle = e.triangles[t];
+    capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
+                              diff::kClearId};
+    capture.frag_coord[index] = {static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F,
+                                 0, 0};
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        capture.attributes[a][index] = glm::vec4(0.0F);
+    }
+    for (const ref::ExpectedValue& v : values.expected(t, id)) {
+        const auto value = static_cast<float>(v.nearest);
+        if (v.quantity == "depth") {
+            capture.depth[index] = value;
+        } else if (v.quantity == "frag_coord.z") {
+            capture.frag_coord[index].z = value;
+        } else if (v.quantity == "frag_coord.w") {
+            capture.frag_coord[index].w = value;
+        } else if (v.quantity.rfind("attribute ", 0) == 0) {
+            const auto a = static_cast<size_t>(v.quantity[10] - '0');
+            const char component = v.quantity[12];
+            glm::vec4& target = capture.attributes[a][index];
+            (component == 'x'   ? target.x
+             : component == 'y' ? target.y
+             : component == 'z' ? target.z
+                                : target.w) = value;
+        }
+    }
+}
+
+// The capture of a device that is right in every sample (where several answers are allowed: the
+// least hits).
+inline diff::Capture perfect_capture(const cases::Case& c, const ref::Expectation& e) {
+    diff::Capture capture;
+    capture.target = c.target;
+    capture.has_primitive = true;
+    capture.attribute_count = static_cast<uint32_t>(c.draws[0].attributes.size());
+    const size_t count = capture.sample_count();
+    capture.hits.resize(count);
+    capture.writers.resize(count);
+    capture.frag_coord.resize(count);
+    capture.depth.resize(count);
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        capture.attributes[a].resize(count);
+    }
+    ref::ValueReference values(c, e.limits, e.profile);
+    for (uint32_t y = 0; y < c.target.height; ++y) {
+        for (uint32_t x = 0; x < c.target.width; ++x) {
+            const size_t index = size_t{y} * c.target.width + x;
+            clear_sample(capture, index);
+            const ref::SampleExpectation& s = e.samples[index];
+            if (s.hits.total_min > 0) {
+                set_hits(capture, index, static_cast<float>(s.hits.front_min),
+                         static_cast<float>(s.hits.back_min));
+                write_fragment(capture, c, e, values,
+                               e.writers[s.writers_begin + s.writers_count - 1], {x, y, 0});
+            }
+        }
+    }
+    return capture;
+}
