@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/rule.hpp"
+#include "ref/explain.hpp"
+
+namespace cli {
+
+namespace {
+
+std::string_view name(ref::Coverage coverage) {
+    switch (coverage) {
+        case ref::Coverage::must:
+            return "must be covered";
+        case ref::Coverage::either:
+            return "may or may not be covered";
+        case ref::Coverage::must_not:
+            return "must not be covered";
+    }
+    return "";
+}
+
+std::string range(uint32_t low, uint32_t high) {
+    return low == high ? fmt::format("{}", low) : fmt::format("{} to {}", low, high);
+}
+
+std::string allowed_hits(const ref::HitBounds& b) {
+    std::string text = fmt::format("allowed: {} hit(s) in all", range(b.total_min, b.total_max));
+    if (b.front_max > 0 || b.back_max > 0) {
+        text += fmt::format(" ({} by front faces, {} by back faces)",
+                            range(b.front_min, b.front_max), range(b.back_min, b.back_max));
+    }
+    return text;
+}
+
+// Fractions get long where w is not a power of two; the tail helps nobody.
+std::string shortened(const std::string& exact) {
+    constexpr size_t kLimit = 48;
+    return exact.size() <= kLimit ? exact : exact.substr(0, kLimit) + "...";
+}
+
+std::string values_text(const std::vector<ref::ExpectedValue>& values) {
+    std::string text;
+    for (const ref::ExpectedValue& v : values) {
+        if (v.is_flat) {
+            text +=
+                fmt::format("        {:<14} {:.9g} exactly, bit for bit\n", v.quantity, v.nearest);
+        } else {
+            text +=
+                fmt::format("        {:<14} {:.9g} = {}, accepted within {} x {:.3g}\n", v.quantity,
+                            v.nearest, shortened(v.exact), ref::kBudgetFactor, v.budget);
+        }
+    }
+    return text;
+}
+
+std::string triangle_text(const ref::TriangleExplanation& t) {
+    std::string text = fmt::format("    triangle {} of draw {}, vertices {} {} {}: {}\n",
+                                   t.triangle.primitive, t.triangle.draw, t.triangle.vertex[0],
+                                   t.triangle.vertex[1], t.triangle.vertex[2], name(t.coverage));
+    for (const ref::EdgeExplanation& e : t.edges) {
+        text += fmt::format("        E({},{}) from ({}, {}) to ({}, {}), a {} edge: {}{}\n", e.from,
+                            e.to, ref::to_text(e.a.x), ref::to_text(e.a.y), ref::to_text(e.b.x),
+                            ref::to_text(e.b.y), to_string(e.kind), ref::to_text(e.value),
+                            e.value == 0 ? ", the sample is exactly on it" : "");
+    }
+    if (!t.on_grid) {
+        text += "        a vertex is not on the subpixel grid: shown is the nearest position\n";
+    }
+    if (t.needs_clipping) {
+        text += "        a vertex lies outside the view volume: the clipped polygon counts too\n";
+    }
+    return text + fmt::format("        {}\n", t.reason);
+}
+
+}  // namespace
+
+std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
+                         ref::SampleId sample) {
+    const ref::SampleExplanation s = ref::explain_sample(c, limits, profile, sample);
+    std::string text = fmt::format("{}\n    {}\n", c.id, c.description);
+    for (const std::string& id : c.rules) {
+        if (const cases::Rule* rule = cases::find_rule(id)) {
+            text +=
+                fmt::format("    {} ({}): {}\n", rule->id, to_string(rule->profile), rule->title);
+        }
+    }
+    text += fmt::format("\npixel ({}, {}), sample {} at ({}, {}); profile {}, {} subpixel bits\n",
+                        sample.x, sample.y, sample.sample, ref::to_text(s.position.x),
+                        ref::to_text(s.position.y), to_string(profile), limits.subpixel_bits);
+    if (!s.in_scissor) {
+        text += "    it lies outside every scissor rectangle\n";
+    }
+    if (!s.in_viewport) {
+        text += "    it lies outside every viewport\n";
+    }
+    // The interesting ones first: those that may cover the sample, then the near misses.
+    std::vector<const ref::TriangleExplanation*> order;
+    for (const ref::TriangleExplanation& t : s.triangles) {
+        order.push_back(&t);
+    }
+    std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+        return (a->coverage != ref::Coverage::must_not || a->on_edge) >
+               (b->coverage != ref::Coverage::must_not || b->on_edge);
+    });
+    constexpr size_t kShown = 12;
+    ref::ValueReference values(c, limits, profile);
+    for (size_t i = 0; i < std::min(order.size(), kShown); ++i) {
+        text += triangle_text(*order[i]);
+        if (order[i]->coverage != ref::Coverage::must_not) {
+            text += values_text(values.expected(order[i]->index, sample));
+        }
+    }
+    if (order.size() > kShown) {
+        text += fmt::format("    and {} more triangles within two pixels\n", order.size() - kShown);
+    }
+    if (order.empty()) {
+        text += "    no triangle is within two pixels\n";
+    }
+    text += "\n" + allowed_hits(s.expectation.hits) + "\n";
+    for (const cases::Profile looser : cases::kProfiles) {
+        if (looser < profile) {
+            const ref::SampleExplanation other = ref::explain_sample(c, limits, looser, sample);
+            if (!(other.expectation.hits == s.expectation.hits)) {
+                text += fmt::format("    at profile {} {}\n", to_string(looser),
+                                    allowed_hits(other.expectation.hits));
+            }
+        }
+    }
+    return text;
+}
+
+}  // namespace cli
