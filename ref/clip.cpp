@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The error of a clipped vertex, unit roundoff u. The plane distances d1 >= 0 > d2 of the end
+// points P1, P2 are sums of two components that are off by at most e, so |dd_i| <= eta_i = e_w +
+// e_c + u |d_i| (1 + u covers the rest). t = d1 / (d1 - d2), with D = |d1| + |d2|:
+//
+//     |dt| <= ((1-t) eta_1 + t eta_2) / (D - eta_1 - eta_2) + 5u
+//
+// (one subtraction, a divide by reciprocal: 4u, 5u with the second order). The new point is
+// computed as P1 + t (P2 - P1) or t P1 + (1-t) P2 from either end:
+//
+//     |dP_c| <= max(e1_c, e2_c) + |dt| |P2_c - P1_c| + 4u (|P1_c| + |P2_c|)
+//
+// Several planes: the bound is carried from cut to cut. Devices cut in different orders; the larger
+// bound of two orders (x y z and z x y) is taken. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times
+// |p/2|, plus the rounding of divide and transform (position.cpp). Bounds are symmetric in the two
+// end points, so that two triangles which share the edge get the same box for the same point.
+#include "ref/clip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ref/position_detail.hpp"
+
+namespace ref {
+
+namespace {
+
+constexpr size_t kX = 0, kY = 1, kZ = 2, kW = 3;
+
+mpq_class exact(float f) {
+    return mpq_class(static_cast<double>(f));
+}
+
+// Rounded up to a binary64, so that bounds stay short numbers.
+mpq_class round_up(const mpq_class& q) {
+    if (q == 0) {
+        return q;
+    }
+    // get_d truncates.
+    const double d = std::nextafter(q.get_d(), std::numeric_limits<double>::infinity());
+    return std::isfinite(d) ? mpq_class(d) : q;
+}
+
+struct Work {
+    ClippedVertex v;
+    std::array<mpq_class, 4> error;  // of the clip coordinates
+};
+
+// The component that the plane bounds; the distance is w + c (low), w - c (high), z (z_low).
+size_t component_of(ClipPlane plane) {
+    return static_cast<size_t>(plane) / 2;
+}
+
+mpq_class distance(const std::array<mpq_class, 4>& p, ClipPlane plane) {
+    switch (plane) {
+        case ClipPlane::x_low:
+        case ClipPlane::y_low:
+            return p[kW] + p[component_of(plane)];
+        case ClipPlane::z_low:
+            return p[kZ];
+        default:
+            return p[kW] - p[component_of(plane)];
+    }
+}
+
+mpq_class distance_error(const Work& p, const mpq_class& d, ClipPlane plane, const mpq_class& u) {
+    if (plane == ClipPlane::z_low) {
+        return p.error[kZ];
+    }
+    return (p.error[kW] + p.error[component_of(plane)] + u * abs(d)) * (1 + u);
+}
+
+Work cut(const Work& p1, const Work& p2, const mpq_class& d1, const mpq_class& d2, ClipPlane plane,
+         const mpq_class& u) {
+    Work out;
+    const mpq_class span = abs(d1) + abs(d2);
+    const mpq_class t = abs(d1) / span;
+    const mpq_class rest = 1 - t;
+    for (size_t i = 0; i < 3; ++i) {
+        out.v.weights[i] = rest * p1.v.weights[i] + t * p2.v.weights[i];
+    }
+    const mpq_class eta1 = distance_error(p1, d1, plane, u);
+    const mpq_class eta2 = distance_error(p2, d2, plane, u);
+    const mpq_class sure = span - eta1 - eta2;
+    out.v.is_bounded = p1.v.is_bounded && p2.v.is_bounded && sure > 0;
+    mpq_class dt = 1;  // t stays in [0,1]
+    if (out.v.is_bounded) {
+        dt = std::min<mpq_class>(dt, (rest * eta1 + t * eta2) / sure + 5 * u);
+    }
+    for (size_t c = 0; c < 4; ++c) {
+        const mpq_class& a = p1.v.clip[c];
+        const mpq_class& b = p2.v.clip[c];
+        out.v.clip[c] = rest * a + t * b;
+        out.error[c] = round_up(std::max(p1.error[c], p2.error[c]) + dt * abs(b - a) +
+                                4 * u * (abs(a) + abs(b)));
+    }
+    return out;
+}
+
+std::vector<Work> clip_by(const std::vector<Work>& polygon, ClipPlane plane, const mpq_class& u) {
+    std::vector<Work> out;
+    const size_t n = polygon.size();
+    const auto label = static_cast<EdgeLabel>(kFirstClipEdge + static_cast<EdgeLabel>(plane));
+    for (size_t i = 0; i < n; ++i) {
+        const Work& a = polygon[i];
+        const Work& b = polygon[(i + 1) % n];
+        const mpq_class da = distance(a.v.clip, plane);
+        const mpq_class db = distance(b.v.clip, plane);
+        if (da >= 0) {
+            out.push_back(a);
+            if (db < 0) {
+                if (da == 0) {
+                    out.back().v.edge = label;  // leaves at a itself
+                } else {
+                    Work leaving = cut(a, b, da, db, plane, u);
+                    leaving.v.edge = label;
+                    out.push_back(leaving);
+                }
+            }
+        } else if (db > 0) {
+            Work entering = cut(a, b, da, db, plane, u);
+            entering.v.edge = a.v.edge;
+            out.push_back(entering);
+        }
+    }
+    return out;
+}
+
+std::vector<Work> clip_in_order(const std::vector<Work>& triangle, std::span<const ClipPlane> order,
+                                const mpq_class& u) {
+    std::vector<Work> polygon = triangle;
+    for (const ClipPlane plane : order) {
+        if (polygon.empty()) {
+            break;
+        }
+        polygon = clip_by(polygon, plane, u);
+    }
+    return polygon;
+}
+
+// Takes the larger bound of the vertex of `other` between the same two edges.
+void widen_by(std::vector<Work>& polygon, const std::vector<Work>& other) {
+    const size_t n = polygon.size();
+    const size_t m = other.size();
+    for (size_t i = 0; i < n; ++i) {
+        Work& p = polygon[i];
+        const EdgeLabel in = polygon[(i + n - 1) % n].v.edge;
+        for (size_t k = 0; k < m; ++k) {
+            if (other[k].v.edge != p.v.edge || other[(k + m - 1) % m].v.edge != in) {
+                continue;
+            }
+            p.v.is_bounded = p.v.is_bounded && other[k].v.is_bounded;
+            for (size_t c = 0; c < 4; ++c) {
+                p.error[c] = std::max(p.error[c], other[k].error[c]);
+            }
+        }
+    }
+}
+
+mpq_class axis_error(const Work& p, size_t c, float extent, float origin, const mpq_class& u) {
+    const mpq_class half = exact(extent) / 2;
+    const mpq_class offset = exact(origin) + half;
+    const mpq_class normalized = p.v.clip[c] / p.v.clip[kW];
+    const mpq_class divided =
+        (p.error[c] + abs(normalized) * p.error[kW]) / (p.v.clip[kW] - p.error[kW]);
+    const mpq_class t = (abs(normalized) + divided) * abs(half);
+    return round_up(divided * abs(half) + rounding_bound(t, offset, t + abs(offset), u));
+}
+
+void project(Work& p, const cases::Viewport& viewport, const mpq_class& u) {
+    ClippedVertex& v = p.v;
+    if (v.clip[kW] <= 0) {
+        v.is_bounded = false;
+        return;
+    }
+    IdealPosition& out = v.position;
+    out.inv_w = 1 / v.clip[kW];
+    const mpq_class half_x = exact(viewport.width) / 2;
+    const mpq_class half_y = exact(viewport.height) / 2;
+    out.x = half_x * v.clip[kX] * out.inv_w + exact(viewport.x) + half_x;
+    out.y = half_y * v.clip[kY] * out.inv_w + exact(viewport.y) + half_y;
+    const mpq_class range = exact(viewport.max_depth) - exact(viewport.min_depth);
+    out.z = range * v.clip[kZ] * out.inv_w + exact(viewport.min_depth);
+    if (v.original >= 0) {
+        return;
+    }
+    if (p.error[kW] >= v.clip[kW]) {
+        v.is_bounded = false;
+        return;
+    }
+    v.error.x = axis_error(p, kX, viewport.width, viewport.x, u);
+    v.error.y = axis_error(p, kY, viewport.height, viewport.y, u);
+}
+
+}  // namespace
+
+bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes) {
+    if (!std::isfinite(clip.x) || !std::isfinite(clip.y) || !std::isfinite(clip.z) ||
+        !std::isfinite(clip.w)) {
+        return false;
+    }
+    // Comparisons, not sums: exact in binary32.
+    return std::all_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
+        switch (plane) {
+            case ClipPlane::x_low:
+                return clip.x >= -clip.w;
+            case ClipPlane::x_high:
+                return clip.x <= clip.w;
+            case ClipPlane::y_low:
+                return clip.y >= -clip.w;
+            case ClipPlane::y_high:
+                return clip.y <= clip.w;
+            case ClipPlane::z_low:
+                return clip.z >= 0;
+            case ClipPlane::z_high:
+                return clip.z <= clip.w;
+        }
+        return false;
+    });
+}
+
+bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle) {
+    return std::any_of(std::begin(kViewVolume), std::end(kViewVolume), [&](ClipPlane plane) {
+        return std::none_of(triangle.begin(), triangle.end(), [&](const glm::vec4& v) {
+            return is_inside(v, {&plane, 1});
+        });
+    });
+}
+
+std::vector<ClippedVertex> clip_triangle(const std::array<glm::vec4, 3>& triangle,
+                                         const cases::Viewport& viewport, cases::Profile profile,
+                                         std::span<const ClipPlane> planes) {
+    const mpq_class u =
+        profile == cases::Profile::vulkan ? mpq_class(1, 100000) : mpq_class(1, int64_t{1} << 24);
+    std::vector<Work> start(3);
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& p = triangle[i];
+        start[i].v.clip = {exact(p.x), exact(p.y), exact(p.z), exact(p.w)};
+        start[i].v.weights[i] = 1;
+        start[i].v.original = static_cast<int>(i);
+        start[i].v.edge = static_cast<EdgeLabel>(i);
+    }
+    std::vector<ClipPlane> other_order(planes.begin(), planes.end());
+    std::stable_partition(other_order.begin(), other_order.end(),
+                          [](ClipPlane p) { return component_of(p) == kZ; });
+    std::vector<Work> polygon = clip_in_order(start, planes, u);
+    widen_by(polygon, clip_in_order(start, other_order, u));
+    std::vector<ClippedVertex> out;
+    for (Work& p : polygon) {
+        project(p, viewport, u);
+        out.push_back(p.v);
+    }
+    return out;
+}
+
+}  // namespace ref

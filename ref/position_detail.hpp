@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What position.cpp and clip.cpp share.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <optional>
+
+#include "cases/case.hpp"
+#include "cases/profile.hpp"
+#include "ref/limits.hpp"
+#include "ref/position.hpp"
+
+namespace ref {
+
+// Bound on the rounding errors from x_d to x_f = t + o with unit roundoff u; position.cpp derives
+// it.
+mpq_class rounding_bound(const mpq_class& t, const mpq_class& o, const mpq_class& x_f,
+                         const mpq_class& u);
+
+// The box of a position whose ideal is (x,y) pixels and whose computed value is off by at most
+// `error` before it is snapped (position_box, ref/position.hpp). Nothing beyond 2^32 pixels.
+std::optional<Box> box_around(const mpq_class& x, const mpq_class& y, const TransformError& error,
+                              const cases::Viewport& viewport, const Limits& limits,
+                              cases::Profile profile);
+
+}  // namespace ref
