@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/backend.hpp"
+
+#include <string>
+
+#include "diff/capture.hpp"
+#include "ref/expectation.hpp"
+#include "ref/value.hpp"
+
+namespace cli {
+
+using vk_harness::DeviceInfo;
+using vk_harness::Rendered;
+
+namespace {
+
+class VulkanBackend : public Backend {
+  public:
+    explicit VulkanBackend(vk_harness::Renderer renderer) : renderer_(std::move(renderer)) {}
+    const DeviceInfo& device() const override { return renderer_.device(); }
+    std::vector<Rendered> render(const std::vector<cases::Case>& batch,
+                                 const std::function<void(std::string_view)>& step) override {
+        return renderer_.render(batch, step);
+    }
+
+  private:
+    vk_harness::Renderer renderer_;
+};
+
+class ReferenceBackend : public Backend {
+  public:
+    ReferenceBackend() {
+        device_.name = "Edgecase reference";
+        device_.driver_name = "reference";
+        device_.driver_info = "version 1.0.0";
+        device_.uuid = std::string(32, '0');
+        device_.device_type = "cpu";
+        device_.api_version = 1U << 22 | 3U << 12;  // VK_API_VERSION_1_3
+        device_.subpixel_bits = 8;
+        device_.viewport_subpixel_bits = 8;
+        device_.max_color_attachments = 8;
+        device_.max_target_size = cases::kMaxTargetSize;
+        device_.has_primitive_id = true;
+    }
+    const DeviceInfo& device() const override { return device_; }
+    std::vector<Rendered> render(const std::vector<cases::Case>& batch,
+                                 const std::function<void(std::string_view)>& step) override {
+        step("submit");
+        std::vector<Rendered> results(batch.size());
+        for (size_t k = 0; k < batch.size(); ++k) {
+            results[k].status = Rendered::Status::drawn;
+            results[k].capture = draw_by_reference(batch[k]);
+        }
+        step("readback");
+        return results;
+    }
+
+  private:
+    DeviceInfo device_;
+};
+
+// The first allowed pair of hits, fewest first.
+std::pair<uint32_t, uint32_t> pick_hits(const ref::HitBounds& bounds) {
+    for (uint32_t total = bounds.total_min; total <= bounds.total_max; ++total) {
+        for (uint32_t front = 0; front <= total; ++front) {
+            if (bounds.allows(front, total - front)) {
+                return {front, total - front};
+            }
+        }
+    }
+    return {0, 0};
+}
+
+// Where the reference's value of that name is kept: "attribute 1.x", "depth", "frag_coord.w".
+float* value_slot(diff::Capture& capture, size_t index, const std::string& quantity) {
+    if (quantity == "depth") {
+        return &capture.depth[index];
+    }
+    const size_t dot = quantity.rfind('.');
+    if (dot == std::string::npos || dot + 2 != quantity.size()) {
+        return nullptr;
+    }
+    const size_t component = std::string("xyzw").find(quantity[dot + 1]);
+    if (component == std::string::npos) {
+        return nullptr;
+    }
+    const auto at = static_cast<glm::vec4::length_type>(component);
+    if (quantity.rfind("frag_coord", 0) == 0) {
+        return &capture.frag_coord[index][at];
+    }
+    if (quantity.rfind("attribute ", 0) == 0 && quantity[10] >= '0' && quantity[10] <= '3') {
+        const size_t a = static_cast<size_t>(quantity[10] - '0');
+        return a < capture.attribute_count ? &capture.attributes[a][index][at] : nullptr;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+diff::Capture draw_by_reference(const cases::Case& c) {
+    const ref::Limits limits;
+    const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
+    ref::ValueReference values(c, limits, cases::Profile::direct3d);
+
+    diff::Capture capture;
+    capture.target = c.target;
+    capture.has_primitive = true;
+    for (const cases::Draw& draw : c.draws) {
+        capture.attribute_count =
+            std::max(capture.attribute_count, static_cast<uint32_t>(draw.attributes.size()));
+    }
+    const size_t n = capture.sample_count();
+    const glm::vec4 clear(diff::kClearValue);
+    capture.hits.assign(n, glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
+    capture.writers.assign(n, diff::Writer{});
+    capture.frag_coord.assign(n, clear);
+    capture.depth.assign(n, diff::kClearDepth);
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        capture.attributes[a].assign(n, clear);
+    }
+    for (size_t index = 0; index < n; ++index) {
+        const ref::SampleExpectation& sample = expectation.samples[index];
+        const auto [front, back] = pick_hits(sample.hits);
+        if (front + back == 0 || sample.writers_count == 0) {
+            continue;
+        }
+        capture.hits[index].x = static_cast<float>(front);
+        capture.hits[index].y = static_cast<float>(back);
+        capture.hits[index].w += static_cast<float>(front + back);
+        const uint32_t t = expectation.writers[sample.writers_begin + sample.writers_count - 1];
+        const ref::Triangle& triangle = expectation.triangles[t];
+        capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
+                                  diff::kClearId};
+        const size_t pixel = index / c.target.samples;
+        const ref::SampleId id{static_cast<uint32_t>(pixel % c.target.width),
+                               static_cast<uint32_t>(pixel / c.target.width),
+                               static_cast<uint32_t>(index % c.target.samples)};
+        capture.frag_coord[index] =
+            glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
+        const size_t attributes = c.draws[triangle.draw].attributes.size();
+        for (size_t a = 0; a < attributes; ++a) {
+            capture.attributes[a][index] = glm::vec4(0);
+        }
+        for (const ref::ExpectedValue& value : values.expected(t, id)) {
+            if (float* slot = value_slot(capture, index, value.quantity); slot != nullptr) {
+                *slot = static_cast<float>(value.nearest);
+            }
+        }
+    }
+    return capture;
+}
+
+vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options) {
+    if (options.reference) {
+        return std::make_unique<ReferenceBackend>();
+    }
+    vk_harness::Result<vk_harness::Renderer> renderer =
+        vk_harness::Renderer::create(options.vulkan);
+    if (!renderer) {
+        return tl::unexpected(renderer.error());
+    }
+    return std::make_unique<VulkanBackend>(std::move(*renderer));
+}
+
+}  // namespace cli

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One function a command; each returns an exit code of report/run.hpp.
+#pragma once
+
+#include "cli/options.hpp"
+#include "cli/program.hpp"
+
+namespace cli {
+
+int run_command(const Program& program, const RunOptions& options);
+int list_command(const Program& program, const ListOptions& options);
+int lint_command(const Program& program, const LintOptions& options);
+int explain_command(const Program& program, const ExplainOptions& options);
+int render_command(const Program& program, const RenderOptions& options);
+int doctor_command(const Program& program, const DoctorOptions& options);
+int bench_command(const Program& program, const BenchOptions& options);
+int report_command(const Program& program, const ReportOptions& options);
+int version_command();
+
+// Parses the command line and carries it out.
+int edgecase_main(int argc, const char* const* argv);
+
+}  // namespace cli

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Frames on the pipes between the parent and a worker: magic, type, length, checksum, payload. A
+// driver that writes over the worker's memory or dies half-way cannot produce a frame that looks
+// whole.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cli {
+
+enum class FrameType : uint32_t {
+    configure = 1,  // parent -> worker: which renderer and device
+    render,         // parent -> worker: a batch of cases
+    list_devices,   // parent -> worker: every device, for doctor
+    hello,          // worker -> parent: the device is ready
+    no_device,      // worker -> parent: it is not, and why
+    devices,        // worker -> parent: answer to list_devices
+    step,           // worker -> parent: the stage that begins now
+    result,         // worker -> parent: one case of the batch
+    batch_done,     // worker -> parent: every result of the batch has been sent
+};
+inline constexpr uint32_t kFirstFrameType = 1;
+inline constexpr uint32_t kLastFrameType = 9;
+
+struct Frame {
+    FrameType type = FrameType::step;
+    std::string payload;
+};
+
+// 64-bit checksum of a frame's type and payload (FNV-1a over 8-byte words).
+uint64_t checksum(FrameType type, std::string_view payload);
+
+std::string encode_frame(FrameType type, std::string_view payload);
+
+// Cuts a stream of bytes into frames.
+class FrameReader {
+  public:
+    void feed(std::string_view bytes) { buffer_.append(bytes); }
+    // The next whole frame, or nothing: more bytes are needed, or the stream is malformed.
+    std::optional<Frame> next();
+    // A wrong magic, type, length or checksum; stays true.
+    bool is_malformed() const { return malformed_; }
+    // True if bytes of an unfinished frame are left.
+    bool has_rest() const { return buffer_.size() != begin_; }
+
+  private:
+    std::string buffer_;
+    size_t begin_ = 0;
+    bool malformed_ = false;
+};
+
+// Writes everything, whatever EINTR and short writes do. False if the other end is gone.
+bool write_all(int fd, std::string_view bytes);
+
+}  // namespace cli

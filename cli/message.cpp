@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/message.hpp"
+
+#include "cases/wire.hpp"
+#include "cli/bytes.hpp"
+
+namespace cli {
+
+using vk_harness::DeviceInfo;
+using vk_harness::Failure;
+using vk_harness::Rendered;
+
+std::string encode_options(const WorkerOptions& options) {
+    ByteWriter out;
+    out.text(options.vulkan.device);
+    out.text(options.vulkan.icd_file);
+    out.value(options.vulkan.validation);
+    out.value(options.reference);
+    return out.take();
+}
+
+std::optional<WorkerOptions> decode_options(std::string_view bytes) {
+    ByteReader in(bytes);
+    WorkerOptions options;
+    uint8_t validation = 0;
+    uint8_t reference = 0;
+    in.text(options.vulkan.device);
+    in.text(options.vulkan.icd_file);
+    in.value(validation);
+    in.value(reference);
+    options.vulkan.validation = validation != 0;
+    options.reference = reference != 0;
+    return in.finished() ? std::optional(options) : std::nullopt;
+}
+
+std::string encode_request(uint32_t attempt, const std::vector<const cases::Case*>& cases) {
+    ByteWriter out;
+    out.value(attempt);
+    out.value(uint64_t{cases.size()});
+    for (const cases::Case* c : cases) {
+        out.text(cases::to_bytes(*c));
+    }
+    return out.take();
+}
+
+std::optional<RenderRequest> decode_request(std::string_view bytes) {
+    ByteReader in(bytes);
+    RenderRequest request;
+    uint64_t count = 0;
+    in.value(request.attempt);
+    in.value(count);
+    for (uint64_t k = 0; k < count; ++k) {
+        std::string raw;
+        if (!in.text(raw)) {
+            return std::nullopt;
+        }
+        cases::Expected<cases::Case> c = cases::from_bytes(raw);
+        if (!c) {
+            return std::nullopt;
+        }
+        request.cases.push_back(std::move(*c));
+    }
+    return in.finished() ? std::optional(std::move(request)) : std::nullopt;
+}
+
+namespace {
+
+void put(ByteWriter& out, const DeviceInfo& d) {
+    out.value(d.index);
+    out.text(d.name);
+    out.text(d.driver_name);
+    out.text(d.driver_info);
+    out.text(d.uuid);
+    out.text(d.device_type);
+    for (const uint32_t v :
+         {d.vendor_id, d.device_id, d.api_version, d.driver_version, d.driver_id, d.subpixel_bits,
+          d.viewport_subpixel_bits, d.max_color_attachments, d.max_target_size}) {
+        out.value(v);
+    }
+    out.value(uint8_t{d.has_primitive_id});
+    out.texts(d.missing);
+}
+
+void get(ByteReader& in, DeviceInfo& d) {
+    in.value(d.index);
+    in.text(d.name);
+    in.text(d.driver_name);
+    in.text(d.driver_info);
+    in.text(d.uuid);
+    in.text(d.device_type);
+    for (uint32_t* v : {&d.vendor_id, &d.device_id, &d.api_version, &d.driver_version, &d.driver_id,
+                        &d.subpixel_bits, &d.viewport_subpixel_bits, &d.max_color_attachments,
+                        &d.max_target_size}) {
+        in.value(*v);
+    }
+    uint8_t has_primitive_id = 0;
+    in.value(has_primitive_id);
+    d.has_primitive_id = has_primitive_id != 0;
+    in.texts(d.missing);
+}
+
+}  // namespace
+
+std::string encode_device(const DeviceInfo& device) {
+    ByteWriter out;
+    put(out, device);
+    return out.take();
+}
+
+std::optional<DeviceInfo> decode_device(std::string_view bytes) {
+    ByteReader in(bytes);
+    DeviceInfo device;
+    get(in, device);
+    return in.finished() ? std::optional(std::move(device)) : std::nullopt;
+}
+
+std::string encode_devices(const std::vector<DeviceInfo>& devices) {
+    ByteWriter out;
+    out.value(uint64_t{devices.size()});
+    for (const DeviceInfo& d : devices) {
+        put(out, d);
+    }
+    return out.take();
+}
+
+std::optional<std::vector<DeviceInfo>> decode_devices(std::string_view bytes) {
+    ByteReader in(bytes);
+    uint64_t count = 0;
+    if (!in.value(count) || count > bytes.size()) {
+        return std::nullopt;
+    }
+    std::vector<DeviceInfo> devices(count);
+    for (DeviceInfo& d : devices) {
+        get(in, d);
+    }
+    return in.finished() ? std::optional(std::move(devices)) : std::nullopt;
+}
+
+std::string encode_failure(const Failure& failure) {
+    ByteWriter out;
+    out.value(static_cast<uint32_t>(failure.stage));
+    out.value(int32_t{failure.vk_result});
+    out.text(failure.message);
+    out.texts(failure.reasons);
+    return out.take();
+}
+
+std::optional<Failure> decode_failure(std::string_view bytes) {
+    ByteReader in(bytes);
+    Failure failure;
+    uint32_t stage = 0;
+    int32_t vk_result = 0;
+    in.value(stage);
+    in.value(vk_result);
+    in.text(failure.message);
+    in.texts(failure.reasons);
+    if (!in.finished() || stage > static_cast<uint32_t>(vk_harness::Stage::readback)) {
+        return std::nullopt;
+    }
+    failure.stage = static_cast<vk_harness::Stage>(stage);
+    failure.vk_result = vk_result;
+    return failure;
+}
+
+std::string encode_result(const CaseResult& result) {
+    const Rendered& r = result.rendered;
+    const diff::Capture& c = r.capture;
+    ByteWriter out;
+    out.reserve(256 +
+                c.hits.size() * (sizeof(glm::vec4) * (3 + c.attribute_count) + sizeof(float)));
+    out.value(result.index);
+    out.value(static_cast<uint32_t>(r.status));
+    out.text(r.reason);
+    out.texts(r.messages);
+    out.value(c.target);
+    out.value(uint8_t{c.has_primitive});
+    out.value(c.attribute_count);
+    out.plane(c.hits);
+    out.plane(c.writers);
+    out.plane(c.frag_coord);
+    out.plane(c.depth);
+    for (const std::vector<glm::vec4>& attribute : c.attributes) {
+        out.plane(attribute);
+    }
+    return out.take();
+}
+
+std::optional<CaseResult> decode_result(std::string_view bytes) {
+    ByteReader in(bytes);
+    CaseResult result;
+    Rendered& r = result.rendered;
+    diff::Capture& c = r.capture;
+    uint32_t status = 0;
+    uint8_t has_primitive = 0;
+    in.value(result.index);
+    in.value(status);
+    in.text(r.reason);
+    in.texts(r.messages);
+    in.value(c.target);
+    in.value(has_primitive);
+    in.value(c.attribute_count);
+    in.plane(c.hits);
+    in.plane(c.writers);
+    in.plane(c.frag_coord);
+    in.plane(c.depth);
+    for (std::vector<glm::vec4>& attribute : c.attributes) {
+        in.plane(attribute);
+    }
+    if (!in.finished() || status > static_cast<uint32_t>(Rendered::Status::error) ||
+        c.attribute_count > cases::kMaxAttributes) {
+        return std::nullopt;
+    }
+    r.status = static_cast<Rendered::Status>(status);
+    c.has_primitive = has_primitive != 0;
+    if (r.status == Rendered::Status::drawn) {
+        const size_t n = c.sample_count();
+        bool fits = c.hits.size() == n && c.writers.size() == n && c.frag_coord.size() == n &&
+                    c.depth.size() == n;
+        for (uint32_t a = 0; a < c.attribute_count; ++a) {
+            fits = fits && c.attributes[a].size() == n;
+        }
+        if (!fits) {
+            return std::nullopt;
+        }
+    }
+    return result;
+}
+
+}  // namespace cli

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the frames between the parent and a worker carry. Every decode_* returns nothing for bytes
+// that its encode_* could not have written.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "vk_harness/harness.hpp"
+
+namespace cli {
+
+// How a worker is to render.
+struct WorkerOptions {
+    vk_harness::Options vulkan;
+    bool reference = false;  // no driver: draw what the reference expects (tests of the runner)
+};
+std::string encode_options(const WorkerOptions& options);
+std::optional<WorkerOptions> decode_options(std::string_view bytes);
+
+// A batch of cases; attempt counts from 1.
+struct RenderRequest {
+    uint32_t attempt = 1;
+    std::vector<cases::Case> cases;
+};
+std::string encode_request(uint32_t attempt, const std::vector<const cases::Case*>& cases);
+std::optional<RenderRequest> decode_request(std::string_view bytes);
+
+std::string encode_device(const vk_harness::DeviceInfo& device);
+std::optional<vk_harness::DeviceInfo> decode_device(std::string_view bytes);
+std::string encode_devices(const std::vector<vk_harness::DeviceInfo>& devices);
+std::optional<std::vector<vk_harness::DeviceInfo>> decode_devices(std::string_view bytes);
+
+std::string encode_failure(const vk_harness::Failure& failure);
+std::optional<vk_harness::Failure> decode_failure(std::string_view bytes);
+
+// One case of a batch. The capture's planes travel as raw bytes; decoding refuses planes whose
+// sizes do not fit the target.
+struct CaseResult {
+    uint32_t index = 0;  // in the batch
+    vk_harness::Rendered rendered;
+};
+std::string encode_result(const CaseResult& result);
+std::optional<CaseResult> decode_result(std::string_view bytes);
+
+}  // namespace cli

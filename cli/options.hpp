@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command line says. The option table itself, its help and its errors are
+// command_line.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/profile.hpp"
+#include "cli/judge.hpp"
+
+namespace cli {
+
+enum class When { automatic, always, never };
+enum class ProgressStyle { automatic, plain, none };
+
+// What commands that look at cases have in common.
+struct SuiteOptions {
+    std::string suite;  // empty: found by find_suite_root
+    std::vector<std::string> selectors;
+};
+
+struct DeviceOptions {
+    std::string device;
+    std::string icd;
+    bool validation = false;
+    bool reference = false;  // hidden: --renderer=reference
+    double timeout = 30;     // seconds without a sign of life
+};
+
+struct Shard {
+    uint32_t index = 1, count = 1;
+};
+
+struct RunOptions {
+    SuiteOptions suite;
+    DeviceOptions device;
+    std::string failed_in, resume;
+    Shard shard;
+    bool shuffle = false;
+    uint64_t seed = 1;
+    uint32_t repeat = 1;
+    std::string require_device;
+    std::vector<std::string> expect;
+    bool no_expect = false;
+    cases::Profile profile = cases::Profile::direct3d;
+    uint32_t jobs = 1;
+    uint32_t batch = 16;
+    uint32_t retries = 1;
+    std::string output;
+    std::string json, junit, html;
+    KeepPictures capture = KeepPictures::failed;
+    bool quiet = false, verbose = false;
+    When color = When::automatic;
+    ProgressStyle progress = ProgressStyle::automatic;
+};
+
+struct ListOptions {
+    SuiteOptions suite;
+    bool long_form = false, ids = false, json = false;
+};
+
+struct LintOptions {
+    SuiteOptions suite;
+    bool quiet = false;
+};
+
+struct ExplainOptions {
+    SuiteOptions suite;  // exactly one selector, one case
+    uint32_t x = 0, y = 0, sample = 0;
+    cases::Profile profile = cases::Profile::direct3d;
+    uint32_t subpixel_bits = 8;
+};
+
+struct RenderOptions {
+    SuiteOptions suite;  // exactly one selector, one case
+    std::string output;
+    cases::Profile profile = cases::Profile::direct3d;
+    uint32_t subpixel_bits = 8;
+};
+
+struct DoctorOptions {
+    DeviceOptions device;
+    bool json = false;
+};
+
+struct BenchOptions {
+    SuiteOptions suite;
+    DeviceOptions device;
+    double seconds = 1;  // measured per figure
+    bool json = false;
+};
+
+struct ReportOptions {
+    std::string directory;
+    std::string json, junit, html;
+    bool quiet = false, verbose = false;
+    When color = When::automatic;
+};
+
+}  // namespace cli

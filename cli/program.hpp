@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the program was started: what its own path is and how it starts itself again as a worker.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+inline constexpr const char* kVersion =
+#ifdef EDGECASE_VERSION
+    EDGECASE_VERSION;
+#else
+    "0.1.0";
+#endif
+
+struct Program {
+    std::vector<std::string> arguments;  // argv
+    std::string path;                    // absolute path of the program
+};
+
+// argv[0] resolved by the working directory or PATH. /proc/self/exe would be wrong: under a
+// driver's own C library it names that library's ld.so.
+Program make_program(int argc, const char* const* argv);
+
+// The words that start a worker: those of EDGECASE_SELF_PREFIX, the program, "worker".
+std::vector<std::string> worker_command(const Program& program);
+
+// One word for a POSIX shell: as it is if it is harmless, else in single quotes.
+std::string shell_quote(const std::string& word);
+
+// A number made of text, the same on every machine (64-bit FNV-1a with a finalizer): shards and
+// shuffling hang on it.
+uint64_t stable_hash(const std::string& text, uint64_t seed);
+
+}  // namespace cli

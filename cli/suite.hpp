@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finding, loading and selecting the suite, with the exit codes that its failures have.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cli/options.hpp"
+#include "cli/program.hpp"
+
+namespace cli {
+
+// Why a command cannot go on: lines for stderr and its exit code.
+struct Stop {
+    int exit_code = 0;
+    std::vector<std::string> lines;
+};
+template <class T>
+using OrStop = tl::expected<T, Stop>;
+
+// Prints the lines, each after "edgecase: ", and returns the exit code.
+int report_stop(const Stop& stop);
+
+// --suite, else EDGECASE_SUITE, else "cases/suite" in a folder above the program, else the source
+// tree that the program was built from.
+OrStop<std::filesystem::path> find_suite_root(const Program& program, const std::string& option);
+
+struct LoadedSuite {
+    std::filesystem::path root;
+    std::vector<cases::Case> cases;  // the suite's, then those of files outside that selectors name
+    std::vector<size_t> selected;    // indices into cases, in suite order
+};
+// Loads all and selects. Errors: invalid files (3), a selector that matches nothing (4).
+OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options);
+
+// As load_and_select, for commands on a single case.
+OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options);
+
+}  // namespace cli

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/worker.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "cli/backend.hpp"
+#include "cli/fault.hpp"
+#include "cli/frame.hpp"
+#include "cli/message.hpp"
+#include "report/run.hpp"
+
+namespace cli {
+
+namespace {
+
+using vk_harness::Rendered;
+
+void send(FrameType type, std::string_view payload) {
+    if (!write_all(kResultFd, encode_frame(type, payload))) {
+        ::_exit(report::kExitInternal);  // the parent is gone
+    }
+}
+
+// The next frame of the parent; nothing at the end of the pipe.
+std::optional<Frame> receive(FrameReader& reader) {
+    for (;;) {
+        if (std::optional<Frame> frame = reader.next(); frame) {
+            return frame;
+        }
+        std::vector<char> chunk(size_t{1} << 16);
+        const ssize_t n = ::read(kRequestFd, chunk.data(), chunk.size());
+        if (n < 0 && errno == EINTR) {
+            continue;
+        }
+        if (n <= 0 || reader.is_malformed()) {
+            return std::nullopt;
+        }
+        reader.feed({chunk.data(), static_cast<size_t>(n)});
+    }
+}
+
+// Bytes that no report may pass on as they are: ESC, NUL, invalid UTF-8, ends of CDATA and script.
+void print_noise() {
+    constexpr char kNoise[] =
+        "driver \x1b[31mred\x1b[0m \0 nul \xff\xfe ]]> </script> & <b> \xed\xa0\x80\n";
+    std::fwrite(kNoise, 1, sizeof kNoise - 1, stderr);
+    std::fwrite(kNoise, 1, sizeof kNoise - 1, stdout);
+    std::fflush(stdout);
+}
+
+// One hit more at the sample in the middle of the target: an undrawn one becomes drawn, a drawn one
+// double.
+void flip_pixel(diff::Capture& capture) {
+    if (capture.hits.empty()) {
+        return;
+    }
+    glm::vec4& hits = capture.hits[capture.hits.size() / 2];
+    hits.x += 1;
+    hits.w += 1;
+}
+
+void render_batch(Backend& backend, const RenderRequest& request,
+                  const std::vector<Fault>& faults) {
+    const auto step = [](std::string_view name) { send(FrameType::step, name); };
+    for (const cases::Case& c : request.cases) {
+        if (has_fault(faults, FaultKind::noise, c.id)) {
+            print_noise();
+        }
+        for (const FaultKind kind : {FaultKind::segv, FaultKind::abort, FaultKind::hang,
+                                     FaultKind::oom, FaultKind::exit0}) {
+            if (has_fault(faults, kind, c.id)) {
+                step("submit");
+                commit(kind);
+            }
+        }
+    }
+    std::vector<Rendered> results = backend.render(request.cases, step);
+    for (const cases::Case& c : request.cases) {
+        if (has_fault(faults, FaultKind::device_lost, c.id)) {
+            for (Rendered& r : results) {
+                r.status = Rendered::Status::device_lost;
+                r.reason = "the device was lost on purpose (EDGECASE_FAULT)";
+            }
+        }
+    }
+    for (size_t k = 0; k < results.size(); ++k) {
+        const std::string& id = request.cases[k].id;
+        if (has_fault(faults, FaultKind::unsupported, id)) {
+            results[k].status = Rendered::Status::unsupported;
+            results[k].reason = "unsupported on purpose (EDGECASE_FAULT)";
+        }
+        if (has_fault(faults, FaultKind::flip_pixel, id) ||
+            (request.attempt == 1 && has_fault(faults, FaultKind::flake, id))) {
+            flip_pixel(results[k].capture);
+        }
+        const std::string frame = encode_frame(
+            FrameType::result, encode_result({static_cast<uint32_t>(k), std::move(results[k])}));
+        if (has_fault(faults, FaultKind::truncate, id)) {
+            write_all(kResultFd, std::string_view(frame).substr(0, frame.size() / 2));
+            ::_exit(0);
+        }
+        if (has_fault(faults, FaultKind::garbage, id)) {
+            write_all(kResultFd, std::string(4096, '\x5a'));
+        }
+        if (!write_all(kResultFd, frame)) {
+            ::_exit(report::kExitInternal);
+        }
+    }
+    send(FrameType::batch_done, {});
+}
+
+void answer_list_devices(const WorkerOptions& options) {
+    const vk_harness::Result<std::vector<vk_harness::DeviceInfo>> devices =
+        vk_harness::list_devices(options.vulkan);
+    if (devices) {
+        send(FrameType::devices, encode_devices(*devices));
+    } else {
+        send(FrameType::no_device, encode_failure(devices.error()));
+    }
+}
+
+}  // namespace
+
+int run_worker() {
+    FrameReader reader;
+    if (::isatty(kRequestFd) == 1 || ::fcntl(kRequestFd, F_GETFD) < 0 ||
+        ::fcntl(kResultFd, F_GETFD) < 0) {
+        std::fputs("edgecase: 'worker' is started by 'edgecase run' itself, not by hand\n", stderr);
+        return report::kExitUsage;
+    }
+    const char* list = std::getenv("EDGECASE_FAULT");
+    const cases::Expected<std::vector<Fault>> faults = parse_faults(list != nullptr ? list : "");
+    if (!faults) {
+        send(FrameType::no_device,
+             encode_failure({vk_harness::Stage::loader, 0, faults.error().message, {}}));
+        return report::kExitUsage;
+    }
+    if (has_fault(*faults, FaultKind::segv_at_start, "")) {
+        commit(FaultKind::segv);
+    }
+    if (has_fault(*faults, FaultKind::hang_at_start, "")) {
+        commit(FaultKind::hang);
+    }
+    WorkerOptions options;
+    std::unique_ptr<Backend> backend;
+    while (std::optional<Frame> frame = receive(reader)) {
+        if (frame->type == FrameType::configure) {
+            const std::optional<WorkerOptions> decoded = decode_options(frame->payload);
+            if (!decoded) {
+                return report::kExitInternal;
+            }
+            options = *decoded;
+        } else if (frame->type == FrameType::list_devices) {
+            answer_list_devices(options);
+        } else if (frame->type == FrameType::hello) {
+            vk_harness::Result<std::unique_ptr<Backend>> made = make_backend(options);
+            if (has_fault(*faults, FaultKind::no_device, "")) {
+                made = tl::unexpected(vk_harness::Failure{
+                    vk_harness::Stage::device, 0, "no device, on purpose (EDGECASE_FAULT)", {}});
+            }
+            if (!made) {
+                send(FrameType::no_device, encode_failure(made.error()));
+                continue;
+            }
+            backend = std::move(*made);
+            send(FrameType::hello, encode_device(backend->device()));
+        } else if (frame->type == FrameType::render && backend != nullptr) {
+            const std::optional<RenderRequest> request = decode_request(frame->payload);
+            if (!request) {
+                return report::kExitInternal;
+            }
+            render_batch(*backend, *request, *faults);
+        } else {
+            return report::kExitInternal;
+        }
+    }
+    // The driver is not torn down: what it does at exit belongs to no case.
+    std::fflush(nullptr);
+    ::_exit(0);
+}
+
+}  // namespace cli
