@@ -91,8 +91,9 @@ struct DoctorOptions {
 struct BenchOptions {
     SuiteOptions suite;
     DeviceOptions device;
-    double seconds = 1;  // measured per figure
+    uint32_t runs = 3;  // counted pairs of whole processes
     bool json = false;
+    bool bare = false;  // hidden: --bare, the child that draws without reading back or judging
 };
 
 struct ReportOptions {
