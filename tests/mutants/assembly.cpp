@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mutants/assembly.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mutants {
+
+namespace {
+
+// The state machine of an input assembler.
+class Assembler {
+  public:
+    Assembler(cases::Topology topology, Fault fault) : topology_(topology), fault_(fault) {}
+
+    void restart() {
+        if (fault_ == Fault::restart_ignored) {
+            return;
+        }
+        if (fault_ == Fault::restart_keeps_one && count_ > 0) {
+            window_[0] = window_[std::min<uint32_t>(count_, 2) - 1];
+            count_ = 1;
+            odd_ = false;
+            return;
+        }
+        count_ = 0;
+        odd_ = false;
+    }
+
+    void push(uint32_t vertex) {
+        if (count_ < 2) {
+            window_[count_] = vertex;
+            ++count_;
+            return;
+        }
+        const uint32_t a = window_[0];
+        const uint32_t b = window_[1];
+        switch (topology_) {
+            case cases::Topology::triangle_list:
+                emit({a, b, vertex}, a, vertex);
+                count_ = 0;
+                break;
+            case cases::Topology::triangle_strip:
+                if (odd_ && fault_ != Fault::strip_parity) {
+                    emit({a, vertex, b}, a, vertex);
+                } else {
+                    emit({a, b, vertex}, a, vertex);
+                }
+                odd_ = !odd_;
+                window_ = {b, vertex};
+                break;
+            case cases::Topology::triangle_fan:  // window: hub, last rim vertex
+                emit({b, vertex, a}, fault_ == Fault::fan_hub_provoking ? a : b, vertex);
+                window_[1] = vertex;
+                break;
+        }
+    }
+
+    std::vector<Primitive> take() { return std::move(out_); }
+
+  private:
+    void emit(std::array<uint32_t, 3> vertex, uint32_t first, uint32_t last) {
+        const uint32_t provoking = fault_ == Fault::provoking_last ? last : first;
+        out_.push_back({vertex, provoking, next_id_});
+        ++next_id_;
+    }
+
+    cases::Topology topology_;
+    Fault fault_;
+    std::array<uint32_t, 2> window_{};
+    uint32_t count_ = 0;  // vertices in the window
+    bool odd_ = false;
+    uint32_t next_id_ = 0;
+    std::vector<Primitive> out_;
+};
+
+}  // namespace
+
+std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault) {
+    Assembler assembler(draw.topology, fault);
+    const auto vertex_count = static_cast<uint32_t>(draw.positions.size());
+    if (draw.indices && fault != Fault::indices_ignored) {
+        for (const uint32_t index : *draw.indices) {
+            if (index == cases::kRestartIndex && draw.primitive_restart) {
+                assembler.restart();
+            } else if (index < vertex_count) {
+                assembler.push(index);
+            }
+        }
+    } else {
+        for (uint32_t v = 0; v < vertex_count; ++v) {
+            assembler.push(v);
+        }
+    }
+    std::vector<Primitive> primitives = assembler.take();
+    if (fault == Fault::batch_tail_lost && !primitives.empty()) {
+        primitives.pop_back();
+    }
+    if (fault == Fault::primitives_reversed) {
+        std::reverse(primitives.begin(), primitives.end());
+    }
+    return primitives;
+}
+
+}  // namespace mutants

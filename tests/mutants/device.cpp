@@ -1,0 +1,493 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mutants/device.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "mutants/assembly.hpp"
+#include "mutants/clipper.hpp"
+#include "mutants/planes.hpp"
+#include "mutants/tiles.hpp"
+
+namespace mutants {
+
+namespace {
+
+// The value with 11 significant bits, as a 16-bit float has.
+float to_half_precision(float v) {
+    const uint32_t bits = std::bit_cast<uint32_t>(v);
+    return std::bit_cast<float>((bits + 0x1000U) & 0xffffe000U);
+}
+
+int64_t to_fixed(float v, const Device& device) {
+    int bits = device.subpixel_bits;
+    Rounding rounding = device.rounding;
+    if (device.fault == Fault::floor_snapping) {
+        rounding = Rounding::floor;
+    }
+    int coarse = 0;
+    if (device.fault == Fault::coarse_snapping) {
+        coarse = bits - 4;
+        bits = 4;
+    }
+    // Far outside only without clipping; the limit keeps edge functions inside 64 bits.
+    const double scaled = std::ldexp(std::clamp(static_cast<double>(v), -0x1p18, 0x1p18), bits);
+    double whole = 0;
+    switch (rounding) {
+        case Rounding::nearest_even:
+            whole = std::nearbyint(scaled);
+            break;
+        case Rounding::half_up:
+            whole = std::floor(scaled + 0.5);
+            break;
+        case Rounding::floor:
+            whole = std::floor(scaled);
+            break;
+        case Rounding::ceil:
+            whole = std::ceil(scaled);
+            break;
+        case Rounding::truncate:
+            whole = std::trunc(scaled);
+            break;
+    }
+    return static_cast<int64_t>(whole) * (int64_t{1} << coarse);
+}
+
+// Where a draw's fragments may land.
+PixelRect draw_rect(const cases::Draw& draw, const cases::Target& target, const Device& device) {
+    PixelRect rect{draw.scissor.x, draw.scissor.y,
+                   int64_t{draw.scissor.x} + int64_t{draw.scissor.width},
+                   int64_t{draw.scissor.y} + int64_t{draw.scissor.height}};
+    switch (device.fault) {
+        case Fault::scissor_closed:
+            rect.x1 += 1;
+            rect.y1 += 1;
+            break;
+        case Fault::scissor_off_by_one:
+            rect.x0 += rect.x0 > 0 ? 1 : 0;
+            rect.y0 += rect.y0 > 0 ? 1 : 0;
+            break;
+        case Fault::scissor_ignored:
+            rect = {0, 0, int64_t{target.width}, int64_t{target.height}};
+            break;
+        case Fault::scissor_follows_viewport: {
+            const auto dx = static_cast<int64_t>(draw.viewport.x);
+            const auto dy = static_cast<int64_t>(draw.viewport.y);
+            rect = {rect.x0 + dx, rect.y0 + dy, rect.x1 + dx, rect.y1 + dy};
+            break;
+        }
+        default:
+            break;
+    }
+    return {std::max<int64_t>(rect.x0, 0), std::max<int64_t>(rect.y0, 0),
+            std::min<int64_t>(rect.x1, target.width), std::min<int64_t>(rect.y1, target.height)};
+}
+
+// One draw of a case onto the capture.
+class DrawCommand {
+  public:
+    DrawCommand(const cases::Case& c, uint32_t number, const Device& device, diff::Capture& out)
+        : draw_(c.draws[number]),
+          number_(number),
+          device_(device),
+          out_(out),
+          rect_(draw_rect(draw_, c.target, device)),
+          samples_(sample_offsets(c.target.samples, device)) {}
+
+    void run() {
+        for (const Primitive& primitive : assemble_primitives(draw_, device_.fault)) {
+            const int times = device_.fault == Fault::draw_doubled ? 2 : 1;
+            for (int k = 0; k < times; ++k) {
+                rasterize(primitive);
+            }
+        }
+    }
+
+  private:
+    void rasterize(const Primitive& primitive);
+    void rasterize_polygon(const Primitive& primitive, const std::array<ClipVertex, 3>& whole,
+                           std::vector<WindowVertex> polygon, bool was_cut);
+    void rasterize_line(const Primitive& primitive, std::vector<WindowVertex>& v);
+    WindowVertex project(const ClipVertex& v) const;
+    bool is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const;
+    bool is_culled(bool front) const;
+    bool inside_viewport(int64_t i, int64_t j, uint32_t s) const;
+    void shade(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
+               bool front, int64_t i, int64_t j, uint32_t s);
+
+    const cases::Draw& draw_;
+    uint32_t number_;
+    const Device& device_;
+    diff::Capture& out_;
+    PixelRect rect_;
+    std::vector<SampleOffset> samples_;
+    std::unique_ptr<TrianglePlanes> cached_planes_;
+    WindowVertex cached_first_;
+};
+
+WindowVertex DrawCommand::project(const ClipVertex& v) const {
+    const auto mad = [&](float a, float b, float c) {
+        return device_.fused ? std::fma(a, b, c) : a * b + c;
+    };
+    const glm::vec4& p = v.position;
+    const cases::Viewport& view = draw_.viewport;
+    WindowVertex out;
+    out.values = v.values;
+    out.source = v.source;
+    out.w = p.w;
+    out.inv_w = 1.0F / p.w;
+    const auto divide = [&](float a) { return device_.reciprocal_w ? a * out.inv_w : a / p.w; };
+
+    float height = view.height;
+    float top = view.y;
+    if (device_.fault == Fault::height_sign_ignored && height < 0) {
+        top += height;
+        height = -height;
+    }
+    out.x = mad(divide(p.x), view.width * 0.5F, view.x + view.width * 0.5F);
+    out.y = mad(divide(p.y), height * 0.5F, top + height * 0.5F);
+    out.z = mad(divide(p.z), view.max_depth - view.min_depth, view.min_depth);
+    switch (device_.fault) {
+        case Fault::depth_range_ignored:
+            out.z = divide(p.z);
+            break;
+        case Fault::depth_before_divide:
+            out.z = mad(p.z, view.max_depth - view.min_depth, view.min_depth);
+            break;
+        case Fault::half_pixel_shift:
+            out.x += 0.5F;
+            out.y += 0.5F;
+            break;
+        case Fault::viewport_nudge:
+            out.x += 0x1p-8F;
+            break;
+        case Fault::position_half:
+            out.x = to_half_precision(out.x);
+            out.y = to_half_precision(out.y);
+            break;
+        default:
+            break;
+    }
+    out.sx = to_fixed(out.x, device_);
+    out.sy = to_fixed(out.y, device_);
+    return out;
+}
+
+bool DrawCommand::is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const {
+    bool clockwise = area > 0;
+    if (device_.fault == Fault::face_unclipped_w) {
+        int negative = 0;
+        for (const ClipVertex& v : whole) {
+            negative += v.position.w < 0 ? 1 : 0;
+        }
+        clockwise = clockwise != (negative % 2 == 1);
+    }
+    const bool front = clockwise == (draw_.front_face == cases::FrontFace::clockwise);
+    return device_.fault == Fault::front_face_inverted ? !front : front;
+}
+
+bool DrawCommand::is_culled(bool front) const {
+    switch (draw_.cull) {
+        case cases::CullMode::none:
+            return false;
+        case cases::CullMode::front:
+            return device_.fault == Fault::cull_inverted ? !front : front;
+        case cases::CullMode::back:
+            return device_.fault == Fault::cull_inverted ? front : !front;
+        case cases::CullMode::front_and_back:
+            return true;
+    }
+    return false;
+}
+
+// With a guard band the viewport's rectangle is a scissor for each sample.
+bool DrawCommand::inside_viewport(int64_t i, int64_t j, uint32_t s) const {
+    if (device_.clip != ClipMethod::guard_band) {
+        return true;
+    }
+    const double unit = std::ldexp(1.0, -device_.subpixel_bits);
+    const double x = static_cast<double>(i) + static_cast<double>(samples_[s].x) * unit;
+    const double y = static_cast<double>(j) + static_cast<double>(samples_[s].y) * unit;
+    const cases::Viewport& view = draw_.viewport;
+    const double left = static_cast<double>(view.x);
+    const double right = left + static_cast<double>(view.width);
+    double top = static_cast<double>(view.y);
+    double bottom = top + static_cast<double>(view.height);
+    if (bottom < top) {
+        std::swap(top, bottom);
+    }
+    return x >= left && x < right && y >= top && y < bottom;
+}
+
+void DrawCommand::rasterize(const Primitive& primitive) {
+    std::array<ClipVertex, 3> triangle;
+    for (size_t k = 0; k < 3; ++k) {
+        const uint32_t v = primitive.vertex[k];
+        triangle[k].position = draw_.positions[v];
+        triangle[k].source = v;
+        for (size_t a = 0; a < draw_.attributes.size(); ++a) {
+            const bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat &&
+                              device_.fault != Fault::flat_smooth &&
+                              device_.fault != Fault::clip_flat_piece;
+            triangle[k].values[a] = draw_.attributes[a].values[flat ? primitive.provoking : v];
+        }
+    }
+    const ClippedPolygon polygon = clip_triangle(triangle, draw_, device_);
+    std::vector<WindowVertex> window;
+    for (const ClipVertex& v : polygon.vertices) {
+        if (!(v.position.w > 0) && device_.fault != Fault::clip_none) {
+            return;  // inside the volume w = 0 is a single point
+        }
+        window.push_back(project(v));
+    }
+    if (window.size() >= 3) {
+        if (device_.fault == Fault::clip_last_piece_lost && window.size() > 3) {
+            window.pop_back();
+        }
+        rasterize_polygon(primitive, triangle, std::move(window), polygon.was_cut);
+    }
+}
+
+// What a degenerate triangle covers if its edges are taken as inclusive.
+void DrawCommand::rasterize_line(const Primitive& primitive, std::vector<WindowVertex>& v) {
+    if (v.size() != 3) {
+        return;
+    }
+    Device inclusive = device_;
+    inclusive.fault = Fault::ties_all_inclusive;
+    const bool front = is_front(0, {});
+    if (is_culled(front)) {
+        return;
+    }
+    std::array<WindowVertex, 3> wide{v[0], v[1], v[2]};
+    for (size_t k = 0; k < 3; ++k) {  // planes need an area
+        wide[k].x += k == 1 ? 1.0F : 0.0F;
+        wide[k].y += k == 2 ? 1.0F : 0.0F;
+    }
+    const TrianglePlanes planes(wide, true, draw_, device_);
+    scan({{v[0], v[1], v[2]}, {}, false}, rect_, samples_, inclusive,
+         [&](int64_t i, int64_t j, uint32_t s) { shade(primitive, planes, v[0], front, i, j, s); });
+}
+
+void DrawCommand::rasterize_polygon(const Primitive& primitive,
+                                    const std::array<ClipVertex, 3>& whole,
+                                    std::vector<WindowVertex> polygon, bool was_cut) {
+    const int64_t area = twice_area(polygon);
+    if (area == 0) {
+        if (device_.fault == Fault::degenerate_drawn) {
+            rasterize_line(primitive, polygon);
+        }
+        return;
+    }
+    if (device_.fault == Fault::small_culled) {
+        const auto by_x = [](const WindowVertex& a, const WindowVertex& b) { return a.sx < b.sx; };
+        const auto by_y = [](const WindowVertex& a, const WindowVertex& b) { return a.sy < b.sy; };
+        const auto [x0, x1] = std::minmax_element(polygon.begin(), polygon.end(), by_x);
+        const auto [y0, y1] = std::minmax_element(polygon.begin(), polygon.end(), by_y);
+        const int64_t pixel = int64_t{1} << device_.subpixel_bits;
+        if (x1->sx - x0->sx < pixel && y1->sy - y0->sy < pixel) {
+            return;
+        }
+    }
+    const bool front = is_front(area, whole);
+    if (is_culled(front)) {
+        return;
+    }
+    // Planes of the whole triangle where it can be projected, else of each piece.
+    const bool projectable = std::all_of(whole.begin(), whole.end(),
+                                         [](const ClipVertex& v) { return v.position.w > 0; });
+    std::unique_ptr<TrianglePlanes> whole_planes;
+    if (was_cut && projectable && !device_.piece_planes) {
+        whole_planes = std::make_unique<TrianglePlanes>(
+            std::array{project(whole[0]), project(whole[1]), project(whole[2])}, area > 0, draw_,
+            device_);
+    }
+    const WindowVertex first = polygon[0];
+    if (device_.fault == Fault::planes_of_last && cached_planes_ &&
+        cached_first_.source != first.source) {
+        cached_planes_.reset();
+    }
+
+    const bool reversed = area < 0;
+    if (reversed) {  // keep the first vertex, walk the others backwards
+        std::reverse(polygon.begin() + 1, polygon.end());
+    }
+    const size_t pieces = polygon.size() - 2;
+    std::vector<std::unique_ptr<TrianglePlanes>> planes(pieces);
+    const auto planes_of = [&](size_t k) -> const TrianglePlanes& {
+        if (whole_planes) {
+            return *whole_planes;
+        }
+        if (device_.fault == Fault::planes_of_last) {
+            if (!cached_planes_) {
+                cached_planes_ = std::make_unique<TrianglePlanes>(
+                    std::array{polygon[0], polygon[k + 1], polygon[k + 2]}, true, draw_, device_);
+                cached_first_ = first;
+            }
+            return *cached_planes_;
+        }
+        if (!planes[k]) {
+            planes[k] = std::make_unique<TrianglePlanes>(
+                std::array{polygon[0], polygon[k + 1], polygon[k + 2]}, true, draw_, device_);
+        }
+        return *planes[k];
+    };
+    const auto piece = [&](size_t k) {
+        ScanTriangle t{{polygon[0], polygon[k + 1], polygon[k + 2]}, {}, reversed};
+        t.inner = {k > 0, false, k + 1 < pieces};
+        return t;
+    };
+
+    if (pieces == 1 || device_.fault == Fault::clip_diagonal_double) {
+        for (size_t k = 0; k < pieces; ++k) {
+            const ScanTriangle t = piece(k);
+            if (twice_area(t.v) > 0) {
+                scan(t, rect_, samples_, device_, [&](int64_t i, int64_t j, uint32_t s) {
+                    shade(primitive, planes_of(k), first, front, i, j, s);
+                });
+            }
+        }
+        return;
+    }
+    // Snapping can bend a clipped polygon, so that pieces fold over. The winding number counts each
+    // sample once all the same.
+    PixelRect box{INT64_MAX, INT64_MAX, INT64_MIN, INT64_MIN};
+    for (const WindowVertex& v : polygon) {
+        box = {std::min(box.x0, v.sx >> device_.subpixel_bits),
+               std::min(box.y0, v.sy >> device_.subpixel_bits),
+               std::max(box.x1, (v.sx >> device_.subpixel_bits) + 1),
+               std::max(box.y1, (v.sy >> device_.subpixel_bits) + 1)};
+    }
+    box = {std::max(box.x0, rect_.x0), std::max(box.y0, rect_.y0), std::min(box.x1, rect_.x1),
+           std::min(box.y1, rect_.y1)};
+    if (device_.fault == Fault::draws_everything) {
+        box = rect_;
+    }
+    const auto width = static_cast<size_t>(std::max<int64_t>(box.x1 - box.x0, 0));
+    const auto height = static_cast<size_t>(std::max<int64_t>(box.y1 - box.y0, 0));
+    struct Cell {
+        int8_t winding = 0;
+        int8_t piece = -1;
+    };
+    std::vector<Cell> cells(width * height * samples_.size());
+    for (size_t k = 0; k < pieces; ++k) {
+        ScanTriangle t = piece(k);
+        const int64_t piece_area = twice_area(t.v);
+        if (piece_area == 0) {
+            continue;
+        }
+        if (piece_area < 0) {
+            std::swap(t.v[1], t.v[2]);
+            std::swap(t.inner[0], t.inner[2]);
+        }
+        const int sign = piece_area > 0 ? 1 : -1;
+        scan(t, box, samples_, device_, [&](int64_t i, int64_t j, uint32_t s) {
+            const size_t at =
+                (static_cast<size_t>(j - box.y0) * width + static_cast<size_t>(i - box.x0)) *
+                    samples_.size() +
+                s;
+            cells[at].winding = static_cast<int8_t>(cells[at].winding + sign);
+            if (sign > 0 && cells[at].piece < 0) {
+                cells[at].piece = static_cast<int8_t>(k);
+            }
+        });
+    }
+    size_t at = 0;
+    for (int64_t j = box.y0; j < box.y1; ++j) {
+        for (int64_t i = box.x0; i < box.x1; ++i) {
+            for (uint32_t s = 0; s < samples_.size(); ++s, ++at) {
+                if (cells[at].winding > 0) {
+                    shade(primitive, planes_of(static_cast<size_t>(cells[at].piece)), first, front,
+                          i, j, s);
+                }
+            }
+        }
+    }
+}
+
+void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes,
+                        const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s) {
+    if (!inside_viewport(i, j, s)) {
+        return;
+    }
+    const Fault fault = device_.fault;
+    const size_t at = (static_cast<size_t>(j) * out_.target.width + static_cast<size_t>(i)) *
+                          out_.target.samples +
+                      s;
+    out_.hits[at] += front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);
+    const bool of_piece = fault == Fault::clip_flat_piece;
+    out_.writers[at] = {number_, primitive.id, of_piece ? first.source : primitive.provoking,
+                        diff::kClearId};
+
+    const float corner = fault == Fault::values_at_corner ? 0.0F : 0.5F;
+    const float x = static_cast<float>(i) + corner;
+    const float y = static_cast<float>(j) + corner;
+    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
+    const float sample_x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
+    const float sample_y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
+    const bool corner_xy = fault == Fault::frag_coord_corner;
+    const float inverse_w = planes.inverse_w(x, y);
+    out_.frag_coord[at] = {static_cast<float>(i) + (corner_xy ? 0.0F : 0.5F),
+                           static_cast<float>(j) + (corner_xy ? 0.0F : 0.5F), planes.depth(x, y),
+                           fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
+    out_.depth[at] =
+        fault == Fault::values_at_corner ? planes.depth(x, y) : planes.depth(sample_x, sample_y);
+
+    for (size_t a = 0; a < draw_.attributes.size(); ++a) {
+        bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat;
+        if (fault == Fault::flat_smooth) {
+            flat = false;
+        }
+        if (fault == Fault::smooth_flat &&
+            draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
+            flat = true;
+        }
+        glm::vec4 value = flat ? first.values[a] : planes.attribute(a, x, y);
+        if (fault == Fault::components_rotated) {
+            value = {value.y, value.z, value.w, value.x};
+        }
+        if (fault == Fault::values_half && !flat) {
+            for (int k = 0; k < 4; ++k) {
+                value[k] = to_half_precision(value[k]);
+            }
+        }
+        const size_t location =
+            fault == Fault::attributes_swapped && draw_.attributes.size() > 1 && a < 2 ? 1 - a : a;
+        out_.attributes[location][at] = value;
+    }
+}
+
+}  // namespace
+
+diff::Capture render(const cases::Case& c, const Device& device) {
+    diff::Capture out;
+    out.target = c.target;
+    out.has_primitive = true;
+    const size_t count = out.sample_count();
+    out.hits.assign(count, glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
+    out.writers.assign(count, diff::Writer{});
+    out.frag_coord.assign(count, glm::vec4(diff::kClearValue));
+    out.depth.assign(count, diff::kClearDepth);
+    for (const cases::Draw& draw : c.draws) {
+        out.attribute_count =
+            std::max(out.attribute_count, static_cast<uint32_t>(draw.attributes.size()));
+    }
+    for (uint32_t a = 0; a < out.attribute_count; ++a) {
+        out.attributes[a].assign(count, glm::vec4(diff::kClearValue));
+    }
+    if (device.fault == Fault::draws_nothing) {
+        return out;
+    }
+    const auto draws = static_cast<uint32_t>(c.draws.size());
+    for (uint32_t d = 0; d < draws; ++d) {
+        const bool reversed = device.fault == Fault::draws_reversed;
+        DrawCommand(c, reversed ? draws - 1 - d : d, device, out).run();
+    }
+    return out;
+}
+
+}  // namespace mutants

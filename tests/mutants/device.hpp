@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A rasterizer as drivers are written: binary32 vertices, snapping to integers, int64 edge
+// functions with a fill-rule bias, 8x8 tiles, attribute planes in binary32. It shares no arithmetic
+// with ref/, so that the reference, the comparison and the suite are tried against a third opinion.
+// What a specification leaves free is a field of Device; what an author may get wrong is a Fault.
+#pragma once
+
+#include <cstdint>
+
+#include "cases/case.hpp"
+#include "diff/capture.hpp"
+#include "mutants/fault.hpp"
+
+namespace mutants {
+
+enum class Rounding : uint8_t { nearest_even, half_up, floor, ceil, truncate };
+
+// Which edges of a clockwise (on screen) triangle own a sample that lies on them. The last two
+// decide by the vertical edge first: a left (top) edge is the exactly vertical (horizontal) one.
+enum class TieRule : uint8_t { top_left, top_right, bottom_left, bottom_right, left_top };
+
+// How a value is computed at a fragment from the three vertices' values.
+enum class PlaneForm : uint8_t {
+    origin,       // a0 + x dadx + y dady, a0 at framebuffer (0,0); llvmpipe
+    vertex,       // relative to the first vertex
+    barycentric,  // sum of edge functions times values
+};
+
+// From which positions the planes are set up.
+enum class PlaneBasis : uint8_t { unsnapped, snapped };
+
+enum class ClipMethod : uint8_t {
+    geometric,   // against all six planes
+    guard_band,  // near, far and a wide band; the viewport's rectangle is a scissor
+};
+
+// What a device is free to choose. The default is llvmpipe's way.
+struct Device {
+    int subpixel_bits = 8;  // 4..12
+    Rounding rounding = Rounding::nearest_even;
+    TieRule ties = TieRule::top_left;
+    PlaneForm planes = PlaneForm::origin;
+    PlaneBasis basis = PlaneBasis::unsnapped;
+    ClipMethod clip = ClipMethod::geometric;
+    bool piece_planes = true;  // clipped triangles: planes of each piece, not of the whole triangle
+    bool fused = false;        // a * b + c rounded once
+    bool reciprocal_w = false;  // x * (1/w) instead of x / w
+    Fault fault = Fault::none;
+};
+
+// Draws the case.
+diff::Capture render(const cases::Case& c, const Device& device);
+
+}  // namespace mutants

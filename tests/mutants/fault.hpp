@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faults that a rasterizer's author could really make; each is a variation of the code path of
+// device.cpp and its neighbours, never of the picture.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace mutants {
+
+enum class Fault : uint8_t {
+    none,
+    // input assembly
+    provoking_last,       // last-vertex convention for flat values
+    strip_parity,         // odd triangles of a strip keep the order i, i+1, i+2
+    fan_hub_provoking,    // the hub is the provoking vertex of a fan
+    restart_ignored,      // the restart index ends nothing
+    restart_keeps_one,    // after a restart the strip still remembers its last vertex
+    indices_ignored,      // an indexed draw reads vertices in order
+    batch_tail_lost,      // the last triangle of a draw is lost
+    draws_reversed,       // later draws are rendered first
+    primitives_reversed,  // later triangles of a draw are rendered first
+    draw_doubled,         // each triangle is rasterized twice
+    draws_nothing,
+    draws_everything,  // every triangle covers the whole target
+    // vertices
+    height_sign_ignored,  // a negative viewport height mirrors nothing
+    depth_range_ignored,  // minDepth and maxDepth are taken as 0 and 1
+    half_pixel_shift,     // the pixel centre is added twice
+    viewport_nudge,       // the viewport's origin is 1/256 pixel off
+    floor_snapping,       // vertices snap downwards
+    coarse_snapping,      // vertices snap to 1/16 pixel whatever the limit says
+    position_half,        // window positions are held in 11-bit floats
+    // clipping
+    clip_none,             // nothing is clipped
+    clip_no_near,          // the near plane is missing
+    clip_no_far,           // the far plane is missing
+    clip_seam,             // the cut is computed from the first end point, not from the inner one
+    clip_copies_value,     // a new vertex takes the values of the inner vertex
+    clip_screen_linear,    // a new vertex's values are interpolated as if w were constant
+    clip_flat_piece,       // flat values come from the clipped polygon's first vertex
+    clip_last_piece_lost,  // the last triangle of the clipped polygon's fan is lost
+    clip_rejects_any,      // a triangle with a vertex outside is dropped
+    // facing and culling
+    cull_inverted,
+    front_face_inverted,
+    face_unclipped_w,  // facing from the vertices divided by |w|
+    degenerate_drawn,  // a triangle without area covers its line
+    small_culled,      // a triangle whose bounding box is less than a pixel is dropped
+    // coverage
+    ties_bottom_right,
+    ties_all_inclusive,
+    ties_all_exclusive,
+    ties_top_only,         // the left edge lost its bias
+    ties_by_winding,       // the bias is taken before the vertices are put in clockwise order
+    sample_corner,         // the sample is the pixel's upper left corner
+    samples_one_location,  // all samples of a pixel at its centre
+    samples_mirrored,      // sample locations with y upwards
+    edge_int32,            // edge functions in 32 bits
+    edge_int32_256,        // 32 bits up to a bounding box of 256 pixels (128 would be right)
+    edge_binary32,         // edge functions of unsnapped positions in binary32
+    tile_wrong_corner,  // trivial reject looks at the corner that is nearest to the edge's outside
+    tile_off_by_one,    // trivial reject looks at the last pixel but one
+    box_last_column,    // bounding box: last column lost
+    box_first_row,      // bounding box: first row lost
+    clip_diagonal_double,  // the inner diagonals of a clipped polygon are drawn by both pieces
+    // scissor
+    scissor_closed,      // right and bottom edge inclusive
+    scissor_off_by_one,  // starts one pixel late
+    scissor_ignored,
+    scissor_follows_viewport,  // the scissor's origin is taken relative to the viewport
+    // values
+    affine,              // smooth is linear on screen
+    reciprocal_12_bits,  // 1/w by a table of 12 bits
+    noperspective_smooth,
+    flat_smooth,
+    smooth_flat,
+    depth_perspective,
+    depth_before_divide,  // z_c instead of z_c/w_c
+    attributes_swapped,   // locations 0 and 1
+    components_rotated,   // .yzwx
+    values_at_corner,     // evaluated at the pixel's upper left corner
+    values_half,          // attributes held with 11 bits
+    frag_coord_corner,    // FragCoord.xy without the half
+    frag_coord_w,         // w instead of 1/w
+    planes_of_last,       // planes are kept while the first vertex stays the same
+    perspective_spans,    // one 1/w for each span of 8 pixels
+};
+
+// One line of the table of faults.
+struct FaultInfo {
+    Fault fault;
+    std::string_view name;  // the enumerator
+};
+std::span<const FaultInfo> all_faults();  // without none
+std::string_view to_string(Fault fault);
+
+}  // namespace mutants
