@@ -79,6 +79,9 @@ class ValueReference {
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
     FragmentVerdict judge(uint32_t t, SampleId sample, const FragmentValues& device);
 
+    // The oracle: the same question answered by rationals alone, without any filter. Slow.
+    FragmentVerdict judge_exact(uint32_t t, SampleId sample, const FragmentValues& device);
+
     // The exact values of triangle t at a sample, unsnapped basis.
     std::vector<ExpectedValue> expected(uint32_t t, SampleId sample);
 

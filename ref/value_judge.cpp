@@ -1,0 +1,396 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The verdict on one fragment. Stages: binary64 against the unsnapped and the snapped basis
+// (accepts only what is proven); all bases of the profile in Balls; the same in rationals.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <optional>
+
+#include "ref/sample.hpp"
+#include "ref/value.hpp"
+#include "ref/value_filter.hpp"
+#include "ref/value_wide.hpp"
+
+namespace ref {
+
+namespace {
+
+using cases::Profile;
+using value::Answer;
+using value::Ball;
+using value::Kind;
+using value::Quantity;
+
+// Sets of candidates are large (up to 64 bases) and needed for few triangles: the last ones are
+// kept.
+template <class T>
+class WideCache {
+  public:
+    explicit WideCache(size_t capacity) : capacity_(capacity) {}
+
+    template <class Make>
+    const value::WideSet<T>& get(uint32_t t, Profile profile, Make make) {
+        for (const Entry& e : entries_) {
+            if (e.triangle == t && e.profile == profile) {
+                return e.set;
+            }
+        }
+        if (entries_.size() == capacity_) {
+            entries_.pop_front();
+        }
+        entries_.push_back({t, profile, make()});
+        return entries_.back().set;
+    }
+
+  private:
+    struct Entry {
+        uint32_t triangle;
+        Profile profile;
+        value::WideSet<T> set;
+    };
+    size_t capacity_;
+    std::deque<Entry> entries_;
+};
+
+struct Loaded {
+    value::Primitive primitive;
+    value::Filter unsnapped, snapped;
+    bool has_snapped = false;  // and it differs from the unsnapped one
+};
+
+std::string bits_of(float f) {
+    return fmt::format("{:.9g} (0x{:08x})", f, std::bit_cast<uint32_t>(f));
+}
+
+// p/q if it is short enough to be read.
+std::string exact_text(const mpq_class& q) {
+    const std::string text = q.get_str();
+    return text.size() <= 40 ? text : std::string();
+}
+
+}  // namespace
+
+struct ValueReference::Impl {
+    const cases::Case& c;
+    Limits limits;
+    Profile profile;
+    std::vector<Triangle> triangles;
+    std::vector<std::vector<Quantity>> quantities;  // by draw
+    std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
+    WideCache<Ball> balls{64};
+    WideCache<mpq_class> rationals{4};
+
+    Impl(const cases::Case& the_case, const Limits& the_limits, Profile the_profile)
+        : c(the_case), limits(the_limits), profile(the_profile), triangles(assemble(the_case)) {
+        for (const cases::Draw& draw : c.draws) {
+            quantities.push_back(value::quantities(draw, c.target.samples));
+        }
+        loaded.resize(triangles.size());
+    }
+
+    const std::vector<Quantity>& quantities_of(uint32_t t) const {
+        return quantities[triangles[t].draw];
+    }
+
+    Loaded& load(uint32_t t) {
+        std::unique_ptr<Loaded>& slot = loaded[t];
+        if (slot) {
+            return *slot;
+        }
+        slot = std::make_unique<Loaded>();
+        slot->primitive = value::make_primitive(c, triangles[t]);
+        if (!slot->primitive.is_finite) {
+            return *slot;
+        }
+        const auto inputs = value::plane_inputs<Ball>(slot->primitive, quantities_of(t));
+        const auto ideal = value::ideal_vertices<Ball>(slot->primitive);
+        slot->unsnapped = make_filter(make_basis(ideal, inputs, kBudgetFactor));
+        const auto at = snapped_positions(slot->primitive, limits);
+        if (at) {
+            const auto moved = value::moved_vertices<Ball>(slot->primitive, *at);
+            for (size_t i = 0; i < 3; ++i) {
+                // Not provably the same position: a basis of its own.
+                slot->has_snapped = slot->has_snapped || is_other(moved.hx[i], ideal.hx[i]) ||
+                                    is_other(moved.hy[i], ideal.hy[i]);
+            }
+            if (slot->has_snapped) {
+                slot->snapped = make_filter(make_basis(moved, inputs, kBudgetFactor));
+            }
+        }
+        return *slot;
+    }
+
+    static bool is_other(const Ball& a, const Ball& b) {
+        return std::fabs(a.v - b.v) > 0 || a.e > std::fabs(a.v) * 0x1p-40;
+    }
+
+    value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at) {
+        const value::Primitive& primitive = load(t).primitive;
+        const std::vector<Quantity>& q = quantities_of(t);
+        const value::WideSet<Ball>& set =
+            balls.get(t, at, [&] { return value::make_wide_set<Ball>(primitive, q, limits, at); });
+        if (set.is_known) {
+            value::WideVerdict verdict =
+                judge_wide(set, std::span<const Quantity>(q), primitive.is_projectable,
+                           value::evaluations<Ball>(id, c.target.samples, at), device);
+            if (verdict.is_known) {
+                return verdict;
+            }
+        }
+        const value::WideSet<mpq_class>& exact = rationals.get(
+            t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
+        return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
+                          value::evaluations<mpq_class>(id, c.target.samples, at), device);
+    }
+
+    // The oracle: rationals only, no filter.
+    value::WideVerdict wide_exact(uint32_t t, SampleId id, const FragmentValues& device,
+                                  Profile at) {
+        const value::Primitive& primitive = load(t).primitive;
+        const std::vector<Quantity>& q = quantities_of(t);
+        const value::WideSet<mpq_class>& exact = rationals.get(
+            t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
+        return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
+                          value::evaluations<mpq_class>(id, c.target.samples, at), device);
+    }
+
+    void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
+                    FragmentVerdict& out) const;
+    void judge_centre(const Quantity& q, SampleId id, float got, FragmentVerdict& out) const;
+    void describe(uint32_t t, SampleId id, const FragmentValues& device,
+                  const value::WideVerdict& verdict, FragmentVerdict& out);
+    FragmentVerdict judge(uint32_t t, SampleId id, const FragmentValues& device, bool exact_only);
+};
+
+void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Quantity& q,
+                                      float got, FragmentVerdict& out) const {
+    const auto component = static_cast<glm::vec4::length_type>(q.component);
+    const auto& values = primitive.draw->attributes[static_cast<size_t>(q.attribute)].values;
+    const float want = values[primitive.triangle.provoking][component];
+    const auto bits = [](float f) { return std::bit_cast<uint32_t>(f); };
+    if (bits(got) == bits(want)) {
+        return;
+    }
+    const bool zero = !(std::fabs(want) > 0) && !std::isnan(want);
+    const bool got_zero = !(std::fabs(got) > 0) && !std::isnan(got);
+    if (!std::isfinite(want)) {
+        return;  // NaN and infinity need not arrive
+    }
+    if ((zero || std::fpclassify(want) == FP_SUBNORMAL) && got_zero) {
+        return;  // denormals may be flushed, the sign of zero may be lost
+    }
+    ValueMismatch m;
+    m.quantity = q.name;
+    m.rule = "interp.flat";
+    m.level = Profile::vulkan;
+    for (const uint32_t v : primitive.triangle.vertex) {
+        if (v != primitive.triangle.provoking && bits(values[v][component]) == bits(got)) {
+            m.rule = "provoking.first";
+        }
+    }
+    m.expected =
+        bits_of(want) + " of the provoking vertex " + std::to_string(primitive.triangle.provoking);
+    m.got = bits_of(got);
+    m.ratio = std::numeric_limits<double>::infinity();
+    out.mismatches.push_back(std::move(m));
+}
+
+void ValueReference::Impl::judge_centre(const Quantity& q, SampleId id, float got,
+                                        FragmentVerdict& out) const {
+    // i + 1/2 is exact in binary32 below 2^23.
+    const float want = static_cast<float>(q.component == 0 ? id.x : id.y) + 0.5F;
+    if (std::bit_cast<uint32_t>(got) == std::bit_cast<uint32_t>(want)) {
+        return;
+    }
+    ValueMismatch m;
+    m.quantity = q.name;
+    m.rule = q.rule;
+    m.level = Profile::vulkan;
+    m.expected = fmt::format("{} exactly, the pixel centre", want);
+    m.got = bits_of(got);
+    m.ratio = std::numeric_limits<double>::infinity();
+    out.mismatches.push_back(std::move(m));
+}
+
+void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValues& device,
+                                    const value::WideVerdict& verdict, FragmentVerdict& out) {
+    const value::Primitive& primitive = load(t).primitive;
+    const std::vector<Quantity>& all = quantities_of(t);
+    // Loosest profile at which each is wrong.
+    std::vector<std::pair<Profile, std::vector<size_t>>> looser;
+    for (const Profile p : cases::kProfiles) {
+        if (p < profile) {
+            looser.emplace_back(p, wide(t, id, device, p).failing);
+        }
+    }
+    const auto place = value::evaluations<mpq_class>(id, c.target.samples, profile).front();
+    const auto inputs = value::plane_inputs<mpq_class>(primitive, all);
+    const auto basis =
+        make_basis(value::ideal_vertices<mpq_class>(primitive), inputs, kBudgetFactor);
+    const value::WideSet<Ball>& set = balls.get(
+        t, profile, [&] { return value::make_wide_set<Ball>(primitive, all, limits, profile); });
+    for (size_t k = 0; k < verdict.failing.size(); ++k) {
+        const size_t index = verdict.failing[k];
+        const Quantity& q = all[index];
+        const float got = q.get(device);
+        ValueMismatch m;
+        m.quantity = q.name;
+        m.rule = q.rule;
+        m.level = profile;
+        m.got = bits_of(got);
+        m.ratio = verdict.ratios[k];
+        for (const auto& [p, failing] : looser) {
+            if (std::find(failing.begin(), failing.end(), index) != failing.end()) {
+                m.level = p;
+                break;
+            }
+        }
+        double reach = 0;
+        if (basis.orientation != 0) {
+            const auto v = value_at(
+                basis, basis.planes[q.plane],
+                q.kind == Kind::perspective ? &basis.planes[value::kPlaneInvW] : nullptr,
+                q.at_sample ? place.sample : place.centre.front(), mpq_class(kBudgetFactor));
+            if (v.exists == Answer::yes) {
+                const std::string text = exact_text(v.value);
+                m.expected =
+                    fmt::format("{:.9g}{} within {} x {:.3g}", v.value.get_d(),
+                                text.empty() ? "" : " = " + text, kBudgetFactor, v.budget.get_d());
+                reach = v.reach.get_d();
+            }
+        }
+        if (m.expected.empty()) {
+            m.expected = "a value between the vertex values";
+        }
+        const value::Range<Ball>& hull = set.hulls[index];
+        const double g = static_cast<double>(got);
+        const double low = hull.low.v - hull.low.e - reach * (1 + 0x1p-30);
+        const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
+        if (!std::isfinite(got)) {
+            m.rule = "interp.hull";
+            m.level = Profile::vulkan;
+        } else if (g < low || g > high) {
+            m.rule = "interp.hull";
+        }
+        out.mismatches.push_back(std::move(m));
+    }
+}
+
+FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const FragmentValues& device,
+                                            bool exact_only) {
+    FragmentVerdict out;
+    const Loaded& triangle = load(t);
+    if (!triangle.primitive.is_finite) {
+        return out;  // nothing is promised of a triangle with NaN or infinite positions
+    }
+    const std::vector<Quantity>& all = quantities_of(t);
+    for (const Quantity& q : all) {
+        if (q.kind == Kind::pixel_centre) {
+            judge_centre(q, id, q.get(device), out);
+        } else if (q.kind == Kind::flat) {
+            judge_flat(triangle.primitive, q, q.get(device), out);
+        }
+    }
+    bool is_decided = false;
+    if (!exact_only) {
+        const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target.samples);
+        const value::Places places{{id.x + 0.5, id.y + 0.5},
+                                   {static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
+                                    static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)}};
+        double ratio = 0;
+        const std::span<const Quantity> span(all);
+        is_decided = filter_accepts(triangle.unsnapped, span, places, device, kBudgetFactor, ratio);
+        out.worst_ratio = ratio;
+        if (triangle.has_snapped && !(is_decided && ratio <= 1)) {
+            double snapped_ratio = 0;
+            if (filter_accepts(triangle.snapped, span, places, device, kBudgetFactor,
+                               snapped_ratio) &&
+                (!is_decided || snapped_ratio < ratio)) {
+                is_decided = true;
+                out.basis = Basis::snapped;
+                out.worst_ratio = snapped_ratio;
+            }
+        }
+    }
+    // Accepted, but above one budget: another basis may explain it better.
+    if (!is_decided || out.worst_ratio > 1) {
+        const value::WideVerdict verdict =
+            exact_only ? wide_exact(t, id, device, profile) : wide(t, id, device, profile);
+        out.basis = verdict.basis;
+        out.worst_ratio = verdict.worst_ratio;
+        if (!verdict.ok) {
+            describe(t, id, device, verdict, out);
+        }
+    }
+    out.ok = out.mismatches.empty();
+    for (const ValueMismatch& m : out.mismatches) {
+        out.worst_ratio = std::max(out.worst_ratio, m.ratio);
+    }
+    return out;
+}
+
+ValueReference::ValueReference(const cases::Case& c, const Limits& limits, Profile profile)
+    : impl_(std::make_unique<Impl>(c, limits, profile)) {}
+ValueReference::~ValueReference() = default;
+ValueReference::ValueReference(ValueReference&&) noexcept = default;
+
+FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device) {
+    return impl_->judge(t, sample, device, false);
+}
+
+FragmentVerdict ValueReference::judge_exact(uint32_t t, SampleId sample,
+                                            const FragmentValues& device) {
+    return impl_->judge(t, sample, device, true);
+}
+
+std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample) {
+    const value::Primitive& primitive = impl_->load(t).primitive;
+    std::vector<ExpectedValue> out;
+    if (!primitive.is_finite) {
+        return out;
+    }
+    const std::vector<Quantity>& all = impl_->quantities_of(t);
+    const auto place =
+        value::evaluations<mpq_class>(sample, impl_->c.target.samples, impl_->profile).front();
+    const auto basis = make_basis(value::ideal_vertices<mpq_class>(primitive),
+                                  value::plane_inputs<mpq_class>(primitive, all), kBudgetFactor);
+    for (const Quantity& q : all) {
+        ExpectedValue e;
+        e.quantity = q.name;
+        if (q.kind == Kind::pixel_centre || q.kind == Kind::flat) {
+            e.is_flat = true;
+            float f = static_cast<float>(q.component == 0 ? sample.x : sample.y) + 0.5F;
+            if (q.kind == Kind::flat) {
+                f = primitive.draw->attributes[static_cast<size_t>(q.attribute)]
+                        .values[primitive.triangle.provoking]
+                               [static_cast<glm::vec4::length_type>(q.component)];
+            }
+            e.nearest = static_cast<double>(f);
+            e.exact = std::isfinite(f) ? mpq_class(e.nearest).get_str() : fmt::format("{}", f);
+        } else {
+            if (basis.orientation == 0) {
+                continue;
+            }
+            const auto v = value_at(
+                basis, basis.planes[q.plane],
+                q.kind == Kind::perspective ? &basis.planes[value::kPlaneInvW] : nullptr,
+                q.at_sample ? place.sample : place.centre.front(), mpq_class(kBudgetFactor));
+            if (v.exists != Answer::yes) {
+                continue;
+            }
+            e.exact = v.value.get_str();
+            e.nearest = v.value.get_d();
+            e.budget = v.budget.get_d();
+        }
+        out.push_back(std::move(e));
+    }
+    return out;
+}
+
+}  // namespace ref

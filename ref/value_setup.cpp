@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value_setup.hpp"
+
+#include <cmath>
+
+#include "ref/sample.hpp"
+
+namespace ref::value {
+
+namespace {
+
+constexpr char kComponentNames[] = {'x', 'y', 'z', 'w'};
+
+// Viewport transform: x_f = scale x_d + offset (Vulkan specification, "Controlling the Viewport").
+template <class T>
+struct Transform {
+    T scale_x, scale_y, scale_z, offset_x, offset_y, offset_z;
+};
+
+template <class T>
+Transform<T> transform_of(const cases::Viewport& v) {
+    const T x(static_cast<double>(v.x));
+    const T y(static_cast<double>(v.y));
+    const T near(static_cast<double>(v.min_depth));
+    const T far(static_cast<double>(v.max_depth));
+    Transform<T> t;
+    t.scale_x = T(static_cast<double>(v.width) / 2);  // exact: a power of two
+    t.scale_y = T(static_cast<double>(v.height) / 2);
+    t.scale_z = far - near;
+    t.offset_x = x + t.scale_x;
+    t.offset_y = y + t.scale_y;
+    t.offset_z = near;
+    return t;
+}
+
+template <class T>
+T from_float(float f) {
+    return T(static_cast<double>(f));
+}
+
+// Round half to even of a rational, in units of 2^-bits, as S47.16.
+std::optional<int64_t> snap(const mpq_class& pixels, int bits) {
+    const mpq_class scaled = pixels * mpq_class(uint64_t{1} << bits);
+    mpz_class floor;
+    mpz_fdiv_q(floor.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+    const mpq_class rest = scaled - floor;
+    const int half = cmp(rest, mpq_class(1, 2));
+    if (half > 0 || (half == 0 && mpz_odd_p(floor.get_mpz_t()) != 0)) {
+        floor += 1;
+    }
+    const mpz_class fixed = floor << static_cast<mp_bitcnt_t>(kFixedBits - bits);
+    if (abs(fixed) > (mpz_class(1) << (32 + kFixedBits))) {
+        return std::nullopt;
+    }
+    return fixed.get_si();
+}
+
+}  // namespace
+
+float Quantity::get(const FragmentValues& device) const {
+    const auto c = static_cast<glm::vec4::length_type>(component);
+    if (attribute == -2) {
+        return device.depth;
+    }
+    if (attribute == -1) {
+        return device.frag_coord[c];
+    }
+    return device.attributes[static_cast<size_t>(attribute)][c];
+}
+
+std::vector<Quantity> quantities(const cases::Draw& draw, uint32_t samples) {
+    const bool multisampled = samples > 1;
+    std::vector<Quantity> all;
+    all.push_back({Kind::pixel_centre, false, 0, -1, 0, "frag_coord.x", "fragcoord.xy"});
+    all.push_back({Kind::pixel_centre, false, 0, -1, 1, "frag_coord.y", "fragcoord.xy"});
+    all.push_back({Kind::linear, false, kPlaneDepth, -1, 2, "frag_coord.z", "depth.linear"});
+    all.push_back({Kind::linear, false, kPlaneInvW, -1, 3, "frag_coord.w", "fragcoord.w"});
+    all.push_back({Kind::linear, multisampled, kPlaneDepth, -2, 0, "depth", "depth.linear"});
+    uint32_t plane = kPlaneDepth + 1;
+    for (size_t a = 0; a < draw.attributes.size(); ++a) {
+        const cases::Attribute& attribute = draw.attributes[a];
+        for (uint32_t c = 0; c < attribute.components; ++c) {
+            Quantity q;
+            q.attribute = static_cast<int32_t>(a);
+            q.component = c;
+            q.name = "attribute " + std::to_string(a) + "." + kComponentNames[c];
+            switch (attribute.interpolation) {
+                case cases::Interpolation::smooth:
+                    q.kind = Kind::perspective;
+                    q.rule = "interp.perspective";
+                    q.plane = plane++;
+                    break;
+                case cases::Interpolation::noperspective:
+                    q.kind = Kind::linear;
+                    q.rule = "interp.linear";
+                    q.plane = plane++;
+                    break;
+                case cases::Interpolation::flat:
+                    q.kind = Kind::flat;
+                    q.rule = "interp.flat";
+                    break;
+            }
+            all.push_back(std::move(q));
+        }
+    }
+    return all;
+}
+
+Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
+    Primitive p;
+    p.draw = &c.draws[triangle.draw];
+    p.triangle = triangle;
+    p.is_finite = true;
+    p.is_projectable = true;
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4 v = p.draw->positions[triangle.vertex[i]];
+        p.clip[i] = v;
+        const bool finite =
+            std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+        p.is_finite = p.is_finite && finite;
+        p.is_projectable = p.is_projectable && finite && v.w > 0;
+        const bool inside =
+            std::fabs(v.x) <= v.w && std::fabs(v.y) <= v.w && v.z >= 0 && v.z <= v.w;
+        p.needs_clipping = p.needs_clipping || !inside;
+    }
+    return p;
+}
+
+Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, uint32_t component) {
+    Triple<float> out{};
+    for (size_t i = 0; i < 3; ++i) {
+        out[i] = primitive.draw->attributes[attribute]
+                     .values[primitive.triangle.vertex[i]]
+                            [static_cast<glm::vec4::length_type>(component)];
+    }
+    return out;
+}
+
+template <class T>
+Vertices<T> ideal_vertices(const Primitive& primitive) {
+    const auto t = transform_of<T>(primitive.draw->viewport);
+    Vertices<T> v;
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& c = primitive.clip[i];
+        v.w[i] = from_float<T>(c.w);
+        v.hx[i] = t.scale_x * from_float<T>(c.x) + t.offset_x * v.w[i];
+        v.hy[i] = t.scale_y * from_float<T>(c.y) + t.offset_y * v.w[i];
+        v.finite[i] = c.w > 0 || c.w < 0;
+        if (v.finite[i]) {
+            const TransformError e = transform_error(c, primitive.draw->viewport);
+            v.ex[i] = from_exact<T>(e.x);
+            v.ey[i] = from_exact<T>(e.y);
+        }
+    }
+    return v;
+}
+
+template <class T>
+Vertices<T> moved_vertices(const Primitive& primitive, const std::array<FixedPoint, 3>& at) {
+    Vertices<T> v;
+    for (size_t i = 0; i < 3; ++i) {
+        v.w[i] = from_float<T>(primitive.clip[i].w);
+        v.finite[i] = true;
+        // S47.16 with a magnitude of at most 2^48: exact in binary64.
+        v.hx[i] = T(static_cast<double>(at[i].x) / static_cast<double>(kFixedOne)) * v.w[i];
+        v.hy[i] = T(static_cast<double>(at[i].y) / static_cast<double>(kFixedOne)) * v.w[i];
+    }
+    return v;
+}
+
+template <class T>
+std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
+                                        std::span<const Quantity> quantities) {
+    const auto t = transform_of<T>(primitive.draw->viewport);
+    std::vector<PlaneInput<T>> in(2);
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& c = primitive.clip[i];
+        const T w = from_float<T>(c.w);
+        in[kPlaneInvW].h[i] = T(1.0);
+        const T scaled = t.scale_z * from_float<T>(c.z);  // p_z z_d w
+        in[kPlaneDepth].h[i] = scaled + t.offset_z * w;
+        if (c.w > 0 || c.w < 0) {
+            // z_d = z/w: u, or 2u as z * (1/w); p_z rounded: u; the product: u; the sum: u |z_f|.
+            const T z = magnitude(T(in[kPlaneDepth].h[i] / w));
+            const T e = T(kUnitRoundoff) * (T(4.0) * magnitude(T(scaled / w)) + z);
+            in[kPlaneDepth].rounding = larger(in[kPlaneDepth].rounding, e);
+        }
+    }
+    for (const Quantity& q : quantities) {
+        if (q.attribute < 0 || q.kind == Kind::flat) {
+            continue;
+        }
+        const Triple<float> f =
+            attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+        PlaneInput<T> plane;
+        for (size_t i = 0; i < 3; ++i) {
+            plane.h[i] = q.kind == Kind::perspective
+                             ? from_float<T>(f[i])
+                             : T(from_float<T>(f[i]) * from_float<T>(primitive.clip[i].w));
+        }
+        in.push_back(plane);
+    }
+    return in;
+}
+
+std::optional<std::array<FixedPoint, 3>> snapped_positions(const Primitive& primitive,
+                                                           const Limits& limits) {
+    const Vertices<mpq_class> v = ideal_vertices<mpq_class>(primitive);
+    std::array<FixedPoint, 3> out;
+    for (size_t i = 0; i < 3; ++i) {
+        if (!v.finite[i]) {
+            return std::nullopt;
+        }
+        const auto x = snap(mpq_class(v.hx[i] / v.w[i]), limits.subpixel_bits);
+        const auto y = snap(mpq_class(v.hy[i] / v.w[i]), limits.subpixel_bits);
+        if (!x || !y) {
+            return std::nullopt;
+        }
+        out[i] = {*x, *y};
+    }
+    return out;
+}
+
+template Vertices<Ball> ideal_vertices<Ball>(const Primitive&);
+template Vertices<mpq_class> ideal_vertices<mpq_class>(const Primitive&);
+template Vertices<Ball> moved_vertices<Ball>(const Primitive&, const std::array<FixedPoint, 3>&);
+template Vertices<mpq_class> moved_vertices<mpq_class>(const Primitive&,
+                                                       const std::array<FixedPoint, 3>&);
+template std::vector<PlaneInput<Ball>> plane_inputs<Ball>(const Primitive&,
+                                                          std::span<const Quantity>);
+template std::vector<PlaneInput<mpq_class>> plane_inputs<mpq_class>(const Primitive&,
+                                                                    std::span<const Quantity>);
+
+}  // namespace ref::value

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value_wide.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ref/sample.hpp"
+
+namespace ref::value {
+
+namespace {
+
+bool is_numeric(const Quantity& q) {
+    return q.kind == Kind::linear || q.kind == Kind::perspective;
+}
+
+// One value against one candidate at one evaluation.
+struct Fit {
+    Answer answer = Answer::no;
+    double ratio = std::numeric_limits<double>::infinity();  // rounded
+};
+
+template <class T>
+void widen(Range<T>& range, bool& is_first, const T& low, const T& high) {
+    range.low = is_first ? low : smaller(range.low, low);
+    range.high = is_first ? high : larger(range.high, high);
+    is_first = false;
+}
+
+// Whether a point is inside a piece's triangle or at most `margin` outside of each edge's line.
+template <class T>
+Answer is_near(const Basis<T>& basis, const Point<T>& p, const T& margin) {
+    Answer all = Answer::yes;
+    for (const Form<T>& b : basis.bary) {
+        const T slack = margin * (magnitude(b.x) + magnitude(b.y));
+        const Answer a = is_at_most(T(-slack), b.at(p));
+        if (a == Answer::no) {
+            return a;
+        }
+        if (a == Answer::unknown) {
+            all = a;
+        }
+    }
+    return all;
+}
+
+template <class T>
+struct Reach {
+    Range<T> range;
+    bool is_first = true;
+    bool is_free = false;  // nothing is claimed
+    bool is_known = true;
+    // Rounded, for reports: hull of the values alone, and the budget of the one nearest to the
+    // device.
+    double low = 0, high = 0, budget = 0;
+
+    void note(double device, double value, double one_budget) {
+        const bool is_nearer =
+            budget <= 0 || distance(device, value, value) < distance(device, low, high);
+        if (is_nearer) {
+            budget = one_budget;
+        }
+        low = noted ? std::min(low, value) : value;
+        high = noted ? std::max(high, value) : value;
+        noted = true;
+    }
+    static double distance(double device, double from, double to) {
+        return std::max({0.0, from - device, device - to});
+    }
+    bool noted = false;
+};
+
+// Adds what a candidate accepts for a quantity.
+template <class T>
+void add_reach(const Candidate<T>& candidate, const Quantity& q, std::span<const Point<T>> points,
+               const WideSet<T>& set, const Range<T>& hull, bool with_hull, double device,
+               Reach<T>& out) {
+    T widest{};
+    for (const Basis<T>& basis : candidate.bases) {
+        const Plane<T>* denominator =
+            q.kind == Kind::perspective ? &basis.planes[kPlaneInvW] : nullptr;
+        for (const Point<T>& p : points) {
+            const Valued<T> v = value_at(basis, basis.planes[q.plane], denominator, p, set.factor);
+            if (v.exists == Answer::unknown) {
+                out.is_known = false;
+                return;
+            }
+            if (v.exists == Answer::no) {
+                out.is_free = true;
+                continue;
+            }
+            out.note(device, nearest_double(v.value), nearest_double(v.budget));
+            widest = larger(widest, v.reach);
+            widen(out.range, out.is_first, T(v.value - v.reach), T(v.value + v.reach));
+        }
+    }
+    if (with_hull) {
+        out.note(device, nearest_double(hull.low), nearest_double(widest));
+        out.note(device, nearest_double(hull.high), nearest_double(widest));
+        widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
+    }
+}
+
+template <class T>
+Fit fit(const Reach<T>& reach, double device) {
+    if (!std::isfinite(device)) {
+        return {Answer::no, std::numeric_limits<double>::infinity()};
+    }
+    if (!reach.is_known) {
+        return {Answer::unknown, 0};
+    }
+    if (reach.is_free) {
+        return {Answer::yes, 0};
+    }
+    if (reach.is_first) {
+        return {};
+    }
+    const T v(device);
+    const Answer low = is_at_most(reach.range.low, v);
+    const Answer high = is_at_most(v, reach.range.high);
+    const double distance = Reach<T>::distance(device, reach.low, reach.high);
+    const double ratio = reach.budget > 0 ? distance / reach.budget
+                         : distance > 0   ? std::numeric_limits<double>::infinity()
+                                          : 0.0;
+    if (low == Answer::no || high == Answer::no) {
+        return {Answer::no, ratio};
+    }
+    return {low == Answer::yes && high == Answer::yes ? Answer::yes : Answer::unknown, ratio};
+}
+
+// Keeps the verdict with fewer failing values, then with the smaller ratio.
+void keep_better(WideVerdict& best, WideVerdict&& next, bool is_first) {
+    const bool better =
+        is_first || next.failing.size() < best.failing.size() ||
+        (next.failing.size() == best.failing.size() && next.worst_ratio < best.worst_ratio);
+    if (better) {
+        best = std::move(next);
+    }
+}
+
+template <class T>
+void judge_value(const Reach<T>& reach, size_t index, double device, WideVerdict& verdict) {
+    const Fit f = fit(reach, device);
+    if (f.answer == Answer::unknown) {
+        verdict.is_known = false;
+        return;
+    }
+    verdict.worst_ratio = std::max(verdict.worst_ratio, f.ratio);
+    if (f.answer == Answer::no) {
+        verdict.failing.push_back(index);
+        verdict.ratios.push_back(f.ratio);
+    }
+}
+
+}  // namespace
+
+template <class T>
+std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Profile profile) {
+    const double x = id.x;
+    const double y = id.y;
+    const FixedPoint fixed = sample_position(id.x, id.y, id.sample, samples);
+    const Point<T> sample{T(static_cast<double>(fixed.x) / static_cast<double>(kFixedOne)),
+                          T(static_cast<double>(fixed.y) / static_cast<double>(kFixedOne))};
+    const Point<T> centre{T(x + 0.5), T(y + 0.5)};
+    std::vector<Evaluation<T>> all;
+    all.push_back({{centre}, sample});
+    if (samples > 1 && profile == cases::Profile::direct3d) {
+        // Sample-rate shading evaluates at the sample.
+        all.push_back({{sample}, sample});
+    } else if (samples > 1) {
+        // "An implementation-defined position within the fragment area": a linear function, and a
+        // quotient of two where the denominator stays positive, is largest at a corner.
+        all.push_back(
+            {{{T(x), T(y)}, {T(x + 1), T(y)}, {T(x), T(y + 1)}, {T(x + 1), T(y + 1)}}, sample});
+    }
+    return all;
+}
+
+template <class T>
+WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                       bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
+                       const FragmentValues& device) {
+    WideVerdict best;
+    bool is_first = true;
+    const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
+    for (const Evaluation<T>& where : evaluations) {
+        for (size_t c = 0; c < rounds; ++c) {
+            WideVerdict verdict;
+            verdict.basis = set.candidates[c].name;
+            if (set.candidates[c].is_piece) {
+                const Answer near =
+                    is_near(set.candidates[c].bases.front(), where.sample, set.margin);
+                if (near == Answer::unknown) {
+                    return {false, false, verdict.basis, 0, {}, {}};
+                }
+                if (near == Answer::no) {
+                    continue;
+                }
+            }
+            for (size_t i = 0; i < quantities.size(); ++i) {
+                const Quantity& q = quantities[i];
+                if (!is_numeric(q)) {
+                    continue;
+                }
+                const double value = static_cast<double>(q.get(device));
+                const std::span<const Point<T>> points =
+                    q.at_sample ? std::span<const Point<T>>(&where.sample, 1)
+                                : std::span<const Point<T>>(where.centre);
+                Reach<T> reach;
+                // A noperspective value of a triangle that reaches behind the eye has no plane that
+                // agrees with the vertices: only their hull is claimed.
+                const bool free_plane =
+                    q.kind == Kind::linear && q.attribute >= 0 && !is_projectable;
+                const size_t first = set.any_of_all ? 0 : c;
+                const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
+                for (size_t k = first; k < last && reach.is_known; ++k) {
+                    const Candidate<T>& candidate = set.candidates[k];
+                    add_reach(candidate, q, points, set, set.hulls[i],
+                              free_plane || candidate.is_unbounded, value, reach);
+                }
+                judge_value(reach, i, value, verdict);
+                if (!verdict.is_known) {
+                    return verdict;
+                }
+            }
+            verdict.ok = verdict.failing.empty();
+            if (verdict.ok && verdict.worst_ratio <= 1) {
+                return verdict;
+            }
+            keep_better(best, std::move(verdict), is_first);
+            is_first = false;
+        }
+    }
+    return best;
+}
+
+template std::vector<Evaluation<Ball>> evaluations<Ball>(SampleId, uint32_t, cases::Profile);
+template std::vector<Evaluation<mpq_class>> evaluations<mpq_class>(SampleId, uint32_t,
+                                                                   cases::Profile);
+template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
+                                      const std::vector<Evaluation<Ball>>&, const FragmentValues&);
+template WideVerdict judge_wide<mpq_class>(const WideSet<mpq_class>&, std::span<const Quantity>,
+                                           bool, const std::vector<Evaluation<mpq_class>>&,
+                                           const FragmentValues&);
+
+}  // namespace ref::value

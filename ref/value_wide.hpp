@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Everything a device may have set its planes up from, under one profile, and whether one of these
+// candidates explains a fragment.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ref/value_budget.hpp"
+#include "ref/value_setup.hpp"
+
+namespace ref::value {
+
+// One way to explain a fragment. Several bases: the device may be anywhere between them.
+template <class T>
+struct Candidate {
+    ref::Basis name = ref::Basis::unsnapped;
+    std::vector<Basis<T>> bases;
+    // Some of the positions have no area or another orientation: the values in between are bounded
+    // by the vertex values only.
+    bool is_unbounded = false;
+    // A clipped piece: explains only points at most this far (pixels) outside of its triangle.
+    bool is_piece = false;
+};
+
+template <class T>
+struct Range {
+    T low{}, high{};
+};
+
+template <class T>
+struct WideSet {
+    bool is_known = true;  // false: T could not tell an orientation; use rationals
+    std::vector<Candidate<T>> candidates;
+    std::vector<Range<T>> hulls;  // of the vertex values, by quantity (numeric ones only)
+    T factor{};                   // K
+    T margin{};                   // pixels, for pieces
+    bool any_of_all = false;      // profile vulkan: each value alone, any candidate, their hull
+};
+
+// The set for a profile. `factor` is K of docs/precision.md for that profile.
+template <class T>
+WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> quantities,
+                         const Limits& limits, cases::Profile profile);
+
+// Where the values may be evaluated: one or more points (a hull over them).
+template <class T>
+struct Evaluation {
+    std::vector<Point<T>> centre;  // of quantities that are not at_sample
+    Point<T> sample;
+};
+template <class T>
+std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Profile profile);
+
+struct WideVerdict {
+    bool is_known = true;
+    bool ok = false;
+    ref::Basis basis = ref::Basis::unsnapped;
+    double worst_ratio = 0;
+    std::vector<size_t> failing;  // indices into the quantities
+    std::vector<double> ratios;   // of the failing ones
+};
+
+template <class T>
+WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                       bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
+                       const FragmentValues& device);
+
+}  // namespace ref::value
