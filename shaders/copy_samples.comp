@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Copies every sample of a multisampled attachment to a buffer, word (j * width + i) * samples + s. A
+// resolve would combine or choose samples in an implementation-dependent way; this reads each one.
+// Colour is read through an unsigned view of the float image, so that no bit can change on the way.
+// DEPTH is defined by the build.
+#version 450
+#extension GL_EXT_samplerless_texture_functions : require
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(push_constant) uniform Extent {
+    uint width;
+    uint height;
+    uint samples;
+}
+extent;
+
+#if DEPTH
+layout(set = 0, binding = 0) uniform texture2DMS source;
+layout(set = 0, binding = 1, std430) writeonly buffer Words {
+    uint words[];
+};
+#else
+layout(set = 0, binding = 0) uniform utexture2DMS source;
+layout(set = 0, binding = 1, std430) writeonly buffer Words {
+    uvec4 words[];
+};
+#endif
+
+void main() {
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (pixel.x >= extent.width || pixel.y >= extent.height) {
+        return;
+    }
+    uint first = (pixel.y * extent.width + pixel.x) * extent.samples;
+    for (uint s = 0u; s < extent.samples; ++s) {
+#if DEPTH
+        words[first + s] = floatBitsToUint(texelFetch(source, ivec2(pixel), int(s)).r);
+#else
+        words[first + s] = texelFetch(source, ivec2(pixel), int(s));
+#endif
+    }
+}

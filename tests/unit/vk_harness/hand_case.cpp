@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "hand_case.hpp"
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+namespace vk_harness::testing {
+
+Renderer& renderer() {
+    static const std::unique_ptr<Renderer> shared = [] {
+        auto made = Renderer::create({});
+        if (!made) {
+            std::cerr << "these tests need a Vulkan 1.3 device: " << made.error().message << '\n';
+            for (const std::string& reason : made.error().reasons) {
+                std::cerr << "  " << reason << '\n';
+            }
+            std::exit(EXIT_FAILURE);
+        }
+        return std::make_unique<Renderer>(std::move(*made));
+    }();
+    return *shared;
+}
+
+std::vector<diff::Capture> draw_all(const std::vector<cases::Case>& batch) {
+    std::vector<diff::Capture> captures;
+    for (Rendered& rendered : renderer().render(batch, {})) {
+        EXPECT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
+        captures.push_back(std::move(rendered.capture));
+    }
+    return captures;
+}
+
+diff::Capture draw(const cases::Case& c) {
+    return draw_all({c}).front();
+}
+
+Count count(const diff::Capture& capture) {
+    Count result;
+    for (size_t k = 0; k < capture.hits.size(); ++k) {
+        switch (diff::sample_state(capture, k)) {
+            case diff::SampleState::clear:
+                ++result.clear;
+                break;
+            case diff::SampleState::drawn:
+                result.front += static_cast<uint64_t>(capture.hits[k].x);
+                result.back += static_cast<uint64_t>(capture.hits[k].y);
+                break;
+            case diff::SampleState::not_copied:
+                ++result.not_copied;
+                break;
+            case diff::SampleState::inconsistent:
+                ++result.inconsistent;
+                break;
+        }
+    }
+    return result;
+}
+
+}  // namespace vk_harness::testing

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Vulkan as the harness sees it: function pointers of volk, no prototypes, no link to the loader.
+#pragma once
+
+#define VK_ENABLE_BETA_EXTENSIONS  // VK_KHR_portability_subset
+#include <volk.h>
+
+#include <string>
+#include <string_view>
+
+#include "vk_harness/harness.hpp"
+
+namespace vk_harness {
+
+// The enumerator's name, or its number.
+std::string result_name(VkResult result);
+
+// A failure of one call: "vkCreateDevice failed with VK_ERROR_...".
+Failure call_failure(Stage stage, VkResult result, std::string_view call);
+
+inline tl::unexpected<Failure> fail(Failure failure) {
+    return tl::unexpected<Failure>(std::move(failure));
+}
+
+// Finds the loader and the functions that need no instance. Safe to call often.
+Result<void> load_vulkan(const Options& options);
+
+// A device object that is destroyed with its owner.
+template <class T>
+class Handle {
+  public:
+    using Destroy = void(VKAPI_PTR*)(VkDevice, T, const VkAllocationCallbacks*);
+
+    Handle() = default;
+    Handle(VkDevice device, T handle, Destroy destroy)
+        : device_(device), handle_(handle), destroy_(destroy) {}
+    Handle(Handle&& other) noexcept
+        : device_(other.device_), handle_(other.handle_), destroy_(other.destroy_) {
+        other.handle_ = VK_NULL_HANDLE;
+    }
+    Handle& operator=(Handle&& other) noexcept {
+        if (this != &other) {
+            reset();
+            device_ = other.device_;
+            handle_ = other.handle_;
+            destroy_ = other.destroy_;
+            other.handle_ = VK_NULL_HANDLE;
+        }
+        return *this;
+    }
+    ~Handle() { reset(); }
+
+    T get() const { return handle_; }
+    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+
+  private:
+    void reset() {
+        if (handle_ != VK_NULL_HANDLE) {
+            destroy_(device_, handle_, nullptr);
+            handle_ = VK_NULL_HANDLE;
+        }
+    }
+
+    VkDevice device_ = VK_NULL_HANDLE;
+    T handle_ = VK_NULL_HANDLE;
+    Destroy destroy_ = nullptr;
+};
+
+}  // namespace vk_harness

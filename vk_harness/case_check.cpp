@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/case_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vk_harness/target.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+Rejection unsupported(std::string reason) {
+    return {Rendered::Status::unsupported, std::move(reason)};
+}
+
+Rejection invalid(std::string reason) {
+    return {Rendered::Status::error, std::move(reason)};
+}
+
+std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& test) {
+    const cases::Target& t = test.target;
+    if (t.width == 0 || t.height == 0) {
+        return invalid("the target has no pixels");
+    }
+    if (t.width > c.max_width || t.height > c.max_height) {
+        return unsupported(fmt::format("the target has {} x {} pixels, the device allows {} x {}",
+                                       t.width, t.height, c.max_width, c.max_height));
+    }
+    if (t.samples == 0 || t.samples > 64 || (t.samples & (t.samples - 1)) != 0) {
+        return invalid(fmt::format("{} samples a pixel is not a power of two up to 64", t.samples));
+    }
+    if ((c.sample_counts & t.samples) == 0) {
+        return unsupported(fmt::format("the device does not draw {} samples a pixel", t.samples));
+    }
+    const uint32_t colors = kFixedAttachments + attribute_count(test);
+    if (colors > c.info.max_color_attachments) {
+        return unsupported(fmt::format("the case needs {} colour attachments, the device has {}",
+                                       colors, c.info.max_color_attachments));
+    }
+    const VkDeviceSize words = VkDeviceSize{t.width} * t.height * t.samples;
+    if (t.samples > 1 && words * 16 > c.limits.maxStorageBufferRange) {
+        return unsupported(
+            fmt::format("reading {} samples singly exceeds the device's storage buffer range of {} "
+                        "bytes",
+                        words, c.limits.maxStorageBufferRange));
+    }
+    if (words * 16 > c.max_allocation) {
+        return unsupported(
+            fmt::format("an attachment of {} bytes exceeds the device's largest allocation of {}",
+                        words * 16, c.max_allocation));
+    }
+    const VkDeviceSize needed = 2 * attachment_bytes(t, colors);
+    if (needed > c.total_memory) {
+        return unsupported(fmt::format("attachments and read-back take {} bytes, the device has {}",
+                                       needed, c.total_memory));
+    }
+    return std::nullopt;
+}
+
+std::optional<Rejection> check_viewport(const Capabilities& c, const cases::Viewport& v) {
+    const float height = std::abs(v.height);
+    for (const float value : {v.x, v.y, v.width, v.height, v.min_depth, v.max_depth}) {
+        if (!std::isfinite(value)) {
+            return invalid("the viewport has a number that is not finite");
+        }
+    }
+    if (!(v.width > 0.0F) || v.min_depth < 0.0F || v.min_depth > 1.0F || v.max_depth < 0.0F ||
+        v.max_depth > 1.0F) {
+        return invalid("the viewport's width must be positive and its depths lie in [0, 1]");
+    }
+    const auto max_width = static_cast<float>(c.limits.maxViewportDimensions[0]);
+    const auto max_height = static_cast<float>(c.limits.maxViewportDimensions[1]);
+    if (v.width > max_width || height > max_height) {
+        return unsupported(fmt::format("the viewport has {} x {} pixels, the device allows {} x {}",
+                                       v.width, height, max_width, max_height));
+    }
+    const float low = c.limits.viewportBoundsRange[0];
+    const float high = c.limits.viewportBoundsRange[1];
+    const float ends[] = {v.x, v.y, v.x + v.width, v.y + v.height};
+    if (std::any_of(std::begin(ends), std::end(ends),
+                    [low, high](float end) { return end < low || end > high; })) {
+        return unsupported(
+            fmt::format("the viewport leaves the device's range of {} to {} pixels", low, high));
+    }
+    return std::nullopt;
+}
+
+std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& draw) {
+    if (auto rejection = check_viewport(c, draw.viewport)) {
+        return rejection;
+    }
+    const cases::Rect& s = draw.scissor;
+    constexpr int64_t kMax = 0x7fffffff;
+    if (s.x < 0 || s.y < 0 || int64_t{s.x} + s.width > kMax || int64_t{s.y} + s.height > kMax) {
+        return invalid("the scissor must begin at 0 or later and end below 2^31");
+    }
+    if (draw.topology == cases::Topology::triangle_fan && !c.triangle_fans) {
+        return unsupported("the device lacks the feature triangleFans");
+    }
+    if (draw.attributes.size() > cases::kMaxAttributes) {
+        return invalid(fmt::format("a draw has {} attributes, at most {} are allowed",
+                                   draw.attributes.size(), cases::kMaxAttributes));
+    }
+    const size_t vertices = draw.positions.size();
+    for (const cases::Attribute& attribute : draw.attributes) {
+        if (attribute.values.size() != vertices) {
+            return invalid(fmt::format("attribute '{}' has {} values for {} vertices",
+                                       attribute.name, attribute.values.size(), vertices));
+        }
+    }
+    const size_t elements = draw.indices ? draw.indices->size() : vertices;
+    if (vertices >= kMaxId || elements >= kMaxId) {
+        return unsupported(fmt::format("a draw has {} vertices, the harness tells {} apart",
+                                       std::max(vertices, elements), kMaxId - 1));
+    }
+    if (draw.primitive_restart &&
+        (!draw.indices || draw.topology == cases::Topology::triangle_list)) {
+        return invalid("primitive restart needs indices and a strip or a fan");
+    }
+    if (draw.indices) {
+        for (const uint32_t index : *draw.indices) {
+            const bool restart = draw.primitive_restart && index == cases::kRestartIndex;
+            if (!restart && index >= vertices) {
+                return invalid(
+                    fmt::format("index {} is beyond the {} vertices of its draw", index, vertices));
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Rejection> check_case(const Capabilities& capabilities, const cases::Case& c) {
+    for (const cases::Draw& draw : c.draws) {
+        if (auto rejection = check_draw(capabilities, draw)) {
+            return rejection;
+        }
+    }
+    if (c.draws.size() >= kMaxId) {
+        return unsupported(fmt::format("the case has {} draws, the harness tells {} apart",
+                                       c.draws.size(), kMaxId - 1));
+    }
+    return check_target(capabilities, c);
+}
+
+uint32_t attribute_count(const cases::Case& c) {
+    size_t count = 0;
+    for (const cases::Draw& draw : c.draws) {
+        count = std::max(count, draw.attributes.size());
+    }
+    return static_cast<uint32_t>(count);
+}
+
+}  // namespace vk_harness

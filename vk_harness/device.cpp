@@ -1,0 +1,347 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <utility>
+
+namespace vk_harness {
+
+namespace {
+
+std::string device_type_name(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated-gpu";
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete-gpu";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual-gpu";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "cpu";
+        default:
+            return "other";
+    }
+}
+
+std::string version_text(uint32_t version) {
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool has_device_extension(VkPhysicalDevice physical, const char* name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [name](const auto& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+// Largest size and sample counts of an optimally tiled 2D image; nothing if the device has no such
+// image.
+struct ImageLimits {
+    uint32_t width = 0, height = 0;
+    VkSampleCountFlags samples = 0;
+};
+ImageLimits image_limits(VkPhysicalDevice physical, VkFormat format, VkImageUsageFlags usage,
+                         VkImageCreateFlags flags) {
+    VkImageFormatProperties properties{};
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+        physical, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, flags, &properties);
+    if (result != VK_SUCCESS) {
+        return {};
+    }
+    return {properties.maxExtent.width, properties.maxExtent.height, properties.sampleCounts};
+}
+
+void require_format(Capabilities& c, VkFormat format, std::string_view name,
+                    VkFormatFeatureFlags needed, std::string_view purpose) {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
+    if ((properties.optimalTilingFeatures & needed) != needed) {
+        c.info.missing.push_back(
+            fmt::format("the device cannot use format {} as {}", name, purpose));
+    }
+}
+
+void query_properties(Capabilities& c, uint32_t index) {
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceIDProperties id{};
+    id.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES;
+    VkPhysicalDeviceMaintenance3Properties maintenance{};
+    maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    id.pNext = &maintenance;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &id;
+    VkPhysicalDeviceProperties first{};
+    vkGetPhysicalDeviceProperties(c.physical, &first);
+    if (first.apiVersion >= VK_API_VERSION_1_2) {
+        maintenance.pNext = &driver;
+    }
+    if (first.apiVersion >= VK_API_VERSION_1_1) {
+        vkGetPhysicalDeviceProperties2(c.physical, &properties);
+    }
+
+    DeviceInfo& info = c.info;
+    info.index = index;
+    info.name = first.deviceName;
+    info.driver_name = driver.driverName;
+    info.driver_info = driver.driverInfo;
+    for (const uint8_t byte : id.deviceUUID) {
+        info.uuid += fmt::format("{:02x}", byte);
+    }
+    info.vendor_id = first.vendorID;
+    info.device_id = first.deviceID;
+    info.api_version = first.apiVersion;
+    info.driver_version = first.driverVersion;
+    info.driver_id = static_cast<uint32_t>(driver.driverID);
+    info.device_type = device_type_name(first.deviceType);
+    c.limits = first.limits;
+    info.subpixel_bits = c.limits.subPixelPrecisionBits;
+    info.viewport_subpixel_bits = c.limits.viewportSubPixelBits;
+    info.max_color_attachments =
+        std::min(c.limits.maxColorAttachments, c.limits.maxFragmentOutputAttachments);
+    vkGetPhysicalDeviceMemoryProperties(c.physical, &c.memory);
+    c.max_allocation = maintenance.maxMemoryAllocationSize;
+    for (uint32_t heap = 0; heap < c.memory.memoryHeapCount; ++heap) {
+        c.total_memory += c.memory.memoryHeaps[heap].size;
+    }
+}
+
+void query_features(Capabilities& c) {
+    std::vector<std::string>& missing = c.info.missing;
+    if (c.info.api_version < VK_API_VERSION_1_3) {
+        missing.push_back(fmt::format("Vulkan 1.3 is needed, the device has {}",
+                                      version_text(c.info.api_version)));
+    } else {
+        VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
+        portability.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR;
+        VkPhysicalDeviceVulkan13Features features13{};
+        features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+        VkPhysicalDeviceFeatures2 features{};
+        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        features.pNext = &features13;
+        c.portability_subset =
+            has_device_extension(c.physical, VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
+        if (c.portability_subset) {
+            features13.pNext = &portability;
+        }
+        vkGetPhysicalDeviceFeatures2(c.physical, &features);
+        c.triangle_fans = !c.portability_subset || portability.triangleFans == VK_TRUE;
+        c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
+        if (features13.dynamicRendering != VK_TRUE) {
+            missing.emplace_back("the device lacks the feature dynamicRendering");
+        }
+        if (features13.synchronization2 != VK_TRUE) {
+            missing.emplace_back("the device lacks the feature synchronization2");
+        }
+        if (features.features.independentBlend != VK_TRUE) {
+            missing.emplace_back("the device lacks the feature independentBlend");
+        }
+    }
+
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(c.physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(c.physical, &count, families.data());
+    const VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    const auto family = std::find_if(families.begin(), families.end(), [needed](const auto& f) {
+        return (f.queueFlags & needed) == needed && f.queueCount > 0;
+    });
+    if (family == families.end()) {
+        missing.emplace_back("the device has no queue for both graphics and compute");
+    } else {
+        c.queue_family = static_cast<uint32_t>(family - families.begin());
+    }
+}
+
+void query_targets(Capabilities& c) {
+    require_format(c, kColorFormat, "R32G32B32A32_SFLOAT",
+                   VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT,
+                   "a colour attachment that is read back");
+    require_format(c, kColorFormat, "R32G32B32A32_SFLOAT",
+                   VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+                   "a blended colour attachment, which counts hits");
+    require_format(
+        c, kDepthFormat, "D32_SFLOAT",
+        VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT,
+        "a depth attachment that is read back");
+    if (c.info.max_color_attachments < kFixedAttachments) {
+        c.info.missing.push_back(fmt::format("{} colour attachments are needed, the device has {}",
+                                             kFixedAttachments, c.info.max_color_attachments));
+    }
+
+    const ImageLimits color =
+        image_limits(c.physical, kColorFormat,
+                     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
+    const ImageLimits depth = image_limits(
+        c.physical, kDepthFormat,
+        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
+    const VkPhysicalDeviceLimits& l = c.limits;
+    c.max_width = std::min({l.maxImageDimension2D, l.maxFramebufferWidth, color.width, depth.width,
+                            l.maxViewportDimensions[0]});
+    c.max_height = std::min({l.maxImageDimension2D, l.maxFramebufferHeight, color.height,
+                             depth.height, l.maxViewportDimensions[1]});
+    c.info.max_target_size = std::min(c.max_width, c.max_height);
+
+    const ImageLimits color_samples = image_limits(
+        c.physical, kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT);
+    const ImageLimits depth_samples =
+        image_limits(c.physical, kDepthFormat,
+                     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, 0);
+    c.sample_counts = VK_SAMPLE_COUNT_1_BIT |
+                      (color_samples.samples & depth_samples.samples &
+                       l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts &
+                       l.sampledImageIntegerSampleCounts & l.sampledImageDepthSampleCounts);
+}
+
+// Whether options.device means this device.
+bool names(const std::string& wanted, const DeviceInfo& info) {
+    if (wanted.empty()) {
+        return true;
+    }
+    const bool number = std::all_of(wanted.begin(), wanted.end(),
+                                    [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (number && wanted.size() < 9) {
+        return std::stoul(wanted) == info.index;
+    }
+    std::string digits = lower(wanted);
+    digits.erase(std::remove(digits.begin(), digits.end(), '-'), digits.end());
+    return digits == info.uuid || lower(info.name).find(lower(wanted)) != std::string::npos;
+}
+
+}  // namespace
+
+Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index) {
+    Capabilities c;
+    c.physical = physical;
+    query_properties(c, index);
+    query_features(c);
+    query_targets(c);
+    return c;
+}
+
+Result<Capabilities> choose_device(const Instance& instance, const Options& options) {
+    auto devices = instance.physical_devices();
+    if (!devices) {
+        return fail(devices.error());
+    }
+    Failure failure;
+    failure.stage = Stage::device;
+    for (uint32_t index = 0; index < devices->size(); ++index) {
+        Capabilities c = query_capabilities((*devices)[index], index);
+        const std::string label = fmt::format("device {} ({})", index, c.info.name);
+        if (!names(options.device, c.info)) {
+            failure.reasons.push_back(fmt::format("{}: not the device that was asked for", label));
+        } else if (!c.info.missing.empty()) {
+            failure.reasons.push_back(
+                fmt::format("{}: {}", label, fmt::join(c.info.missing, "; ")));
+        } else {
+            return c;
+        }
+    }
+    if (devices->empty()) {
+        failure.message =
+            "no Vulkan device was found; install a driver (Debian: mesa-vulkan-drivers) or set "
+            "VK_DRIVER_FILES";
+    } else if (options.device.empty()) {
+        failure.message = "no Vulkan device can run the cases";
+    } else {
+        failure.message = fmt::format(
+            "no usable Vulkan device is called '{}'; give an index, a part of the name, or a UUID",
+            options.device);
+    }
+    return fail(std::move(failure));
+}
+
+Result<std::vector<DeviceInfo>> list_devices(const Options& options) {
+    auto instance = Instance::create(options);
+    if (!instance) {
+        return fail(instance.error());
+    }
+    auto devices = instance->physical_devices();
+    if (!devices) {
+        return fail(devices.error());
+    }
+    std::vector<DeviceInfo> infos;
+    for (uint32_t index = 0; index < devices->size(); ++index) {
+        infos.push_back(query_capabilities((*devices)[index], index).info);
+    }
+    return infos;
+}
+
+Result<Device> Device::create(const Capabilities& capabilities) {
+    const float priority = 1.0F;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = capabilities.queue_family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+
+    VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
+    portability.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR;
+    portability.triangleFans = capabilities.triangle_fans ? VK_TRUE : VK_FALSE;
+    VkPhysicalDeviceVulkan13Features features13{};
+    features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    features13.dynamicRendering = VK_TRUE;
+    features13.synchronization2 = VK_TRUE;
+    std::vector<const char*> extensions;
+    if (capabilities.portability_subset) {
+        features13.pNext = &portability;
+        extensions.push_back(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
+    }
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &features13;
+    features.features.independentBlend = VK_TRUE;
+    features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
+
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &features;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+
+    Device device;
+    const VkResult result = vkCreateDevice(capabilities.physical, &info, nullptr, &device.device_);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::device, result, "vkCreateDevice"));
+    }
+    device.table_ = std::make_unique<VolkDeviceTable>();
+    volkLoadDeviceTable(device.table_.get(), device.device_);
+    device.capabilities_ = std::make_unique<Capabilities>(capabilities);
+    device.vk().vkGetDeviceQueue(device.device_, capabilities.queue_family, 0, &device.queue_);
+    return device;
+}
+
+Device::Device(Device&& other) noexcept
+    : device_(std::exchange(other.device_, VK_NULL_HANDLE)),
+      queue_(other.queue_),
+      table_(std::move(other.table_)),
+      capabilities_(std::move(other.capabilities_)) {}
+
+Device::~Device() {
+    if (device_ != VK_NULL_HANDLE) {
+        table_->vkDeviceWaitIdle(device_);
+        table_->vkDestroyDevice(device_, nullptr);
+    }
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/memory.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <optional>
+
+namespace vk_harness {
+
+namespace {
+
+// The first memory type with all of `required` and, if there is one, all of `preferred`.
+std::optional<uint32_t> find_memory_type(const VkPhysicalDeviceMemoryProperties& memory,
+                                         uint32_t allowed, VkMemoryPropertyFlags required,
+                                         VkMemoryPropertyFlags preferred) {
+    std::optional<uint32_t> fallback;
+    for (uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
+        const VkMemoryPropertyFlags flags = memory.memoryTypes[type].propertyFlags;
+        if ((allowed >> type & 1U) == 0 || (flags & required) != required) {
+            continue;
+        }
+        if ((flags & preferred) == preferred) {
+            return type;
+        }
+        if (!fallback) {
+            fallback = type;
+        }
+    }
+    return fallback;
+}
+
+Result<Handle<VkDeviceMemory>> allocate(const Device& device, VkDeviceSize size, uint32_t type) {
+    VkMemoryAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    info.allocationSize = size;
+    info.memoryTypeIndex = type;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    const VkResult result = device.vk().vkAllocateMemory(device.get(), &info, nullptr, &memory);
+    if (result != VK_SUCCESS) {
+        Failure failure = call_failure(Stage::memory, result, "vkAllocateMemory");
+        failure.message += fmt::format(" for {} bytes", size);
+        return fail(std::move(failure));
+    }
+    return Handle<VkDeviceMemory>(device.get(), memory, device.vk().vkFreeMemory);
+}
+
+Failure no_memory_type(std::string_view what) {
+    Failure failure;
+    failure.stage = Stage::memory;
+    failure.message = fmt::format("the device has no memory type for {}", what);
+    return failure;
+}
+
+Result<Handle<VkImageView>> create_view(const Device& device, VkImage image, VkFormat format,
+                                        VkImageAspectFlags aspect, VkImageUsageFlags usage) {
+    VkImageViewUsageCreateInfo usage_info{};
+    usage_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO;
+    usage_info.usage = usage;
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.pNext = &usage_info;
+    info.image = image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format;
+    info.subresourceRange = {aspect, 0, 1, 0, 1};
+    VkImageView view = VK_NULL_HANDLE;
+    const VkResult result = device.vk().vkCreateImageView(device.get(), &info, nullptr, &view);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkCreateImageView"));
+    }
+    return Handle<VkImageView>(device.get(), view, device.vk().vkDestroyImageView);
+}
+
+}  // namespace
+
+Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+                              HostAccess access) {
+    const VolkDeviceTable& vk = device.vk();
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = size;
+    info.usage = usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    VkBuffer handle = VK_NULL_HANDLE;
+    VkResult result = vk.vkCreateBuffer(device.get(), &info, nullptr, &handle);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkCreateBuffer"));
+    }
+    Buffer buffer;
+    buffer.device_ = &device;
+    buffer.buffer_ = Handle<VkBuffer>(device.get(), handle, vk.vkDestroyBuffer);
+    buffer.size_ = size;
+
+    VkMemoryRequirements needs{};
+    vk.vkGetBufferMemoryRequirements(device.get(), handle, &needs);
+    const VkPhysicalDeviceMemoryProperties& memory = device.capabilities().memory;
+    const auto type =
+        find_memory_type(memory, needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT,
+                         access == HostAccess::read ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+                                                    : VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    if (!type) {
+        return fail(no_memory_type("a buffer that the host can map"));
+    }
+    buffer.coherent_ =
+        (memory.memoryTypes[*type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
+    auto allocation = allocate(device, needs.size, *type);
+    if (!allocation) {
+        return fail(allocation.error());
+    }
+    buffer.memory_ = std::move(*allocation);
+    result = vk.vkBindBufferMemory(device.get(), handle, buffer.memory_.get(), 0);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkBindBufferMemory"));
+    }
+    void* data = nullptr;
+    result = vk.vkMapMemory(device.get(), buffer.memory_.get(), 0, VK_WHOLE_SIZE, 0, &data);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkMapMemory"));
+    }
+    buffer.data_ = static_cast<std::byte*>(data);
+    return buffer;
+}
+
+Result<void> Buffer::flush() const {
+    if (!coherent_) {
+        VkMappedMemoryRange range{};
+        range.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE;
+        range.memory = memory_.get();
+        range.size = VK_WHOLE_SIZE;
+        const VkResult result = device_->vk().vkFlushMappedMemoryRanges(device_->get(), 1, &range);
+        if (result != VK_SUCCESS) {
+            return fail(call_failure(Stage::memory, result, "vkFlushMappedMemoryRanges"));
+        }
+    }
+    return {};
+}
+
+Result<void> Buffer::invalidate() const {
+    if (!coherent_) {
+        VkMappedMemoryRange range{};
+        range.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE;
+        range.memory = memory_.get();
+        range.size = VK_WHOLE_SIZE;
+        const VkResult result =
+            device_->vk().vkInvalidateMappedMemoryRanges(device_->get(), 1, &range);
+        if (result != VK_SUCCESS) {
+            return fail(call_failure(Stage::readback, result, "vkInvalidateMappedMemoryRanges"));
+        }
+    }
+    return {};
+}
+
+Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
+                            uint32_t samples) {
+    const VolkDeviceTable& vk = device.vk();
+    const bool depth = format == kDepthFormat;
+    const bool multisampled = samples > 1;
+    const VkImageUsageFlags attachment =
+        depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    VkImageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = format;
+    info.extent = {extent.width, extent.height, 1};
+    info.mipLevels = 1;
+    info.arrayLayers = 1;
+    info.samples = static_cast<VkSampleCountFlagBits>(samples);  // the bits' values are the counts
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage =
+        attachment | (multisampled ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    if (multisampled && !depth) {
+        info.flags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
+    }
+    VkImage handle = VK_NULL_HANDLE;
+    VkResult result = vk.vkCreateImage(device.get(), &info, nullptr, &handle);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkCreateImage"));
+    }
+    Image image;
+    image.image_ = Handle<VkImage>(device.get(), handle, vk.vkDestroyImage);
+    image.aspect_ = depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+
+    VkMemoryRequirements needs{};
+    vk.vkGetImageMemoryRequirements(device.get(), handle, &needs);
+    const auto type = find_memory_type(device.capabilities().memory, needs.memoryTypeBits, 0,
+                                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    if (!type) {
+        return fail(no_memory_type("an attachment"));
+    }
+    auto allocation = allocate(device, needs.size, *type);
+    if (!allocation) {
+        return fail(allocation.error());
+    }
+    image.memory_ = std::move(*allocation);
+    image.memory_size_ = needs.size;
+    result = vk.vkBindImageMemory(device.get(), handle, image.memory_.get(), 0);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
+    }
+
+    VkImageUsageFlags view_usage = attachment;
+    if (multisampled && depth) {
+        view_usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
+    }
+    auto view = create_view(device, handle, format, image.aspect_, view_usage);
+    if (!view) {
+        return fail(view.error());
+    }
+    image.view_ = std::move(*view);
+    if (multisampled && !depth) {
+        auto bits = create_view(device, handle, kColorBitsFormat, image.aspect_,
+                                VK_IMAGE_USAGE_SAMPLED_BIT);
+        if (!bits) {
+            return fail(bits.error());
+        }
+        image.bits_view_ = std::move(*bits);
+    }
+    return image;
+}
+
+}  // namespace vk_harness

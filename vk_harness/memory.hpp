@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Buffers that the host maps, and attachments.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "vk_harness/device.hpp"
+
+namespace vk_harness {
+
+enum class HostAccess { write, read };
+
+// A buffer in host-visible memory, mapped as long as it lives. Memory for reading is host-cached
+// where the device has such memory: reading uncached memory is slower by an order of magnitude.
+class Buffer {
+  public:
+    Buffer() = default;
+    static Result<Buffer> create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+                                 HostAccess access);
+
+    VkBuffer get() const { return buffer_.get(); }
+    VkDeviceSize size() const { return size_; }
+    std::span<std::byte> bytes() const { return {data_, static_cast<size_t>(size_)}; }
+    // Makes host writes visible to the device, or device writes to the host.
+    Result<void> flush() const;
+    Result<void> invalidate() const;
+
+  private:
+    const Device* device_ = nullptr;
+    Handle<VkDeviceMemory> memory_;  // freed after the buffer
+    Handle<VkBuffer> buffer_;
+    VkDeviceSize size_ = 0;
+    std::byte* data_ = nullptr;
+    bool coherent_ = true;
+};
+
+// A colour or depth attachment.
+class Image {
+  public:
+    Image() = default;
+    // samples == 1: can be copied to a buffer. samples > 1: can be read sample by sample in a
+    // shader.
+    static Result<Image> create(const Device& device, VkFormat format, VkExtent2D extent,
+                                uint32_t samples);
+
+    VkImage get() const { return image_.get(); }
+    VkImageView view() const { return view_.get(); }
+    // To read single samples: unsigned view of colour, the view itself of depth.
+    VkImageView sample_view() const { return bits_view_ ? bits_view_.get() : view_.get(); }
+    VkImageAspectFlags aspect() const { return aspect_; }
+    VkDeviceSize memory_size() const { return memory_size_; }
+
+  private:
+    Handle<VkDeviceMemory> memory_;
+    Handle<VkImage> image_;
+    Handle<VkImageView> view_;
+    Handle<VkImageView> bits_view_;
+    VkImageAspectFlags aspect_ = VK_IMAGE_ASPECT_COLOR_BIT;
+    VkDeviceSize memory_size_ = 0;
+};
+
+}  // namespace vk_harness

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/readback.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "vk_harness/case_check.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+template <class T>
+std::vector<T> copy_out(std::span<const std::byte> memory, VkDeviceSize offset, size_t count) {
+    std::vector<T> values(count);
+    std::memcpy(static_cast<void*>(values.data()), memory.data() + offset, count * sizeof(T));
+    return values;
+}
+
+}  // namespace
+
+ReadbackLayout make_layout(const cases::Target& target, uint32_t color_count, VkDeviceSize begin,
+                           VkDeviceSize alignment) {
+    const VkDeviceSize samples = VkDeviceSize{target.width} * target.height * target.samples;
+    const auto align = [alignment](VkDeviceSize offset) {
+        return (offset + alignment - 1) & ~(alignment - 1);
+    };
+    ReadbackLayout layout;
+    VkDeviceSize offset = align(begin);
+    for (uint32_t attachment = 0; attachment < color_count; ++attachment) {
+        layout.color[attachment] = offset;
+        offset = align(offset + samples * sizeof(glm::vec4));
+    }
+    layout.depth = offset;
+    layout.end = align(offset + samples * sizeof(float));
+    return layout;
+}
+
+void poison(std::span<std::byte> memory) {
+    // Mapped memory is aligned to at least 64 bytes (minMemoryMapAlignment), offsets to 4.
+    auto* words = reinterpret_cast<uint32_t*>(memory.data());
+    std::fill(words, words + memory.size() / sizeof(uint32_t), diff::kPoison);
+}
+
+uint32_t decode_id(uint32_t bits) {
+    if (bits == diff::kPoison) {
+        return diff::kPoison;
+    }
+    const auto value = std::bit_cast<float>(bits);
+    if (value >= 0.0F && value < static_cast<float>(kMaxId)) {
+        const auto id = static_cast<uint32_t>(value);
+        return std::bit_cast<uint32_t>(static_cast<float>(id)) == bits ? id : kMalformedId;
+    }
+    if (bits == std::bit_cast<uint32_t>(kClearIdAsFloat)) {
+        return diff::kClearId;
+    }
+    return bits == std::bit_cast<uint32_t>(-2.0F) ? diff::kNoPrimitive : kMalformedId;
+}
+
+diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count,
+                           bool has_primitive, const ReadbackLayout& layout,
+                           std::span<const std::byte> memory) {
+    diff::Capture capture;
+    capture.target = target;
+    capture.has_primitive = has_primitive;
+    capture.attribute_count = attribute_count;
+    const size_t count = capture.sample_count();
+    capture.hits = copy_out<glm::vec4>(memory, layout.color[0], count);
+    capture.writers = copy_out<diff::Writer>(memory, layout.color[1], count);
+    for (diff::Writer& writer : capture.writers) {
+        writer.draw = decode_id(writer.draw);
+        writer.primitive = decode_id(writer.primitive);
+        writer.provoking_vertex = decode_id(writer.provoking_vertex);
+        writer.spare = decode_id(writer.spare);
+    }
+    capture.frag_coord = copy_out<glm::vec4>(memory, layout.color[2], count);
+    for (uint32_t k = 0; k < attribute_count; ++k) {
+        capture.attributes[k] =
+            copy_out<glm::vec4>(memory, layout.color[kFixedAttachments + k], count);
+    }
+    capture.depth = copy_out<float>(memory, layout.depth, count);
+    return capture;
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where a case's samples lie in read-back memory, and how they become a capture.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "vk_harness/memory.hpp"
+
+namespace vk_harness {
+
+// Byte offsets of each attachment in the read-back buffer. Words in sample order
+// (diff/capture.hpp).
+struct ReadbackLayout {
+    std::array<VkDeviceSize, kFixedAttachments + cases::kMaxAttributes> color{};
+    VkDeviceSize depth = 0;
+    VkDeviceSize end = 0;
+};
+
+// The layout of a case with `color_count` colour attachments from byte `begin` on; every offset is
+// a multiple of `alignment`, a power of two.
+ReadbackLayout make_layout(const cases::Target& target, uint32_t color_count, VkDeviceSize begin,
+                           VkDeviceSize alignment);
+
+// Fills memory with diff::kPoison words, so that what the device does not copy is seen.
+void poison(std::span<std::byte> memory);
+
+// The capture of a case from read-back memory.
+diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count,
+                           bool has_primitive, const ReadbackLayout& layout,
+                           std::span<const std::byte> memory);
+
+// An id that the device wrote as binary32: an integer below 2^24, -1 for 'cleared' and -2 for 'this
+// device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.
+uint32_t decode_id(uint32_t bits);
+inline constexpr uint32_t kMalformedId = 0xffffffeeU;
+inline constexpr float kClearIdAsFloat = -1.0F;
+
+}  // namespace vk_harness

@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/record.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace vk_harness {
+
+namespace {
+
+VkPrimitiveTopology to_vulkan(cases::Topology topology) {
+    switch (topology) {
+        case cases::Topology::triangle_list:
+            return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        case cases::Topology::triangle_strip:
+            return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+        case cases::Topology::triangle_fan:
+            break;
+    }
+    return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN;
+}
+
+VkCullModeFlags to_vulkan(cases::CullMode mode) {
+    switch (mode) {
+        case cases::CullMode::none:
+            return VK_CULL_MODE_NONE;
+        case cases::CullMode::front:
+            return VK_CULL_MODE_FRONT_BIT;
+        case cases::CullMode::back:
+            return VK_CULL_MODE_BACK_BIT;
+        case cases::CullMode::front_and_back:
+            break;
+    }
+    return VK_CULL_MODE_FRONT_AND_BACK;
+}
+
+VkFrontFace to_vulkan(cases::FrontFace face) {
+    return face == cases::FrontFace::clockwise ? VK_FRONT_FACE_CLOCKWISE
+                                               : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+}
+
+VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkClearValue clear) {
+    VkRenderingAttachmentInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+    info.imageView = view;
+    info.imageLayout = layout;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    info.clearValue = clear;
+    return info;
+}
+
+VkClearValue clear_color(float r, float g, float b, float a) {
+    VkClearValue clear{};
+    clear.color.float32[0] = r;
+    clear.color.float32[1] = g;
+    clear.color.float32[2] = b;
+    clear.color.float32[3] = a;
+    return clear;
+}
+
+// The clear value of each attachment, diff/capture.hpp.
+VkClearValue color_clear(uint32_t attachment) {
+    switch (attachment) {
+        case 0:
+            return clear_color(0.0F, 0.0F, diff::kHitGuard, diff::kHitGuard);
+        case 1:
+            return clear_color(kClearIdAsFloat, kClearIdAsFloat, kClearIdAsFloat, kClearIdAsFloat);
+        default:
+            return clear_color(diff::kClearValue, diff::kClearValue, diff::kClearValue,
+                               diff::kClearValue);
+    }
+}
+
+struct Access {
+    VkPipelineStageFlags2 stage;
+    VkAccessFlags2 access;
+    VkImageLayout layout;
+};
+
+// One barrier for all attachments of the case.
+void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
+             const Access& color_before, const Access& color_after, const Access& depth_before,
+             const Access& depth_after) {
+    const uint32_t color_count = kFixedAttachments + plan.attribute_count;
+    std::vector<VkImageMemoryBarrier2> barriers;
+    const auto add = [&](const Image& image, const Access& before, const Access& after) {
+        VkImageMemoryBarrier2 b{};
+        b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+        b.srcStageMask = before.stage;
+        b.srcAccessMask = before.access;
+        b.dstStageMask = after.stage;
+        b.dstAccessMask = after.access;
+        b.oldLayout = before.layout;
+        b.newLayout = after.layout;
+        b.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        b.image = image.get();
+        b.subresourceRange = {image.aspect(), 0, 1, 0, 1};
+        barriers.push_back(b);
+    };
+    for (uint32_t k = 0; k < color_count; ++k) {
+        add(plan.target->color[k], color_before, color_after);
+    }
+    add(plan.target->depth, depth_before, depth_after);
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size());
+    info.pImageMemoryBarriers = barriers.data();
+    device.vk().vkCmdPipelineBarrier2(commands, &info);
+}
+
+constexpr Access kColorDrawn = {
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+constexpr Access kDepthDrawn = {
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+    VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+// The previous user of the attachments, if any: a draw (render_bare) or a copy. Contents are
+// dropped.
+constexpr Access kReused = {
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
+        VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+    VK_IMAGE_LAYOUT_UNDEFINED};
+constexpr Access kCopied = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+constexpr Access kSampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                             VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+
+void record_draw(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                 const DrawPlan& plan, uint32_t draw_index, uint32_t binding_count,
+                 VkBuffer vertices) {
+    const VolkDeviceTable& vk = device.vk();
+    const cases::Draw& draw = *plan.draw;
+    const uint32_t count =
+        static_cast<uint32_t>(draw.indices ? draw.indices->size() : draw.positions.size());
+    if (count == 0) {
+        return;
+    }
+    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, plan.pipeline);
+    const VkViewport viewport = {draw.viewport.x,         draw.viewport.y,
+                                 draw.viewport.width,     draw.viewport.height,
+                                 draw.viewport.min_depth, draw.viewport.max_depth};
+    const VkRect2D scissor = {{draw.scissor.x, draw.scissor.y},
+                              {draw.scissor.width, draw.scissor.height}};
+    vk.vkCmdSetViewport(commands, 0, 1, &viewport);
+    vk.vkCmdSetScissor(commands, 0, 1, &scissor);
+    vk.vkCmdSetCullMode(commands, to_vulkan(draw.cull));
+    vk.vkCmdSetFrontFace(commands, to_vulkan(draw.front_face));
+    vk.vkCmdSetPrimitiveTopology(commands, to_vulkan(draw.topology));
+    vk.vkCmdSetPrimitiveRestartEnable(commands, draw.primitive_restart ? VK_TRUE : VK_FALSE);
+    vk.vkCmdPushConstants(commands, pipelines.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                          sizeof(draw_index), &draw_index);
+    std::array<VkBuffer, 1 + cases::kMaxAttributes> buffers{};
+    buffers.fill(vertices);
+    vk.vkCmdBindVertexBuffers(commands, 0, binding_count, buffers.data(), plan.vertices.data());
+    if (draw.indices) {
+        vk.vkCmdBindIndexBuffer(commands, vertices, plan.indices, VK_INDEX_TYPE_UINT32);
+        vk.vkCmdDrawIndexed(commands, count, 1, 0, 0, 0);
+    } else {
+        vk.vkCmdDraw(commands, count, 1, 0, 0);
+    }
+}
+
+}  // namespace
+
+PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
+    PipelineKey key;
+    for (const cases::Draw& other : c.draws) {
+        key.attribute_count =
+            std::max(key.attribute_count, static_cast<uint32_t>(other.attributes.size()));
+    }
+    key.samples = c.target.samples;
+    for (size_t k = 0; k < key.attribute_count; ++k) {
+        key.modes[k] = k < draw.attributes.size() ? draw.attributes[k].interpolation
+                                                  : cases::Interpolation::flat;
+    }
+    return key;
+}
+
+VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin) {
+    VkDeviceSize offset = begin;
+    for (DrawPlan& draw : plan.draws) {
+        const VkDeviceSize array = draw.draw->positions.size() * sizeof(glm::vec4);
+        for (uint32_t binding = 0; binding <= plan.attribute_count; ++binding) {
+            draw.vertices[binding] = offset;
+            offset += array;
+        }
+        draw.indices = offset;
+        if (draw.draw->indices) {
+            offset += draw.draw->indices->size() * sizeof(uint32_t);
+        }
+        offset = (offset + 15) & ~VkDeviceSize{15};  // the next array of vec4
+    }
+    return offset;
+}
+
+void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
+    const auto write = [memory](VkDeviceSize offset, const void* data, size_t size) {
+        if (size != 0) {
+            std::memcpy(memory.data() + offset, data, size);
+        }
+    };
+    for (const DrawPlan& item : plan.draws) {
+        const cases::Draw& draw = *item.draw;
+        const size_t array = draw.positions.size() * sizeof(glm::vec4);
+        write(item.vertices[0], draw.positions.data(), array);
+        for (uint32_t k = 0; k < plan.attribute_count; ++k) {
+            if (k < draw.attributes.size()) {
+                write(item.vertices[1 + k], draw.attributes[k].values.data(), array);
+            } else {
+                const std::vector<glm::vec4> none(draw.positions.size(),
+                                                  glm::vec4(diff::kClearValue));
+                write(item.vertices[1 + k], none.data(), array);
+            }
+        }
+        if (draw.indices) {
+            write(item.indices, draw.indices->data(), draw.indices->size() * sizeof(uint32_t));
+        }
+    }
+}
+
+void record_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                  const CasePlan& plan, VkBuffer vertices, bool for_copies) {
+    const VolkDeviceTable& vk = device.vk();
+    const Target& target = *plan.target;
+    const uint32_t color_count = kFixedAttachments + plan.attribute_count;
+    barrier(device, commands, plan, kReused, kColorDrawn, kReused, kDepthDrawn);
+
+    std::vector<VkRenderingAttachmentInfo> colors;
+    for (uint32_t k = 0; k < color_count; ++k) {
+        colors.push_back(attachment(target.color[k].view(), kColorDrawn.layout, color_clear(k)));
+    }
+    VkClearValue depth_clear{};
+    depth_clear.depthStencil = {diff::kClearDepth, 0};
+    const VkRenderingAttachmentInfo depth =
+        attachment(target.depth.view(), kDepthDrawn.layout, depth_clear);
+    VkRenderingInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+    rendering.renderArea = {{0, 0}, {target.key.width, target.key.height}};
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = color_count;
+    rendering.pColorAttachments = colors.data();
+    rendering.pDepthAttachment = &depth;
+    vk.vkCmdBeginRendering(commands, &rendering);
+    for (uint32_t k = 0; k < plan.draws.size(); ++k) {
+        record_draw(device, pipelines, commands, plan.draws[k], k, 1 + plan.attribute_count,
+                    vertices);
+    }
+    vk.vkCmdEndRendering(commands);
+
+    if (for_copies) {
+        const Access& after = target.key.samples > 1 ? kSampled : kCopied;
+        barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after);
+    }
+}
+
+void record_copies(const Device& device, VkPipeline copy_color, VkPipeline copy_depth,
+                   VkPipelineLayout copy_layout, VkCommandBuffer commands, const CasePlan& plan,
+                   VkBuffer readback, std::span<const VkDescriptorSet> sets) {
+    const VolkDeviceTable& vk = device.vk();
+    const Target& target = *plan.target;
+    const cases::Target& key = target.key;
+    const uint32_t color_count = kFixedAttachments + plan.attribute_count;
+    if (key.samples == 1) {
+        VkBufferImageCopy region{};
+        region.imageExtent = {key.width, key.height, 1};
+        for (uint32_t k = 0; k < color_count; ++k) {
+            region.bufferOffset = plan.readback.color[k];
+            region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+            vk.vkCmdCopyImageToBuffer(commands, target.color[k].get(), kCopied.layout, readback, 1,
+                                      &region);
+        }
+        region.bufferOffset = plan.readback.depth;
+        region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+        vk.vkCmdCopyImageToBuffer(commands, target.depth.get(), kCopied.layout, readback, 1,
+                                  &region);
+        return;
+    }
+    const std::array<uint32_t, kCopyConstants> constants = {key.width, key.height, key.samples};
+    const uint32_t groups_x = (key.width + kCopyGroupSize - 1) / kCopyGroupSize;
+    const uint32_t groups_y = (key.height + kCopyGroupSize - 1) / kCopyGroupSize;
+    for (uint32_t k = 0; k <= color_count; ++k) {
+        if (k == 0 || k == color_count) {
+            vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                 k == 0 ? copy_color : copy_depth);
+            vk.vkCmdPushConstants(commands, copy_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                  sizeof(constants), constants.data());
+        }
+        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, copy_layout, 0, 1,
+                                   &sets[k], 0, nullptr);
+        vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
+    }
+}
+
+}  // namespace vk_harness

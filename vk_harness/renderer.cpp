@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/renderer.hpp"
+
+#include <algorithm>
+
+#include "vk_harness/case_check.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+// Read-back memory of one submission, and attachments kept between submissions. Larger cases run
+// alone.
+constexpr VkDeviceSize kChunkBytes = VkDeviceSize{256} << 20;
+constexpr VkDeviceSize kKeptBytes = VkDeviceSize{512} << 20;
+
+bool out_of_memory(const Failure& failure) {
+    return failure.vk_result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
+           failure.vk_result == VK_ERROR_OUT_OF_HOST_MEMORY;
+}
+
+void reject(Rendered& result, const Failure& failure) {
+    // A target that does not fit into the device's memory says nothing about rasterization.
+    if (failure.vk_result == VK_ERROR_DEVICE_LOST) {
+        result.status = Rendered::Status::device_lost;
+    } else if (failure.stage == Stage::memory && out_of_memory(failure)) {
+        result.status = Rendered::Status::unsupported;
+    } else {
+        result.status = Rendered::Status::error;
+    }
+    result.reason = std::string(to_string(failure.stage)) + ": " + failure.message;
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+Renderer::Impl::Impl(Instance instance_, std::unique_ptr<Device> device_, PipelineCache pipelines_,
+                     Submission submission_)
+    : instance(std::move(instance_)),
+      device(std::move(device_)),
+      pipelines(std::move(pipelines_)),
+      targets(*device),
+      submission(std::move(submission_)) {}
+
+bool Renderer::Impl::plan(CasePlan& plan, Rendered& result) {
+    const cases::Case& test = *plan.test;
+    if (auto rejection = check_case(device->capabilities(), test)) {
+        result.status = rejection->status;
+        result.reason = std::move(rejection->reason);
+        return false;
+    }
+    plan.attribute_count = attribute_count(test);
+    for (const cases::Draw& draw : test.draws) {
+        auto pipeline = pipelines.get(pipeline_key(test, draw));
+        if (!pipeline) {
+            reject(result, pipeline.error());
+            return false;
+        }
+        DrawPlan item;
+        item.draw = &draw;
+        item.pipeline = *pipeline;
+        plan.draws.push_back(item);
+    }
+    auto target = targets.get(test.target, kFixedAttachments + plan.attribute_count);
+    if (!target) {
+        reject(result, target.error());
+        return false;
+    }
+    plan.target = *target;
+    return true;
+}
+
+Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_back,
+                                        std::vector<Rendered>& results,
+                                        const std::function<void(std::string_view)>& step) {
+    step("record");
+    VkDeviceSize vertex_bytes = 0;
+    VkDeviceSize readback_bytes = 0;
+    for (CasePlan& plan : plans) {
+        vertex_bytes = place_vertices(plan, vertex_bytes);
+        const uint32_t colors = kFixedAttachments + plan.attribute_count;
+        plan.readback = make_layout(plan.test->target, colors, readback_bytes, alignment());
+        readback_bytes = plan.readback.end;
+    }
+    auto vertices = submission.vertices(vertex_bytes);
+    if (!vertices) {
+        return fail(vertices.error());
+    }
+    for (const CasePlan& plan : plans) {
+        write_vertices(plan, (*vertices)->bytes());
+    }
+    if (auto flushed = (*vertices)->flush(); !flushed) {
+        return flushed;
+    }
+    auto commands = submission.begin();
+    if (!commands) {
+        return fail(commands.error());
+    }
+
+    Buffer* readback = nullptr;
+    VkPipeline copy_color = VK_NULL_HANDLE;
+    VkPipeline copy_depth = VK_NULL_HANDLE;
+    if (read_back) {
+        auto buffer = submission.readback(readback_bytes);
+        if (!buffer) {
+            return fail(buffer.error());
+        }
+        readback = *buffer;
+        poison(readback->bytes().first(readback_bytes));
+        if (auto flushed = readback->flush(); !flushed) {
+            return flushed;
+        }
+        const bool multisampled = std::any_of(plans.begin(), plans.end(), [](const auto& plan) {
+            return plan.test->target.samples > 1;
+        });
+        if (multisampled) {
+            auto color = pipelines.get_copy(false);
+            auto depth = pipelines.get_copy(true);
+            if (!color || !depth) {
+                return fail(color ? depth.error() : color.error());
+            }
+            copy_color = *color;
+            copy_depth = *depth;
+        }
+    }
+    for (const CasePlan& plan : plans) {
+        record_draws(*device, pipelines, *commands, plan, (*vertices)->get(), read_back);
+        if (read_back) {
+            std::vector<VkDescriptorSet> sets;
+            if (plan.test->target.samples > 1) {
+                auto made = submission.copy_sets(pipelines, plan);
+                if (!made) {
+                    return fail(made.error());
+                }
+                sets = std::move(*made);
+            }
+            record_copies(*device, copy_color, copy_depth, pipelines.copy_layout(), *commands, plan,
+                          readback->get(), sets);
+        }
+        append(results[plan.slot].messages, instance.messages().take());
+    }
+
+    step("submit");
+    if (auto done = submission.run(); !done) {
+        return done;
+    }
+    if (read_back) {
+        step("readback");
+        if (auto visible = readback->invalidate(); !visible) {
+            return visible;
+        }
+        for (const CasePlan& plan : plans) {
+            results[plan.slot].capture = read_capture(plan.test->target, plan.attribute_count,
+                                                      device->capabilities().info.has_primitive_id,
+                                                      plan.readback, readback->bytes());
+        }
+    }
+    for (const CasePlan& plan : plans) {
+        results[plan.slot].status = Rendered::Status::drawn;
+    }
+    return {};
+}
+
+VkDeviceSize Renderer::Impl::alignment() const {
+    // Copies need a multiple of 16 (the texel) and gain from the optimal alignment; the shader that
+    // reads single samples needs minStorageBufferOffsetAlignment. All are powers of two.
+    const VkPhysicalDeviceLimits& limits = device->capabilities().limits;
+    return std::max({VkDeviceSize{64}, limits.minStorageBufferOffsetAlignment,
+                     limits.optimalBufferCopyOffsetAlignment});
+}
+
+void Renderer::Impl::run_chunk(std::vector<CasePlan>& plans, bool read_back,
+                               std::vector<Rendered>& results,
+                               const std::function<void(std::string_view)>& step) {
+    if (plans.empty()) {
+        return;
+    }
+    const auto done = draw_chunk(plans, read_back, results, step);
+    const std::vector<std::string> messages = instance.messages().take();
+    for (const CasePlan& plan : plans) {
+        if (!done) {
+            reject(results[plan.slot], done.error());
+        }
+        append(results[plan.slot].messages, messages);
+    }
+    if (!done && done.error().vk_result == VK_ERROR_DEVICE_LOST) {
+        lost = done.error().message;
+    }
+    plans.clear();
+    targets.trim(kKeptBytes);
+    submission.trim(kKeptBytes);
+}
+
+std::vector<Rendered> Renderer::Impl::render(std::span<const cases::Case> batch, bool read_back,
+                                             const std::function<void(std::string_view)>& step) {
+    std::vector<Rendered> results(batch.size());
+    std::vector<CasePlan> plans;
+    VkDeviceSize bytes = 0;
+    step("pipeline");
+    for (size_t slot = 0; slot < batch.size(); ++slot) {
+        Rendered& result = results[slot];
+        if (!lost.empty()) {
+            result.status = Rendered::Status::device_lost;
+            result.reason = "the device was lost before: " + lost;
+            continue;
+        }
+        CasePlan item;
+        item.test = &batch[slot];
+        item.slot = slot;
+        const VkDeviceSize size =
+            attachment_bytes(item.test->target, kFixedAttachments + attribute_count(*item.test));
+        if (bytes + size > kChunkBytes && !plans.empty()) {
+            run_chunk(plans, read_back, results, step);
+            bytes = 0;
+            step("pipeline");
+        }
+        if (plan(item, result)) {
+            bytes += size;
+            plans.push_back(std::move(item));
+        }
+        append(result.messages, instance.messages().take());
+    }
+    run_chunk(plans, read_back, results, step);
+    return results;
+}
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+
+Result<Renderer> Renderer::create(const Options& options) {
+    auto instance = Instance::create(options);
+    if (!instance) {
+        return fail(instance.error());
+    }
+    auto capabilities = choose_device(*instance, options);
+    if (!capabilities) {
+        return fail(capabilities.error());
+    }
+    auto made = Device::create(*capabilities);
+    if (!made) {
+        return fail(made.error());
+    }
+    auto device = std::make_unique<Device>(std::move(*made));
+    auto pipelines = PipelineCache::create(*device);
+    if (!pipelines) {
+        return fail(pipelines.error());
+    }
+    auto submission = Submission::create(*device);
+    if (!submission) {
+        return fail(submission.error());
+    }
+    return Renderer(std::make_unique<Impl>(std::move(*instance), std::move(device),
+                                           std::move(*pipelines), std::move(*submission)));
+}
+
+const DeviceInfo& Renderer::device() const {
+    return impl_->device->capabilities().info;
+}
+
+std::vector<Rendered> Renderer::render(std::span<const cases::Case> batch,
+                                       const std::function<void(std::string_view)>& step) {
+    return impl_->render(
+        batch, true, step ? step : [](std::string_view) {});
+}
+
+bool Renderer::render_bare(std::span<const cases::Case> batch) {
+    const auto results = impl_->render(batch, false, [](std::string_view) {});
+    return std::all_of(results.begin(), results.end(), [](const Rendered& result) {
+        return result.status == Rendered::Status::drawn;
+    });
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The body of Renderer: plans a batch, records it, submits it once, reads it back.
+#pragma once
+
+#include "vk_harness/record.hpp"
+
+namespace vk_harness {
+
+// Commands and memory of one submission, reused by the next.
+class Submission {
+  public:
+    static Result<Submission> create(const Device& device);
+
+    // The vertex buffer of at least `size` bytes; the read-back buffer likewise.
+    Result<Buffer*> vertices(VkDeviceSize size);
+    Result<Buffer*> readback(VkDeviceSize size);
+    // Frees buffers larger than `limit` bytes.
+    void trim(VkDeviceSize limit);
+
+    Result<VkCommandBuffer> begin();
+    // Ends recording, submits, and waits until the device has finished.
+    Result<void> run();
+
+    // Descriptor sets for copying the samples of one case; they live until the next begin().
+    Result<std::vector<VkDescriptorSet>> copy_sets(const PipelineCache& pipelines,
+                                                   const CasePlan& plan);
+
+  private:
+    explicit Submission(const Device& device) : device_(&device) {}
+    Result<Buffer*> grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage,
+                         HostAccess access);
+
+    const Device* device_;
+    Handle<VkCommandPool> pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;  // owned by the pool
+    Handle<VkFence> fence_;
+    std::vector<Handle<VkDescriptorPool>> descriptor_pools_;
+    Buffer vertices_;
+    Buffer readback_;
+};
+
+struct Renderer::Impl {
+    Impl(Instance instance_, std::unique_ptr<Device> device_, PipelineCache pipelines_,
+         Submission submission_);
+
+    std::vector<Rendered> render(std::span<const cases::Case> batch, bool read_back,
+                                 const std::function<void(std::string_view)>& step);
+
+    Instance instance;
+    std::unique_ptr<Device> device;  // stable address: everything below points to it
+    PipelineCache pipelines;
+    TargetCache targets;
+    Submission submission;
+    std::string lost;  // why the device is lost, once it is
+
+  private:
+    VkDeviceSize alignment() const;  // of everything in the read-back buffer
+    // Pipelines, attachments and places of one case; nothing if the result says why not.
+    bool plan(CasePlan& plan, Rendered& result);
+    void run_chunk(std::vector<CasePlan>& plans, bool read_back, std::vector<Rendered>& results,
+                   const std::function<void(std::string_view)>& step);
+    Result<void> draw_chunk(std::vector<CasePlan>& plans, bool read_back,
+                            std::vector<Rendered>& results,
+                            const std::function<void(std::string_view)>& step);
+};
+
+}  // namespace vk_harness

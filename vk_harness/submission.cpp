@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "vk_harness/renderer.hpp"
+
+namespace vk_harness {
+
+Result<Submission> Submission::create(const Device& device) {
+    const VolkDeviceTable& vk = device.vk();
+    Submission submission(device);
+    VkCommandPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool_info.queueFamilyIndex = device.capabilities().queue_family;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkResult result = vk.vkCreateCommandPool(device.get(), &pool_info, nullptr, &pool);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::device, result, "vkCreateCommandPool"));
+    }
+    submission.pool_ = Handle<VkCommandPool>(device.get(), pool, vk.vkDestroyCommandPool);
+
+    VkCommandBufferAllocateInfo commands_info{};
+    commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    commands_info.commandPool = pool;
+    commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    commands_info.commandBufferCount = 1;
+    result = vk.vkAllocateCommandBuffers(device.get(), &commands_info, &submission.commands_);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::device, result, "vkAllocateCommandBuffers"));
+    }
+
+    VkFenceCreateInfo fence_info{};
+    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkFence fence = VK_NULL_HANDLE;
+    result = vk.vkCreateFence(device.get(), &fence_info, nullptr, &fence);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::device, result, "vkCreateFence"));
+    }
+    submission.fence_ = Handle<VkFence>(device.get(), fence, vk.vkDestroyFence);
+    return submission;
+}
+
+Result<Buffer*> Submission::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage,
+                                 HostAccess access) {
+    if (buffer.size() < size) {
+        constexpr VkDeviceSize kSmallest = 1U << 16;  // saves growing step by step
+        buffer = Buffer();                            // frees the old one first
+        auto bigger = Buffer::create(*device_, std::max(size, kSmallest), usage, access);
+        if (!bigger) {
+            return fail(bigger.error());
+        }
+        buffer = std::move(*bigger);
+    }
+    return &buffer;
+}
+
+Result<Buffer*> Submission::vertices(VkDeviceSize size) {
+    return grow(vertices_, size,
+                VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                HostAccess::write);
+}
+
+Result<Buffer*> Submission::readback(VkDeviceSize size) {
+    return grow(readback_, size,
+                VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                HostAccess::read);
+}
+
+void Submission::trim(VkDeviceSize limit) {
+    if (vertices_.size() > limit) {
+        vertices_ = Buffer();
+    }
+    if (readback_.size() > limit) {
+        readback_ = Buffer();
+    }
+}
+
+Result<VkCommandBuffer> Submission::begin() {
+    const VolkDeviceTable& vk = device_->vk();
+    descriptor_pools_.clear();
+    VkResult result = vk.vkResetCommandPool(device_->get(), pool_.get(), 0);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::submit, result, "vkResetCommandPool"));
+    }
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    result = vk.vkBeginCommandBuffer(commands_, &info);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::submit, result, "vkBeginCommandBuffer"));
+    }
+    return commands_;
+}
+
+Result<void> Submission::run() {
+    const VolkDeviceTable& vk = device_->vk();
+    VkMemoryBarrier2 to_host{};
+    to_host.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    to_host.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    to_host.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    to_host.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+    to_host.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+    VkDependencyInfo dependency{};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &to_host;
+    vk.vkCmdPipelineBarrier2(commands_, &dependency);
+    VkResult result = vk.vkEndCommandBuffer(commands_);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::submit, result, "vkEndCommandBuffer"));
+    }
+
+    VkSubmitInfo submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands_;
+    result = vk.vkQueueSubmit(device_->queue(), 1, &submit, fence_.get());
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::submit, result, "vkQueueSubmit"));
+    }
+    // A hang is ended from outside: the worker has a time limit.
+    const VkFence fence = fence_.get();
+    result = vk.vkWaitForFences(device_->get(), 1, &fence, VK_TRUE,
+                                std::numeric_limits<uint64_t>::max());
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::submit, result, "vkWaitForFences"));
+    }
+    result = vk.vkResetFences(device_->get(), 1, &fence);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::submit, result, "vkResetFences"));
+    }
+    return {};
+}
+
+Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& pipelines,
+                                                           const CasePlan& plan) {
+    const VolkDeviceTable& vk = device_->vk();
+    const uint32_t color_count = kFixedAttachments + plan.attribute_count;
+    const uint32_t count = color_count + 1;
+    const std::array<VkDescriptorPoolSize, 2> sizes = {
+        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count},
+        VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
+    VkDescriptorPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool_info.maxSets = count;
+    pool_info.poolSizeCount = static_cast<uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    VkResult result = vk.vkCreateDescriptorPool(device_->get(), &pool_info, nullptr, &pool);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkCreateDescriptorPool"));
+    }
+    descriptor_pools_.emplace_back(device_->get(), pool, vk.vkDestroyDescriptorPool);
+
+    const std::vector<VkDescriptorSetLayout> layouts(count, pipelines.copy_set_layout());
+    std::vector<VkDescriptorSet> sets(count);
+    VkDescriptorSetAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    info.descriptorPool = pool;
+    info.descriptorSetCount = count;
+    info.pSetLayouts = layouts.data();
+    result = vk.vkAllocateDescriptorSets(device_->get(), &info, sets.data());
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkAllocateDescriptorSets"));
+    }
+
+    const cases::Target& key = plan.target->key;
+    const VkDeviceSize samples = VkDeviceSize{key.width} * key.height * key.samples;
+    for (uint32_t k = 0; k < count; ++k) {
+        const bool depth = k == color_count;
+        const Image& image = depth ? plan.target->depth : plan.target->color[k];
+        const VkDescriptorImageInfo image_info = {VK_NULL_HANDLE, image.sample_view(),
+                                                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        const VkDescriptorBufferInfo buffer_info = {
+            readback_.get(), depth ? plan.readback.depth : plan.readback.color[k],
+            samples * (depth ? sizeof(float) : sizeof(glm::vec4))};
+        std::array<VkWriteDescriptorSet, 2> writes{};
+        for (uint32_t binding = 0; binding < 2; ++binding) {
+            writes[binding].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+            writes[binding].dstSet = sets[k];
+            writes[binding].dstBinding = binding;
+            writes[binding].descriptorCount = 1;
+        }
+        writes[0].descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+        writes[0].pImageInfo = &image_info;
+        writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        writes[1].pBufferInfo = &buffer_info;
+        vk.vkUpdateDescriptorSets(device_->get(), 2, writes.data(), 0, nullptr);
+    }
+    return sets;
+}
+
+}  // namespace vk_harness
