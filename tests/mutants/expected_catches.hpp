@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "cases/profile.hpp"
+#include "mutants/fault.hpp"
+
+namespace mutants {
+
+// Which cases must notice a fault.
+struct ExpectedCatch {
+    Fault fault = Fault::none;
+    cases::Profile profile = cases::Profile::direct3d;  // the loosest at which they must
+    std::vector<std::string_view> cases;  // ids; without a matrix part: some leaf of the file
+};
+// One row for each fault.
+std::vector<ExpectedCatch> expected_catches();
+
+}  // namespace mutants
