@@ -122,7 +122,7 @@ TEST_P(Mutant, IsCaught) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, Mutant, testing::ValuesIn(expected_catches()),
-                         [](const auto& info) { return std::string(to_string(row.param.fault)); });
+                         [](const auto& row) { return std::string(to_string(row.param.fault)); });
 
 }  // namespace
 }  // namespace mutants
