@@ -118,6 +118,7 @@ Result<Instance> Instance::create(const Options& options) {
     }
     volkLoadInstanceOnly(instance.instance_);
     if (options.validation) {
+        instance.destroy_messenger_ = vkDestroyDebugUtilsMessengerEXT;
         const VkResult created = vkCreateDebugUtilsMessengerEXT(instance.instance_, &messenger,
                                                                 nullptr, &instance.messenger_);
         if (created != VK_SUCCESS) {
@@ -130,11 +131,12 @@ Result<Instance> Instance::create(const Options& options) {
 Instance::Instance(Instance&& other) noexcept
     : instance_(std::exchange(other.instance_, VK_NULL_HANDLE)),
       messenger_(std::exchange(other.messenger_, VK_NULL_HANDLE)),
+      destroy_messenger_(other.destroy_messenger_),
       messages_(std::move(other.messages_)) {}
 
 Instance::~Instance() {
     if (messenger_ != VK_NULL_HANDLE) {
-        vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+        destroy_messenger_(instance_, messenger_, nullptr);
     }
     if (instance_ != VK_NULL_HANDLE) {
         vkDestroyInstance(instance_, nullptr);

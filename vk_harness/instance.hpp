@@ -44,6 +44,8 @@ class Instance {
     Instance() = default;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    // Of this instance: volk's global pointer belongs to the instance that was created last.
+    PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger_ = nullptr;
     std::unique_ptr<MessageLog> messages_ = std::make_unique<MessageLog>();
 };
 

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which cases may reach a driver, by made-up capabilities; no device.
+#include "vk_harness/case_check.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "hand_case.hpp"
+
+namespace vk_harness::testing {
+namespace {
+
+Capabilities made_up() {
+    Capabilities c;
+    c.info.max_color_attachments = 4;
+    c.max_width = 4096;
+    c.max_height = 2048;
+    c.sample_counts = VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT;
+    c.max_allocation = VkDeviceSize{1} << 26;
+    c.total_memory = VkDeviceSize{1} << 28;
+    c.limits.maxStorageBufferRange = 1U << 20;
+    c.limits.maxViewportDimensions[0] = 4096;
+    c.limits.maxViewportDimensions[1] = 4096;
+    c.limits.viewportBoundsRange[0] = -8192;
+    c.limits.viewportBoundsRange[1] = 8191;
+    return c;
+}
+
+cases::Case good() {
+    return make_case({64, 64, 1}, half_square());
+}
+
+cases::Attribute attribute(size_t values) {
+    cases::Attribute a;
+    a.name = "color";
+    a.values.resize(values);
+    return a;
+}
+
+void expect_rejected(const Capabilities& capabilities, const cases::Case& c,
+                     Rendered::Status status, const std::string& reason) {
+    const auto rejection = check_case(capabilities, c);
+    ASSERT_TRUE(rejection.has_value()) << "expected: " << reason;
+    EXPECT_EQ(rejection->status, status) << rejection->reason;
+    EXPECT_EQ(rejection->reason, reason);
+}
+
+TEST(CaseCheck, GoodCasesPass) {
+    cases::Case c = good();
+    EXPECT_FALSE(check_case(made_up(), c).has_value());
+    c.draws[0].viewport = {0, 64, 64, -64, 1, 0};
+    c.draws[0].attributes = {attribute(3)};
+    c.draws[0].indices = {{2, 1, 0}};
+    EXPECT_FALSE(check_case(made_up(), c).has_value());
+}
+
+TEST(CaseCheck, Target) {
+    using enum Rendered::Status;
+    const Capabilities m = made_up();
+    cases::Case c = good();
+    c.target = {4097, 64, 1};
+    expect_rejected(m, c, unsupported,
+                    "the target has 4097 x 64 pixels, the device allows 4096 x 2048");
+    c.target = {64, 0, 1};
+    expect_rejected(m, c, error, "the target has no pixels");
+    c.target = {64, 64, 2};
+    expect_rejected(m, c, unsupported, "the device does not draw 2 samples a pixel");
+    c.target = {64, 64, 3};
+    expect_rejected(m, c, error, "3 samples a pixel is not a power of two up to 64");
+    c.target = {256, 256, 4};
+    expect_rejected(m, c, unsupported,
+                    "reading 262144 samples singly exceeds the device's storage buffer range of "
+                    "1048576 bytes");
+    c.target = {4096, 2048, 1};
+    expect_rejected(m, c, unsupported,
+                    "an attachment of 134217728 bytes exceeds the device's largest allocation of "
+                    "67108864");
+    c.target = {2048, 2048, 1};
+    expect_rejected(m, c, unsupported,
+                    "attachments and read-back take 436207616 bytes, the device has 268435456");
+    c = good();
+    c.draws[0].attributes = {attribute(3), attribute(3)};
+    expect_rejected(m, c, unsupported, "the case needs 5 colour attachments, the device has 4");
+}
+
+TEST(CaseCheck, Viewport) {
+    using enum Rendered::Status;
+    const Capabilities m = made_up();
+    cases::Case c = good();
+    cases::Viewport& v = c.draws[0].viewport;
+    v = {0, 0, std::numeric_limits<float>::infinity(), 64, 0, 1};
+    expect_rejected(m, c, error, "the viewport has a number that is not finite");
+    v = {0, 0, 0, 64, 0, 1};
+    expect_rejected(m, c, error,
+                    "the viewport's width must be positive and its depths lie in [0, 1]");
+    v = {0, 0, 64, 64, 0, 1.5F};
+    expect_rejected(m, c, error,
+                    "the viewport's width must be positive and its depths lie in [0, 1]");
+    v = {0, 0, 64, -5000, 0, 1};
+    expect_rejected(m, c, unsupported,
+                    "the viewport has 64 x 5000 pixels, the device allows 4096 x 4096");
+    v = {0, -8000, 64, -500, 0, 1};
+    expect_rejected(m, c, unsupported,
+                    "the viewport leaves the device's range of -8192 to 8191 pixels");
+}
+
+TEST(CaseCheck, Draw) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    c.draws[0].scissor = {-1, 0, 8, 8};
+    expect_rejected(m, c, error, "the scissor must begin at 0 or later and end below 2^31");
+    c.draws[0].scissor = {1, 0, 0x7fffffffU, 8};
+    expect_rejected(m, c, error, "the scissor must begin at 0 or later and end below 2^31");
+    c = good();
+    c.draws[0].attributes = {attribute(2)};
+    expect_rejected(m, c, error, "attribute 'color' has 2 values for 3 vertices");
+    c.draws[0].attributes.assign(5, attribute(3));
+    expect_rejected(m, c, error, "a draw has 5 attributes, at most 4 are allowed");
+    c = good();
+    c.draws[0].indices = {{0, 1, cases::kRestartIndex}};
+    expect_rejected(m, c, error, "index 4294967295 is beyond the 3 vertices of its draw");
+    c.draws[0].primitive_restart = true;
+    expect_rejected(m, c, error, "primitive restart needs indices and a strip or a fan");
+    c.draws[0].topology = cases::Topology::triangle_fan;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    m.triangle_fans = false;
+    expect_rejected(m, c, unsupported, "the device lacks the feature triangleFans");
+}
+
+}  // namespace
+}  // namespace vk_harness::testing

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The harness must use Vulkan rightly, or a finding might be its own fault: nothing that it does
+// may make the Khronos validation layer speak.
+#include <gmock/gmock.h>
+
+#include <utility>
+
+#include "hand_case.hpp"
+#include "vk_harness/device.hpp"
+
+namespace vk_harness::testing {
+namespace {
+
+Options with_validation() {
+    Options options;
+    options.validation = true;
+    return options;
+}
+
+cases::Attribute constant(cases::Interpolation interpolation, size_t vertices) {
+    cases::Attribute attribute;
+    attribute.name = "constant";
+    attribute.interpolation = interpolation;
+    attribute.values.assign(vertices, glm::vec4(0.5F));
+    return attribute;
+}
+
+// Every topology, culling and facing mode, number of attributes, sample count, and several draws.
+std::vector<cases::Case> all_states() {
+    using cases::Interpolation;
+    std::vector<cases::Case> batch;
+    for (const uint32_t samples : {1U, 4U}) {
+        for (uint32_t attributes = 0; attributes <= cases::kMaxAttributes; ++attributes) {
+            cases::Case c = make_case({32, 16, samples}, half_square());
+            for (uint32_t k = 0; k < attributes; ++k) {
+                c.draws[0].attributes.push_back(constant(static_cast<Interpolation>(k % 3), 3));
+            }
+            cases::Draw strip = c.draws[0];
+            strip.topology = cases::Topology::triangle_strip;
+            strip.indices = {{0, 1, 2, cases::kRestartIndex, 2, 1, 0}};
+            strip.primitive_restart = true;
+            strip.cull = cases::CullMode::back;
+            strip.viewport = {0, 16, 32, -16, 1, 0};
+            cases::Draw fan = c.draws[0];
+            fan.topology = cases::Topology::triangle_fan;
+            fan.front_face = cases::FrontFace::clockwise;
+            fan.scissor = {3, 2, 100, 0};
+            fan.attributes.clear();
+            c.draws.push_back(strip);
+            c.draws.push_back(fan);
+            batch.push_back(c);
+            batch.push_back(c);
+        }
+    }
+    batch.push_back(make_case({8, 8, 1}, {}));
+    return batch;
+}
+
+TEST(Validation, NothingToSayAboutAnyState) {
+    auto renderer = Renderer::create(with_validation());
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    const std::vector<cases::Case> batch = all_states();
+    // Twice: the second time with cached pipelines, attachments and buffers.
+    for (int round = 0; round < 2; ++round) {
+        for (const Rendered& rendered : renderer->render(batch, {})) {
+            EXPECT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
+            EXPECT_THAT(rendered.messages, ::testing::IsEmpty());
+        }
+        EXPECT_TRUE(renderer->render_bare(batch));
+    }
+    // Messages of render_bare would come with the next case.
+    const std::vector<cases::Case> last = {make_case({8, 8, 1}, half_square())};
+    EXPECT_THAT(renderer->render(last, {}).front().messages, ::testing::IsEmpty());
+}
+
+TEST(Validation, MisuseIsHeard) {
+    auto instance = Instance::create(with_validation());
+    ASSERT_TRUE(instance) << instance.error().message;
+    auto capabilities = choose_device(*instance, {});
+    ASSERT_TRUE(capabilities) << capabilities.error().message;
+    auto device = Device::create(*capabilities);
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_THAT(instance->messages().take(), ::testing::IsEmpty());
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = 0;  // must be greater than 0
+    info.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    if (device->vk().vkCreateBuffer(device->get(), &info, nullptr, &buffer) == VK_SUCCESS) {
+        device->vk().vkDestroyBuffer(device->get(), buffer, nullptr);
+    }
+    EXPECT_THAT(instance->messages().take(),
+                ::testing::Contains(::testing::HasSubstr("VUID-VkBufferCreateInfo-size-00912")));
+}
+
+}  // namespace
+}  // namespace vk_harness::testing
