@@ -37,6 +37,7 @@ class Journal {
     explicit Journal(int fd) : fd_(fd) {}
     cases::Expected<void> write_line(const std::string& line);
     int fd_ = -1;
+    std::string file_;
 };
 
 // Rebuilds a run from DIR/journal.jsonl. A torn last line is ignored; anything else malformed is an

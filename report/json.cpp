@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/picture_codec.hpp"
+#include "report/record_codec.hpp"
+#include "report/reports.hpp"
+#include "report/sentences.hpp"
+
+namespace report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// Readers of results.json get text, never an escape sequence or a byte that is not UTF-8.
+Json texts(const std::vector<std::string>& list) {
+    Json json = Json::array();
+    for (const std::string& entry : list) {
+        json.push_back(printable(entry));
+    }
+    return json;
+}
+
+Json device_json(const Device& d) {
+    return Json{{"name", printable(d.name)},
+                {"driver_name", printable(d.driver_name)},
+                {"driver_info", printable(d.driver_info)},
+                {"uuid", printable(d.uuid)},
+                {"type", printable(d.type)},
+                {"api_version", printable(d.api_version)},
+                {"vendor_id", d.vendor_id},
+                {"device_id", d.device_id},
+                {"driver_version", d.driver_version},
+                {"driver_id", d.driver_id},
+                {"subpixel_bits", d.subpixel_bits},
+                {"viewport_subpixel_bits", d.viewport_subpixel_bits},
+                {"has_primitive_id", d.has_primitive_id}};
+}
+
+Json finding_json(const diff::Finding& f) {
+    return Json{{"kind", diff::to_string(f.kind)},
+                {"rule", printable(f.rule)},
+                {"level", cases::to_string(f.level)},
+                {"sample", Json{{"x", f.x}, {"y", f.y}, {"index", f.sample}}},
+                {"quantity", printable(f.quantity)},
+                {"expected", printable(f.expected)},
+                {"got", printable(f.got)},
+                {"why", printable(f.why)},
+                {"ratio", encode_number(f.ratio)}};
+}
+
+Json counts_json(const CaseRecord& r) {
+    Json json = Json::object();
+    for (size_t k = 0; k < diff::kFindingKinds; ++k) {
+        json[std::string(diff::to_string(static_cast<diff::FindingKind>(k)))] = r.counts.at(k);
+    }
+    return json;
+}
+
+uint64_t finding_total(const CaseRecord& r) {
+    uint64_t total = 0;
+    for (const uint64_t count : r.counts) {
+        total += count;
+    }
+    return total;
+}
+
+Json case_json(const CaseRecord& r, cases::Profile profile) {
+    Json findings = Json::array();
+    for (const diff::Finding& f : r.findings) {
+        findings.push_back(finding_json(f));
+    }
+    const bool wrong = finding_total(r) > 0;
+    Json box = nullptr;
+    if (wrong) {
+        box = Json{{"min_x", r.min_x}, {"min_y", r.min_y}, {"max_x", r.max_x}, {"max_y", r.max_y}};
+    }
+    Json pictures = nullptr;
+    if (r.pictures.width > 0) {
+        const Pictures& p = r.pictures;
+        pictures = Json{{"encoding", "base64 of (run length - 1, value) pairs"},
+                        {"width", p.width},
+                        {"height", p.height},
+                        {"left", p.left},
+                        {"top", p.top},
+                        {"expected_hits", encode_picture(p.expected_hits)},
+                        {"device_hits", encode_picture(p.device_hits)},
+                        {"marks", encode_picture(p.marks)}};
+    }
+    return Json{
+        {"id", printable(r.id)},
+        {"file", printable(r.file)},
+        {"line", r.line},
+        {"description", printable(r.description)},
+        {"status", to_string(r.status)},
+        {"profile", cases::to_string(profile)},
+        {"rules", texts(r.rules)},
+        {"links", texts(r.links)},
+        {"expected", r.expected ? Json(to_string(*r.expected)) : Json(nullptr)},
+        {"bug", printable(r.bug)},
+        {"reason", printable(r.reason)},
+        {"step", printable(r.step)},
+        {"signal", printable(r.signal)},
+        {"stderr", printable(r.stderr_text)},
+        {"messages", texts(r.messages)},
+        {"seconds", encode_number(r.seconds)},
+        {"attempts", r.attempts},
+        {"level", wrong ? Json(cases::to_string(r.level)) : Json(nullptr)},
+        {"counts", counts_json(r)},
+        {"finding_total", finding_total(r)},
+        {"findings", findings},
+        {"bounding_box", box},
+        {"must_samples", r.must_samples},
+        {"either_samples", r.either_samples},
+        {"compared_samples", r.compared_samples},
+        {"compared_values", r.compared_values},
+        {"worst_ratio", encode_number(r.worst_ratio)},
+        {"worst_quantity", printable(r.worst_quantity)},
+        {"pictures", pictures},
+        {"rerun", printable(r.rerun)},
+        {"explain", printable(r.explain)},
+    };
+}
+
+Json run_json(const Run& run) {
+    Json environment = Json::object();
+    for (const auto& [name, value] : run.environment) {
+        environment[printable(name)] = printable(value);
+    }
+    return Json{
+        {"arguments", texts(run.arguments)},
+        {"environment", environment},
+        {"started", printable(run.started)},
+        {"ended", run.ended.empty() ? Json(nullptr) : Json(printable(run.ended))},
+        {"seconds", encode_number(run.seconds)},
+        {"host", printable(run.host)},
+        {"seed", run.seed},
+        {"suite_root", printable(run.suite_root)},
+        {"expectation_file", printable(run.expectation_file)},
+        {"shard", run.shard},
+        {"shards", run.shards},
+        {"jobs", run.jobs},
+        {"interrupted", run.interrupted},
+        {"exit_code", exit_code(run)},
+    };
+}
+
+}  // namespace
+
+std::string to_json(const Run& run) {
+    Json total = Json::object();
+    const auto count = totals(run);
+    for (size_t k = 0; k < kStatuses; ++k) {
+        total[std::string(to_string(static_cast<Status>(k)))] = count.at(k);
+    }
+    total["cases"] = run.cases.size();
+    Json list = Json::array();
+    for (const CaseRecord& record : run.cases) {
+        list.push_back(case_json(record, run.profile));
+    }
+    const CaseRecord* worst = worst_case(run);
+    const Json json{
+        {"schema", "edgecase-results-1"},
+        {"tool", Json{{"name", "edgecase"}, {"version", printable(run.tool_version)}}},
+        {"profile", cases::to_string(run.profile)},
+        {"run", run_json(run)},
+        {"device", device_json(run.device)},
+        {"totals", total},
+        {"worst", worst == nullptr ? Json(nullptr)
+                                   : Json{{"ratio", encode_number(worst->worst_ratio)},
+                                          {"quantity", printable(worst->worst_quantity)},
+                                          {"case", printable(worst->id)}}},
+        {"cases", list},
+    };
+    return json.dump(1) + '\n';
+}
+
+}  // namespace report
