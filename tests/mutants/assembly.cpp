@@ -26,6 +26,10 @@ class Assembler {
         }
         count_ = 0;
         odd_ = false;
+        run_ = 0;
+        if (fault_ == Fault::primitive_id_restarts) {
+            next_id_ = 0;
+        }
     }
 
     void push(uint32_t vertex) {
@@ -47,11 +51,14 @@ class Assembler {
                 } else {
                     emit({a, b, vertex}, a, vertex);
                 }
-                odd_ = !odd_;
+                odd_ = fault_ == Fault::strip_batch_parity && run_ % 9 == 0 ? false : !odd_;
                 window_ = {b, vertex};
                 break;
             case cases::Topology::triangle_fan:  // window: hub, last rim vertex
                 emit({b, vertex, a}, fault_ == Fault::fan_hub_provoking ? a : b, vertex);
+                if (fault_ == Fault::fan_batch_hub && run_ % 9 == 0) {
+                    window_[0] = b;
+                }
                 window_[1] = vertex;
                 break;
         }
@@ -64,6 +71,7 @@ class Assembler {
         const uint32_t provoking = fault_ == Fault::provoking_last ? last : first;
         out_.push_back({vertex, provoking, next_id_});
         ++next_id_;
+        ++run_;
     }
 
     cases::Topology topology_;
@@ -72,6 +80,7 @@ class Assembler {
     uint32_t count_ = 0;  // vertices in the window
     bool odd_ = false;
     uint32_t next_id_ = 0;
+    uint32_t run_ = 0;  // triangles since the start or the last restart
     std::vector<Primitive> out_;
 };
 

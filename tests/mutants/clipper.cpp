@@ -35,7 +35,7 @@ std::vector<Plane> planes_of(const cases::Draw& draw, const Device& device) {
     }
     float band_x = 1;
     float band_y = 1;
-    if (device.clip == ClipMethod::guard_band) {
+    if (device.clip == ClipMethod::guard_band || device.fault == Fault::clip_band_unscissored) {
         band_x = guard_band(draw.viewport.width, draw.viewport.x);
         band_y = guard_band(draw.viewport.height, draw.viewport.y);
     }

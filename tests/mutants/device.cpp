@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <memory>
 #include <utility>
 
@@ -87,11 +88,30 @@ PixelRect draw_rect(const cases::Draw& draw, const cases::Target& target, const 
             std::min<int64_t>(rect.x1, target.width), std::min<int64_t>(rect.y1, target.height)};
 }
 
+// The draw with the state that the device has in mind.
+cases::Draw effective(const cases::Case& c, uint32_t number, Fault fault) {
+    cases::Draw draw = c.draws[number];
+    if (fault == Fault::state_of_first_draw) {
+        const cases::Draw& first = c.draws[0];
+        draw.viewport = first.viewport;
+        draw.scissor = first.scissor;
+        draw.cull = first.cull;
+        draw.front_face = first.front_face;
+    }
+    if (fault == Fault::viewport_rounded) {
+        draw.viewport.x = std::round(draw.viewport.x);
+        draw.viewport.y = std::round(draw.viewport.y);
+        draw.viewport.width = std::round(draw.viewport.width);
+        draw.viewport.height = std::round(draw.viewport.height);
+    }
+    return draw;
+}
+
 // One draw of a case onto the capture.
 class DrawCommand {
   public:
     DrawCommand(const cases::Case& c, uint32_t number, const Device& device, diff::Capture& out)
-        : draw_(c.draws[number]),
+        : draw_(effective(c, number, device.fault)),
           number_(number),
           device_(device),
           out_(out),
@@ -109,6 +129,7 @@ class DrawCommand {
 
   private:
     void rasterize(const Primitive& primitive);
+    uint32_t cached_vertex(uint32_t v);
     void rasterize_polygon(const Primitive& primitive, const std::array<ClipVertex, 3>& whole,
                            std::vector<WindowVertex> polygon, bool was_cut);
     void rasterize_line(const Primitive& primitive, std::vector<WindowVertex>& v);
@@ -119,7 +140,7 @@ class DrawCommand {
     void shade(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
                bool front, int64_t i, int64_t j, uint32_t s);
 
-    const cases::Draw& draw_;
+    const cases::Draw draw_;
     uint32_t number_;
     const Device& device_;
     diff::Capture& out_;
@@ -127,6 +148,12 @@ class DrawCommand {
     std::vector<SampleOffset> samples_;
     std::unique_ptr<TrianglePlanes> cached_planes_;
     WindowVertex cached_first_;
+    uint32_t culled_ = 0;  // triangles so far
+    std::array<uint32_t, 32> vertex_cache_ = [] {
+        std::array<uint32_t, 32> empty{};
+        empty.fill(UINT32_MAX);
+        return empty;
+    }();
 };
 
 WindowVertex DrawCommand::project(const ClipVertex& v) const {
@@ -223,10 +250,22 @@ bool DrawCommand::inside_viewport(int64_t i, int64_t j, uint32_t s) const {
     return x >= left && x < right && y >= top && y < bottom;
 }
 
+// Which vertex's data a reader of vertex v gets.
+uint32_t DrawCommand::cached_vertex(uint32_t v) {
+    if (device_.fault != Fault::vertex_cache_aliased) {
+        return v;
+    }
+    uint32_t& entry = vertex_cache_[v % vertex_cache_.size()];
+    if (entry == UINT32_MAX) {
+        entry = v;
+    }
+    return entry;
+}
+
 void DrawCommand::rasterize(const Primitive& primitive) {
     std::array<ClipVertex, 3> triangle;
     for (size_t k = 0; k < 3; ++k) {
-        const uint32_t v = primitive.vertex[k];
+        const uint32_t v = cached_vertex(primitive.vertex[k]);
         triangle[k].position = draw_.positions[v];
         triangle[k].source = v;
         for (size_t a = 0; a < draw_.attributes.size(); ++a) {
@@ -295,6 +334,7 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
     }
     const bool front = is_front(area, whole);
     if (is_culled(front)) {
+        ++culled_;
         return;
     }
     // Planes of the whole triangle where it can be projected, else of each piece.
@@ -420,8 +460,9 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
                       s;
     out_.hits[at] += front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);
     const bool of_piece = fault == Fault::clip_flat_piece;
-    out_.writers[at] = {number_, primitive.id, of_piece ? first.source : primitive.provoking,
-                        diff::kClearId};
+    const uint32_t id =
+        fault == Fault::primitive_id_skips_culled ? primitive.id - culled_ : primitive.id;
+    out_.writers[at] = {number_, id, of_piece ? first.source : primitive.provoking, diff::kClearId};
 
     const float corner = fault == Fault::values_at_corner ? 0.0F : 0.5F;
     const float x = static_cast<float>(i) + corner;
@@ -447,6 +488,9 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
             flat = true;
         }
         glm::vec4 value = flat ? first.values[a] : planes.attribute(a, x, y);
+        if (fault == Fault::values_clamped) {
+            value = glm::clamp(value, 0.0F, 1.0F);
+        }
         if (fault == Fault::components_rotated) {
             value = {value.y, value.z, value.w, value.x};
         }

@@ -14,36 +14,44 @@ namespace mutants {
 enum class Fault : uint8_t {
     none,
     // input assembly
-    provoking_last,       // last-vertex convention for flat values
-    strip_parity,         // odd triangles of a strip keep the order i, i+1, i+2
-    fan_hub_provoking,    // the hub is the provoking vertex of a fan
-    restart_ignored,      // the restart index ends nothing
-    restart_keeps_one,    // after a restart the strip still remembers its last vertex
-    indices_ignored,      // an indexed draw reads vertices in order
-    batch_tail_lost,      // the last triangle of a draw is lost
-    draws_reversed,       // later draws are rendered first
-    primitives_reversed,  // later triangles of a draw are rendered first
-    draw_doubled,         // each triangle is rasterized twice
+    provoking_last,             // last-vertex convention for flat values
+    strip_parity,               // odd triangles of a strip keep the order i, i+1, i+2
+    fan_hub_provoking,          // the hub is the provoking vertex of a fan
+    restart_ignored,            // the restart index ends nothing
+    restart_keeps_one,          // after a restart the strip still remembers its last vertex
+    indices_ignored,            // an indexed draw reads vertices in order
+    strip_batch_parity,         // parity starts anew after 9 triangles
+    fan_batch_hub,              // a fan of more than 9 triangles goes on round another hub
+    vertex_cache_aliased,       // transformed vertices are found by index modulo 32
+    primitive_id_restarts,      // gl_PrimitiveID is reset by a restart
+    primitive_id_skips_culled,  // gl_PrimitiveID counts what was drawn
+    state_of_first_draw,        // viewport, scissor, culling and front face stay as first set
+    batch_tail_lost,            // the last triangle of a draw is lost
+    draws_reversed,             // later draws are rendered first
+    primitives_reversed,        // later triangles of a draw are rendered first
+    draw_doubled,               // each triangle is rasterized twice
     draws_nothing,
     draws_everything,  // every triangle covers the whole target
     // vertices
     height_sign_ignored,  // a negative viewport height mirrors nothing
     depth_range_ignored,  // minDepth and maxDepth are taken as 0 and 1
+    viewport_rounded,     // the viewport is taken in whole pixels
     half_pixel_shift,     // the pixel centre is added twice
     viewport_nudge,       // the viewport's origin is 1/256 pixel off
     floor_snapping,       // vertices snap downwards
     coarse_snapping,      // vertices snap to 1/16 pixel whatever the limit says
     position_half,        // window positions are held in 11-bit floats
     // clipping
-    clip_none,             // nothing is clipped
-    clip_no_near,          // the near plane is missing
-    clip_no_far,           // the far plane is missing
-    clip_seam,             // the cut is computed from the first end point, not from the inner one
-    clip_copies_value,     // a new vertex takes the values of the inner vertex
-    clip_screen_linear,    // a new vertex's values are interpolated as if w were constant
-    clip_flat_piece,       // flat values come from the clipped polygon's first vertex
-    clip_last_piece_lost,  // the last triangle of the clipped polygon's fan is lost
-    clip_rejects_any,      // a triangle with a vertex outside is dropped
+    clip_none,              // nothing is clipped
+    clip_no_near,           // the near plane is missing
+    clip_no_far,            // the far plane is missing
+    clip_band_unscissored,  // guard band, but the viewport's rectangle does not bound
+    clip_seam,              // the cut is computed from the first end point, not from the inner one
+    clip_copies_value,      // a new vertex takes the values of the inner vertex
+    clip_screen_linear,     // a new vertex's values are interpolated as if w were constant
+    clip_flat_piece,        // flat values come from the clipped polygon's first vertex
+    clip_last_piece_lost,   // the last triangle of the clipped polygon's fan is lost
+    clip_rejects_any,       // a triangle with a vertex outside is dropped
     // facing and culling
     cull_inverted,
     front_face_inverted,
@@ -62,6 +70,7 @@ enum class Fault : uint8_t {
     edge_int32,            // edge functions in 32 bits
     edge_int32_256,        // 32 bits up to a bounding box of 256 pixels (128 would be right)
     edge_binary32,         // edge functions of unsnapped positions in binary32
+    edge_truncated,        // edge functions are divided down, towards zero
     tile_wrong_corner,  // trivial reject looks at the corner that is nearest to the edge's outside
     tile_off_by_one,    // trivial reject looks at the last pixel but one
     box_last_column,    // bounding box: last column lost
@@ -73,8 +82,12 @@ enum class Fault : uint8_t {
     scissor_ignored,
     scissor_follows_viewport,  // the scissor's origin is taken relative to the viewport
     // values
-    affine,              // smooth is linear on screen
-    reciprocal_12_bits,  // 1/w by a table of 12 bits
+    affine,                   // smooth is linear on screen
+    reciprocal_12_bits,       // 1/w by a table of 12 bits
+    reciprocal_area_12_bits,  // 1/area by a table of 12 bits
+    weights_8_bits,           // barycentric weights in 8 bits
+    values_stepped,           // values are stepped from pixel to pixel by additions
+    values_clamped,           // attributes are clamped to [0, 1]
     noperspective_smooth,
     flat_smooth,
     smooth_flat,

@@ -26,7 +26,8 @@ TrianglePlanes::TrianglePlanes(const std::array<WindowVertex, 3>& v, bool positi
             y_[k] = snapped ? static_cast<float>(v[k].sy) * unit : v[k].y;
         }
         const float det = (x_[1] - x_[0]) * (y_[2] - y_[0]) - (x_[2] - x_[0]) * (y_[1] - y_[0]);
-        inverse_area_ = 1.0F / det;
+        inverse_area_ =
+            device.fault == Fault::reciprocal_area_12_bits ? reciprocal_12(det) : 1.0F / det;
         return positive ? det > 0 : det < 0;
     };
     if (!place(device.basis == PlaneBasis::snapped)) {
@@ -93,6 +94,19 @@ std::array<float, 3> TrianglePlanes::weights(float x, float y) const {
 }
 
 float TrianglePlanes::at(const Plane& plane, float x, float y) const {
+    if (device_.fault == Fault::weights_8_bits) {
+        const std::array<float, 3> b = weights(x, y);
+        const float b1 = std::nearbyint(b[1] * 256) / 256;
+        const float b2 = std::nearbyint(b[2] * 256) / 256;
+        return plane.g[0] + b1 * (plane.g[1] - plane.g[0]) + b2 * (plane.g[2] - plane.g[0]);
+    }
+    if (device_.fault == Fault::values_stepped) {
+        float value = plane.a0 + plane.dady * y + plane.dadx * 0.5F;
+        for (float step = 0.5F; step + 1 <= x; step += 1) {
+            value += plane.dadx;
+        }
+        return value;
+    }
     switch (device_.planes) {
         case PlaneForm::origin:
             return mad(y, plane.dady, mad(x, plane.dadx, plane.a0));

@@ -227,7 +227,8 @@ void scan(const ScanTriangle& triangle, const PixelRect& rect,
                    covers_binary32(edges[2], fx, fy);
         }
         return std::all_of(edges.begin(), edges.end(), [&](const Edge& e) {
-            return arithmetic.wrap(e.a * x + e.b * y + e.c) >= 0;
+            const int64_t value = arithmetic.wrap(e.a * x + e.b * y + e.c);
+            return (device.fault == Fault::edge_truncated ? value / pixel : value) >= 0;
         });
     };
 
