@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/coverage_fast.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "ref/half_plane.hpp"
+
+namespace ref::fast {
+
+namespace {
+
+// Columns [low, high] of a row.
+struct Columns {
+    int64_t low = 0, high = -1;
+    bool is_empty() const { return low > high; }
+};
+
+template <class T>
+T floor_divide(T n, T d) {
+    const T q = n / d;
+    return n % d != 0 && (n < 0) != (d < 0) ? q - 1 : q;
+}
+
+int64_t floor_pixel(int64_t units) {
+    return units >> kFixedBits;
+}
+int64_t ceil_pixel(int64_t units) {
+    return -((-units) >> kFixedBits);
+}
+
+// Largest |position| in S47.16 for which the 64-bit row arithmetic cannot overflow: with |x|, |y|
+// and vertex coordinates <= 2^30, |a|, |b| <= 2^31, |c| <= 2^61 + 1, so |a x + b y + c| < 3 * 2^61
+// + 1.
+constexpr int64_t kNarrowLimit = int64_t{1} << 30;
+static_assert(int64_t{cases::kMaxTargetSize} * kFixedOne <= kNarrowLimit,
+              "every sample of a target is narrow");
+static_assert(3 * (Int128{1} << 61) + 1 < (Int128{1} << 63), "a narrow edge function fits int64_t");
+
+// A half plane along the rows of one sample number: value at column 0, steps per row and column.
+template <class T>
+struct RowPlane {
+    T value = 0, row_step = 0, column_step = 0;
+
+    void cut(Columns& c) const {
+        if (column_step > 0) {
+            // value + i step >= 0  <=>  i >= ceil(-value / step)
+            c.low = std::max(c.low, clamp(-floor_divide<T>(value, column_step)));
+        } else if (column_step < 0) {
+            c.high = std::min(c.high, clamp(floor_divide<T>(value, -column_step)));
+        } else if (value < 0) {
+            c.high = c.low - 1;
+        }
+    }
+    static int64_t clamp(T column) {
+        constexpr T kFar = int64_t{1} << 40;
+        return static_cast<int64_t>(std::clamp<T>(column, -kFar, kFar));
+    }
+};
+
+template <class T>
+std::vector<RowPlane<T>> row_planes(const std::vector<HalfPlane>& planes,
+                                    const FixedPoint& origin) {
+    std::vector<RowPlane<T>> out;
+    out.reserve(planes.size());
+    for (const HalfPlane& p : planes) {
+        out.push_back({static_cast<T>(p.at(origin)), static_cast<T>(p.b * kFixedOne),
+                       static_cast<T>(p.a * kFixedOne)});
+    }
+    return out;
+}
+
+template <class T>
+void step_row(std::vector<RowPlane<T>>& planes) {
+    for (RowPlane<T>& p : planes) {
+        p.value += p.row_step;
+    }
+}
+
+template <class T>
+struct RowSet {
+    std::vector<RowPlane<T>> planes;
+    Columns columns;
+    int64_t row_low = 0, row_high = -1;
+};
+
+struct Grid {
+    FixedPoint offset;  // of the sample in its pixel
+    uint32_t sample = 0;
+    Columns may_columns, must_columns;
+    int64_t may_row_low = 0, may_row_high = -1;
+    int64_t must_row_low = 0, must_row_high = -1;
+};
+
+int64_t first_at(int64_t low, int64_t offset) {
+    return ceil_pixel(low - offset);
+}
+int64_t last_at(int64_t high, int64_t offset) {
+    return floor_pixel(high - offset);
+}
+
+Grid grid_of(const Window& w, uint32_t sample, uint32_t samples) {
+    Grid g;
+    g.sample = sample;
+    g.offset = sample_position(0, 0, sample, samples);
+    g.may_columns = {w.pixel_x0, w.pixel_x1 - 1};
+    g.may_row_low = w.pixel_y0;
+    g.may_row_high = w.pixel_y1 - 1;
+    if (w.is_viewport_ignored) {
+        return g;  // nothing must be drawn
+    }
+    const auto limit = [](const Range& r, int64_t offset, int64_t& low, int64_t& high) {
+        low = std::max(low, first_at(r.low, offset));
+        high = std::min(high, last_at(r.high, offset));
+    };
+    limit(w.zone_x, g.offset.x, g.may_columns.low, g.may_columns.high);
+    limit(w.zone_y, g.offset.y, g.may_row_low, g.may_row_high);
+    g.must_columns = g.may_columns;
+    g.must_row_low = g.may_row_low;
+    g.must_row_high = g.may_row_high;
+    limit(w.core_x, g.offset.x, g.must_columns.low, g.must_columns.high);
+    limit(w.core_y, g.offset.y, g.must_row_low, g.must_row_high);
+    return g;
+}
+
+// Appends one row: `may` minus `must` is either. The may intervals may overlap; must lies inside
+// them.
+void emit_row(std::vector<Columns>& may, const Columns& must, const Span& where,
+              std::vector<Span>& out) {
+    const auto emit = [&](int64_t low, int64_t high, Coverage coverage) {
+        if (low <= high) {
+            Span s = where;
+            s.x0 = static_cast<uint32_t>(low);
+            s.x1 = static_cast<uint32_t>(high + 1);
+            s.coverage = coverage;
+            out.push_back(s);
+        }
+    };
+    if (may.size() > 1) {
+        std::sort(may.begin(), may.end(),
+                  [](const Columns& a, const Columns& b) { return a.low < b.low; });
+    }
+    int64_t next = std::numeric_limits<int64_t>::min();  // first column not yet done
+    for (const Columns& c : may) {
+        const int64_t low = std::max(c.low, next);
+        if (must.is_empty() || must.high < low || must.low > c.high) {
+            emit(low, c.high, Coverage::either);
+        } else {
+            emit(low, must.low - 1, Coverage::either);
+            emit(std::max(low, must.low), std::min(c.high, must.high), Coverage::must);
+            emit(must.high + 1, c.high, Coverage::either);
+        }
+        next = std::max(next, c.high + 1);
+    }
+}
+
+template <class T>
+void scan_sets(const CoverageSets& sets, const Grid& g, const Span& base, std::vector<Span>& out) {
+    int64_t row_low = std::numeric_limits<int64_t>::max();
+    int64_t row_high = std::numeric_limits<int64_t>::min();
+    std::vector<RowSet<T>> may(sets.may.size());
+    for (size_t k = 0; k < may.size(); ++k) {
+        const Box& b = sets.may[k].bounds;
+        RowSet<T>& r = may[k];
+        r.columns = {std::max(g.may_columns.low, first_at(b.x0, g.offset.x)),
+                     std::min(g.may_columns.high, last_at(b.x1, g.offset.x))};
+        r.row_low = std::max(g.may_row_low, first_at(b.y0, g.offset.y));
+        r.row_high = std::min(g.may_row_high, last_at(b.y1, g.offset.y));
+        if (r.columns.is_empty() || r.row_low > r.row_high) {
+            r.row_high = r.row_low - 1;
+            continue;
+        }
+        row_low = std::min(row_low, r.row_low);
+        row_high = std::max(row_high, r.row_high);
+    }
+    if (row_low > row_high) {
+        return;
+    }
+    const FixedPoint origin{g.offset.x, g.offset.y + row_low * kFixedOne};
+    for (size_t k = 0; k < may.size(); ++k) {
+        if (may[k].row_low <= may[k].row_high) {
+            may[k].planes = row_planes<T>(sets.may[k].planes, origin);
+        }
+    }
+    std::vector<RowPlane<T>> must;
+    // One set with the same planes is must and may at once.
+    const bool is_single = sets.has_must && may.size() == 1 && sets.must == sets.may[0].planes;
+    if (sets.has_must && !is_single) {
+        must = row_planes<T>(sets.must, origin);
+    }
+    std::vector<Columns> row;
+    for (int64_t j = row_low; j <= row_high; ++j) {
+        row.clear();
+        for (RowSet<T>& r : may) {
+            if (j >= r.row_low && j <= r.row_high) {
+                Columns c = r.columns;
+                for (const RowPlane<T>& p : r.planes) {
+                    p.cut(c);
+                }
+                if (!c.is_empty()) {
+                    row.push_back(c);
+                }
+            }
+            step_row(r.planes);
+        }
+        Columns sure;
+        if (!row.empty() && sets.has_must && j >= g.must_row_low && j <= g.must_row_high) {
+            sure = g.must_columns;
+            if (is_single) {
+                sure = {std::max(sure.low, row[0].low), std::min(sure.high, row[0].high)};
+            }
+            for (const RowPlane<T>& p : must) {
+                p.cut(sure);
+            }
+        }
+        step_row(must);
+        if (!row.empty()) {
+            Span where = base;
+            where.y = static_cast<uint32_t>(j);
+            emit_row(row, sure, where, out);
+        }
+    }
+}
+
+bool is_narrow(const TriangleSetup& setup) {
+    size_t count = 0;
+    const auto outlines = setup.outlines(count);
+    for (size_t k = 0; k < count; ++k) {
+        for (const Box& b : outlines[k]->vertices()) {
+            if (std::min(b.x0, b.y0) < -kNarrowLimit || std::max(b.x1, b.y1) > kNarrowLimit) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool contains(const ConvexSet& set, const FixedPoint& p) {
+    return p.x >= set.bounds.x0 && p.x <= set.bounds.x1 && p.y >= set.bounds.y0 &&
+           p.y <= set.bounds.y1 &&
+           std::all_of(set.planes.begin(), set.planes.end(),
+                       [&](const HalfPlane& h) { return h.at(p) >= 0; });
+}
+
+bool is_on_edge(const TriangleSetup& setup, const FixedPoint& p) {
+    size_t count = 0;
+    const auto outlines = setup.outlines(count);
+    for (size_t k = 0; k < count; ++k) {
+        const auto boxes = outlines[k]->vertices();
+        for (size_t i = 0; i < boxes.size(); ++i) {
+            const Box ends[] = {boxes[i], boxes[(i + 1) % boxes.size()]};
+            if (ends[0].is_point() && ends[1].is_point() && is_in_hull(ends, p)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+void scan(const TriangleSetup& setup, uint32_t triangle, const cases::Target& target,
+          std::vector<Span>& out) {
+    if (setup.kind == TriangleSetup::Kind::nothing) {
+        return;
+    }
+    CoverageSets sets;
+    bool is_wide = false;
+    if (setup.kind == TriangleSetup::Kind::outlines) {
+        sets = coverage_sets(setup);
+        sets.has_must = sets.has_must && !setup.may_be_culled;
+        is_wide = !is_narrow(setup);
+    } else {
+        constexpr int64_t kFar = int64_t{1} << kPositionBits;
+        sets.has_must = false;
+        sets.may.push_back({{}, {-kFar, -kFar, kFar, kFar}});
+    }
+    for (uint32_t s = 0; s < target.samples; ++s) {
+        const Grid g = grid_of(setup.window, s, target.samples);
+        Span base;
+        base.sample = s;
+        base.triangle = triangle;
+        if (is_wide) {
+            scan_sets<Int128>(sets, g, base, out);
+        } else {
+            scan_sets<int64_t>(sets, g, base, out);
+        }
+    }
+}
+
+Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
+    Classification out;
+    if (setup.kind == TriangleSetup::Kind::nothing || !setup.window.may_touch(p)) {
+        return out;
+    }
+    if (setup.kind == TriangleSetup::Kind::anywhere) {
+        out.coverage = Coverage::either;
+        return out;
+    }
+    const CoverageSets sets = coverage_sets(setup);
+    out.on_edge = is_on_edge(setup, p);
+    if (std::none_of(sets.may.begin(), sets.may.end(),
+                     [&](const ConvexSet& s) { return contains(s, p); })) {
+        return out;
+    }
+    const bool is_must = sets.has_must && !setup.may_be_culled && setup.window.must_touch(p) &&
+                         std::all_of(sets.must.begin(), sets.must.end(),
+                                     [&](const HalfPlane& h) { return h.at(p) >= 0; });
+    out.coverage = is_must ? Coverage::must : Coverage::either;
+    return out;
+}
+
+bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p) {
+    const auto outside = [&](auto low, auto high, int64_t v) {
+        return std::all_of(boxes.begin(), boxes.end(), [&](const Box& b) { return b.*low > v; }) ||
+               std::all_of(boxes.begin(), boxes.end(), [&](const Box& b) { return b.*high < v; });
+    };
+    if (outside(&Box::x0, &Box::x1, p.x) || outside(&Box::y0, &Box::y1, p.y)) {
+        return false;
+    }
+    return contains(hull_set(boxes), p);
+}
+
+int winding(std::span<const FixedPoint> polygon, const FixedPoint& p) {
+    int turns = 0;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const FixedPoint& a = polygon[i];
+        const FixedPoint& b = polygon[(i + 1) % polygon.size()];
+        // Edges that a ray from p to the right crosses; p is thought a little to the right and,
+        // less, down of where it is, which is the top-left rule.
+        if (a.y <= p.y && b.y > p.y) {
+            turns += edge_function(a, b, p) > 0 ? 1 : 0;
+        } else if (b.y <= p.y && a.y > p.y) {
+            turns -= edge_function(a, b, p) < 0 ? 1 : 0;
+        }
+    }
+    return turns;
+}
+
+}  // namespace ref::fast

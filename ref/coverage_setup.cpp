@@ -1,0 +1,343 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/coverage_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ref/facing.hpp"
+#include "ref/position_detail.hpp"
+#include "ref/wide.hpp"
+
+namespace ref {
+
+namespace {
+
+mpq_class exact(float f) {
+    return mpq_class(static_cast<double>(f));
+}
+
+mpz_class floor_units(const mpq_class& pixels) {
+    const mpq_class units = pixels * kFixedOne;
+    mpz_class r;
+    mpz_fdiv_q(r.get_mpz_t(), units.get_num_mpz_t(), units.get_den_mpz_t());
+    return r;
+}
+
+mpz_class ceil_units(const mpq_class& pixels) {
+    return -floor_units(-pixels);
+}
+
+int64_t saturate(const mpz_class& v) {
+    constexpr int64_t kFar = int64_t{1} << kPositionBits;
+    return v > kFar ? kFar : (v < -kFar ? -kFar : int64_t{v.get_si()});
+}
+
+bool is_integer(float f) {
+    return !(std::floor(f) < f);
+}
+
+void axis_window(float origin, float extent, cases::Profile profile, Range& zone, Range& core) {
+    const mpq_class end = exact(origin) + exact(extent);
+    const mpq_class low = std::min<mpq_class>(exact(origin), end);
+    const mpq_class high = std::max<mpq_class>(exact(origin), end);
+    if (is_integer(origin) && is_integer(extent)) {
+        // Polygon clipping: a sample on the border lies on an edge; only the top-left rule decides
+        // it.
+        const int64_t open = profile == cases::Profile::direct3d ? 1 : 0;
+        zone = {saturate(ceil_units(low)), saturate(floor_units(high)) - open};
+        core = zone;
+        return;
+    }
+    // viewportSubPixelBits may be 0, and Direct3D 11.3, 15.6.1 has a zone of up to half a pixel:
+    // within less than a pixel of a fractional border both answers are left open.
+    zone = {saturate(floor_units(low - 1)) + 1, saturate(ceil_units(high + 1)) - 1};
+    core = {saturate(ceil_units(low + 1)), saturate(floor_units(high - 1))};
+}
+
+bool overlap(const Box& a, const Box& b) {
+    return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
+}
+
+Box hull_of(const Box& a, const Box& b) {
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+void draw_together(Outline& o) {
+    std::vector<Box> boxes(o.boxes.begin(), o.boxes.begin() + o.count);
+    bool has_changed = o.count > 3;
+    while (has_changed && boxes.size() > 1) {
+        has_changed = false;
+        for (size_t i = 0; i < boxes.size(); ++i) {
+            const size_t next = (i + 1) % boxes.size();
+            if (next != i && overlap(boxes[i], boxes[next])) {
+                boxes[i] = hull_of(boxes[i], boxes[next]);
+                boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(next));
+                has_changed = true;
+                break;
+            }
+        }
+    }
+    o.must_count = static_cast<uint32_t>(boxes.size());
+    std::copy(boxes.begin(), boxes.end(), o.must_boxes.begin());
+}
+
+int64_t candidate_count(const Outline& o, int64_t step) {
+    int64_t count = 1;
+    for (const Box& b : o.vertices()) {
+        const int64_t columns = (b.x1 - b.x0) / step + 1;
+        const int64_t rows = (b.y1 - b.y0) / step + 1;
+        if (columns > kMaxCandidates || rows > kMaxCandidates) {
+            return kMaxCandidates + 1;
+        }
+        count = std::min(count * columns * rows, kMaxCandidates + 1);
+    }
+    return count;
+}
+
+// A polygon of points, each edge of which has all vertices on its inner side, with an area.
+bool is_convex(const Outline& o) {
+    bool has_positive = false;
+    bool has_negative = false;
+    for (uint32_t i = 0; i < o.count; ++i) {
+        const Box& a = o.boxes[i];
+        const Box& b = o.boxes[(i + 1) % o.count];
+        for (const Box& c : o.vertices()) {
+            const Int128 e = edge_function({a.x0, a.y0}, {b.x0, b.y0}, {c.x0, c.y0});
+            has_positive = has_positive || e > 0;
+            has_negative = has_negative || e < 0;
+        }
+    }
+    return has_positive != has_negative;
+}
+
+void choose_mode(Outline& o, int64_t step, cases::Profile profile) {
+    if (o.count == 0) {
+        o.mode = OutlineMode::empty;
+        return;
+    }
+    draw_together(o);
+    o.mode = OutlineMode::boxes;
+    if (profile != cases::Profile::direct3d || o.count < 3) {
+        return;
+    }
+    const int64_t candidates = candidate_count(o, step);
+    if (o.count == 3 ? candidates <= kMaxCandidates : candidates == 1 && is_convex(o)) {
+        o.mode = OutlineMode::snapped;
+    }
+}
+
+AreaSigns signs_of(const Outline& o, int64_t step) {
+    if (o.mode == OutlineMode::empty) {
+        return {};
+    }
+    if (o.mode == OutlineMode::snapped && o.count == 3) {
+        AreaSigns signs = snapped_area_signs(o.vertices(), step);
+        if (signs.negative || signs.positive) {
+            signs.zero = false;  // a snapped triangle without area covers nothing
+        }
+        return signs;
+    }
+    return area_signs(o.vertices());
+}
+
+struct Source {
+    const cases::Draw& draw;
+    const Triangle& triangle;
+    const Limits& limits;
+    cases::Profile profile;
+    VertexBoxes& boxes;
+    std::array<glm::vec4, 3> clip;
+};
+
+// False if some vertex has no box.
+bool outline_of(const std::vector<ClippedVertex>& polygon, const Source& s, Outline& out) {
+    out.count = 0;
+    if (polygon.size() > kMaxClippedVertices) {
+        return false;
+    }
+    for (const ClippedVertex& v : polygon) {
+        std::optional<Box> box;
+        if (v.original >= 0) {
+            box = s.boxes.of(s.triangle.draw, s.triangle.vertex[static_cast<size_t>(v.original)]);
+        } else if (v.is_bounded) {
+            box = box_around(v.position.x, v.position.y, v.error, s.draw.viewport, s.limits,
+                             s.profile);
+        }
+        if (!box) {
+            return false;
+        }
+        out.boxes[out.count] = *box;
+        out.edge[out.count] = v.edge;
+        ++out.count;
+    }
+    return true;
+}
+
+bool unclipped_outline(const Source& s, Outline& out) {
+    out.count = 0;
+    if (std::all_of(s.clip.begin(), s.clip.end(),
+                    [](const glm::vec4& v) { return is_inside(v, kDepthPlanes); })) {
+        for (uint32_t i = 0; i < 3; ++i) {
+            const std::optional<Box>& box = s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
+            if (!box) {
+                return false;
+            }
+            out.boxes[i] = *box;
+            out.edge[i] = static_cast<EdgeLabel>(i);
+        }
+        out.count = 3;
+        return true;
+    }
+    return outline_of(clip_triangle(s.clip, s.draw.viewport, s.profile, kDepthPlanes), s, out);
+}
+
+void apply_facing(TriangleSetup& t, const AreaSigns& signs, const cases::Draw& draw) {
+    t.orientation = signs.only();
+    t.can_be_front = can_face_front(signs, draw.front_face);
+    t.can_be_back = can_face_back(signs, draw.front_face);
+    t.facing = t.can_be_front == t.can_be_back ? Facing::depends
+                                               : (t.can_be_front ? Facing::front : Facing::back);
+    const bool culls_front =
+        draw.cull == cases::CullMode::front || draw.cull == cases::CullMode::front_and_back;
+    const bool culls_back =
+        draw.cull == cases::CullMode::back || draw.cull == cases::CullMode::front_and_back;
+    t.may_be_culled = (culls_front && t.can_be_front) || (culls_back && t.can_be_back);
+    t.can_be_front = t.can_be_front && !culls_front;
+    t.can_be_back = t.can_be_back && !culls_back;
+    if (!t.can_be_front && !t.can_be_back) {
+        t.kind = TriangleSetup::Kind::nothing;
+    }
+}
+
+}  // namespace
+
+bool Window::may_touch(const FixedPoint& p) const {
+    const int64_t i = p.x >> kFixedBits;  // arithmetic shift: floor
+    const int64_t j = p.y >> kFixedBits;
+    return i >= pixel_x0 && i < pixel_x1 && j >= pixel_y0 && j < pixel_y1 &&
+           (is_viewport_ignored || (zone_x.contains(p.x) && zone_y.contains(p.y)));
+}
+
+bool Window::must_touch(const FixedPoint& p) const {
+    return may_touch(p) && core_x.contains(p.x) && core_y.contains(p.y);
+}
+
+std::array<const Outline*, 2> TriangleSetup::outlines(size_t& count) const {
+    std::array<const Outline*, 2> out{};
+    count = 0;
+    if (has_outline) {
+        out[count++] = &unclipped;
+    }
+    if (is_clipped) {
+        out[count++] = &clipped;
+    }
+    return out;
+}
+
+VertexBoxes::VertexBoxes(const cases::Case& c, const Limits& limits, cases::Profile profile)
+    : case_(c), limits_(limits), profile_(profile), entries_(c.draws.size()) {
+    for (size_t d = 0; d < c.draws.size(); ++d) {
+        entries_[d].resize(c.draws[d].positions.size());
+    }
+}
+
+const std::optional<Box>& VertexBoxes::of(uint32_t draw, uint32_t vertex) {
+    Entry& entry = entries_[draw][vertex];
+    if (!entry.is_known) {
+        const cases::Draw& d = case_.draws[draw];
+        entry.box = position_box(d.positions[vertex], d.viewport, limits_, profile_);
+        entry.is_known = true;
+    }
+    return entry.box;
+}
+
+Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile profile) {
+    Window w;
+    const cases::Rect& r = draw.scissor;
+    w.pixel_x0 = std::max<int64_t>(0, r.x);
+    w.pixel_y0 = std::max<int64_t>(0, r.y);
+    w.pixel_x1 = std::min<int64_t>(c.target.width, int64_t{r.x} + r.width);
+    w.pixel_y1 = std::min<int64_t>(c.target.height, int64_t{r.y} + r.height);
+    axis_window(draw.viewport.x, draw.viewport.width, profile, w.zone_x, w.core_x);
+    axis_window(draw.viewport.y, draw.viewport.height, profile, w.zone_y, w.core_y);
+    return w;
+}
+
+TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limits& limits,
+                     cases::Profile profile, VertexBoxes& boxes, const Window& window) {
+    const cases::Draw& draw = c.draws[triangle.draw];
+    TriangleSetup t;
+    t.window = window;
+    t.grid_step = int64_t{1} << (kFixedBits - limits.subpixel_bits);
+    const auto& position = draw.positions;
+    Source s{
+        draw,
+        triangle,
+        limits,
+        profile,
+        boxes,
+        {position[triangle.vertex[0]], position[triangle.vertex[1]], position[triangle.vertex[2]]}};
+    AreaSigns signs;
+    const bool is_finite = std::all_of(s.clip.begin(), s.clip.end(), [](const glm::vec4& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+    });
+    if (!is_finite) {
+        // Undefined for this primitive, anywhere inside scissor and framebuffer.
+        t.kind = TriangleSetup::Kind::anywhere;
+        t.window.is_viewport_ignored = true;
+        apply_facing(t, {true, true, true}, draw);
+        return t;
+    }
+    if (is_trivially_outside(s.clip)) {
+        return t;
+    }
+    t.kind = TriangleSetup::Kind::outlines;
+    t.is_clipped =
+        !std::all_of(s.clip.begin(), s.clip.end(), [](const glm::vec4& v) { return is_inside(v); });
+    t.has_outline = unclipped_outline(s, t.unclipped);
+    if (t.has_outline) {
+        choose_mode(t.unclipped, t.grid_step, profile);
+        signs |= signs_of(t.unclipped, t.grid_step);
+    }
+    bool is_defined = t.has_outline || t.is_clipped;
+    if (t.is_clipped) {
+        is_defined = outline_of(clip_triangle(s.clip, draw.viewport, profile), s, t.clipped);
+        const bool is_fractional = t.window.zone_x.low != t.window.core_x.low ||
+                                   t.window.zone_y.low != t.window.core_y.low;
+        if (is_fractional && !t.has_outline) {
+            is_defined = false;  // nothing says what the zone around the viewport shows
+        }
+        if (is_defined) {
+            choose_mode(t.clipped, t.grid_step, profile);
+            signs |= signs_of(t.clipped, t.grid_step);
+        }
+    }
+    const bool crosses_eye =
+        std::any_of(s.clip.begin(), s.clip.end(), [](const glm::vec4& v) { return !(v.w > 0); });
+    if (!is_defined) {
+        t.kind = TriangleSetup::Kind::anywhere;
+        signs = {true, true, true};
+    } else if (crosses_eye && profile == cases::Profile::vulkan) {
+        // "(clipped or unclipped)": the unclipped area may have the opposite sign.
+        signs.negative = signs.positive = true;
+    }
+    if (!signs.negative && !signs.zero && !signs.positive) {
+        t.kind = TriangleSetup::Kind::nothing;  // every outline is empty
+        return t;
+    }
+    apply_facing(t, signs, draw);
+    return t;
+}
+
+std::vector<FixedPoint> grid_points(const Box& box, int64_t step) {
+    std::vector<FixedPoint> out;
+    for (int64_t y = box.y0; y <= box.y1; y += step) {
+        for (int64_t x = box.x0; x <= box.x1; x += step) {
+            out.push_back({x, y});
+        }
+    }
+    return out;
+}
+
+}  // namespace ref

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What of a triangle does not depend on the sample. A device may draw a triangle from one of up to
+// two outlines: the triangle as it is (cut by the depth planes only, if it has to be: a guard band
+// with an exact viewport scissor), and, if it leaves the view volume, the polygon clipped against
+// all planes. Each vertex of an outline is a box of positions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/profile.hpp"
+#include "ref/clip.hpp"
+#include "ref/coverage.hpp"
+#include "ref/limits.hpp"
+#include "ref/position.hpp"
+#include "ref/sample.hpp"
+#include "ref/triangle.hpp"
+
+namespace ref {
+
+// How the samples of an outline are decided.
+enum class OutlineMode : uint8_t {
+    empty,    // covers nothing
+    snapped,  // every grid point of the boxes is tried, with the top-left rule (profile direct3d)
+    boxes,    // must: inside for every choice of positions; must not: outside the hull of the boxes
+};
+inline constexpr int64_t kMaxCandidates = 64;
+
+struct Outline {
+    OutlineMode mode = OutlineMode::empty;
+    uint32_t count = 0;                                 // vertices, at most kMaxClippedVertices
+    std::array<Box, kMaxClippedVertices> boxes{};       // in the order of the triangle
+    std::array<EdgeLabel, kMaxClippedVertices> edge{};  // from vertex i to the next
+    // The same with neighbours whose boxes overlap drawn together into one box: what `must` is
+    // decided by in mode boxes. Edges inside such a box cannot separate it from the rest.
+    uint32_t must_count = 0;
+    std::array<Box, kMaxClippedVertices> must_boxes{};
+
+    std::span<const Box> vertices() const { return {boxes.data(), count}; }
+    std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }
+};
+
+// A closed range of S47.16 coordinates.
+struct Range {
+    int64_t low = 0, high = -1;
+    bool contains(int64_t v) const { return low <= v && v <= high; }
+};
+
+// The samples that a draw may touch at all: pixels inside scissor and framebuffer, and the
+// viewport.
+struct Window {
+    int64_t pixel_x0 = 0, pixel_x1 = 0;  // half-open
+    int64_t pixel_y0 = 0, pixel_y1 = 0;
+    // Nothing is drawn outside `zone`; nothing has to be drawn outside `core`. They differ along a
+    // fractional viewport only, by the pixel on either side that rules.md leaves open there.
+    Range zone_x, zone_y, core_x, core_y;
+    bool is_viewport_ignored = false;  // undefined positions: only scissor and framebuffer hold
+
+    bool may_touch(const FixedPoint& p) const;
+    bool must_touch(const FixedPoint& p) const;
+};
+
+struct TriangleSetup {
+    enum class Kind : uint8_t {
+        nothing,   // culled or outside
+        outlines,  // decided by the outlines
+        anywhere,  // undefined position: any sample of the window, or none
+    };
+    Kind kind = Kind::nothing;
+    bool is_clipped = false;   // a vertex lies outside the view volume
+    bool has_outline = false;  // `unclipped` is meaningful
+    Outline unclipped;         // cut by the depth planes only
+    Outline clipped;           // by all planes; meaningful if is_clipped
+    int64_t grid_step = 1;     // S47.16 units of one subpixel
+    int orientation = 0;       // sign of the area for every choice of positions; 0 if it depends
+    Facing facing = Facing::depends;  // before culling
+    bool can_be_front = false;        // drawn so, after culling
+    bool can_be_back = false;
+    bool may_be_culled = false;
+    Window window;
+
+    // The outlines that a device may use, one or two.
+    std::array<const Outline*, 2> outlines(size_t& count) const;
+};
+
+// The boxes of a draw's vertices, computed when first asked for.
+class VertexBoxes {
+  public:
+    VertexBoxes(const cases::Case& c, const Limits& limits, cases::Profile profile);
+    const std::optional<Box>& of(uint32_t draw, uint32_t vertex);
+
+  private:
+    struct Entry {
+        bool is_known = false;
+        std::optional<Box> box;
+    };
+    const cases::Case& case_;
+    Limits limits_;
+    cases::Profile profile_;
+    std::vector<std::vector<Entry>> entries_;
+};
+
+// The window of a draw.
+Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile profile);
+
+TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limits& limits,
+                     cases::Profile profile, VertexBoxes& boxes, const Window& window);
+
+// The grid points of a box in mode snapped.
+std::vector<FixedPoint> grid_points(const Box& box, int64_t step);
+
+}  // namespace ref

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Convex sets of sample positions as intersections of integer half planes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ref/coverage_setup.hpp"
+#include "ref/wide.hpp"
+
+namespace ref::fast {
+
+// Inside where a x + b y + c >= 0. With positions below 2^50: |a|, |b| < 2^51, |c| < 2^102.
+struct HalfPlane {
+    Int128 a = 0, b = 0, c = 0;
+    Int128 at(const FixedPoint& p) const { return a * p.x + b * p.y + c; }
+    friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
+};
+
+// E_ab(p) >= 0 or, strictly, E_ab(p) > 0: over the integers E - 1 >= 0.
+inline HalfPlane right_of(const FixedPoint& a, const FixedPoint& b, bool is_strict) {
+    return {Int128{a.y} - b.y, Int128{b.x} - a.x,
+            static_cast<Int128>(a.x) * b.y - static_cast<Int128>(a.y) * b.x - (is_strict ? 1 : 0)};
+}
+
+// What a triangle setup says, as sets: must is the intersection of all `must` half planes (empty
+// without has_must), may the union of the `may` sets, each of them inside its bounds.
+struct ConvexSet {
+    std::vector<HalfPlane> planes;
+    Box bounds;
+};
+struct CoverageSets {
+    bool has_must = true;
+    std::vector<HalfPlane> must;
+    std::vector<ConvexSet> may;
+};
+
+// Corners of the closed convex hull of points, clockwise on screen (Andrew's monotone chain); fewer
+// than three if the points lie on a line.
+std::vector<FixedPoint> convex_hull(std::vector<FixedPoint> points);
+
+// The closed convex hull of the boxes.
+ConvexSet hull_set(std::span<const Box> boxes);
+
+CoverageSets coverage_sets(const TriangleSetup& setup);
+
+}  // namespace ref::fast

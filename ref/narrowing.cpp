@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/narrowing.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <string>
+
+namespace ref {
+
+namespace {
+
+// The set that member m belongs to, in a forest of parents.
+uint32_t root_of(std::vector<uint32_t>& parent, uint32_t m) {
+    while (parent[m] != m) {
+        parent[m] = parent[parent[m]];
+        m = parent[m];
+    }
+    return m;
+}
+
+void add_single(HitBounds& b, const TriangleSetup& t, bool is_must) {
+    b.total_max += 1;
+    b.front_max += t.can_be_front ? 1 : 0;
+    b.back_max += t.can_be_back ? 1 : 0;
+    b.signed_max += t.can_be_front ? 1 : 0;
+    b.signed_min -= t.can_be_back ? 1 : 0;
+    if (!is_must) {
+        return;
+    }
+    b.total_min += 1;
+    if (!t.can_be_back) {
+        b.front_min += 1;
+        b.signed_min += 1;
+    }
+    if (!t.can_be_front) {
+        b.back_min += 1;
+        b.signed_max -= 1;
+    }
+}
+
+// `count` of `front` + `back` triangles.
+void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t count) {
+    const uint32_t front_min = count > back ? count - back : 0;
+    const uint32_t front_max = std::min(front, count);
+    b.total_min += count;
+    b.total_max += count;
+    b.front_min += front_min;
+    b.front_max += front_max;
+    b.back_min += count - front_max;
+    b.back_max += count - front_min;
+    b.signed_min += static_cast<int32_t>(2 * front_min) - static_cast<int32_t>(count);
+    b.signed_max += static_cast<int32_t>(2 * front_max) - static_cast<int32_t>(count);
+}
+
+}  // namespace
+
+Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
+                     const std::vector<Triangle>& triangles,
+                     const std::vector<TriangleSetup>& setups, Predicates predicates)
+    : case_(c),
+      profile_(profile),
+      triangles_(triangles),
+      setups_(setups),
+      predicates_(predicates),
+      vertex_numbers_(c.draws.size()) {}
+
+uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
+    const cases::Draw& d = case_.draws[draw];
+    std::vector<uint32_t>& numbers = vertex_numbers_[draw];
+    numbers.resize(d.positions.size());
+    if (numbers[vertex] == 0) {
+        const cases::Viewport& v = d.viewport;
+        const glm::vec4& p = d.positions[vertex];
+        const float bits[] = {p.x, p.y, p.z, p.w, v.x, v.y, v.width, v.height};
+        std::string key(sizeof bits, '\0');
+        std::memcpy(key.data(), bits, sizeof bits);
+        const auto next = static_cast<uint32_t>(numbers_.size() + 1);
+        numbers[vertex] = numbers_.try_emplace(std::move(key), next).first->second;
+    }
+    return numbers[vertex];
+}
+
+bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
+                          std::vector<Side>& sides) {
+    const TriangleSetup& setup = setups_[hit.triangle];
+    const Triangle& triangle = triangles_[hit.triangle];
+    if (setup.kind != TriangleSetup::Kind::outlines || setup.orientation == 0 ||
+        setup.may_be_culled || !setup.window.must_touch(p)) {
+        return false;
+    }
+    const bool is_literal = profile_ == cases::Profile::vulkan;
+    if (is_literal && setup.is_clipped) {
+        return false;  // no text promises a shared edge after clipping
+    }
+    std::array<bool, 3> has_edge{};
+    size_t count = 0;
+    const auto outlines = setup.outlines(count);
+    for (size_t k = 0; k < count; ++k) {
+        const Outline& o = *outlines[k];
+        for (uint32_t i = 0; i < o.count; ++i) {
+            const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
+            // The pairwise rule contradicts itself where many triangles meet in a vertex.
+            if (is_literal && predicates_.is_in_hull(std::span<const Box>(ends.data(), 1), p)) {
+                return false;
+            }
+            if (!predicates_.is_in_hull(ends, p)) {
+                continue;
+            }
+            if (o.edge[i] >= kFirstClipEdge) {
+                return false;
+            }
+            has_edge[o.edge[i]] = true;
+        }
+    }
+    for (uint32_t e = 0; e < 3; ++e) {
+        if (!has_edge[e]) {
+            continue;
+        }
+        const uint32_t a = vertex_number(triangle.draw, triangle.vertex[e]);
+        const uint32_t b = vertex_number(triangle.draw, triangle.vertex[(e + 1) % 3]);
+        sides.push_back({uint64_t{std::min(a, b)} << 32U | std::max(a, b),
+                         (a < b) == (setup.orientation > 0), member});
+    }
+    return has_edge[0] || has_edge[1] || has_edge[2];
+}
+
+int Narrowing::winding_of(const FixedPoint& p, const TriangleSetup& setup,
+                          const Outline& outline) const {
+    // One choice of positions that is the same for equal vertices: the low corners.
+    std::array<FixedPoint, kMaxClippedVertices> polygon;
+    for (uint32_t i = 0; i < outline.count; ++i) {
+        polygon[i] = {outline.boxes[i].x0, outline.boxes[i].y0};
+    }
+    const std::span<const FixedPoint> vertices(polygon.data(), outline.count);
+    return setup.orientation * predicates_.winding(vertices, p);
+}
+
+int Narrowing::count_of(const FixedPoint& p, std::span<const Hit> hits,
+                        const std::vector<uint32_t>& members) const {
+    int unclipped = 0;
+    int clipped = 0;
+    bool has_unclipped = true;
+    for (const uint32_t m : members) {
+        const TriangleSetup& setup = setups_[hits[m].triangle];
+        const int open = setup.has_outline ? winding_of(p, setup, setup.unclipped) : 0;
+        has_unclipped = has_unclipped && setup.has_outline;
+        unclipped += open;
+        clipped += setup.is_clipped ? winding_of(p, setup, setup.clipped) : open;
+    }
+    if (has_unclipped && unclipped != clipped) {
+        return -1;
+    }
+    return clipped >= 0 && clipped <= static_cast<int>(members.size()) ? clipped : -1;
+}
+
+std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
+                                                    std::span<const Hit> hits) {
+    std::vector<Fixed> out;
+    const auto n = static_cast<uint32_t>(hits.size());
+    std::vector<Side> sides;
+    std::vector<bool> is_free(n, true);
+    for (uint32_t m = 0; m < n; ++m) {
+        if (hits[m].coverage == Coverage::either) {
+            const size_t before = sides.size();
+            is_free[m] = !add_sides(p, hits[m], m, sides);
+            if (is_free[m]) {
+                sides.resize(before);
+            }
+        }
+    }
+    std::vector<uint32_t> parent(n);
+    std::iota(parent.begin(), parent.end(), 0U);
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& a, const Side& b) { return a.edge < b.edge; });
+    for (size_t begin = 0; begin < sides.size();) {
+        size_t end = begin;
+        int balance = 0;
+        while (end < sides.size() && sides[end].edge == sides[begin].edge) {
+            balance += sides[end].is_forward ? 1 : -1;
+            ++end;
+        }
+        for (size_t k = begin; k < end; ++k) {
+            parent[root_of(parent, sides[k].member)] = root_of(parent, sides[begin].member);
+            if (balance != 0) {
+                is_free[sides[k].member] = true;
+            }
+        }
+        begin = end;
+    }
+    std::vector<bool> is_set_free(n, false);
+    for (uint32_t m = 0; m < n; ++m) {
+        if (is_free[m]) {
+            is_set_free[root_of(parent, m)] = true;
+        }
+    }
+    std::vector<uint32_t> slot(n, n);
+    for (uint32_t m = 0; m < n; ++m) {
+        const uint32_t root = root_of(parent, m);
+        if (hits[m].coverage != Coverage::either || is_set_free[root]) {
+            continue;
+        }
+        if (slot[root] == n) {
+            slot[root] = static_cast<uint32_t>(out.size());
+            out.emplace_back();
+        }
+        out[slot[root]].members.push_back(m);
+    }
+    std::erase_if(out, [&](Fixed& set) {
+        const int count = count_of(p, hits, set.members);
+        set.count = static_cast<uint32_t>(std::max(count, 0));
+        return count < 0;
+    });
+    return out;
+}
+
+SampleExpectation Narrowing::judge(const FixedPoint& p, std::span<const Hit> hits,
+                                   std::vector<uint32_t>& writers) {
+    SampleExpectation out;
+    out.writers_begin = static_cast<uint32_t>(writers.size());
+    const auto open = std::count_if(hits.begin(), hits.end(),
+                                    [](const Hit& h) { return h.coverage == Coverage::either; });
+    if (open < 2) {
+        uint32_t first = 0;
+        for (uint32_t m = 0; m < hits.size(); ++m) {
+            const bool is_must = hits[m].coverage == Coverage::must;
+            add_single(out.hits, setups_[hits[m].triangle], is_must);
+            first = is_must ? m : first;
+        }
+        for (uint32_t m = first; m < hits.size(); ++m) {
+            writers.push_back(hits[m].triangle);
+        }
+        out.writers_count = static_cast<uint32_t>(writers.size()) - out.writers_begin;
+        return out;
+    }
+    std::vector<Coverage> coverage(hits.size());
+    std::vector<bool> is_counted(hits.size(), false);
+    for (size_t m = 0; m < hits.size(); ++m) {
+        coverage[m] = hits[m].coverage;
+    }
+    uint32_t first = 0;  // nothing before it can have written last
+    for (const Fixed& set : fixed_sets(p, hits)) {
+        uint32_t front = 0;
+        for (const uint32_t m : set.members) {
+            is_counted[m] = true;
+            front += setups_[hits[m].triangle].can_be_front ? 1U : 0U;
+            coverage[m] = set.count == 0 ? Coverage::must_not : Coverage::either;
+        }
+        const auto size = static_cast<uint32_t>(set.members.size());
+        add_set(out.hits, front, size - front, set.count);
+        if (set.count > 0) {
+            first = std::max(first, set.members[set.count - 1]);
+        }
+    }
+    for (uint32_t m = 0; m < hits.size(); ++m) {
+        if (!is_counted[m]) {
+            add_single(out.hits, setups_[hits[m].triangle], coverage[m] == Coverage::must);
+            first = coverage[m] == Coverage::must ? std::max(first, m) : first;
+        }
+    }
+    for (uint32_t m = first; m < hits.size(); ++m) {
+        if (coverage[m] != Coverage::must_not) {
+            writers.push_back(hits[m].triangle);
+        }
+    }
+    out.writers_count = static_cast<uint32_t>(writers.size()) - out.writers_begin;
+    return out;
+}
+
+}  // namespace ref

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From the coverage of single triangles to the hits that a sample may show.
+//
+// Exactly one. Take the triangles that may or may not cover sample p, and orient each so that its
+// area is positive. Two that share an edge with bitwise-equal end points in one viewport, p in the
+// band of that edge (the hull of its two boxes), run along it in opposite directions: they lie on
+// either side. Let K be a set of triangles closed under such partnership, in which every edge whose
+// band contains p occurs equally often in both directions. However the vertices are snapped, if
+// equal vertices are snapped alike, the border of the chain sum(K) stays away from p, so its
+// winding number around p, which is the number of triangles of K that cover p, is the same for
+// every snapping; on an edge itself the shared-edge rule (Vulkan specification, "Basic Polygon
+// Rasterization") keeps the number. So p is hit that often by K.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/profile.hpp"
+#include "ref/coverage_setup.hpp"
+#include "ref/expectation.hpp"
+#include "ref/triangle.hpp"
+
+namespace ref {
+
+// A triangle that must or may cover the sample at hand.
+struct Hit {
+    uint32_t triangle = 0;
+    Coverage coverage = Coverage::either;
+};
+
+// The arithmetic that narrowing rests on, so that both implementations bring their own.
+struct Predicates {
+    // p lies in the closed convex hull of the boxes.
+    bool (*is_in_hull)(std::span<const Box>, const FixedPoint&);
+    // How often the polygon runs around p, clockwise positive, with the top-left rule on its
+    // border.
+    int (*winding)(std::span<const FixedPoint>, const FixedPoint&);
+};
+
+class Narrowing {
+  public:
+    Narrowing(const cases::Case& c, cases::Profile profile, const std::vector<Triangle>& triangles,
+              const std::vector<TriangleSetup>& setups, Predicates predicates);
+
+    // Bounds for a sample from the triangles that must or may cover it, in drawing order; appends
+    // the triangles that may have written last.
+    SampleExpectation judge(const FixedPoint& p, std::span<const Hit> hits,
+                            std::vector<uint32_t>& writers);
+
+  private:
+    // Triangles of which exactly `count` cover the sample.
+    struct Fixed {
+        std::vector<uint32_t> members;  // positions in the list of hits, ascending
+        uint32_t count = 0;
+    };
+    // One edge of a member whose band contains the sample.
+    struct Side {
+        uint64_t edge = 0;  // both vertex numbers, smaller one first
+        bool is_forward = false;
+        uint32_t member = 0;
+    };
+
+    std::vector<Fixed> fixed_sets(const FixedPoint& p, std::span<const Hit> hits);
+    // Adds the edges of a hit near p; false if p lies where no rule fixes anything.
+    bool add_sides(const FixedPoint& p, const Hit& hit, uint32_t member, std::vector<Side>& sides);
+    // The number of the members that cover p, or -1 if it depends on the outline used.
+    int count_of(const FixedPoint& p, std::span<const Hit> hits,
+                 const std::vector<uint32_t>& members) const;
+    int winding_of(const FixedPoint& p, const TriangleSetup& setup, const Outline& outline) const;
+    // Equal for vertices with bitwise-equal position and viewport.
+    uint32_t vertex_number(uint32_t draw, uint32_t vertex);
+
+    const cases::Case& case_;
+    cases::Profile profile_;
+    const std::vector<Triangle>& triangles_;
+    const std::vector<TriangleSetup>& setups_;
+    Predicates predicates_;
+    std::unordered_map<std::string, uint32_t> numbers_;
+    std::vector<std::vector<uint32_t>> vertex_numbers_;  // per draw; 0 = not yet numbered
+};
+
+}  // namespace ref
