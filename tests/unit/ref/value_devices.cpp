@@ -88,4 +88,104 @@ TEST(ValueDevices, DifferenceFormPasses) {
     EXPECT_EQ(t.rejected, 0U) << t.first;
 }
 
+// A fault must be seen in nearly every triangle where it changes anything worth mentioning.
+TEST(ValueDevices, AffineInsteadOfPerspectiveIsRejected) {
+    const Tally t = run(Device::origin_plane, Fault::affine, 5, 2000, 4);
+    // Half of the triangles have equal w, where affine is right.
+    EXPECT_GT(t.rejected * 100, t.fragments * 45);
+}
+
+TEST(ValueDevices, HalfPixelShiftIsRejected) {
+    const Tally t = run(Device::origin_plane, Fault::half_pixel, 6, 2000, 4);
+    EXPECT_GT(t.rejected * 100, t.fragments * 98);
+}
+
+TEST(ValueDevices, TwelveBitReciprocalIsRejected) {
+    const Tally t = run(Device::brute_barycentric, Fault::short_reciprocal, 7, 2000, 4);
+    // w = 1 makes the reciprocal exact; slivers far from the origin hide 2^-12.
+    EXPECT_GT(t.rejected * 100, t.fragments * 45);
+}
+
+// One basis has to explain all values: half of them from unsnapped, half from snapped positions.
+TEST(ValueDevices, MixedBasesAreRejected) {
+    std::mt19937_64 rng(8);
+    uint64_t rejected = 0, fragments = 0;
+    for (int n = 0; n < 300; ++n) {
+        const Sampled s = value_test::random_case(rng, 64, Shape::small, 2);
+        const Simulated a(s.c, Device::origin_plane, Fault::none);
+        const Simulated b(s.c, Device::relative_snapped, Fault::none);
+        ref::ValueReference reference(s.c, ref::Limits{}, cases::Profile::direct3d);
+        for (const ref::SampleId& id : s.inside) {
+            ref::FragmentValues mixed = a.at(id.x, id.y);
+            mixed.attributes[1] = b.at(id.x, id.y).attributes[1];
+            ++fragments;
+            rejected += reference.judge(0, id, mixed).ok ? 0 : 1;
+        }
+    }
+    EXPECT_GT(rejected * 100, fragments * 98);
+}
+
+// Each change below turns a fragment that passes into one that fails.
+TEST(ValueDevices, SwappedValuesAreRejected) {
+    std::mt19937_64 rng(9);
+    for (int n = 0; n < 500; ++n) {
+        const Sampled s = value_test::random_case(rng, 64, Shape::large, 4);
+        const ref::SampleId id = s.inside.front();
+        const ref::FragmentValues good =
+            Simulated(s.c, Device::origin_plane, Fault::none).at(id.x, id.y);
+        ref::ValueReference reference(s.c, ref::Limits{}, cases::Profile::direct3d);
+        ASSERT_TRUE(reference.judge(0, id, good).ok);
+
+        ref::FragmentValues v = good;
+        std::swap(v.attributes[0].x, v.attributes[0].y);
+        EXPECT_FALSE(reference.judge(0, id, v).ok) << n;
+        v = good;
+        std::swap(v.attributes[0], v.attributes[1]);
+        EXPECT_FALSE(reference.judge(0, id, v).ok) << n;
+        v = good;
+        v.attributes[2].x = 2.5F;  // the second vertex's value
+        const ref::FragmentVerdict flat = reference.judge(0, id, v);
+        ASSERT_EQ(flat.mismatches.size(), 1U);
+        EXPECT_EQ(flat.mismatches[0].rule, "provoking.first");
+        v = good;
+        v.attributes[1].y = std::numeric_limits<float>::quiet_NaN();
+        const ref::FragmentVerdict nan = reference.judge(0, id, v);
+        ASSERT_EQ(nan.mismatches.size(), 1U);
+        EXPECT_EQ(nan.mismatches[0].rule, "interp.hull");
+        EXPECT_EQ(nan.mismatches[0].level, cases::Profile::vulkan);
+        v = good;
+        v.frag_coord.y += 0.5F;
+        EXPECT_FALSE(reference.judge(0, id, v).ok) << n;
+    }
+}
+
+// A wrong depth is found in every profile that promises a plane, and the oracle says the same.
+TEST(ValueDevices, LevelsAreMonotone) {
+    std::mt19937_64 rng(10);
+    for (int n = 0; n < 40; ++n) {
+        const Sampled s = value_test::random_case(rng, 256, Shape::large, 3);
+        const ref::SampleId id = s.inside.front();
+        const ref::FragmentValues good =
+            Simulated(s.c, Device::brute_barycentric, Fault::none).at(id.x, id.y);
+        for (const float off : {0x1p-22F, 0x1p-18F, 0x1p-14F, 0x1p-10F, 0x1p-4F, 2.0F}) {
+            ref::FragmentValues v = good;
+            v.depth += off;
+            bool was_wrong = false;
+            for (const cases::Profile profile : cases::kProfiles) {
+                ref::ValueReference reference(s.c, ref::Limits{}, profile);
+                const ref::FragmentVerdict verdict = reference.judge(0, id, v);
+                const ref::FragmentVerdict exact = reference.judge_exact(0, id, v);
+                EXPECT_EQ(verdict.ok, exact.ok);
+                EXPECT_TRUE(!was_wrong || !verdict.ok) << "wrong at a looser profile only";
+                was_wrong = was_wrong || !verdict.ok;
+                for (const ref::ValueMismatch& m : verdict.mismatches) {
+                    EXPECT_LE(m.level, profile);
+                }
+            }
+            EXPECT_EQ(was_wrong, was_wrong || off > 1);
+            EXPECT_TRUE(was_wrong || off < 1);
+        }
+    }
+}
+
 }  // namespace
