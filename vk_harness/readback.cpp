@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "vk_harness/case_check.hpp"
 
@@ -12,11 +11,29 @@ namespace vk_harness {
 
 namespace {
 
+// Storage of bytes holds whatever objects were written there (C++20, implicit object creation);
+// offsets are multiples of the layout's alignment. Copied once, without clearing the vector first.
 template <class T>
 std::vector<T> copy_out(std::span<const std::byte> memory, VkDeviceSize offset, size_t count) {
-    std::vector<T> values(count);
-    std::memcpy(static_cast<void*>(values.data()), memory.data() + offset, count * sizeof(T));
-    return values;
+    const auto* first = reinterpret_cast<const T*>(memory.data() + offset);
+    return std::vector<T>(first, first + count);
+}
+
+// Neighbours mostly have the same origin, so the last answer is kept.
+void decode_writers(std::vector<diff::Writer>& writers) {
+    const auto decode = [](const diff::Writer& words) {
+        return diff::Writer{decode_id(words.draw), decode_id(words.primitive),
+                            decode_id(words.provoking_vertex), decode_id(words.spare)};
+    };
+    diff::Writer last;
+    diff::Writer decoded = decode(last);
+    for (diff::Writer& writer : writers) {
+        if (!(writer == last)) {
+            last = writer;
+            decoded = decode(writer);
+        }
+        writer = decoded;
+    }
 }
 
 }  // namespace
@@ -69,12 +86,7 @@ diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count
     const size_t count = capture.sample_count();
     capture.hits = copy_out<glm::vec4>(memory, layout.color[0], count);
     capture.writers = copy_out<diff::Writer>(memory, layout.color[1], count);
-    for (diff::Writer& writer : capture.writers) {
-        writer.draw = decode_id(writer.draw);
-        writer.primitive = decode_id(writer.primitive);
-        writer.provoking_vertex = decode_id(writer.provoking_vertex);
-        writer.spare = decode_id(writer.spare);
-    }
+    decode_writers(capture.writers);
     capture.frag_coord = copy_out<glm::vec4>(memory, layout.color[2], count);
     for (uint32_t k = 0; k < attribute_count; ++k) {
         capture.attributes[k] =

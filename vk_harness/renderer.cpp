@@ -38,24 +38,31 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& from) 
 
 }  // namespace
 
-Renderer::Impl::Impl(Instance instance_, std::unique_ptr<Device> device_, PipelineCache pipelines_,
-                     Submission submission_)
-    : instance(std::move(instance_)),
-      device(std::move(device_)),
-      pipelines(std::move(pipelines_)),
-      targets(*device),
-      submission(std::move(submission_)) {}
+BatchRenderer::BatchRenderer(Instance instance, std::unique_ptr<Device> device,
+                             PipelineCache pipelines, Submission submission)
+    : instance_(std::move(instance)),
+      device_(std::move(device)),
+      pipelines_(std::move(pipelines)),
+      targets_(*device_),
+      submission_(std::move(submission)) {}
 
-bool Renderer::Impl::plan(CasePlan& plan, Rendered& result) {
+BatchRenderer::~BatchRenderer() {
+    // Nothing may be freed while the device still works on it, as after a wait that failed.
+    if (device_) {
+        device_->vk().vkDeviceWaitIdle(device_->get());
+    }
+}
+
+bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
     const cases::Case& test = *plan.test;
-    if (auto rejection = check_case(device->capabilities(), test)) {
+    if (auto rejection = check_case(device_->capabilities(), test)) {
         result.status = rejection->status;
         result.reason = std::move(rejection->reason);
         return false;
     }
     plan.attribute_count = attribute_count(test);
     for (const cases::Draw& draw : test.draws) {
-        auto pipeline = pipelines.get(pipeline_key(test, draw));
+        auto pipeline = pipelines_.get(pipeline_key(test, draw));
         if (!pipeline) {
             reject(result, pipeline.error());
             return false;
@@ -65,7 +72,7 @@ bool Renderer::Impl::plan(CasePlan& plan, Rendered& result) {
         item.pipeline = *pipeline;
         plan.draws.push_back(item);
     }
-    auto target = targets.get(test.target, kFixedAttachments + plan.attribute_count);
+    auto target = targets_.get(test.target, kFixedAttachments + plan.attribute_count);
     if (!target) {
         reject(result, target.error());
         return false;
@@ -74,9 +81,9 @@ bool Renderer::Impl::plan(CasePlan& plan, Rendered& result) {
     return true;
 }
 
-Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_back,
-                                        std::vector<Rendered>& results,
-                                        const std::function<void(std::string_view)>& step) {
+Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_back,
+                                       std::vector<Rendered>& results,
+                                       const std::function<void(std::string_view)>& step) {
     step("record");
     VkDeviceSize vertex_bytes = 0;
     VkDeviceSize readback_bytes = 0;
@@ -86,7 +93,7 @@ Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_
         plan.readback = make_layout(plan.test->target, colors, readback_bytes, alignment());
         readback_bytes = plan.readback.end;
     }
-    auto vertices = submission.vertices(vertex_bytes);
+    auto vertices = submission_.vertices(vertex_bytes);
     if (!vertices) {
         return fail(vertices.error());
     }
@@ -96,7 +103,7 @@ Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_
     if (auto flushed = (*vertices)->flush(); !flushed) {
         return flushed;
     }
-    auto commands = submission.begin();
+    auto commands = submission_.begin();
     if (!commands) {
         return fail(commands.error());
     }
@@ -105,7 +112,7 @@ Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_
     VkPipeline copy_color = VK_NULL_HANDLE;
     VkPipeline copy_depth = VK_NULL_HANDLE;
     if (read_back) {
-        auto buffer = submission.readback(readback_bytes);
+        auto buffer = submission_.readback(readback_bytes);
         if (!buffer) {
             return fail(buffer.error());
         }
@@ -118,8 +125,8 @@ Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_
             return plan.test->target.samples > 1;
         });
         if (multisampled) {
-            auto color = pipelines.get_copy(false);
-            auto depth = pipelines.get_copy(true);
+            auto color = pipelines_.get_copy(false);
+            auto depth = pipelines_.get_copy(true);
             if (!color || !depth) {
                 return fail(color ? depth.error() : color.error());
             }
@@ -128,24 +135,24 @@ Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_
         }
     }
     for (const CasePlan& plan : plans) {
-        record_draws(*device, pipelines, *commands, plan, (*vertices)->get(), read_back);
+        record_draws(*device_, pipelines_, *commands, plan, (*vertices)->get(), read_back);
         if (read_back) {
             std::vector<VkDescriptorSet> sets;
             if (plan.test->target.samples > 1) {
-                auto made = submission.copy_sets(pipelines, plan);
+                auto made = submission_.copy_sets(pipelines_, plan);
                 if (!made) {
                     return fail(made.error());
                 }
                 sets = std::move(*made);
             }
-            record_copies(*device, copy_color, copy_depth, pipelines.copy_layout(), *commands, plan,
-                          readback->get(), sets);
+            record_copies(*device_, copy_color, copy_depth, pipelines_.copy_layout(), *commands,
+                          plan, readback->get(), sets);
         }
-        append(results[plan.slot].messages, instance.messages().take());
+        append(results[plan.slot].messages, instance_.messages().take());
     }
 
     step("submit");
-    if (auto done = submission.run(); !done) {
+    if (auto done = submission_.run(); !done) {
         return done;
     }
     if (read_back) {
@@ -155,7 +162,7 @@ Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_
         }
         for (const CasePlan& plan : plans) {
             results[plan.slot].capture = read_capture(plan.test->target, plan.attribute_count,
-                                                      device->capabilities().info.has_primitive_id,
+                                                      device_->capabilities().info.has_primitive_id,
                                                       plan.readback, readback->bytes());
         }
     }
@@ -165,47 +172,50 @@ Result<void> Renderer::Impl::draw_chunk(std::vector<CasePlan>& plans, bool read_
     return {};
 }
 
-VkDeviceSize Renderer::Impl::alignment() const {
+VkDeviceSize BatchRenderer::alignment() const {
     // Copies need a multiple of 16 (the texel) and gain from the optimal alignment; the shader that
     // reads single samples needs minStorageBufferOffsetAlignment. All are powers of two.
-    const VkPhysicalDeviceLimits& limits = device->capabilities().limits;
+    const VkPhysicalDeviceLimits& limits = device_->capabilities().limits;
     return std::max({VkDeviceSize{64}, limits.minStorageBufferOffsetAlignment,
                      limits.optimalBufferCopyOffsetAlignment});
 }
 
-void Renderer::Impl::run_chunk(std::vector<CasePlan>& plans, bool read_back,
-                               std::vector<Rendered>& results,
-                               const std::function<void(std::string_view)>& step) {
+void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
+                              std::vector<Rendered>& results,
+                              const std::function<void(std::string_view)>& step) {
     if (plans.empty()) {
         return;
     }
     const auto done = draw_chunk(plans, read_back, results, step);
-    const std::vector<std::string> messages = instance.messages().take();
+    const std::vector<std::string> messages = instance_.messages().take();
     for (const CasePlan& plan : plans) {
         if (!done) {
             reject(results[plan.slot], done.error());
         }
         append(results[plan.slot].messages, messages);
     }
+    if (!done) {
+        device_->vk().vkDeviceWaitIdle(device_->get());
+    }
     if (!done && done.error().vk_result == VK_ERROR_DEVICE_LOST) {
-        lost = done.error().message;
+        lost_ = done.error().message;
     }
     plans.clear();
-    targets.trim(kKeptBytes);
-    submission.trim(kKeptBytes);
+    targets_.trim(kKeptBytes);
+    submission_.trim(kKeptBytes);
 }
 
-std::vector<Rendered> Renderer::Impl::render(std::span<const cases::Case> batch, bool read_back,
-                                             const std::function<void(std::string_view)>& step) {
+std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, bool read_back,
+                                            const std::function<void(std::string_view)>& step) {
     std::vector<Rendered> results(batch.size());
     std::vector<CasePlan> plans;
     VkDeviceSize bytes = 0;
     step("pipeline");
     for (size_t slot = 0; slot < batch.size(); ++slot) {
         Rendered& result = results[slot];
-        if (!lost.empty()) {
+        if (!lost_.empty()) {
             result.status = Rendered::Status::device_lost;
-            result.reason = "the device was lost before: " + lost;
+            result.reason = "the device was lost before: " + lost_;
             continue;
         }
         CasePlan item;
@@ -222,17 +232,13 @@ std::vector<Rendered> Renderer::Impl::render(std::span<const cases::Case> batch,
             bytes += size;
             plans.push_back(std::move(item));
         }
-        append(result.messages, instance.messages().take());
+        append(result.messages, instance_.messages().take());
     }
     run_chunk(plans, read_back, results, step);
     return results;
 }
 
-Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Renderer::~Renderer() = default;
-Renderer::Renderer(Renderer&&) noexcept = default;
-
-Result<Renderer> Renderer::create(const Options& options) {
+Result<BatchRenderer> BatchRenderer::create(const Options& options) {
     auto instance = Instance::create(options);
     if (!instance) {
         return fail(instance.error());
@@ -254,22 +260,34 @@ Result<Renderer> Renderer::create(const Options& options) {
     if (!submission) {
         return fail(submission.error());
     }
-    return Renderer(std::make_unique<Impl>(std::move(*instance), std::move(device),
-                                           std::move(*pipelines), std::move(*submission)));
+    return BatchRenderer(std::move(*instance), std::move(device), std::move(*pipelines),
+                         std::move(*submission));
+}
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+
+Result<Renderer> Renderer::create(const Options& options) {
+    auto body = BatchRenderer::create(options);
+    if (!body) {
+        return fail(body.error());
+    }
+    return Renderer(std::make_unique<Impl>(Impl{std::move(*body)}));
 }
 
 const DeviceInfo& Renderer::device() const {
-    return impl_->device->capabilities().info;
+    return impl_->body.device().capabilities().info;
 }
 
 std::vector<Rendered> Renderer::render(std::span<const cases::Case> batch,
                                        const std::function<void(std::string_view)>& step) {
-    return impl_->render(
+    return impl_->body.render(
         batch, true, step ? step : [](std::string_view) {});
 }
 
 bool Renderer::render_bare(std::span<const cases::Case> batch) {
-    const auto results = impl_->render(batch, false, [](std::string_view) {});
+    const auto results = impl_->body.render(batch, false, [](std::string_view) {});
     return std::all_of(results.begin(), results.end(), [](const Rendered& result) {
         return result.status == Rendered::Status::drawn;
     });

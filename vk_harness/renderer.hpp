@@ -41,21 +41,21 @@ class Submission {
     Buffer readback_;
 };
 
-struct Renderer::Impl {
-    Impl(Instance instance_, std::unique_ptr<Device> device_, PipelineCache pipelines_,
-         Submission submission_);
+class BatchRenderer {
+  public:
+    static Result<BatchRenderer> create(const Options& options);
+    BatchRenderer(BatchRenderer&&) noexcept = default;
+    ~BatchRenderer();
 
+    // As Renderer::render, or render_bare if not `read_back`.
     std::vector<Rendered> render(std::span<const cases::Case> batch, bool read_back,
                                  const std::function<void(std::string_view)>& step);
 
-    Instance instance;
-    std::unique_ptr<Device> device;  // stable address: everything below points to it
-    PipelineCache pipelines;
-    TargetCache targets;
-    Submission submission;
-    std::string lost;  // why the device is lost, once it is
+    const Device& device() const { return *device_; }
 
   private:
+    BatchRenderer(Instance instance, std::unique_ptr<Device> device, PipelineCache pipelines,
+                  Submission submission);
     VkDeviceSize alignment() const;  // of everything in the read-back buffer
     // Pipelines, attachments and places of one case; nothing if the result says why not.
     bool plan(CasePlan& plan, Rendered& result);
@@ -64,6 +64,17 @@ struct Renderer::Impl {
     Result<void> draw_chunk(std::vector<CasePlan>& plans, bool read_back,
                             std::vector<Rendered>& results,
                             const std::function<void(std::string_view)>& step);
+
+    Instance instance_;
+    std::unique_ptr<Device> device_;  // stable address: everything below points to it
+    PipelineCache pipelines_;
+    TargetCache targets_;
+    Submission submission_;
+    std::string lost_;  // why the device is lost, once it is
+};
+
+struct Renderer::Impl {
+    BatchRenderer body;
 };
 
 }  // namespace vk_harness
