@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tables [[draw.attribute]].
+#pragma once
+
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/field_reader.hpp"
+#include "cases/vertices.hpp"
+
+namespace cases {
+
+// What attributes are computed from: the vertices after mirror, rotate and offset.
+struct AttributeSource {
+    const std::vector<ExactVertex>& vertices;
+    Space space;
+    const Viewport& viewport;
+    Topology topology;
+    bool indexed;
+};
+
+std::vector<Attribute> read_attributes(LeafContext& context, const TomlValue& value,
+                                       const AttributeSource& source);
+
+}  // namespace cases

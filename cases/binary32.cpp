@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/binary32.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cases {
+
+namespace {
+
+constexpr int kPrecision = 24;      // bits of a binary32 significand
+constexpr int kMinExponent = -149;  // of the unit of the subnormals
+constexpr int kOverflowExponent = 128;
+
+// floor(log2 |q|) for q != 0.
+long floor_log2(const mpq_class& q) {
+    const mpz_class num = abs(q.get_num());
+    const mpz_class& den = q.get_den();
+    // 2^(a-1) <= num < 2^a, 2^(b-1) <= den < 2^b, so 2^(a-b-1) < |q| < 2^(a-b+1).
+    const auto a = static_cast<long>(mpz_sizeinbase(num.get_mpz_t(), 2));
+    const auto b = static_cast<long>(mpz_sizeinbase(den.get_mpz_t(), 2));
+    const long e = a - b;
+    mpz_class left = num;
+    mpz_class right = den;
+    if (e >= 0) {
+        right <<= static_cast<unsigned long>(e);
+    } else {
+        left <<= static_cast<unsigned long>(-e);
+    }
+    return left >= right ? e : e - 1;
+}
+
+}  // namespace
+
+Rounded round_to_binary32(const mpq_class& q) {
+    if (q == 0) {
+        return {0.0F, true};
+    }
+    const float sign = sgn(q) < 0 ? -1.0F : 1.0F;
+    const long exponent = floor_log2(q);
+    if (exponent >= kOverflowExponent) {
+        return {sign * std::numeric_limits<float>::infinity(), false};
+    }
+    // The unit in the last place; |q| / unit < 2^24.
+    const long unit = std::max<long>(exponent - (kPrecision - 1), kMinExponent);
+    mpz_class num = abs(q.get_num());
+    mpz_class den = q.get_den();
+    if (unit >= 0) {
+        den <<= static_cast<unsigned long>(unit);
+    } else {
+        num <<= static_cast<unsigned long>(-unit);
+    }
+    mpz_class n;
+    mpz_class rest;
+    mpz_fdiv_qr(n.get_mpz_t(), rest.get_mpz_t(), num.get_mpz_t(), den.get_mpz_t());
+    const bool is_exact = rest == 0;
+    rest *= 2;
+    const int half = cmp(rest, den);
+    if (half > 0 || (half == 0 && mpz_odd_p(n.get_mpz_t()) != 0)) {
+        n += 1;
+    }
+    // n <= 2^24 is a double, its product with a power of two >= 2^-149 too.
+    const double magnitude = std::ldexp(n.get_d(), static_cast<int>(unit));
+    if (magnitude >= 0x1p128) {
+        return {sign * std::numeric_limits<float>::infinity(), false};
+    }
+    return {sign * static_cast<float>(magnitude), is_exact};
+}
+
+Rounded round_to_binary32(const Number& n) {
+    if (n.value == 0 && n.negative_zero) {
+        return {-0.0F, true};
+    }
+    return round_to_binary32(n.value);
+}
+
+Neighbours neighbours(const mpq_class& q) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const float nearest = round_to_binary32(q).value;
+    if (std::isinf(nearest)) {
+        constexpr float kMax = std::numeric_limits<float>::max();
+        return nearest > 0 ? Neighbours{kMax, kInfinity} : Neighbours{-kInfinity, -kMax};
+    }
+    if (exact(static_cast<double>(nearest)) < q) {
+        return {nearest, std::nextafter(nearest, kInfinity)};
+    }
+    return {std::nextafter(nearest, -kInfinity), nearest};
+}
+
+mpq_class exact(double value) {
+    return mpq_class(value);
+}
+
+std::string shortest(float value) {
+    return fmt::format("{}", value);
+}
+
+}  // namespace cases

@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The top of a case file: claims, matrix, target, draws, expectation.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cases/field_reader.hpp"
+#include "cases/load_draw.hpp"
+#include "cases/loader.hpp"
+#include "cases/matrix.hpp"
+#include "cases/rule.hpp"
+#include "cases/selector.hpp"
+#include "cases/toml_reader.hpp"
+
+namespace cases {
+
+namespace {
+
+using Kind = TomlValue::Kind;
+
+constexpr size_t kMaxDraws = 256;
+constexpr uint64_t kMaxPixels = uint64_t{1} << 26U;
+
+class CaseLoader {
+  public:
+    CaseLoader(const TomlValue& root, LeafContext& context) : root_(root), context_(context) {}
+
+    Case load() {
+        c_.where = {root_.where.file, 1, 1};
+        context_.known_keys(root_, "a case file",
+                            {"format", "description", "catches", "rules", "links", "matrix",
+                             "target", "draw", "expect"});
+        if (const TomlValue* format = required("format", "write format = 1")) {
+            context_.integer(*format, "format", 1, 1);
+        }
+        if (const TomlValue* value =
+                required("description", "say in one sentence what is claimed")) {
+            c_.description = sentence(*value, "description");
+        }
+        if (const TomlValue* value = root_.find("catches")) {
+            c_.catches = sentence(*value, "catches");
+        }
+        if (const TomlValue* value = required("rules", "name at least one rule of docs/rules.md")) {
+            read_rules(*value);
+        }
+        if (const TomlValue* value = root_.find("links")) {
+            read_links(*value);
+        }
+        read_target();
+        read_draws();
+        return std::move(c_);
+    }
+
+  private:
+    const TomlValue* required(const char* key, const char* advice) {
+        const TomlValue* value = root_.find(key);
+        if (value == nullptr) {
+            context_.error({root_.where.file, 1, 1},
+                           fmt::format("the key {} is missing; {}", key, advice));
+        }
+        return value;
+    }
+
+    std::string sentence(const TomlValue& value, const char* key) {
+        const std::optional<std::string> text = context_.text(value, key);
+        if (text && text->find_first_not_of(" \t\r\n") == std::string::npos) {
+            context_.error(value.where, fmt::format("{} is empty; write a sentence", key));
+        }
+        return text.value_or("");
+    }
+
+    void read_rules(const TomlValue& value) {
+        if (!context_.array(value, "rules")) {
+            return;
+        }
+        if (value.array.empty()) {
+            context_.error(value.where,
+                           "rules is empty, so the case claims nothing; name at least one rule of "
+                           "docs/rules.md");
+        }
+        for (const TomlValue& element : value.array) {
+            const std::optional<std::string> id = context_.text(element, "a rule");
+            if (!id) {
+                continue;
+            }
+            if (find_rule(*id) == nullptr) {
+                std::vector<std::string> known;
+                for (const Rule& rule : all_rules()) {
+                    known.emplace_back(rule.id);
+                }
+                const std::string nearest = nearest_name(*id, known);
+                context_.error(element.where,
+                               nearest.empty()
+                                   ? fmt::format("no rule is called \"{}\"; docs/rules.md lists "
+                                                 "all",
+                                                 *id)
+                                   : fmt::format("no rule is called \"{}\"; did you mean \"{}\"?",
+                                                 *id, nearest));
+            } else if (std::find(c_.rules.begin(), c_.rules.end(), *id) != c_.rules.end()) {
+                context_.error(element.where, fmt::format("the rule \"{}\" stands twice", *id));
+            } else {
+                c_.rules.push_back(*id);
+            }
+        }
+    }
+
+    void read_links(const TomlValue& value) {
+        if (!context_.array(value, "links")) {
+            return;
+        }
+        for (const TomlValue& element : value.array) {
+            const std::optional<std::string> link = context_.text(element, "a link");
+            if (!link) {
+                continue;
+            }
+            if (link->rfind("https://", 0) != 0 && link->rfind("http://", 0) != 0) {
+                context_.error(element.where,
+                               fmt::format("the link \"{}\" does not start with https://", *link));
+            }
+            c_.links.push_back(*link);
+        }
+    }
+
+    void read_target() {
+        const TomlValue* target = required("target", "write [target] with size = [width, height]");
+        if (target == nullptr || !context_.table(*target, "target")) {
+            return;
+        }
+        context_.known_keys(*target, "[target]", {"size", "samples"});
+        if (const TomlValue* samples = target->find("samples")) {
+            const std::optional<Number> n = context_.number(*samples, "samples");
+            if (n && n->value != 1) {
+                context_.error(samples->where,
+                               "samples is not 1; multisampled targets are not supported");
+            }
+        }
+        const TomlValue* size = target->find("size");
+        if (size == nullptr) {
+            context_.error(target->where, "[target] has no size; write size = [width, height]");
+            return;
+        }
+        if (!context_.array(*size, "size")) {
+            return;
+        }
+        if (size->array.size() != 2) {
+            context_.error(size->where, fmt::format("size has {} numbers; write [width, height]",
+                                                    size->array.size()));
+            return;
+        }
+        const auto side = [&](size_t i, const char* what) {
+            return static_cast<uint32_t>(
+                context_.integer(size->array[i], what, 1, kMaxTargetSize).value_or(0));
+        };
+        c_.target.width = side(0, "the target's width");
+        c_.target.height = side(1, "the target's height");
+        if (uint64_t{c_.target.width} * c_.target.height > kMaxPixels) {
+            context_.error(size->where, "the target has more than 2^26 pixels; make it smaller");
+        }
+    }
+
+    void read_draws() {
+        const TomlValue* draws = required("draw", "write [[draw]] with vertices");
+        if (draws == nullptr || c_.target.width == 0 || c_.target.height == 0) {
+            return;
+        }
+        if (!draws->is(Kind::array)) {
+            context_.error(draws->where, "draw is not an array of tables; write [[draw]]");
+            return;
+        }
+        if (draws->array.empty() || draws->array.size() > kMaxDraws) {
+            context_.error(draws->where, fmt::format("a case has 1 to {} draws, not {}", kMaxDraws,
+                                                     draws->array.size()));
+            return;
+        }
+        for (const TomlValue& table : draws->array) {
+            if (!context_.table(table, "draw")) {
+                continue;
+            }
+            c_.draws.push_back(
+                load_draw(context_, table, c_.target, c_.draws.size() + 1, c_.notes));
+        }
+    }
+
+    const TomlValue& root_;
+    LeafContext& context_;
+    Case c_;
+};
+
+std::optional<ExpectedHits> read_hits(LeafContext& context, const TomlValue& table,
+                                      const std::string& what, const Target& target) {
+    context.known_keys(table, what, {"hits"});
+    const TomlValue* hits = table.find("hits");
+    if (hits == nullptr) {
+        context.error(table.where, what + " has no hits; draw one row a pixel row");
+        return std::nullopt;
+    }
+    const std::optional<std::string> text = context.text(*hits, "hits");
+    if (!text) {
+        return std::nullopt;
+    }
+    ExpectedHits expected{{}, hits->where};
+    for (size_t start = 0; start < text->size();) {
+        const size_t end = std::min(text->find('\n', start), text->size());
+        std::string row = text->substr(start, end - start);
+        if (!row.empty() && row.back() == '\r') {
+            row.pop_back();
+        }
+        expected.rows.push_back(std::move(row));
+        start = end + 1;
+    }
+    if (expected.rows.size() != target.height) {
+        context.error(hits->where, fmt::format("hits has {} rows, but the target is {} pixels high",
+                                               expected.rows.size(), target.height));
+        return std::nullopt;
+    }
+    for (size_t j = 0; j < expected.rows.size(); ++j) {
+        const std::string& row = expected.rows[j];
+        if (row.size() != target.width) {
+            context.error(hits->where,
+                          fmt::format("row {} of hits has {} characters, but the target is {} "
+                                      "pixels wide",
+                                      j, row.size(), target.width));
+            return std::nullopt;
+        }
+        const size_t odd = row.find_first_not_of(".123456789?");
+        if (odd != std::string::npos) {
+            context.error(hits->where, fmt::format("column {} of row {} of hits is not ., 1 to 9 "
+                                                   "or ?",
+                                                   odd, j));
+            return std::nullopt;
+        }
+    }
+    return expected;
+}
+
+// The expectation of one leaf, if the file has one for it.
+void read_expectation(LeafContext& context, const TomlValue& root, const std::string& leaf,
+                      Case& c) {
+    const TomlValue* expect = root.find("expect");
+    if (expect == nullptr || !context.table(*expect, "expect")) {
+        return;
+    }
+    if (leaf.empty()) {
+        c.expected_hits = read_hits(context, *expect, "[expect]", c.target);
+        return;
+    }
+    if (const TomlValue* table = expect->find(leaf); table != nullptr && table->is(Kind::table)) {
+        c.expected_hits =
+            read_hits(context, *table, fmt::format("[expect.\"{}\"]", leaf), c.target);
+    }
+}
+
+// In a file with a matrix every key of [expect] names a leaf.
+void check_expectation_keys(const TomlValue& root, const Matrix& matrix, Errors& errors) {
+    const TomlValue* expect = root.find("expect");
+    if (expect == nullptr || !expect->is(Kind::table) || matrix.axes.empty()) {
+        return;
+    }
+    std::vector<std::string> leaves;
+    for (size_t leaf = 0; leaf < matrix.size(); ++leaf) {
+        leaves.push_back(matrix.text(leaf));
+    }
+    for (const TomlEntry& entry : expect->table) {
+        if (std::find(leaves.begin(), leaves.end(), entry.key) != leaves.end()) {
+            if (!entry.value.is(Kind::table)) {
+                errors.push_back(
+                    {entry.value.where, fmt::format("the expectation of {} is {}; write a table",
+                                                    entry.key, describe(entry.value))});
+            }
+            continue;
+        }
+        const std::string nearest = nearest_name(entry.key, leaves);
+        errors.push_back(
+            {entry.where,
+             fmt::format("the matrix has no leaf \"{}\"; {}", entry.key,
+                         nearest.empty() ? fmt::format("write [expect.\"{}\"]", leaves.front())
+                                         : fmt::format("did you mean \"{}\"?", nearest))});
+    }
+}
+
+void check_used(const Matrix& matrix, const std::set<std::string>& used, Errors& errors) {
+    for (const Matrix::Axis& axis : matrix.axes) {
+        if (used.count(axis.key) == 0) {
+            errors.push_back(
+                {axis.where,
+                 fmt::format("the matrix key {} is used nowhere; use it or leave it out",
+                             axis.key)});
+        }
+    }
+}
+
+}  // namespace
+
+ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::string& file_name,
+                                         const std::string& id_base) {
+    const Expected<TomlValue> root = read_toml(toml, file_name);
+    if (!root) {
+        return tl::unexpected(Errors{root.error()});
+    }
+    const ExpectedAll<Matrix> matrix = read_matrix(root->find("matrix"));
+    if (!matrix) {
+        return tl::unexpected(matrix.error());
+    }
+    Errors errors;
+    check_expectation_keys(*root, *matrix, errors);
+    std::vector<Case> cases;
+    std::set<std::string> used;
+    for (size_t leaf = 0; leaf < matrix->size(); ++leaf) {
+        std::vector<LeafContext::Parameter> parameters;
+        std::vector<std::pair<std::string, std::string>> texts;
+        const std::vector<size_t> choice = matrix->choice(leaf);
+        for (size_t i = 0; i < choice.size(); ++i) {
+            const Matrix::Axis& axis = matrix->axes[i];
+            parameters.emplace_back(axis.key, axis.values[choice[i]]);
+            texts.emplace_back(axis.key, axis.texts[choice[i]]);
+        }
+        LeafContext context(std::move(parameters));
+        Case c = CaseLoader(*root, context).load();
+        const std::string leaf_text = matrix->text(leaf);
+        if (context.errors().empty()) {
+            read_expectation(context, *root, leaf_text, c);
+        }
+        if (!context.errors().empty()) {
+            for (Error error : context.errors()) {
+                if (leaf > 0) {
+                    // The first leaf is free of it, so the matrix plays a part.
+                    error.message += fmt::format(" (in the leaf {})", leaf_text);
+                }
+                errors.push_back(std::move(error));
+            }
+            break;
+        }
+        used.insert(context.used().begin(), context.used().end());
+        c.id = leaf_text.empty() ? id_base : id_base + ":" + leaf_text;
+        c.parameters = std::move(texts);
+        cases.push_back(std::move(c));
+    }
+    if (errors.empty()) {
+        check_used(*matrix, used, errors);
+    }
+    if (!errors.empty()) {
+        return tl::unexpected(errors);
+    }
+    return cases;
+}
+
+}  // namespace cases
