@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Image files, through the module edgecase-image-io (OpenImageIO), opened only when one is written.
+// Image files, through the module edgecase-image-io (OpenImageIO), opened only when one is read or
+// written.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,7 @@ struct Image {
 // Format by extension: .exr (binary32), .png (8 bits, values 0..1), .tif. Errors: module missing,
 // unknown format, unwritable path.
 cases::Expected<void> write_image(const std::filesystem::path& file, const Image& image);
+// Reads such a file; floats keep their bits, but a NaN may lose its payload.
+cases::Expected<Image> read_image(const std::filesystem::path& file);
 
 }  // namespace report

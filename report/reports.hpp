@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "report/run.hpp"
 
@@ -26,7 +27,8 @@ struct ConsoleStyle {
 };
 // First line of a run: tool version, device, driver, Vulkan version, subpixel bits, profile, seed.
 std::string console_header(const Run& run, const ConsoleStyle& style);
-// What is printed at once for an unexpected result: three lines (what, why, how to repeat it).
+// What is printed at once for an unexpected result: three lines (what, why, how to repeat it), and
+// a fourth with the command that explains its first wrong sample, if there is one.
 std::string console_case(const CaseRecord& record, const ConsoleStyle& style);
 // Last lines: totals, worst error in budgets, where the report lies, exit code with its meaning.
 std::string console_summary(const Run& run, const std::string& report_path,

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The C interface of the module edgecase-image-io. It crosses no C++ type, so that a module built
+// by another compiler, or found by mistake, is refused and never misread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+inline constexpr uint32_t kImageIoVersion = 1;
+
+extern "C" {
+
+// pixels[(j * width + i) * channels + c]
+struct EdgecaseImage {
+    uint32_t width, height, channels;
+    const char* const* names;  // [channels]
+    const float* pixels;
+};
+using EdgecaseImageSink = void (*)(void* context, const EdgecaseImage* image);
+
+uint32_t edgecase_image_io_version();
+// Each returns 0, or 1 with one sentence in `error` (zero-terminated, cut to `size` bytes).
+int edgecase_write_image(const char* path, const EdgecaseImage* image, char* error, size_t size);
+int edgecase_read_image(const char* path, EdgecaseImageSink sink, void* context, char* error,
+                        size_t size);
+}
