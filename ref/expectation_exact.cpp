@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/coverage_exact.hpp"
+#include "ref/coverage_setup.hpp"
+#include "ref/expectation.hpp"
+#include "ref/narrowing.hpp"
+
+namespace ref::exact {
+
+Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile) {
+    Expectation out;
+    out.limits = limits;
+    out.profile = profile;
+    out.target = c.target;
+    out.triangles = assemble(c);
+    VertexBoxes boxes(c, limits, profile);
+    std::vector<TriangleSetup> setups;
+    for (const Triangle& t : out.triangles) {
+        const cases::Draw& draw = c.draws[t.draw];
+        setups.push_back(set_up(c, t, limits, profile, boxes, window_of(c, draw, profile)));
+    }
+    Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding});
+    for (uint32_t j = 0; j < c.target.height; ++j) {
+        for (uint32_t i = 0; i < c.target.width; ++i) {
+            for (uint32_t s = 0; s < c.target.samples; ++s) {
+                const FixedPoint p = sample_position(i, j, s, c.target.samples);
+                std::vector<Hit> hits;
+                for (uint32_t t = 0; t < setups.size(); ++t) {
+                    const Coverage coverage = classify(setups[t], p).coverage;
+                    if (coverage != Coverage::must_not) {
+                        hits.push_back({t, coverage});
+                    }
+                }
+                const SampleExpectation sample = narrowing.judge(p, hits, out.writers);
+                out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
+                out.either_samples += sample.hits.is_decided() ? 0U : 1U;
+                out.samples.push_back(sample);
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace ref::exact
