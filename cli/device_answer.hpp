@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The first worker's answer: a device, or sentences that say what is missing and what to do.
+#pragma once
+
+#include <vector>
+
+#include "cli/options.hpp"
+#include "cli/run_loop.hpp"
+#include "cli/suite.hpp"
+
+namespace cli {
+
+WorkerOptions worker_options(const DeviceOptions& options);
+
+struct ReadyWorker {
+    WorkerClient client;
+    vk_harness::DeviceInfo device;
+};
+// Errors: no or wrong device (5), interrupted (130).
+OrStop<ReadyWorker> start_first_worker(const LoopConfig& config, SignalFd& signals);
+
+// What a failed start looks like to the user.
+Stop explain_failure(const vk_harness::Failure& failure);
+Stop explain_death(const Death& death);
+
+}  // namespace cli

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "doctor": the Vulkan loader, the drivers' manifests and every device, as a worker
+// sees them, and what to install where something is missing.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+
+#include "cli/commands.hpp"
+#include "cli/device_answer.hpp"
+#include "cli/run_plan.hpp"
+#include "report/reports.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+struct Manifest {
+    std::string file, library, problem;
+};
+
+Manifest read_manifest(const fs::path& file) {
+    Manifest manifest{file.string(), "", ""};
+    std::ifstream in(file);
+    if (!in) {
+        manifest.problem = "cannot be read";
+        return manifest;
+    }
+    const Json json = Json::parse(in, nullptr, false);
+    const Json::json_pointer where("/ICD/library_path");
+    if (json.is_discarded() || !json.contains(where) || !json.at(where).is_string()) {
+        manifest.problem = "is no driver manifest (no ICD.library_path)";
+        return manifest;
+    }
+    manifest.library = json.at(where).get<std::string>();
+    if (manifest.library.find('/') != std::string::npos) {
+        fs::path library = manifest.library;
+        if (library.is_relative()) {
+            library = file.parent_path() / library;
+        }
+        std::error_code ignored;
+        if (!fs::exists(library, ignored)) {
+            manifest.problem = "names a library that does not exist";
+        }
+    }
+    return manifest;
+}
+
+std::string value_of(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr ? value : "";
+}
+
+// The manifests that the loader looks at, and the variable that chose them, if any.
+std::vector<Manifest> find_manifests(const std::string& icd, std::string& chosen_by) {
+    std::vector<fs::path> places;
+    const auto add_list = [&](const std::string& list, const std::string& below) {
+        std::istringstream in(list);
+        for (std::string item; std::getline(in, item, ':');) {
+            if (!item.empty()) {
+                places.push_back(fs::path(item) / below);
+            }
+        }
+    };
+    if (!icd.empty()) {
+        chosen_by = "--icd";
+        places.emplace_back(icd);
+    } else {
+        for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
+            if (places.empty() && !value_of(variable).empty()) {
+                chosen_by = variable;
+                std::istringstream in(value_of(variable));
+                for (std::string item; std::getline(in, item, ':');) {
+                    places.emplace_back(item);
+                }
+            }
+        }
+    }
+    if (chosen_by.empty()) {
+        const std::string home = value_of("HOME");
+        const std::string config = value_of("XDG_CONFIG_HOME");
+        const std::string data = value_of("XDG_DATA_DIRS");
+        add_list(config.empty() ? home + "/.config" : config, "vulkan/icd.d");
+        add_list("/etc/xdg:/etc", "vulkan/icd.d");
+        add_list(home + "/.local/share", "vulkan/icd.d");
+        add_list(data.empty() ? "/usr/local/share:/usr/share" : data, "vulkan/icd.d");
+    }
+    std::vector<Manifest> manifests;
+    for (const fs::path& place : places) {
+        std::error_code ignored;
+        if (!fs::is_directory(place, ignored)) {
+            if (!chosen_by.empty()) {
+                manifests.push_back(read_manifest(place));
+            }
+            continue;
+        }
+        std::vector<fs::path> files;
+        for (const fs::directory_entry& entry : fs::directory_iterator(place, ignored)) {
+            if (entry.path().extension() == ".json") {
+                files.push_back(entry.path());
+            }
+        }
+        std::sort(files.begin(), files.end());
+        for (const fs::path& file : files) {
+            manifests.push_back(read_manifest(file));
+        }
+    }
+    return manifests;
+}
+
+struct Diagnosis {
+    std::string chosen_by;
+    std::vector<Manifest> manifests;
+    std::vector<vk_harness::DeviceInfo> devices;
+    std::vector<std::string> problems;
+    std::vector<std::string> advice;
+};
+
+void add_failure(Diagnosis& d, const vk_harness::Failure& failure) {
+    d.problems.push_back(failure.message);
+    d.problems.insert(d.problems.end(), failure.reasons.begin(), failure.reasons.end());
+    if (failure.stage == vk_harness::Stage::loader) {
+        d.advice.emplace_back("sudo apt install libvulkan1 mesa-vulkan-drivers");
+    } else {
+        d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
+    }
+}
+
+cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& options,
+                                 Diagnosis& d) {
+    SignalFd signals;
+    cases::Expected<WorkerClient> client = WorkerClient::start_listing(
+        worker_command(program), worker_options(options),
+        std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)));
+    if (!client) {
+        return tl::unexpected(client.error());
+    }
+    const std::optional<WorkerEvent> answer = wait_for_answer(*client, signals);
+    if (!answer) {
+        return tl::unexpected(cases::Error{{}, "interrupted"});
+    }
+    if (const auto* list = std::get_if<std::vector<vk_harness::DeviceInfo>>(&*answer);
+        list != nullptr) {
+        d.devices = *list;
+        if (list->empty()) {
+            d.problems.emplace_back("the loader finds no device");
+            d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
+        }
+    } else if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer);
+               failure != nullptr) {
+        add_failure(d, *failure);
+    } else if (const auto* death = std::get_if<Death>(&*answer); death != nullptr) {
+        const Stop stop = explain_death(*death);
+        d.problems.insert(d.problems.end(), stop.lines.begin(), stop.lines.end());
+    }
+    return {};
+}
+
+bool is_usable(const vk_harness::DeviceInfo& device) {
+    return device.missing.empty();
+}
+
+Json to_json(const Diagnosis& d, bool usable) {
+    Json manifests = Json::array();
+    for (const Manifest& m : d.manifests) {
+        manifests.push_back({{"file", m.file}, {"library", m.library}, {"problem", m.problem}});
+    }
+    Json devices = Json::array();
+    for (const vk_harness::DeviceInfo& device : d.devices) {
+        const report::Device r = to_report(device);
+        devices.push_back({{"index", device.index},
+                           {"name", r.name},
+                           {"type", r.type},
+                           {"driver_name", r.driver_name},
+                           {"driver_info", r.driver_info},
+                           {"uuid", r.uuid},
+                           {"api_version", r.api_version},
+                           {"subpixel_bits", r.subpixel_bits},
+                           {"viewport_subpixel_bits", r.viewport_subpixel_bits},
+                           {"max_target_size", device.max_target_size},
+                           {"max_color_attachments", device.max_color_attachments},
+                           {"has_primitive_id", r.has_primitive_id},
+                           {"missing", device.missing}});
+    }
+    return {{"usable", usable},       {"manifests_chosen_by", d.chosen_by},
+            {"manifests", manifests}, {"devices", devices},
+            {"problems", d.problems}, {"advice", d.advice}};
+}
+
+void print(const Diagnosis& d, bool usable) {
+    const auto line = [](const std::string& text) {
+        std::printf("%s\n", report::printable(text).c_str());
+    };
+    line("Driver manifests" +
+         (d.chosen_by.empty() ? std::string() : " (chosen by " + d.chosen_by + ")"));
+    for (const Manifest& m : d.manifests) {
+        line("  " + m.file + (m.library.empty() ? "" : " -> " + m.library) +
+             (m.problem.empty() ? "" : ": " + m.problem));
+    }
+    if (d.manifests.empty()) {
+        line("  none");
+    }
+    line("Devices");
+    for (const vk_harness::DeviceInfo& device : d.devices) {
+        const report::Device r = to_report(device);
+        line("  " + std::to_string(device.index) + "  " + r.name + " (" + r.type + "), " +
+             r.driver_name + " " + r.driver_info + ", Vulkan " + r.api_version);
+        line("     " + std::to_string(r.subpixel_bits) + " subpixel bits, targets up to " +
+             std::to_string(device.max_target_size) + ", " +
+             std::to_string(device.max_color_attachments) +
+             " colour attachments, gl_PrimitiveID: " + (r.has_primitive_id ? "yes" : "no") +
+             ", UUID " + r.uuid);
+        for (const std::string& missing : device.missing) {
+            line("     missing: " + missing);
+        }
+    }
+    if (d.devices.empty()) {
+        line("  none");
+    }
+    for (const std::string& problem : d.problems) {
+        line("problem: " + problem);
+    }
+    for (const std::string& advice : d.advice) {
+        line("try:     " + advice);
+    }
+    line(usable ? "ready: 'edgecase run' works here" : "not ready: no device can run the suite");
+}
+
+}  // namespace
+
+int doctor_command(const Program& program, const DoctorOptions& options) {
+    Diagnosis d;
+    d.manifests = find_manifests(options.device.icd, d.chosen_by);
+    for (const Manifest& m : d.manifests) {
+        if (!m.problem.empty()) {
+            d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
+        }
+    }
+    if (const auto asked = ask_worker(program, options.device, d); !asked) {
+        return report_stop({report::kExitInternal, {asked.error().message}});
+    }
+    const bool usable = std::any_of(d.devices.begin(), d.devices.end(), is_usable);
+    if (!d.devices.empty() && !usable) {
+        d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
+    }
+    if (options.json) {
+        const std::string text =
+            to_json(d, usable).dump(2, ' ', false, Json::error_handler_t::replace);
+        std::printf("%s\n", text.c_str());
+    } else {
+        print(d, usable);
+    }
+    return usable ? report::kExitOk : report::kExitDevice;
+}
+
+}  // namespace cli

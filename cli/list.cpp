@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The commands that look at case files only: "list", "lint" and "explain".
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cases/loader.hpp"
+#include "cases/rule.hpp"
+#include "cli/commands.hpp"
+#include "cli/expectation_file.hpp"
+#include "cli/explain.hpp"
+#include "cli/judge.hpp"
+#include "cli/suite.hpp"
+#include "ref/expectation.hpp"
+#include "report/run.hpp"
+
+namespace cli {
+
+namespace {
+
+void print_long(const cases::Case& c) {
+    std::printf("%s\n    %s\n", c.id.c_str(), c.description.c_str());
+    if (!c.catches.empty()) {
+        std::printf("    catches: %s\n", c.catches.c_str());
+    }
+    std::string rules;
+    for (const std::string& rule : c.rules) {
+        rules += (rules.empty() ? "" : ", ") + rule;
+    }
+    std::printf("    rules: %s\n    file: %s:%u\n    target: %u x %u, %u sample(s), %zu draw(s)\n",
+                rules.c_str(), c.where.file.c_str(), c.where.line, c.target.width, c.target.height,
+                c.target.samples, c.draws.size());
+    for (const std::string& link : c.links) {
+        std::printf("    link: %s\n", link.c_str());
+    }
+    for (const std::string& note : c.notes) {
+        std::printf("    note: %s\n", note.c_str());
+    }
+}
+
+nlohmann::ordered_json to_json(const cases::Case& c) {
+    nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
+    for (const auto& [key, value] : c.parameters) {
+        parameters[key] = value;
+    }
+    return {
+        {"id", c.id},
+        {"file", c.where.file},
+        {"line", c.where.line},
+        {"description", c.description},
+        {"catches", c.catches},
+        {"rules", c.rules},
+        {"links", c.links},
+        {"parameters", parameters},
+        {"target",
+         {{"width", c.target.width}, {"height", c.target.height}, {"samples", c.target.samples}}},
+        {"notes", c.notes}};
+}
+
+// What is wrong with one case beyond its file's form: its picture, its rules, its control samples.
+cases::Errors check_case(const cases::Case& c) {
+    cases::Errors errors;
+    if (const std::string wrong = check_before_running(c); !wrong.empty()) {
+        errors.push_back({c.expected_hits ? c.expected_hits->where : c.where, c.id + ": " + wrong});
+    }
+    for (const std::string& rule : c.rules) {
+        if (cases::find_rule(rule) == nullptr) {
+            errors.push_back({c.where, c.id + ": there is no rule '" + rule + "'"});
+        }
+    }
+    for (const cases::Profile profile : cases::kProfiles) {
+        if (ref::expect(c, ref::Limits{}, profile).must_samples == 0) {
+            errors.push_back(
+                {c.where, c.id + ": at profile " + std::string(cases::to_string(profile)) +
+                              " no sample must be covered, so a device that draws nothing "
+                              "would pass; add a triangle that must be seen"});
+            break;
+        }
+    }
+    return errors;
+}
+
+// Expectation files beside the suite: their form, and that every line matches a case.
+cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
+    cases::Errors errors;
+    std::vector<std::string> ids;
+    for (const cases::Case& c : suite.cases) {
+        ids.push_back(c.id);
+    }
+    std::error_code none;
+    const auto folder =
+        std::filesystem::absolute(suite.root).lexically_normal().parent_path() / "expectations";
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+        if (entry.path().extension() != ".txt") {
+            continue;
+        }
+        ++count;
+        const auto file = load_expectations(entry.path());
+        if (!file) {
+            errors.insert(errors.end(), file.error().begin(), file.error().end());
+        } else if (const auto resolved = resolve_expectations({*file}, ids, true); !resolved) {
+            errors.insert(errors.end(), resolved.error().begin(), resolved.error().end());
+        }
+    }
+    return errors;
+}
+
+}  // namespace
+
+int list_command(const Program& program, const ListOptions& options) {
+    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    if (!suite) {
+        return report_stop(suite.error());
+    }
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const size_t k : suite->selected) {
+        const cases::Case& c = suite->cases[k];
+        if (options.json) {
+            all.push_back(to_json(c));
+        } else if (options.long_form) {
+            print_long(c);
+        } else if (options.ids) {
+            std::printf("%s\n", c.id.c_str());
+        } else {
+            std::printf("%-60s  %s\n", c.id.c_str(), c.description.c_str());
+        }
+    }
+    if (options.json) {
+        const std::string text =
+            all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+        std::printf("%s\n", text.c_str());
+    }
+    return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+}
+
+int lint_command(const Program& program, const LintOptions& options) {
+    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    if (!suite) {
+        return report_stop(suite.error());
+    }
+    std::vector<cases::Errors> found(suite->selected.size());
+    Pool pool(std::thread::hardware_concurrency());
+    for (size_t k = 0; k < found.size(); ++k) {
+        pool.submit(
+            [&, k] {
+                const cases::Case& c = suite->cases[suite->selected[k]];
+                try {
+                    found[k] = check_case(c);
+                } catch (const std::exception& e) {
+                    found[k] = {{c.where, c.id + ": the reference failed: " + e.what()}};
+                }
+            },
+            [] {});
+    }
+    while (pool.outstanding() > 0) {
+        pool.wait();
+        pool.collect();
+    }
+    size_t files = 0;
+    found.push_back(check_expectation_files(*suite, files));
+    size_t errors = 0;
+    for (const cases::Errors& list : found) {
+        for (const cases::Error& error : list) {
+            std::fprintf(stderr, "%s\n", cases::to_string(error).c_str());
+            ++errors;
+        }
+    }
+    if (!options.quiet) {
+        std::printf("%zu cases and %zu expectation files checked, %zu errors\n",
+                    suite->selected.size(), files, errors);
+    }
+    if (errors != 0) {
+        return report::kExitInvalidFile;
+    }
+    return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+}
+
+int explain_command(const Program& program, const ExplainOptions& options) {
+    const OrStop<cases::Case> c = load_one_case(program, options.suite);
+    if (!c) {
+        return report_stop(c.error());
+    }
+    const cases::Target& target = c->target;
+    if (options.x >= target.width || options.y >= target.height ||
+        options.sample >= target.samples) {
+        return report_stop(
+            {report::kExitUsage,
+             {"pixel " + std::to_string(options.x) + "," + std::to_string(options.y) + " sample " +
+              std::to_string(options.sample) + " is outside the target of " +
+              std::to_string(target.width) + " x " + std::to_string(target.height) +
+              " pixels with " + std::to_string(target.samples) + " sample(s)"}});
+    }
+    ref::Limits limits;
+    limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
+    const std::string text =
+        explain_text(*c, limits, options.profile, {options.x, options.y, options.sample});
+    std::printf("%s%s", text.c_str(), text.ends_with('\n') ? "" : "\n");
+    return report::kExitOk;
+}
+
+}  // namespace cli

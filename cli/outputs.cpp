@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/outputs.hpp"
+
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+
+#include "cli/frame.hpp"
+#include "cli/process.hpp"
+
+namespace cli {
+
+namespace {
+
+double steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+cases::Error system_error(const std::string& file) {
+    return {{}, "'" + file + "' cannot be written: " + std::strerror(errno)};
+}
+
+}  // namespace
+
+cases::Expected<void> write_text(const std::string& file, const std::string& text) {
+    if (file == "-") {
+        std::fflush(stdout);
+        if (!write_all(STDOUT_FILENO, text)) {
+            return tl::unexpected(system_error("standard output"));
+        }
+        return {};
+    }
+    Fd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!fd.is_open() || !write_all(fd.get(), text)) {
+        return tl::unexpected(system_error(file));
+    }
+    if (::close(fd.release()) != 0) {  // some file systems tell of a full disk only now
+        return tl::unexpected(system_error(file));
+    }
+    return {};
+}
+
+cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
+    cases::Errors errors;
+    const auto write = [&](const std::string& in_folder, const std::string& extra,
+                           std::string (*make)(const report::Run&)) {
+        const bool has_folder = !files.folder.empty();
+        if (!has_folder && extra.empty()) {
+            return;
+        }
+        const std::string text = make(run);
+        for (const std::string& file :
+             {has_folder ? (files.folder / in_folder).string() : std::string(), extra}) {
+            if (file.empty()) {
+                continue;
+            }
+            if (cases::Expected<void> written = write_text(file, text); !written) {
+                errors.push_back(written.error());
+            }
+        }
+    };
+    write("results.json", files.json, report::to_json);
+    write("junit.xml", files.junit, report::to_junit);
+    write("report.html", files.html, report::to_html);
+    return errors;
+}
+
+report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose) {
+    report::ConsoleStyle style;
+    style.verbose = verbose;
+    const bool terminal = ::isatty(::fileno(stream)) == 1;
+    const char* no_color = std::getenv("NO_COLOR");
+    const bool plain = no_color != nullptr && *no_color != '\0';
+    style.color = when == When::always || (when == When::automatic && terminal && !plain);
+    winsize size{};
+    if (terminal && ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col >= 40) {
+        style.width = size.ws_col;
+    }
+    return style;
+}
+
+Progress::Progress(ProgressStyle style, size_t total) : total_(total), last_(steady_seconds()) {
+    if (style == ProgressStyle::automatic) {
+        kind_ = ::isatty(STDERR_FILENO) == 1 ? Kind::line : Kind::plain;
+    } else if (style == ProgressStyle::plain) {
+        kind_ = Kind::plain;
+    }
+}
+
+void Progress::show(size_t done, size_t unexpected) {
+    const double now = steady_seconds();
+    const double interval = kind_ == Kind::line ? 0.2 : 10.0;
+    if (kind_ == Kind::none || now - last_ < interval) {
+        return;
+    }
+    last_ = now;
+    const size_t percent = total_ == 0 ? 100 : done * 100 / total_;
+    if (kind_ == Kind::line) {
+        std::fprintf(stderr, "\r\x1b[K[%zu/%zu] %zu%%  %zu unexpected", done, total_, percent,
+                     unexpected);
+        std::fflush(stderr);
+        shown_ = true;
+    } else {
+        std::fprintf(stderr, "%zu of %zu cases (%zu%%), %zu unexpected\n", done, total_, percent,
+                     unexpected);
+    }
+}
+
+void Progress::clear() {
+    if (shown_) {
+        std::fputs("\r\x1b[K", stderr);
+        std::fflush(stderr);
+        shown_ = false;
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "render": the reference picture of a case, without any device.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/outputs.hpp"
+#include "cli/suite.hpp"
+#include "ref/expectation.hpp"
+#include "ref/value.hpp"
+#include "report/image.hpp"
+#include "report/run.hpp"
+
+namespace cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Reference {
+    const cases::Case& c;
+    ref::Expectation expectation;
+    ref::ValueReference values;
+
+    ref::SampleId id(size_t index) const {
+        const size_t pixel = index / c.target.samples;
+        return {static_cast<uint32_t>(pixel % c.target.width),
+                static_cast<uint32_t>(pixel / c.target.width),
+                static_cast<uint32_t>(index % c.target.samples)};
+    }
+};
+
+const char* class_name(const ref::HitBounds& hits) {
+    if (hits.total_max == 0) {
+        return "must_not";
+    }
+    return hits.is_decided() ? "must" : "either";
+}
+
+// A binary64 as JSON can hold it: text for what is no finite number.
+Json number(double v) {
+    if (std::isfinite(v)) {
+        return v;
+    }
+    return std::isnan(v) ? "nan" : v > 0 ? "inf" : "-inf";
+}
+
+Json values_json(Reference& r, uint32_t triangle, size_t index) {
+    Json values = Json::array();
+    for (const ref::ExpectedValue& v : r.values.expected(triangle, r.id(index))) {
+        const double margin = v.is_flat ? 0 : ref::kBudgetFactor * v.budget;
+        values.push_back({{"quantity", v.quantity},
+                          {"exact", v.exact},
+                          {"nearest", number(v.nearest)},
+                          {"low", number(v.nearest - margin)},
+                          {"high", number(v.nearest + margin)},
+                          {"flat", v.is_flat}});
+    }
+    return values;
+}
+
+std::string to_json(Reference& r) {
+    const ref::Expectation& e = r.expectation;
+    Json samples = Json::array();
+    for (size_t index = 0; index < e.samples.size(); ++index) {
+        const ref::SampleExpectation& s = e.samples[index];
+        if (s.hits.total_max == 0) {
+            continue;
+        }
+        const ref::SampleId id = r.id(index);
+        Json writers = Json::array();
+        for (uint32_t k = 0; k < s.writers_count; ++k) {
+            const uint32_t t = e.writers[s.writers_begin + k];
+            const ref::Triangle& triangle = e.triangles[t];
+            writers.push_back({{"triangle", t},
+                               {"draw", triangle.draw},
+                               {"primitive", triangle.primitive},
+                               {"provoking_vertex", triangle.provoking},
+                               {"values", values_json(r, t, index)}});
+        }
+        samples.push_back({{"x", id.x},
+                           {"y", id.y},
+                           {"sample", id.sample},
+                           {"class", class_name(s.hits)},
+                           {"front", {s.hits.front_min, s.hits.front_max}},
+                           {"back", {s.hits.back_min, s.hits.back_max}},
+                           {"total", {s.hits.total_min, s.hits.total_max}},
+                           {"writers", std::move(writers)}});
+    }
+    const Json all = {{"schema", "edgecase-reference-1"},
+                      {"id", r.c.id},
+                      {"profile", std::string(cases::to_string(e.profile))},
+                      {"subpixel_bits", e.limits.subpixel_bits},
+                      {"width", r.c.target.width},
+                      {"height", r.c.target.height},
+                      {"samples_per_pixel", r.c.target.samples},
+                      {"must_samples", e.must_samples},
+                      {"either_samples", e.either_samples},
+                      {"note", "samples that must not be covered are left out"},
+                      {"samples", std::move(samples)}};
+    return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// Channels a sample: fewest and most hits, then the exact values of the last writer rounded to
+// binary32; NaN where there is none.
+report::Image values_image(Reference& r) {
+    const cases::Target& target = r.c.target;
+    const ref::Expectation& e = r.expectation;
+    std::vector<std::string> quantities;
+    const auto writer_of = [&](const ref::SampleExpectation& s) {
+        return e.writers[s.writers_begin + s.writers_count - 1];
+    };
+    for (size_t index = 0; index < e.samples.size(); ++index) {
+        const ref::SampleExpectation& s = e.samples[index];
+        if (s.writers_count == 0) {
+            continue;
+        }
+        for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
+            if (std::find(quantities.begin(), quantities.end(), v.quantity) == quantities.end()) {
+                quantities.push_back(v.quantity);
+            }
+        }
+    }
+    report::Image image{target.width, target.height, {}, {}};
+    const size_t per_sample = 2 + quantities.size();
+    for (uint32_t s = 0; s < target.samples; ++s) {
+        const std::string prefix = target.samples > 1 ? "sample" + std::to_string(s) + "." : "";
+        image.channels.push_back(prefix + "hits_min");
+        image.channels.push_back(prefix + "hits_max");
+        for (std::string name : quantities) {
+            std::replace(name.begin(), name.end(), ' ', '_');
+            image.channels.push_back(prefix + name);
+        }
+    }
+    image.pixels.assign(e.samples.size() * per_sample, std::numeric_limits<float>::quiet_NaN());
+    for (size_t index = 0; index < e.samples.size(); ++index) {
+        const ref::SampleExpectation& s = e.samples[index];
+        float* at = &image.pixels[index * per_sample];
+        at[0] = static_cast<float>(s.hits.total_min);
+        at[1] = static_cast<float>(s.hits.total_max);
+        if (s.writers_count == 0) {
+            continue;
+        }
+        for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
+            const auto q = std::find(quantities.begin(), quantities.end(), v.quantity);
+            at[2 + (q - quantities.begin())] = static_cast<float>(v.nearest);
+        }
+    }
+    return image;
+}
+
+// To look at: white must be covered, black must not, grey may; the samples of a pixel are averaged.
+report::Image coverage_image(const Reference& r) {
+    const cases::Target& target = r.c.target;
+    report::Image image{target.width, target.height, {"R", "G", "B"}, {}};
+    for (size_t pixel = 0; pixel < size_t{target.width} * target.height; ++pixel) {
+        float sum = 0;
+        for (uint32_t s = 0; s < target.samples; ++s) {
+            const ref::HitBounds& hits = r.expectation.samples[pixel * target.samples + s].hits;
+            sum += hits.total_min > 0 ? 1.0F : hits.total_max > 0 ? 0.5F : 0.0F;
+        }
+        image.pixels.insert(image.pixels.end(), 3, sum / static_cast<float>(target.samples));
+    }
+    return image;
+}
+
+}  // namespace
+
+int render_command(const Program& program, const RenderOptions& options) {
+    const OrStop<cases::Case> c = load_one_case(program, options.suite);
+    if (!c) {
+        return report_stop(c.error());
+    }
+    ref::Limits limits;
+    limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
+    Reference r{*c, ref::expect(*c, limits, options.profile),
+                ref::ValueReference(*c, limits, options.profile)};
+    const std::string extension = std::filesystem::path(options.output).extension().string();
+    cases::Expected<void> written;
+    if (extension == ".json") {
+        written = write_text(options.output, to_json(r));
+    } else if (extension == ".png") {
+        written = report::write_image(options.output, coverage_image(r));
+    } else if (extension == ".exr" || extension == ".tif") {
+        written = report::write_image(options.output, values_image(r));
+    } else {
+        return report_stop(
+            {report::kExitUsage,
+             {"'" + options.output + "' has no known extension; use .exr, .png or .json"}});
+    }
+    if (!written) {
+        return report_stop({report::kExitInternal, {cases::to_string(written.error())}});
+    }
+    return report::kExitOk;
+}
+
+}  // namespace cli

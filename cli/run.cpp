@@ -1,0 +1,373 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "run": select, ask the device, draw and judge, write the reports.
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <regex>
+#include <set>
+#include <variant>
+
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+#include "cli/device_answer.hpp"
+#include "cli/outputs.hpp"
+#include "cli/run_loop.hpp"
+#include "cli/run_plan.hpp"
+#include "report/journal.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+using report::CaseRecord;
+using report::Run;
+
+namespace {
+
+// Everything that is known when drawing begins.
+struct Prepared {
+    RunOptions options;
+    Selection selection;
+    std::vector<PlannedCase> plan;  // the cases still to be run
+    fs::path folder;
+    Run header;
+};
+
+Stop stop_with(int exit_code, const std::string& line) {
+    return {exit_code, {line}};
+}
+
+std::string host_name() {
+    utsname name{};
+    ::uname(&name);
+    return std::string(name.sysname) + " " + name.release + " " + name.machine;
+}
+
+// "llvmpipe (LLVM 15.0.6, 256 bits)" -> "llvmpipe-llvm-15.0.6-256-bits"
+std::string file_name_of(const std::string& device) {
+    std::string name;
+    for (const char c : device) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '.';
+        const bool upper = c >= 'A' && c <= 'Z';
+        if (plain || upper) {
+            name += upper ? static_cast<char>(c - 'A' + 'a') : c;
+        } else if (!name.empty() && name.back() != '-') {
+            name += '-';
+        }
+    }
+    while (!name.empty() && name.back() == '-') {
+        name.pop_back();
+    }
+    return name.substr(0, 48);
+}
+
+cases::Expected<void> make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        return tl::unexpected(cases::Error{{},
+                                           "the folder '" + folder.string() + "' cannot be made: " +
+                                               error.message() + "; choose another with -o"});
+    }
+    return {};
+}
+
+// Checks every hand-drawn picture, on all cores, before a device is asked.
+void check_pictures(std::vector<PlannedCase>& plan) {
+    Pool pool(std::thread::hardware_concurrency());
+    for (PlannedCase& c : plan) {
+        if (c.data.expected_hits) {
+            pool.submit([&c] { c.error = check_before_running(c.data); }, [] {});
+        }
+    }
+    while (pool.outstanding() > 0) {
+        pool.wait();
+        pool.collect();
+    }
+}
+
+// A run that goes on from its journal.
+OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
+    Prepared p;
+    std::vector<std::string> in_flight;
+    std::error_code ignored;
+    p.folder = fs::absolute(now.resume, ignored);
+    const cases::Expected<Run> earlier = report::load_journal(p.folder, &in_flight);
+    if (!earlier) {
+        return tl::unexpected(
+            stop_with(report::kExitInvalidFile, "--resume: " + cases::to_string(earlier.error())));
+    }
+    for (const auto& [name, value] : earlier->environment) {
+        if (name == "PWD") {  // paths of the first command line count from there
+            fs::current_path(value, ignored);
+        }
+    }
+    OrStop<RunOptions> options = parse_run_arguments(earlier->arguments);
+    if (!options) {
+        return tl::unexpected(options.error());
+    }
+    p.options = std::move(*options);
+    p.options.jobs = now.jobs;
+    p.options.quiet = now.quiet;
+    p.options.verbose = now.verbose;
+    p.options.color = now.color;
+    p.options.progress = now.progress;
+    SuiteOptions suite = p.options.suite;
+    suite.suite = earlier->suite_root;
+    std::erase_if(suite.selectors, [](const std::string& s) { return !s.ends_with(".toml"); });
+    OrStop<LoadedSuite> loaded = load_and_select(program, suite);
+    if (!loaded) {
+        return tl::unexpected(loaded.error());
+    }
+    p.header = *earlier;
+    p.selection.root = loaded->root;
+    std::map<std::string, const cases::Case*> by_id;
+    for (const cases::Case& c : loaded->cases) {
+        p.selection.suite_ids.push_back(c.id);
+        by_id.emplace(c.id, &c);
+    }
+    p.selection.whole_suite = earlier->cases.size() == loaded->cases.size();
+    const std::set<std::string> cut_off(in_flight.begin(), in_flight.end());
+    for (const CaseRecord& record : earlier->cases) {
+        if (record.status != report::Status::not_run) {
+            continue;
+        }
+        const auto found = by_id.find(record.id);
+        if (found == by_id.end()) {
+            return tl::unexpected(stop_with(report::kExitInvalidFile,
+                                            "the run cannot go on: its case '" + record.id +
+                                                "' is no longer in the suite; start a new run"));
+        }
+        PlannedCase planned;
+        planned.data = *found->second;
+        planned.alone = cut_off.contains(record.id);
+        p.plan.push_back(std::move(planned));
+    }
+    return p;
+}
+
+OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
+    OrStop<Selection> selection = select_cases(program, options);
+    if (!selection) {
+        return tl::unexpected(selection.error());
+    }
+    Prepared p;
+    p.options = options;
+    p.selection = std::move(*selection);
+    Run& header = p.header;
+    header.tool_version = kVersion;
+    header.arguments = program.arguments;
+    header.environment = recorded_environment();
+    header.started = utc_now(false);
+    header.host = host_name();
+    header.profile = options.profile;
+    header.seed = options.seed;
+    std::error_code ignored;
+    header.suite_root = fs::absolute(p.selection.root, ignored).lexically_normal().string();
+    header.shard = options.shard.index;
+    header.shards = options.shard.count;
+    header.jobs = options.jobs;
+    for (cases::Case& c : p.selection.cases) {
+        header.cases.push_back(make_record(c));
+        header.cases.back().rerun = rerun_line(program, options, c.id);
+        PlannedCase planned;
+        planned.data = std::move(c);
+        p.plan.push_back(std::move(planned));
+    }
+    p.selection.cases.clear();
+    p.folder = options.output;
+    return p;
+}
+
+OrStop<std::monostate> apply_expectations(Prepared& p) {
+    const OrStop<std::vector<ExpectationFile>> files =
+        find_expectations(p.options, p.selection.root, p.header.device);
+    if (!files) {
+        return tl::unexpected(files.error());
+    }
+    std::vector<std::string> ids = p.selection.suite_ids;
+    const auto expected = resolve_expectations(*files, ids, p.selection.whole_suite);
+    if (!expected) {
+        Stop stop{report::kExitInvalidFile, {}};
+        for (const cases::Error& error : expected.error()) {
+            stop.lines.push_back(cases::to_string(error));
+        }
+        return tl::unexpected(stop);
+    }
+    for (PlannedCase& c : p.plan) {
+        if (const auto found = expected->find(c.data.id); found != expected->end()) {
+            c.expected = found->second;
+        }
+    }
+    p.header.expectation_file.clear();
+    for (const ExpectationFile& file : *files) {
+        p.header.expectation_file +=
+            (p.header.expectation_file.empty() ? "" : ", ") + file.path.string();
+    }
+    return std::monostate{};
+}
+
+OrStop<std::monostate> check_required_device(const RunOptions& options,
+                                             const report::Device& device) {
+    if (options.require_device.empty()) {
+        return std::monostate{};
+    }
+    const std::string text = device.name + " " + device.driver_name + " " + device.driver_info;
+    if (!std::regex_search(text, std::regex(options.require_device))) {
+        return tl::unexpected(
+            stop_with(report::kExitDevice, "--require-device '" + options.require_device +
+                                               "' does not match the device '" + text +
+                                               "'; choose another with --device or --icd"));
+    }
+    return std::monostate{};
+}
+
+bool is_same_device(const report::Device& a, const report::Device& b) {
+    return a.name == b.name && a.uuid == b.uuid && a.driver_version == b.driver_version &&
+           a.subpixel_bits == b.subpixel_bits;
+}
+
+// Reports from the journal alone, the summary, and the exit code.
+int conclude(const Prepared& p, std::FILE* console, const report::ConsoleStyle& style,
+             const std::string& failure) {
+    const cases::Expected<Run> run = report::load_journal(p.folder);
+    if (!run) {
+        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(run.error()).c_str());
+        return report::kExitInternal;
+    }
+    ReportFiles files{p.folder, p.options.json, p.options.junit, p.options.html};
+    const cases::Errors errors = write_reports(*run, files);
+    if (!p.options.quiet) {
+        std::fputs(
+            report::console_summary(*run, (p.folder / "report.html").string(), style).c_str(),
+            console);
+    }
+    for (const cases::Error& error : errors) {
+        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
+    }
+    if (!failure.empty()) {
+        std::fprintf(stderr, "edgecase: the run stopped early: %s; go on with --resume %s\n",
+                     failure.c_str(), shell_quote(p.folder.string()).c_str());
+    }
+    const int code = report::exit_code(*run);
+    const bool failed = !errors.empty() || !failure.empty();
+    return failed && code != report::kExitInterrupted ? report::kExitInternal : code;
+}
+
+int run_prepared(const Program& program, Prepared& p) {
+    const bool resumed = !p.header.device.name.empty();
+    const RunOptions& options = p.options;
+    SignalFd signals;
+    check_pictures(p.plan);
+
+    LoopConfig config;
+    config.command = worker_command(program);
+    config.worker = worker_options(options.device);
+    config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
+    config.jobs = options.jobs;
+    config.schedule.batch = options.batch;
+    config.schedule.repeat = options.repeat;
+    config.schedule.retries = options.retries;
+    config.profile = options.profile;
+    config.pictures = options.capture;
+
+    OrStop<ReadyWorker> first = start_first_worker(config, signals);
+    if (!first) {
+        return report_stop(first.error());
+    }
+    const report::Device device = to_report(first->device);
+    if (resumed && !is_same_device(device, p.header.device)) {
+        return report_stop(stop_with(
+            report::kExitDevice, "the run cannot go on: it was on '" + p.header.device.name +
+                                     "', this is '" + device.name + "' or another driver version"));
+    }
+    p.header.device = device;
+    config.limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
+    if (auto fits = check_required_device(options, device); !fits) {
+        return report_stop(fits.error());
+    }
+    if (auto applied = apply_expectations(p); !applied) {
+        return report_stop(applied.error());
+    }
+    for (PlannedCase& c : p.plan) {
+        c.rerun = rerun_line(program, options, c.data.id);
+        c.explain = explain_line(program, options, c.data.id, device.subpixel_bits);
+    }
+    if (p.folder.empty()) {
+        p.folder = fs::path("out") / (utc_now(true) + "-" + file_name_of(device.name));
+    }
+    if (auto made = make_folder(p.folder); !made) {
+        return report_stop(stop_with(report::kExitUsage, made.error().message));
+    }
+    cases::Expected<report::Journal> journal = report::Journal::open(p.folder, resumed);
+    if (!journal) {
+        return report_stop(stop_with(report::kExitUsage, journal.error().message));
+    }
+    if (!resumed) {
+        cases::Expected<void> written = journal->write_run(p.header);
+        if (written) {
+            written = journal->write_device(device);
+        }
+        if (!written) {
+            return report_stop(stop_with(report::kExitInternal, written.error().message));
+        }
+    }
+
+    const bool stdout_taken = options.json == "-" || options.junit == "-" || options.html == "-";
+    std::FILE* console = stdout_taken ? stderr : stdout;
+    const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    if (!options.quiet) {
+        std::fputs(report::console_header(p.header, style).c_str(), console);
+        std::fflush(console);
+    }
+    Progress progress(options.quiet ? ProgressStyle::none : options.progress, p.plan.size());
+    constexpr size_t kPrinted = 100;  // unexpected results in full; the reports hold all
+    size_t unexpected = 0;
+    const auto on_record = [&](const CaseRecord& record) {
+        if (report::is_expected(record.status)) {
+            return;
+        }
+        ++unexpected;
+        if (unexpected > kPrinted && !options.verbose) {
+            return;
+        }
+        progress.clear();
+        const std::string text =
+            unexpected == kPrinted && !options.verbose
+                ? "further unexpected results stand in the reports only (or use -v)\n"
+                : report::console_case(record, style);
+        std::fputs(text.c_str(), console);
+        std::fflush(console);
+    };
+    const Clock::time_point begin = Clock::now();
+    RunLoop loop(config, p.plan, *journal, signals, on_record,
+                 [&](size_t done) { progress.show(done, unexpected); });
+    const RunLoop::End end = loop.run(std::move(first->client), first->device);
+    progress.clear();
+
+    Run& header = p.header;
+    header.ended = utc_now(false);
+    header.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    header.interrupted = end.interrupted;
+    std::string failure = end.failure;
+    if (auto written = journal->write_stop(header); !written && failure.empty()) {
+        failure = written.error().message;
+    }
+    return conclude(p, console, style, failure);
+}
+
+}  // namespace
+
+int run_command(const Program& program, const RunOptions& options) {
+    OrStop<Prepared> prepared =
+        options.resume.empty() ? prepare(program, options) : prepare_resume(program, options);
+    if (!prepared) {
+        return report_stop(prepared.error());
+    }
+    return run_prepared(program, *prepared);
+}
+
+}  // namespace cli
