@@ -32,7 +32,7 @@ class AttributeReader {
             table_, "[[draw.attribute]]",
             {"name", "interpolation", "values", "constant", "plane", "from", "seed", "components"});
         if (const TomlValue* value = table_.find("name")) {
-            attribute_.name = context_.text(*value, "name").value_or("");
+            attribute_.name = context_.text(*value, "name").value_or(attribute_.name);
             if (attribute_.name.empty()) {
                 context_.error(value->where, "name is empty; leave it out or write a word");
             }

@@ -16,7 +16,7 @@ namespace {
 enum class Class : uint8_t { on_grid, off_grid, sliver, tiny, huge, clipped };
 constexpr std::array<std::string_view, 6> kClasses = {"on-grid", "off-grid", "sliver",
                                                       "tiny",    "huge",     "clipped"};
-constexpr int64_t kFiner = 1009;    // off-grid positions: a prime number of parts a grid step
+constexpr int64_t kFiner = 251;     // off-grid positions: a prime number of parts a grid step
 constexpr int64_t kHugeReach = 16;  // rectangles beyond each side
 constexpr int64_t kMaxTriangles = 65536;
 constexpr int64_t kWithoutGrid = 256;  // the lattice's denominator if grid = 0

@@ -34,7 +34,10 @@ class CaseLoader {
                             {"format", "description", "catches", "rules", "links", "matrix",
                              "target", "draw", "expect"});
         if (const TomlValue* format = required("format", "write format = 1")) {
-            context_.integer(*format, "format", 1, 1);
+            const std::optional<Number> n = context_.number(*format, "format");
+            if (n && n->value != 1) {
+                context_.error(format->where, "format is not 1, the only one that is read");
+            }
         }
         if (const TomlValue* value =
                 required("description", "say in one sentence what is claimed")) {

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/selector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cases/loader.hpp"
+
+namespace cases {
+
+namespace {
+
+std::vector<Case> suite() {
+    std::vector<Case> all;
+    const auto add = [&](const char* id, std::vector<std::string> rules) {
+        Case c;
+        c.id = id;
+        c.rules = std::move(rules);
+        const std::string path = c.id.substr(0, c.id.find(':'));
+        c.where.file = "no-such-folder/" + path + ".toml";
+        all.push_back(std::move(c));
+    };
+    add("coverage/half-square", {"cover.inside"});          // 0
+    add("coverage/size:k=1,o=64", {"cover.inside"});        // 1
+    add("coverage/size:k=2,o=63.5", {"cover.outside"});     // 2
+    add("coverage/deep/one", {"cover.inside"});             // 3
+    add("ties/apex:rotation=90", {"tie.top-left"});         // 4
+    add("ties/apex-up", {"tie.top-left", "cover.inside"});  // 5
+    add("alone", {"depth.linear"});                         // 6
+    return all;
+}
+
+std::string chosen(const std::vector<std::string>& selectors, const std::string& input = "") {
+    std::istringstream stream(input);
+    const Expected<std::vector<size_t>> result = select(suite(), selectors, stream);
+    if (!result) {
+        return to_string(result.error());
+    }
+    std::string text;
+    for (const size_t i : *result) {
+        text += std::to_string(i);
+    }
+    return text;
+}
+
+}  // namespace
+
+TEST(Selector, WorkedTable) {
+    const std::pair<std::vector<std::string>, std::string> rows[] = {
+        {{}, "0123456"},
+        {{"**"}, "0123456"},
+        {{"*"}, "6"},
+        {{"coverage/half-square"}, "0"},
+        {{"coverage/*"}, "012"},
+        {{"coverage/**"}, "0123"},
+        {{"**/one"}, "3"},
+        {{"**/alone"}, "6"},
+        {{"coverage/**/one"}, "3"},
+        {{"coverage/**/half-square"}, "0"},
+        {{"coverage/size"}, "12"},
+        {{"coverage/size:k=1,o=64"}, "1"},
+        {{"coverage/size:*"}, "12"},
+        {{"coverage/size:k=2*"}, "2"},
+        {{"coverage/size:*o=64"}, "1"},
+        {{"*/apex*"}, "45"},
+        {{"*/apex"}, "4"},
+        {{"ties/*", "alone"}, "456"},
+        {{"alone", "ties/*"}, "456"},
+        {{"!ties/**"}, "01236"},
+        {{"!ties/**", "!alone"}, "0123"},
+        {{"coverage/**", "!coverage/size:k=1,o=64"}, "023"},
+        {{"!coverage/size:k=1,o=64", "coverage/**"}, "023"},
+        {{"coverage/size", "!coverage/size"}, ""},
+        {{"@rule:tie.top-left"}, "45"},
+        {{"@rule:cover.*"}, "01235"},
+        {{"!@rule:cover.*"}, "46"},
+    };
+    for (const auto& [selectors, expected] : rows) {
+        std::string shown;
+        for (const std::string& s : selectors) {
+            shown += s + " ";
+        }
+        EXPECT_EQ(chosen(selectors), expected) << shown;
+    }
+}
+
+TEST(Selector, ReadsStandardInput) {
+    EXPECT_EQ(chosen({"-"}, "ties/apex-up\n\n# a comment\n  alone \r\n"), "56");
+    EXPECT_EQ(chosen({"-", "!alone"}, "ties/*\nalone"), "45");
+    EXPECT_EQ(chosen({"-"}, "# nothing\n"),
+              "error: standard input names no case; write one selector a line");
+}
+
+TEST(Selector, SaysWhatIsWrong) {
+    const std::pair<std::string, std::string> rows[] = {
+        {"coverage/half-squar",
+         "error: no case matches coverage/half-squar; did you mean coverage/half-square?"},
+        {"coverage/size:k=3,o=64",
+         "error: no case matches coverage/size:k=3,o=64; did you mean coverage/size:k=1,o=64?"},
+        {"nothing-like-it", "error: no case matches nothing-like-it"},
+        {"@rule:cover.insid", "error: no rule is called cover.insid; did you mean cover.inside?"},
+        {"@rule:clip.volume", "error: no case checks the rule clip.volume"},
+        {"@family:x", "error: the selector @family:x is unknown; write @rule:PATTERN or a case id"},
+        {"", "error: a selector is empty; write a case id or a pattern"},
+        {"!", "error: a selector is empty; write a case id or a pattern"},
+        {"!tie/apex-up", "error: no case matches tie/apex-up; did you mean ties/apex-up?"},
+    };
+    for (const auto& [selector, message] : rows) {
+        EXPECT_EQ(chosen({selector}), message);
+    }
+}
+
+TEST(Selector, TakesPathsOfTheSuite) {
+    const std::string root = std::string(EDGECASE_SOURCE_DIR) + "/cases/suite";
+    const Suite loaded = load_suite(root);
+    ASSERT_FALSE(loaded.cases.empty());
+    std::istringstream none;
+    const auto count = [&](const std::string& path) {
+        return select(loaded.cases, {path}, none).value_or(std::vector<size_t>{}).size();
+    };
+    EXPECT_EQ(count(root), loaded.cases.size());
+    EXPECT_EQ(count(root + "/coverage/half-square.toml"), 1U);
+    EXPECT_GT(count(root + "/coverage/"), 1U);
+    EXPECT_LT(count(root + "/coverage"), loaded.cases.size());
+}
+
+TEST(NearestName, IsNearOrNothing) {
+    const std::vector<std::string> words = {"vertices", "viewport", "cull", "none"};
+    EXPECT_EQ(nearest_name("vertexes", words), "vertices");
+    EXPECT_EQ(nearest_name("viewprot", words), "viewport");
+    EXPECT_EQ(nearest_name("cul", words), "cull");
+    EXPECT_EQ(nearest_name("", words), "");
+    EXPECT_EQ(nearest_name("shader", words), "");
+    EXPECT_EQ(nearest_name("x", {}), "");
+}
+
+}  // namespace cases

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/wire.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+namespace cases {
+
+namespace {
+
+Case sample() {
+    const auto nan = std::bit_cast<float>(0x7fc12345U);
+    const auto signalling = std::bit_cast<float>(0xff800001U);
+    Case c;
+    c.id = "family/name:k=1";
+    c.target = {37, 5, 1};
+    Draw draw;
+    draw.topology = Topology::triangle_fan;
+    draw.positions = {{-0.0F, 0.0F, nan, signalling}, {1, 2, 3, 4}, {0x1p-149F, -0x1p127F, 0, 1}};
+    draw.indices = std::vector<uint32_t>{0, 1, kRestartIndex, 2};
+    draw.primitive_restart = true;
+    draw.attributes = {{"colour", Interpolation::flat, 3, {{1, 2, 3, 0}, {4, 5, 6, 0}, {}}},
+                       {"n", Interpolation::noperspective, 1, {{nan, 0, 0, 0}, {}, {}}}};
+    draw.viewport = {0.5F, 8, 7, -8, 0.25F, 0.75F};
+    draw.scissor = {1, 2, 3, 4};
+    draw.cull = CullMode::back;
+    draw.front_face = FrontFace::clockwise;
+    c.draws = {draw, Draw{}};
+    return c;
+}
+
+uint32_t bits(float f) {
+    return std::bit_cast<uint32_t>(f);
+}
+
+void expect_same(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (size_t i = 0; i < a.size(); ++i) {
+        for (glm::vec4::length_type k = 0; k < 4; ++k) {
+            EXPECT_EQ(bits(a[i][k]), bits(b[i][k])) << i << " " << k;
+        }
+    }
+}
+
+}  // namespace
+
+TEST(Wire, RoundTripKeepsEveryBit) {
+    const Case c = sample();
+    const Expected<Case> back = from_bytes(to_bytes(c));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->id, c.id);
+    EXPECT_EQ(back->target, c.target);
+    ASSERT_EQ(back->draws.size(), 2U);
+    for (size_t d = 0; d < 2; ++d) {
+        const Draw& a = c.draws[d];
+        const Draw& b = back->draws[d];
+        EXPECT_EQ(a.topology, b.topology);
+        expect_same(a.positions, b.positions);
+        EXPECT_EQ(a.indices, b.indices);
+        EXPECT_EQ(a.primitive_restart, b.primitive_restart);
+        EXPECT_EQ(a.viewport, b.viewport);
+        EXPECT_EQ(a.scissor.x, b.scissor.x);
+        EXPECT_EQ(a.scissor.y, b.scissor.y);
+        EXPECT_EQ(a.scissor.width, b.scissor.width);
+        EXPECT_EQ(a.scissor.height, b.scissor.height);
+        EXPECT_EQ(a.cull, b.cull);
+        EXPECT_EQ(a.front_face, b.front_face);
+        ASSERT_EQ(a.attributes.size(), b.attributes.size());
+        for (size_t i = 0; i < a.attributes.size(); ++i) {
+            EXPECT_EQ(a.attributes[i].name, b.attributes[i].name);
+            EXPECT_EQ(a.attributes[i].interpolation, b.attributes[i].interpolation);
+            EXPECT_EQ(a.attributes[i].components, b.attributes[i].components);
+            expect_same(a.attributes[i].values, b.attributes[i].values);
+        }
+    }
+    EXPECT_EQ(to_bytes(*back), to_bytes(c));
+}
+
+TEST(Wire, EveryCutIsRejected) {
+    const std::string bytes = to_bytes(sample());
+    for (size_t length = 0; length < bytes.size(); ++length) {
+        const Expected<Case> back = from_bytes(std::span(bytes.data(), length));
+        ASSERT_FALSE(back) << length;
+        EXPECT_EQ(to_string(back.error()),
+                  length < 4 ? "error: these bytes are not a case of this program"
+                             : "error: the bytes of a case are cut short or damaged");
+    }
+    EXPECT_EQ(to_string(from_bytes(bytes + "x").error()),
+              "error: more bytes follow than the case has");
+}
+
+// Damage anywhere yields a case or an error, never a crash or a huge allocation.
+TEST(Wire, DamageIsHarmless) {
+    const std::string bytes = to_bytes(sample());
+    size_t rejected = 0;
+    for (size_t i = 0; i < bytes.size(); ++i) {
+        std::string damaged = bytes;
+        damaged[i] = static_cast<char>(~damaged[i]);
+        rejected += from_bytes(damaged) ? 0U : 1U;
+    }
+    EXPECT_GT(rejected, bytes.size() / 4);
+}
+
+}  // namespace cases
