@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/clip.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/ref/coverage_random.hpp"
+
+namespace ref::test {
+namespace {
+
+using cases::Profile;
+using Triple = std::array<glm::vec4, 3>;
+
+constexpr cases::Viewport kSquare{0, 0, 64, 64, 0, 1};
+
+TEST(Clip, InsideIsUnchanged) {
+    const Triple t{{{-1, -1, 0, 1}, {1, -1, 1, 1}, {0, 1, 0.5F, 1}}};
+    const auto polygon = clip_triangle(t, kSquare, Profile::practice);
+    ASSERT_EQ(polygon.size(), 3U);
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(polygon[i].original, static_cast<int>(i));
+        EXPECT_EQ(polygon[i].edge, i);
+        EXPECT_EQ(polygon[i].weights[i], 1);
+        EXPECT_EQ(polygon[i].error.x, 0);
+    }
+}
+
+TEST(Clip, OneCornerCut) {
+    const Triple t{{{0, 0, 0.5F, 1}, {3, 0, 0.5F, 1}, {0, 1, 0.5F, 1}}};
+    const auto polygon = clip_triangle(t, kSquare, Profile::practice);
+    ASSERT_EQ(polygon.size(), 4U);
+    EXPECT_EQ(polygon[0].original, 0);
+    EXPECT_EQ(polygon[0].edge, 0);
+    EXPECT_EQ(polygon[1].position.x, 64);
+    EXPECT_EQ(polygon[1].position.y, 32);
+    EXPECT_EQ(polygon[1].weights[1], mpq_class(1, 3));
+    EXPECT_EQ(polygon[1].edge, kFirstClipEdge + static_cast<int>(ClipPlane::x_high));
+    EXPECT_EQ(polygon[2].position.y, 32 + mpq_class(64, 3));
+    EXPECT_EQ(polygon[2].edge, 1);
+    EXPECT_EQ(polygon[3].original, 2);
+    EXPECT_GT(polygon[1].error.x, 0);
+    EXPECT_LT(polygon[1].error.x, mpq_class(1, 10000));
+}
+
+TEST(Clip, BehindTheEyeOnlyTheVisiblePartRemains) {
+    const Triple t{{{-0.5F, -0.5F, 0.5F, 1}, {0.5F, -0.5F, 0.5F, 1}, {0, 0.9F, -0.5F, -1}}};
+    const auto polygon = clip_triangle(t, kSquare, Profile::practice);
+    ASSERT_GE(polygon.size(), 3U);
+    for (const ClippedVertex& v : polygon) {
+        EXPECT_GT(v.clip[3], 0);
+        EXPECT_GE(v.position.x, 0);
+        EXPECT_LE(v.position.x, 64);
+        EXPECT_GE(v.position.y, 16);  // the point behind would project above the edge
+    }
+}
+
+TEST(Clip, OutsideIsEmpty) {
+    const Triple t{{{2, 0, 0, 1}, {3, 0, 0, 1}, {2, 1, 0, 1}}};
+    EXPECT_TRUE(is_trivially_outside(t));
+    EXPECT_TRUE(clip_triangle(t, kSquare, Profile::practice).empty());
+    // Outside of no single plane, but past a corner.
+    const Triple corner{{{1.5F, 0.9F, 0, 1}, {0.9F, 1.5F, 0, 1}, {2, 2, 0, 1}}};
+    EXPECT_FALSE(is_trivially_outside(corner));
+    EXPECT_TRUE(clip_triangle(corner, kSquare, Profile::practice).empty());
+}
+
+TEST(Clip, BordersAreInside) {
+    EXPECT_TRUE(is_inside({1, -1, 0, 1}));
+    EXPECT_TRUE(is_inside({0, 0, 1, 1}));
+    EXPECT_FALSE(is_inside({std::nextafter(1.0F, 2.0F), 0, 0, 1}));
+    EXPECT_FALSE(is_inside({0, 0, -0x1p-149F, 1}));
+    EXPECT_FALSE(is_inside({0, 0, NAN, 1}));
+    EXPECT_FALSE(is_inside({0, 0, 0, -1}));
+}
+
+TEST(Clip, VertexAtTheEyeHasNoBound) {
+    const Triple t{{{0, 0, 0, 0}, {0.5F, 0, 0.5F, 1}, {0, 2, 0.5F, 1}}};
+    const auto polygon = clip_triangle(t, kSquare, Profile::practice);
+    EXPECT_TRUE(std::any_of(polygon.begin(), polygon.end(),
+                            [](const ClippedVertex& v) { return !v.is_bounded; }));
+}
+
+glm::vec4 random_vertex(RandomCases& random, double reach) {
+    return {random.real(-reach, reach), random.real(-reach, reach), random.real(-0.5, 1.5),
+            random.real(-0.5, 2)};
+}
+
+TEST(Clip, VerticesAreTheirWeightsAndInside) {
+    RandomCases random(11);
+    int cut = 0;
+    for (int k = 0; k < 300; ++k) {
+        const Triple t{random_vertex(random, 3), random_vertex(random, 3),
+                       random_vertex(random, 3)};
+        for (const ClippedVertex& v : clip_triangle(t, kSquare, Profile::practice)) {
+            ASSERT_EQ(v.weights[0] + v.weights[1] + v.weights[2], 1);
+            for (int c = 0; c < 4; ++c) {
+                mpq_class sum = 0;
+                for (size_t i = 0; i < 3; ++i) {
+                    ASSERT_GE(v.weights[i], 0);
+                    sum += v.weights[i] * mpq_class(static_cast<double>(t[i][c]));
+                }
+                ASSERT_EQ(sum, v.clip[static_cast<size_t>(c)]);
+            }
+            ASSERT_LE(abs(v.clip[0]), v.clip[3]);
+            ASSERT_LE(abs(v.clip[1]), v.clip[3]);
+            ASSERT_GE(v.clip[2], 0);
+            ASSERT_LE(v.clip[2], v.clip[3]);
+            cut += v.original < 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(cut, 300);
+}
+
+// A clipper in binary32: the order of the planes and the end that a cut starts from are its own.
+struct FloatVertex {
+    glm::vec4 p{};
+    EdgeLabel edge = 0;
+};
+float float_distance(const glm::vec4& p, ClipPlane plane) {
+    switch (plane) {
+        case ClipPlane::x_low:
+            return p.w + p.x;
+        case ClipPlane::x_high:
+            return p.w - p.x;
+        case ClipPlane::y_low:
+            return p.w + p.y;
+        case ClipPlane::y_high:
+            return p.w - p.y;
+        case ClipPlane::z_low:
+            return p.z;
+        case ClipPlane::z_high:
+            return p.w - p.z;
+    }
+    return 0;
+}
+glm::vec4 float_cut(glm::vec4 a, glm::vec4 b, ClipPlane plane, int style) {
+    if (style == 1) {
+        std::swap(a, b);
+    }
+    const float da = float_distance(a, plane);
+    const float db = float_distance(b, plane);
+    const float t = da / (da - db);
+    if (style == 2) {
+        return (1 - t) * a + t * b;
+    }
+    return a + t * (b - a);
+}
+std::vector<FloatVertex> float_clip(const Triple& t, bool is_depth_first, int style) {
+    std::vector<FloatVertex> polygon{{t[0], 0}, {t[1], 1}, {t[2], 2}};
+    std::vector<ClipPlane> order(std::begin(kViewVolume), std::end(kViewVolume));
+    if (is_depth_first) {
+        std::rotate(order.begin(), order.begin() + 4, order.end());
+    }
+    for (const ClipPlane plane : order) {
+        std::vector<FloatVertex> out;
+        const auto label = static_cast<EdgeLabel>(kFirstClipEdge + static_cast<int>(plane));
+        for (size_t i = 0; i < polygon.size(); ++i) {
+            const FloatVertex& a = polygon[i];
+            const FloatVertex& b = polygon[(i + 1) % polygon.size()];
+            const bool is_a_in = float_distance(a.p, plane) >= 0;
+            const bool is_b_in = float_distance(b.p, plane) >= 0;
+            if (is_a_in) {
+                out.push_back(a);
+            }
+            if (is_a_in != is_b_in) {
+                out.push_back({float_cut(a.p, b.p, plane, style), is_a_in ? label : a.edge});
+            }
+        }
+        polygon = out;
+    }
+    return polygon;
+}
+
+TEST(Clip, ErrorBoundsBinary32) {
+    RandomCases random(12);
+    int compared = 0;
+    double worst = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const double reach = std::pow(10.0, random.real(0, 3));
+        const Triple t{random_vertex(random, reach), random_vertex(random, reach),
+                       random_vertex(random, reach)};
+        if (is_trivially_outside(t)) {
+            continue;
+        }
+        const auto polygon = clip_triangle(t, kSquare, Profile::practice);
+        const auto device = float_clip(t, random.flip(), static_cast<int>(random.integer(0, 2)));
+        for (size_t i = 0; i < polygon.size(); ++i) {
+            const ClippedVertex& v = polygon[i];
+            const EdgeLabel in = polygon[(i + polygon.size() - 1) % polygon.size()].edge;
+            for (size_t m = 0; m < device.size(); ++m) {
+                const glm::vec4& p = device[m].p;
+                if (v.original >= 0 || !v.is_bounded || device[m].edge != v.edge ||
+                    device[(m + device.size() - 1) % device.size()].edge != in) {
+                    continue;
+                }
+                const float x = p.x * (1.0F / p.w) * 32 + 32;
+                const float y = p.y * (1.0F / p.w) * 32 + 32;
+                const mpq_class ex = abs(mpq_class(static_cast<double>(x)) - v.position.x);
+                const mpq_class ey = abs(mpq_class(static_cast<double>(y)) - v.position.y);
+                ASSERT_LE(ex, v.error.x) << "case " << k << " vertex " << i;
+                ASSERT_LE(ey, v.error.y) << "case " << k << " vertex " << i;
+                worst = std::max(
+                    {worst, mpq_class(ex / v.error.x).get_d(), mpq_class(ey / v.error.y).get_d()});
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 500);
+    EXPECT_GT(worst, 0.05);
+}
+
+}  // namespace
+}  // namespace ref::test

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/triangle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "ref/sample.hpp"
+#include "tests/unit/ref/coverage_fixture.hpp"
+
+namespace ref::test {
+namespace {
+
+using Numbers = std::array<uint32_t, 3>;
+
+std::vector<Numbers> vertices(cases::Topology topology, size_t positions,
+                              std::optional<std::vector<uint32_t>> indices = {},
+                              bool has_restart = false) {
+    cases::Case c = blank(1, 1);
+    cases::Draw d = whole(c);
+    d.topology = topology;
+    d.positions.resize(positions);
+    d.indices = std::move(indices);
+    d.primitive_restart = has_restart;
+    c.draws.push_back(d);
+    std::vector<Numbers> out;
+    uint32_t primitive = 0;
+    for (const Triangle& t : assemble(c)) {
+        EXPECT_EQ(t.provoking, t.vertex[0]);
+        EXPECT_EQ(t.primitive, primitive++);
+        out.push_back(t.vertex);
+    }
+    return out;
+}
+
+TEST(Assemble, Topologies) {
+    using enum cases::Topology;
+    EXPECT_EQ(vertices(triangle_list, 7), (std::vector<Numbers>{{0, 1, 2}, {3, 4, 5}}));
+    EXPECT_EQ(vertices(triangle_strip, 6),
+              (std::vector<Numbers>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 5, 4}}));
+    EXPECT_EQ(vertices(triangle_fan, 5), (std::vector<Numbers>{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}}));
+    EXPECT_TRUE(vertices(triangle_strip, 2).empty());
+    EXPECT_TRUE(vertices(triangle_list, 0).empty());
+}
+
+TEST(Assemble, IndicesAndRestart) {
+    using enum cases::Topology;
+    constexpr uint32_t kCut = cases::kRestartIndex;
+    EXPECT_EQ(vertices(triangle_list, 4, {{3, 2, 1, 0}}), (std::vector<Numbers>{{3, 2, 1}}));
+    EXPECT_EQ(vertices(triangle_strip, 7, {{0, 1, 2, 3, kCut, 4, 5, kCut, 4, 5, 6}}, true),
+              (std::vector<Numbers>{{0, 1, 2}, {1, 3, 2}, {4, 5, 6}}));
+    EXPECT_EQ(vertices(triangle_fan, 6, {{0, 1, 2, kCut, kCut, 3, 4, 5}}, true),
+              (std::vector<Numbers>{{1, 2, 0}, {4, 5, 3}}));
+}
+
+TEST(Samples, StandardLocationsAreDistinctAndOnTheFourBitGrid) {
+    for (const uint32_t samples : {1U, 2U, 4U, 8U, 16U}) {
+        ASSERT_EQ(standard_sample_locations(samples).size(), samples);
+        std::set<std::array<uint8_t, 2>> seen;
+        int sum_x = 0;
+        for (const auto& l : standard_sample_locations(samples)) {
+            seen.insert(l);
+            sum_x += l[0];
+            EXPECT_LT(l[0], 16);
+            EXPECT_LT(l[1], 16);
+        }
+        EXPECT_EQ(seen.size(), samples);
+        EXPECT_NEAR(sum_x / static_cast<double>(samples), 8, 0.51);
+    }
+    // Sample 1 of 4 lies at (0.875, 0.375).
+    EXPECT_EQ(sample_position(2, 3, 1, 4),
+              (FixedPoint{2 * kFixedOne + 57344, 3 * kFixedOne + 24576}));
+    EXPECT_EQ(sample_position(0, 0, 0, 1), (FixedPoint{32768, 32768}));
+}
+
+}  // namespace
+}  // namespace ref::test
