@@ -70,7 +70,9 @@ class Renderer {
     const DeviceInfo& device() const;
 
     // Draws the cases in one submission and reads each back. Results in the order of the cases.
-    // `step` is called with the name of each stage before it starts ("pipeline", "submit", ...).
+    // `step` is called with the name of each stage before it starts: "pipeline", "record",
+    // "submit", "readback"; again for each part if the batch needs more memory than one submission
+    // may take.
     std::vector<Rendered> render(std::span<const cases::Case> batch,
                                  const std::function<void(std::string_view)>& step);
 

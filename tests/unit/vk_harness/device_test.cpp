@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <iostream>
 
 #include "hand_case.hpp"
 
@@ -69,6 +71,22 @@ TEST(Devices, EveryRejectionHasAReason) {
     ASSERT_EQ(chosen.error().reasons.size(), devices->size());
     EXPECT_EQ(chosen.error().reasons[0],
               "device 0 (" + (*devices)[0].name + "): not the device that was asked for");
+}
+
+TEST(DevicesDeathTest, AMissingDriverFileIsSaid) {
+    // In a process of its own: the environment of this one stays.
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(
+        {
+            Options options;
+            options.icd_file = "/no/such/driver.json";
+            const auto made = Renderer::create(options);
+            if (!made) {
+                std::cerr << to_string(made.error().stage) << ": " << made.error().message << '\n';
+            }
+            std::exit(made ? 1 : 0);
+        },
+        ::testing::ExitedWithCode(0), "the loader found no Vulkan driver; install one");
 }
 
 TEST(Devices, SeveralRenderersAtATime) {
