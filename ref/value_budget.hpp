@@ -158,39 +158,54 @@ struct Valued {
     T value{}, budget{}, reach{};
 };
 
-// `denominator` is the plane of 1/w, or null for a linear value.
+// What all values of a basis at one point share.
 template <class T>
-Valued<T> value_at(const Basis<T>& basis, const Plane<T>& plane, const Plane<T>* denominator,
-                   const Point<T>& p, const T& factor) {
-    const T extent_x = larger(basis.extent_x, T(magnitude(p.x)));
-    const T extent_y = larger(basis.extent_y, T(magnitude(p.y)));
-    Valued<T> out;
-    T spread{};
+struct Site {
+    Point<T> p;
+    T extent_x{}, extent_y{}, spread{};
+    T d{}, bd{}, safe{};         // 1/w, its budget, the smallest 1/w that the device may have
+    Answer exists = Answer::no;  // safe > 0
+};
+
+template <class T>
+Site<T> make_site(const Basis<T>& basis, const Plane<T>& inv_w, const Point<T>& p,
+                  const T& factor) {
+    Site<T> s;
+    s.p = p;
+    s.extent_x = larger(basis.extent_x, T(magnitude(p.x)));
+    s.extent_y = larger(basis.extent_y, T(magnitude(p.y)));
     for (const Form<T>& b : basis.bary) {
-        spread = spread + magnitude(b.at(p));
+        s.spread = s.spread + magnitude(b.at(p));
     }
-    const T n = plane.form.at(p);
-    const T bn = plane.budget(extent_x, extent_y, spread);
-    if (denominator == nullptr) {
+    s.d = inv_w.form.at(p);
+    s.bd = inv_w.budget(s.extent_x, s.extent_y, s.spread);
+    s.safe = s.d - factor * s.bd;
+    s.exists = is_positive(s.safe);
+    return s;
+}
+
+template <class T>
+Valued<T> value_at(const Site<T>& s, const Plane<T>& plane, bool is_perspective, const T& factor) {
+    Valued<T> out;
+    const T n = plane.form.at(s.p);
+    const T bn = plane.budget(s.extent_x, s.extent_y, s.spread);
+    if (!is_perspective) {
         out.exists = Answer::yes;
         out.value = n;
         out.budget = bn;
         out.reach = factor * bn;
         return out;
     }
-    const T d = denominator->form.at(p);
-    const T bd = denominator->budget(extent_x, extent_y, spread);
-    const T safe = d - factor * bd;  // the smallest denominator that the device may have
-    out.exists = is_positive(safe);
+    out.exists = s.exists;
     if (out.exists != Answer::yes) {
         return out;
     }
-    out.value = n / d;
+    out.value = n / s.d;
     const T f = magnitude(out.value);
-    const T planes = bn + f * bd;
+    const T planes = bn + f * s.bd;
     const T own = T(2 * kUnitRoundoff) * f;
-    out.budget = planes / d + own;
-    out.reach = factor * (planes / safe + own);
+    out.budget = planes / s.d + own;
+    out.reach = factor * (planes / s.safe + own);
     return out;
 }
 

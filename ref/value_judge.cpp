@@ -68,6 +68,14 @@ std::string bits_of(float f) {
     return fmt::format("{:.9g} (0x{:08x})", f, std::bit_cast<uint32_t>(f));
 }
 
+value::Valued<mpq_class> exact_value(const value::Basis<mpq_class>& basis, const Quantity& q,
+                                     const value::Evaluation<mpq_class>& place) {
+    const mpq_class factor(kBudgetFactor);
+    const auto site = make_site(basis, basis.planes[value::kPlaneInvW],
+                                q.at_sample ? place.sample : place.centre.front(), factor);
+    return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
+}
+
 // p/q if it is short enough to be read.
 std::string exact_text(const mpq_class& q) {
     const std::string text = q.get_str();
@@ -85,6 +93,8 @@ struct ValueReference::Impl {
     std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
     WideCache<Ball> balls{64};
     WideCache<mpq_class> rationals{4};
+    uint32_t text_triangle = 0;
+    std::optional<value::Basis<mpq_class>> text_basis;
 
     Impl(const cases::Case& the_case, const Limits& the_limits, Profile the_profile)
         : c(the_case), limits(the_limits), profile(the_profile), triangles(assemble(the_case)) {
@@ -126,11 +136,24 @@ struct ValueReference::Impl {
         return *slot;
     }
 
+    // The unsnapped basis in rationals, for texts; the last one is kept.
+    const value::Basis<mpq_class>& exact_basis(uint32_t t) {
+        if (text_triangle != t || !text_basis) {
+            const value::Primitive& primitive = load(t).primitive;
+            text_basis = make_basis(value::ideal_vertices<mpq_class>(primitive),
+                                    value::plane_inputs<mpq_class>(primitive, quantities_of(t)),
+                                    kBudgetFactor);
+            text_triangle = t;
+        }
+        return *text_basis;
+    }
+
     static bool is_other(const Ball& a, const Ball& b) {
         return std::fabs(a.v - b.v) > 0 || a.e > std::fabs(a.v) * 0x1p-40;
     }
 
-    value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at) {
+    value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at,
+                            std::span<const size_t> only = {}) {
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
         const value::WideSet<Ball>& set =
@@ -138,7 +161,7 @@ struct ValueReference::Impl {
         if (set.is_known) {
             value::WideVerdict verdict =
                 judge_wide(set, std::span<const Quantity>(q), primitive.is_projectable,
-                           value::evaluations<Ball>(id, c.target.samples, at), device);
+                           value::evaluations<Ball>(id, c.target.samples, at), device, only);
             if (verdict.is_known) {
                 return verdict;
             }
@@ -146,7 +169,7 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(id, c.target.samples, at), device);
+                          value::evaluations<mpq_class>(id, c.target.samples, at), device, only);
     }
 
     // The oracle: rationals only, no filter.
@@ -157,7 +180,7 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(id, c.target.samples, at), device);
+                          value::evaluations<mpq_class>(id, c.target.samples, at), device, {});
     }
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
@@ -226,13 +249,11 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
     std::vector<std::pair<Profile, std::vector<size_t>>> looser;
     for (const Profile p : cases::kProfiles) {
         if (p < profile) {
-            looser.emplace_back(p, wide(t, id, device, p).failing);
+            looser.emplace_back(p, wide(t, id, device, p, verdict.failing).failing);
         }
     }
     const auto place = value::evaluations<mpq_class>(id, c.target.samples, profile).front();
-    const auto inputs = value::plane_inputs<mpq_class>(primitive, all);
-    const auto basis =
-        make_basis(value::ideal_vertices<mpq_class>(primitive), inputs, kBudgetFactor);
+    const value::Basis<mpq_class>& basis = exact_basis(t);
     const value::WideSet<Ball>& set = balls.get(
         t, profile, [&] { return value::make_wide_set<Ball>(primitive, all, limits, profile); });
     for (size_t k = 0; k < verdict.failing.size(); ++k) {
@@ -253,10 +274,7 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         }
         double reach = 0;
         if (basis.orientation != 0) {
-            const auto v = value_at(
-                basis, basis.planes[q.plane],
-                q.kind == Kind::perspective ? &basis.planes[value::kPlaneInvW] : nullptr,
-                q.at_sample ? place.sample : place.centre.front(), mpq_class(kBudgetFactor));
+            const auto v = exact_value(basis, q, place);
             if (v.exists == Answer::yes) {
                 const std::string text = exact_text(v.value);
                 m.expected =
@@ -358,8 +376,7 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
     const std::vector<Quantity>& all = impl_->quantities_of(t);
     const auto place =
         value::evaluations<mpq_class>(sample, impl_->c.target.samples, impl_->profile).front();
-    const auto basis = make_basis(value::ideal_vertices<mpq_class>(primitive),
-                                  value::plane_inputs<mpq_class>(primitive, all), kBudgetFactor);
+    const value::Basis<mpq_class>& basis = impl_->exact_basis(t);
     for (const Quantity& q : all) {
         ExpectedValue e;
         e.quantity = q.name;
@@ -377,10 +394,7 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
             if (basis.orientation == 0) {
                 continue;
             }
-            const auto v = value_at(
-                basis, basis.planes[q.plane],
-                q.kind == Kind::perspective ? &basis.planes[value::kPlaneInvW] : nullptr,
-                q.at_sample ? place.sample : place.centre.front(), mpq_class(kBudgetFactor));
+            const auto v = exact_value(basis, q, place);
             if (v.exists != Answer::yes) {
                 continue;
             }

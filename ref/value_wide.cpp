@@ -72,35 +72,32 @@ struct Reach {
     bool noted = false;
 };
 
-// Adds what a candidate accepts for a quantity.
+// Adds what one basis accepts for a quantity at the sites; `widest` is the largest reach.
 template <class T>
-void add_reach(const Candidate<T>& candidate, const Quantity& q, std::span<const Point<T>> points,
-               const WideSet<T>& set, const Range<T>& hull, bool with_hull, double device,
-               Reach<T>& out) {
-    T widest{};
-    for (const Basis<T>& basis : candidate.bases) {
-        const Plane<T>* denominator =
-            q.kind == Kind::perspective ? &basis.planes[kPlaneInvW] : nullptr;
-        for (const Point<T>& p : points) {
-            const Valued<T> v = value_at(basis, basis.planes[q.plane], denominator, p, set.factor);
-            if (v.exists == Answer::unknown) {
-                out.is_known = false;
-                return;
-            }
-            if (v.exists == Answer::no) {
-                out.is_free = true;
-                continue;
-            }
-            out.note(device, nearest_double(v.value), nearest_double(v.budget));
-            widest = larger(widest, v.reach);
-            widen(out.range, out.is_first, T(v.value - v.reach), T(v.value + v.reach));
+void add_reach(const Basis<T>& basis, const Quantity& q, std::span<const Site<T>> sites,
+               const T& factor, double device, T& widest, Reach<T>& out) {
+    for (const Site<T>& site : sites) {
+        const Valued<T> v =
+            value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
+        if (v.exists == Answer::unknown) {
+            out.is_known = false;
+            return;
         }
+        if (v.exists == Answer::no) {
+            out.is_free = true;
+            continue;
+        }
+        out.note(device, nearest_double(v.value), nearest_double(v.budget));
+        widest = larger(widest, v.reach);
+        widen(out.range, out.is_first, T(v.value - v.reach), T(v.value + v.reach));
     }
-    if (with_hull) {
-        out.note(device, nearest_double(hull.low), nearest_double(widest));
-        out.note(device, nearest_double(hull.high), nearest_double(widest));
-        widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
-    }
+}
+
+template <class T>
+void add_hull(const Range<T>& hull, const T& widest, double device, Reach<T>& out) {
+    out.note(device, nearest_double(hull.low), nearest_double(widest));
+    out.note(device, nearest_double(hull.high), nearest_double(widest));
+    widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
 }
 
 template <class T>
@@ -128,6 +125,47 @@ Fit fit(const Reach<T>& reach, double device) {
         return {Answer::no, ratio};
     }
     return {low == Answer::yes && high == Answer::yes ? Answer::yes : Answer::unknown, ratio};
+}
+
+bool is_judged(const Quantity& q, size_t index, std::span<const size_t> only) {
+    return is_numeric(q) &&
+           (only.empty() || std::find(only.begin(), only.end(), index) != only.end());
+}
+
+// Adds what a candidate accepts for every judged quantity.
+template <class T>
+void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
+                   std::span<const Quantity> quantities, bool is_projectable,
+                   const Evaluation<T>& where, std::span<const size_t> only,
+                   const FragmentValues& device, std::vector<Reach<T>>& reaches) {
+    std::vector<T> widest(quantities.size());
+    std::vector<Site<T>> centre;
+    for (const Basis<T>& basis : candidate.bases) {
+        const Plane<T>& inv_w = basis.planes[kPlaneInvW];
+        centre.clear();
+        for (const Point<T>& p : where.centre) {
+            centre.push_back(make_site(basis, inv_w, p, set.factor));
+        }
+        const Site<T> sample = make_site(basis, inv_w, where.sample, set.factor);
+        for (size_t i = 0; i < quantities.size(); ++i) {
+            const Quantity& q = quantities[i];
+            if (is_judged(q, i, only) && reaches[i].is_known) {
+                const auto sites = q.at_sample ? std::span<const Site<T>>(&sample, 1)
+                                               : std::span<const Site<T>>(centre);
+                add_reach(basis, q, sites, set.factor, static_cast<double>(q.get(device)),
+                          widest[i], reaches[i]);
+            }
+        }
+    }
+    for (size_t i = 0; i < quantities.size(); ++i) {
+        const Quantity& q = quantities[i];
+        // A noperspective value of a triangle that reaches behind the eye has no plane that agrees
+        // with the vertices: only their hull is claimed.
+        const bool free_plane = q.kind == Kind::linear && q.attribute >= 0 && !is_projectable;
+        if (is_judged(q, i, only) && (free_plane || candidate.is_unbounded)) {
+            add_hull(set.hulls[i], widest[i], static_cast<double>(q.get(device)), reaches[i]);
+        }
+    }
 }
 
 // Keeps the verdict with fewer failing values, then with the smaller ratio.
@@ -181,7 +219,7 @@ std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Pro
 template <class T>
 WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
-                       const FragmentValues& device) {
+                       const FragmentValues& device, std::span<const size_t> only) {
     WideVerdict best;
     bool is_first = true;
     const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
@@ -199,28 +237,18 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                     continue;
                 }
             }
+            std::vector<Reach<T>> reaches(quantities.size());
+            const size_t first = set.any_of_all ? 0 : c;
+            const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
+            for (size_t k = first; k < last; ++k) {
+                add_candidate(set, set.candidates[k], quantities, is_projectable, where, only,
+                              device, reaches);
+            }
             for (size_t i = 0; i < quantities.size(); ++i) {
-                const Quantity& q = quantities[i];
-                if (!is_numeric(q)) {
+                if (!is_judged(quantities[i], i, only)) {
                     continue;
                 }
-                const double value = static_cast<double>(q.get(device));
-                const std::span<const Point<T>> points =
-                    q.at_sample ? std::span<const Point<T>>(&where.sample, 1)
-                                : std::span<const Point<T>>(where.centre);
-                Reach<T> reach;
-                // A noperspective value of a triangle that reaches behind the eye has no plane that
-                // agrees with the vertices: only their hull is claimed.
-                const bool free_plane =
-                    q.kind == Kind::linear && q.attribute >= 0 && !is_projectable;
-                const size_t first = set.any_of_all ? 0 : c;
-                const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
-                for (size_t k = first; k < last && reach.is_known; ++k) {
-                    const Candidate<T>& candidate = set.candidates[k];
-                    add_reach(candidate, q, points, set, set.hulls[i],
-                              free_plane || candidate.is_unbounded, value, reach);
-                }
-                judge_value(reach, i, value, verdict);
+                judge_value(reaches[i], i, static_cast<double>(quantities[i].get(device)), verdict);
                 if (!verdict.is_known) {
                     return verdict;
                 }
@@ -240,9 +268,10 @@ template std::vector<Evaluation<Ball>> evaluations<Ball>(SampleId, uint32_t, cas
 template std::vector<Evaluation<mpq_class>> evaluations<mpq_class>(SampleId, uint32_t,
                                                                    cases::Profile);
 template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
-                                      const std::vector<Evaluation<Ball>>&, const FragmentValues&);
+                                      const std::vector<Evaluation<Ball>>&, const FragmentValues&,
+                                      std::span<const size_t>);
 template WideVerdict judge_wide<mpq_class>(const WideSet<mpq_class>&, std::span<const Quantity>,
                                            bool, const std::vector<Evaluation<mpq_class>>&,
-                                           const FragmentValues&);
+                                           const FragmentValues&, std::span<const size_t>);
 
 }  // namespace ref::value

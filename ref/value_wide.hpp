@@ -64,9 +64,10 @@ struct WideVerdict {
     std::vector<double> ratios;   // of the failing ones
 };
 
+// `only`: judges these quantities (indices) and no others, unless it is empty.
 template <class T>
 WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
-                       const FragmentValues& device);
+                       const FragmentValues& device, std::span<const size_t> only);
 
 }  // namespace ref::value

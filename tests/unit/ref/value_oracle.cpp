@@ -51,7 +51,7 @@ bool same(const ref::FragmentVerdict& a, const ref::FragmentVerdict& b) {
 TEST(ValueOracle, FilterAgreesAroundTheThreshold) {
     std::mt19937_64 rng(11);
     uint64_t values = 0, fragments = 0, accepted = 0, rejected = 0;
-    for (int n = 0; n < 100; ++n) {
+    for (int n = 0; n < 120; ++n) {
         const auto shape = static_cast<value_test::Shape>(n % 3);
         const auto s =
             value_test::random_case(rng, n % 2 == 0 ? 64 : 2048, shape, n % 4 < 2 ? 0 : 8);
@@ -68,7 +68,7 @@ TEST(ValueOracle, FilterAgreesAroundTheThreshold) {
                 continue;
             }
             for (const int sign : {-1, 1}) {
-                for (const double scale : {0.5, 1.0 - 0x1p-20, 1.0, 1.0 + 0x1p-20, 1.5}) {
+                for (const double scale : {0.5, 1.0 - 0x1p-20, 1.0, 1.0 + 0x1p-20}) {
                     for (const int ulps : {-1, 0, 1}) {
                         if (ulps != 0 && (scale < 1 || scale > 1)) {
                             continue;
