@@ -247,9 +247,14 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
     const std::vector<Quantity>& all = quantities_of(t);
     // Loosest profile at which each is wrong.
     std::vector<std::pair<Profile, std::vector<size_t>>> looser;
+    std::vector<size_t> rest = verdict.failing;
     for (const Profile p : cases::kProfiles) {
-        if (p < profile) {
-            looser.emplace_back(p, wide(t, id, device, p, verdict.failing).failing);
+        if (p < profile && !rest.empty()) {
+            looser.emplace_back(p, wide(t, id, device, p, rest).failing);
+            const std::vector<size_t>& wrong = looser.back().second;
+            std::erase_if(rest, [&](size_t index) {
+                return std::find(wrong.begin(), wrong.end(), index) != wrong.end();
+            });
         }
     }
     const auto place = value::evaluations<mpq_class>(id, c.target.samples, profile).front();
