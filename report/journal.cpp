@@ -29,7 +29,8 @@ constexpr int kFormat = 1;
 
 tl::unexpected<cases::Error> failure(std::string message, std::string file = {},
                                      uint32_t line = 0) {
-    return tl::unexpected(cases::Error{{std::move(file), line, 0}, std::move(message)});
+    return tl::unexpected(
+        cases::Error{{std::move(file), line, line > 0 ? 1U : 0U}, std::move(message)});
 }
 
 std::string advice(int error) {

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/reports.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "report/sentences.hpp"
+#include "report/utf8.hpp"
+#include "sample_run.hpp"
+
+namespace report {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Compares with tests/unit/report/golden/NAME; EDGECASE_APPROVE=1 writes it instead.
+void expect_golden(const std::string& name, const std::string& text) {
+    const fs::path file = fs::path(EDGECASE_SOURCE_DIR) / "tests/unit/report/golden" / name;
+    if (std::getenv("EDGECASE_APPROVE") != nullptr) {
+        std::ofstream(file, std::ios::binary) << text;
+    }
+    std::ifstream stream(file, std::ios::binary);
+    ASSERT_TRUE(stream) << file << " is missing; approve it with EDGECASE_APPROVE=1";
+    std::ostringstream golden;
+    golden << stream.rdbuf();
+    EXPECT_EQ(golden.str(), text) << "approve with EDGECASE_APPROVE=1 if this is meant";
+}
+
+// Runs a program of the machine on a text; its exit status.
+int pass_through(const std::string& command, const std::string& text) {
+    std::string name = (fs::temp_directory_path() / "edgecase-report-XXXXXX").string();
+    const int fd = ::mkstemp(name.data());
+    EXPECT_GE(fd, 0);
+    std::ofstream(name, std::ios::binary) << text;
+    const int status = std::system((command + " '" + name + "'").c_str());
+    fs::remove(name);
+    return status;
+}
+
+std::string console_of(const Run& run, const ConsoleStyle& style) {
+    std::string text = console_header(run, style);
+    for (const CaseRecord& r : run.cases) {
+        text += is_expected(r.status) ? "" : console_case(r, style);
+    }
+    return text + console_summary(run, "out/report.html", style);
+}
+
+void expect_clean(const std::string& text) {
+    EXPECT_TRUE(is_utf8(text));
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
+    EXPECT_EQ(text.find('\0'), std::string::npos);
+    EXPECT_EQ(text.find("\xe2\x80\xa8"), std::string::npos);
+}
+
+TEST(printable, shows_what_a_terminal_would_obey) {
+    EXPECT_EQ(printable("plain \xc3\xa4\n\tx"), "plain \xc3\xa4\n\tx");
+    EXPECT_EQ(printable("\x1b[31m"), "\\x1b[31m");
+    EXPECT_EQ(printable(std::string("\0", 1)), "\\x00");
+    EXPECT_EQ(printable("\xff"), "\\xff");
+    EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");
+    EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");
+    EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
+    EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");           // CSI in one character
+    EXPECT_EQ(printable("\xe2\x80\xae"), "\\xe2\\x80\\xae");  // right-to-left override
+    EXPECT_EQ(printable("\xef\xbf\xbf"), "\\xef\\xbf\\xbf");
+    EXPECT_EQ(printable("\xf0\x9f\x98\x80"), "\xf0\x9f\x98\x80");
+    EXPECT_EQ(printable("\xf0\x9f\x98"), "\\xf0\\x9f\\x98");
+    EXPECT_EQ(printable("\r\n"), "\\x0d\n");
+}
+
+TEST(printable, of_every_byte_pair_is_clean) {
+    for (unsigned a = 0; a < 256; ++a) {
+        for (unsigned b = 0; b < 256; ++b) {
+            const std::string bytes{static_cast<char>(a), static_cast<char>(b)};
+            const std::string text = printable(bytes);
+            ASSERT_TRUE(is_utf8(text)) << a << " " << b;
+            ASSERT_EQ(printable(text), text);
+        }
+    }
+}
+
+TEST(console, golden) {
+    ConsoleStyle style;
+    style.verbose = true;
+    expect_golden("console.txt", console_of(test::sample_run(), style));
+}
+
+TEST(console, color_is_only_escape_sequences) {
+    const ConsoleStyle plain, colored{true, false, 100};
+    std::string text = console_of(test::sample_run(), colored);
+    EXPECT_NE(text.find("\x1b[1;31mFAIL\x1b[0m"), std::string::npos);
+    for (size_t at = 0; (at = text.find('\x1b', at)) != std::string::npos;) {
+        text.erase(at, text.find('m', at) - at + 1);
+    }
+    EXPECT_EQ(text, console_of(test::sample_run(), plain));
+}
+
+TEST(console, three_lines_and_the_explain_command) {
+    const report::Run run = test::sample_run();
+    for (const CaseRecord& r : run.cases) {
+        const std::string text = console_case(r, {});
+        const auto lines = std::count(text.begin(), text.end(), '\n');
+        EXPECT_EQ(lines, r.explain.empty() ? 3 : 4) << text;
+        EXPECT_NE(text.find(r.id), std::string::npos);
+        EXPECT_NE(text.find("rerun: " + r.rerun), std::string::npos);
+    }
+}
+
+TEST(console, hostile_bytes_are_shown_inert) {
+    expect_clean(console_of(test::hostile_run(), {false, true, 100}));
+}
+
+TEST(console, pictures_that_do_not_fit_together_are_left_out) {
+    CaseRecord r = test::sample_run().cases[3];
+    r.pictures.marks.pop_back();
+    EXPECT_EQ(console_case(r, {false, true, 100}), console_case(r, {}));
+}
+
+TEST(json, golden) {
+    expect_golden("results.json", to_json(test::sample_run()));
+}
+
+TEST(json, every_run_keeps_to_the_schema) {
+    const std::string check =
+        "python3 '" EDGECASE_SOURCE_DIR "/tests/unit/report/check_schema.py' '" EDGECASE_SOURCE_DIR
+        "/docs/schema/results-1.json'";
+    EXPECT_EQ(pass_through(check, to_json(test::sample_run())), 0);
+    EXPECT_EQ(pass_through(check, to_json(test::hostile_run())), 0);
+    EXPECT_EQ(pass_through(check, to_json({})), 0);
+    auto json = nlohmann::ordered_json::parse(to_json(test::sample_run()));
+    json["cases"][3].erase("status");
+    EXPECT_NE(pass_through(check + " 2>/dev/null", json.dump()), 0);
+}
+
+TEST(json, what_others_rely_on) {
+    const auto json = nlohmann::ordered_json::parse(to_json(test::sample_run()));
+    const auto& fail = json.at("cases").at(3);
+    EXPECT_EQ(fail.at("status"), "fail");
+    EXPECT_EQ(fail.at("findings").at(2).at("kind"), "double");
+    EXPECT_EQ(fail.at("findings").at(3).at("ratio"), 2.0e6);
+    EXPECT_EQ(fail.at("worst_ratio"), "inf");
+    EXPECT_EQ(json.at("worst").at("case"), fail.at("id"));
+    EXPECT_EQ(json.at("totals").at("fail"), 2);
+    EXPECT_EQ(json.at("device").at("subpixel_bits"), 8);
+    EXPECT_EQ(json.at("run").at("exit_code"), kExitInternal);
+    expect_clean(to_json(test::hostile_run()));
+}
+
+TEST(junit, golden) {
+    expect_golden("junit.xml", to_junit(test::sample_run()));
+}
+
+TEST(junit, every_run_is_well_formed) {
+    const std::string check = "python3 '" EDGECASE_SOURCE_DIR "/tests/unit/report/check_junit.py'";
+    EXPECT_EQ(pass_through(check, to_junit(test::sample_run())), 0);
+    EXPECT_EQ(pass_through(check, to_junit(test::hostile_run())), 0);
+    EXPECT_EQ(pass_through(check, to_junit({})), 0);
+    EXPECT_NE(pass_through(check + " 2>/dev/null", "<testsuites>\x1b</testsuites>"), 0);
+    expect_clean(to_junit(test::hostile_run()));
+    EXPECT_EQ(to_junit(test::hostile_run()).find("]]>"), std::string::npos);
+}
+
+size_t count_of(const std::string& text, const std::string& part) {
+    size_t count = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+        ++count;
+    }
+    return count;
+}
+
+TEST(html, is_one_page_that_loads_nothing) {
+    const std::string page = to_html(test::sample_run());
+    EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
+    EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+    EXPECT_EQ(page.find("{{"), std::string::npos);
+    for (const char* part : {" src=", "<link", "@import", "url(", "fetch(", "XMLHttpRequest",
+                             "import(", "<iframe", "<img"}) {
+        EXPECT_EQ(page.find(part), std::string::npos) << part;
+    }
+    EXPECT_EQ(count_of(page, "<script"), 2U);
+    EXPECT_EQ(count_of(page, "</script"), 2U);
+    EXPECT_NE(page.find("<noscript>"), std::string::npos);
+}
+
+TEST(html, hostile_bytes_stay_text) {
+    const std::string page = to_html(test::hostile_run());
+    expect_clean(page);
+    EXPECT_EQ(count_of(page, "<script"), 2U);
+    EXPECT_EQ(count_of(page, "</script"), 2U);
+    EXPECT_EQ(count_of(page, "<!--"), 1U);  // the licence
+}
+
+TEST(html, its_data_is_json_with_every_case) {
+    const report::Run run = test::hostile_run();
+    const std::string page = to_html(run);
+    const std::string open = "<script type=\"application/json\" id=\"data\">";
+    const size_t begin = page.find(open) + open.size();
+    const auto json =
+        nlohmann::ordered_json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    ASSERT_EQ(json.at("cases").size(), run.cases.size());
+    EXPECT_EQ(json.at("cases").at(3).at("findings").size(), 5U);
+    EXPECT_EQ(json.at("cases").at(3).at("id"), printable(run.cases[3].id));
+}
+
+TEST(html, thousands_of_failures_stay_small) {
+    report::Run run = test::sample_run();
+    const CaseRecord fail = run.cases[3];
+    run.cases.assign(2000, fail);
+    for (size_t k = 0; k < run.cases.size(); ++k) {
+        run.cases[k].id += std::to_string(k);
+        run.cases[k].findings.assign(1000, fail.findings[0]);
+    }
+    EXPECT_LT(to_html(run).size(), size_t{16} << 20);
+}
+
+TEST(reports, never_blame_vulkan_for_what_only_breaks_direct3d) {
+    report::Run run = test::sample_run();
+    run.cases = {run.cases[4]};
+    for (const std::string& text : {console_of(run, {}), to_junit(run), to_html(run)}) {
+        EXPECT_EQ(text.find("violates"), std::string::npos);
+        EXPECT_NE(text.find("differs from top-left hardware"), std::string::npos);
+    }
+    EXPECT_EQ(console_of(run, {}).find("not conformant"), std::string::npos);
+    EXPECT_EQ(to_junit(run).find("not conformant"), std::string::npos);
+}
+
+}  // namespace
+
+}  // namespace report

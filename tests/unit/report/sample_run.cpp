@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sample_run.hpp"
+
+#include <limits>
+
+namespace report::test {
+
+using cases::Profile;
+using diff::FindingKind;
+
+namespace {
+
+CaseRecord make(const std::string& id, Status status) {
+    CaseRecord r;
+    r.id = id;
+    r.file = "cases/suite/" + id.substr(0, id.find(':')) + ".toml";
+    r.line = 1;
+    r.description = "Two triangles share a diagonal: each sample on it belongs to exactly one.";
+    r.rules = {"cover.shared-edge", "tie.top-left"};
+    r.status = status;
+    r.seconds = 0.0125;
+    r.attempts = 1;
+    r.compared_samples = 64;
+    r.compared_values = 128;
+    r.must_samples = 28;
+    r.either_samples = 8;
+    r.worst_ratio = 0.25;
+    r.worst_quantity = "depth";
+    r.rerun = "edgecase run '" + id + "'";
+    return r;
+}
+
+// An 8 x 8 picture of two triangles with one sample of every mark on the diagonal.
+Pictures make_pictures() {
+    Pictures p;
+    p.width = 8;
+    p.height = 8;
+    for (uint32_t j = 0; j < 8; ++j) {
+        for (uint32_t i = 0; i < 8; ++i) {
+            p.expected_hits.push_back(i + j < 7 ? 1 : i + j == 7 ? 255 : 0);
+            p.device_hits.push_back(i + j < 8 ? 1 : 0);
+            p.marks.push_back(i + j == 7 ? 1 : 0);
+        }
+    }
+    const auto set = [&](size_t x, size_t y, uint8_t expected, uint8_t got, diff::SampleMark mark) {
+        p.expected_hits[y * 8 + x] = expected;
+        p.device_hits[y * 8 + x] = got;
+        p.marks[y * 8 + x] = static_cast<uint8_t>(mark);
+    };
+    set(3, 2, 1, 0, diff::SampleMark::missing);
+    set(6, 6, 0, 1, diff::SampleMark::extra);
+    set(1, 1, 1, 2, diff::SampleMark::double_hit);
+    set(2, 4, 1, 1, diff::SampleMark::value);
+    set(5, 0, 1, 1, diff::SampleMark::order);
+    return p;
+}
+
+}  // namespace
+
+Run sample_run() {
+    Run run;
+    run.tool_version = "0.1.0";
+    run.arguments = {"edgecase", "run", "-o", "out"};
+    run.environment = {{"VK_DRIVER_FILES", "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"}};
+    run.started = "2026-01-02T03:04:05Z";
+    run.ended = "2026-01-02T03:04:17Z";
+    run.host = "Linux x86_64";
+    run.seed = 18446744073709551615ULL;
+    run.suite_root = "cases/suite";
+    run.expectation_file = "cases/expectations/llvmpipe.txt";
+    run.seconds = 12.4;
+    run.device.name = "llvmpipe (LLVM 15.0.6, 256 bits)";
+    run.device.driver_name = "llvmpipe";
+    run.device.driver_info = "Mesa 22.3.6 (LLVM 15.0.6)";
+    run.device.uuid = "6d657361000000000000000000000000";
+    run.device.type = "cpu";
+    run.device.api_version = "1.3.230";
+    run.device.vendor_id = 0x10005;
+    run.device.subpixel_bits = 8;
+    run.device.viewport_subpixel_bits = 0;
+    run.device.has_primitive_id = true;
+
+    run.cases.push_back(make("coverage/half-square", Status::pass));
+    run.cases.push_back(make("coverage/wide:samples=4", Status::unsupported));
+    run.cases.back().reason = "the device has no target of 4 samples";
+    run.cases.push_back(make("coverage/slow", Status::skip));
+    run.cases.back().expected = Status::skip;
+
+    CaseRecord fail = make("shared-edge/diag:rot=90,flip=false", Status::fail);
+    fail.level = Profile::vulkan;
+    fail.counts = {1, 1, 1, 1, 1};
+    fail.min_x = 1;
+    fail.max_x = 6;
+    fail.max_y = 6;
+    fail.findings = {
+        {FindingKind::missing, "cover.shared-edge", Profile::vulkan, 3, 2, 0, "", "1", "0",
+         "2 triangles meet here along edges they share with identical end points", 0},
+        {FindingKind::extra, "tie.top-left", Profile::direct3d, 6, 6, 0, "", "0", "1",
+         "triangle 0 of draw 0: E(v1,v2) = 0, no top or left edge", 0},
+        {FindingKind::double_hit, "cover.shared-edge", Profile::vulkan, 1, 1, 0, "", "1", "2",
+         "2 triangles meet here along edges they share with identical end points", 0},
+        {FindingKind::value, "interp.perspective", Profile::practice, 2, 4, 0, "attribute 0.x",
+         "0.5 +- 1.2e-07", "0.75", "the value is (1/2)/(1)", 2.0e6},
+        {FindingKind::order, "order.primitive", Profile::vulkan, 5, 0, 0, "",
+         "triangle 1 of draw 0", "triangle 0 of draw 0", "later primitives overwrite earlier ones",
+         0},
+    };
+    fail.worst_ratio = std::numeric_limits<double>::infinity();
+    fail.worst_quantity = "attribute 0.x";
+    fail.pictures = make_pictures();
+    fail.explain = "edgecase explain 'shared-edge/diag:rot=90,flip=false' --pixel 3,2";
+    run.cases.push_back(fail);
+
+    CaseRecord ties = make("ties/left", Status::fail);
+    ties.level = Profile::direct3d;
+    ties.counts = {1, 0, 0, 0, 0};
+    ties.findings = {{FindingKind::missing, "tie.top-left", Profile::direct3d, 0, 3, 2, "", "1",
+                      "0", "E(v1,v2) = 0 exactly on a left edge", 0}};
+    ties.max_y = ties.min_y = 3;
+    run.cases.push_back(ties);
+
+    CaseRecord xfail = make("clip/near", Status::xfail);
+    xfail.expected = Status::fail;
+    xfail.bug = "mesa#1234";
+    run.cases.push_back(xfail);
+    CaseRecord xpass = make("clip/far", Status::xpass);
+    xpass.expected = Status::fail;
+    xpass.bug = "mesa#1235";
+    run.cases.push_back(xpass);
+    CaseRecord improved = make("clip/guard", Status::improved);
+    improved.expected = Status::crash;
+    run.cases.push_back(improved);
+    run.cases.push_back(make("interp/flat", Status::flake));
+    run.cases.back().attempts = 2;
+    run.cases.push_back(make("interp/lost", Status::device_lost));
+    run.cases.back().step = "submit";
+    run.cases.push_back(make("large/hang", Status::timeout));
+    run.cases.back().step = "submit";
+    run.cases.back().seconds = 30;
+    CaseRecord crash = make("large/offscreen:n=3", Status::crash);
+    crash.signal = "SIGSEGV";
+    crash.step = "pipeline";
+    crash.stderr_text = "LLVM ERROR: cannot select\nstack dump:\n";
+    run.cases.push_back(crash);
+    run.cases.push_back(make("large/poison", Status::error));
+    run.cases.back().reason = "read-back failed: 12 samples still hold the poison";
+    run.cases.push_back(make("large/never", Status::not_run));
+    return run;
+}
+
+Run hostile_run() {
+    Run run = sample_run();
+    run.tool_version = run.host = run.suite_root = run.expectation_file = kHostile;
+    run.started = run.ended = kHostile;
+    run.arguments = {kHostile, kHostile};
+    run.environment = {{kHostile, kHostile}};
+    Device& d = run.device;
+    d.name = d.driver_name = d.driver_info = d.uuid = d.type = d.api_version = kHostile;
+    for (CaseRecord& r : run.cases) {
+        r.id += kHostile;
+        r.file = r.description = r.bug = r.reason = r.step = r.signal = r.stderr_text = kHostile;
+        r.rerun = r.explain = r.worst_quantity = kHostile;
+        r.rules = r.links = r.messages = {kHostile};
+        for (diff::Finding& f : r.findings) {
+            f.rule = f.quantity = f.expected = f.got = f.why = kHostile;
+        }
+    }
+    return run;
+}
+
+}  // namespace report::test
