@@ -26,7 +26,7 @@ struct DeviceInfo {
     std::string device_type;  // "cpu", "discrete-gpu", ...
     uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0, max_color_attachments = 0,
              max_target_size = 0;
-    bool has_primitive_id = false;     // geometryShader or tessellationShader
+    bool has_primitive_id = false;     // the feature geometryShader
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
 };
 
