@@ -72,7 +72,7 @@ value::Valued<mpq_class> exact_value(const value::Basis<mpq_class>& basis, const
                                      const value::Evaluation<mpq_class>& place) {
     const mpq_class factor(kBudgetFactor);
     const auto site = make_site(basis, basis.planes[value::kPlaneInvW],
-                                q.at_sample ? place.sample : place.centre.front(), factor);
+                                q.at_sample ? place.sample : place.attributes.front(), factor);
     return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
 }
 

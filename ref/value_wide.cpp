@@ -139,21 +139,29 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
                    const Evaluation<T>& where, std::span<const size_t> only,
                    const FragmentValues& device, std::vector<Reach<T>>& reaches) {
     std::vector<T> widest(quantities.size());
-    std::vector<Site<T>> centre;
-    for (const Basis<T>& basis : candidate.bases) {
-        const Plane<T>& inv_w = basis.planes[kPlaneInvW];
-        centre.clear();
-        for (const Point<T>& p : where.centre) {
-            centre.push_back(make_site(basis, inv_w, p, set.factor));
+    const bool is_split = where.frag_coord.size() != where.attributes.size();
+    std::vector<Site<T>> attributes, frag_coord, sample;
+    const auto fill = [&](const Basis<T>& basis, std::span<const Point<T>> points,
+                          std::vector<Site<T>>& sites) {
+        sites.clear();
+        for (const Point<T>& p : points) {
+            sites.push_back(make_site(basis, basis.planes[kPlaneInvW], p, set.factor));
         }
-        const Site<T> sample = make_site(basis, inv_w, where.sample, set.factor);
+    };
+    for (const Basis<T>& basis : candidate.bases) {
+        fill(basis, where.attributes, attributes);
+        fill(basis, {&where.sample, 1}, sample);
+        if (is_split) {
+            fill(basis, where.frag_coord, frag_coord);
+        }
         for (size_t i = 0; i < quantities.size(); ++i) {
             const Quantity& q = quantities[i];
             if (is_judged(q, i, only) && reaches[i].is_known) {
-                const auto sites = q.at_sample ? std::span<const Site<T>>(&sample, 1)
-                                               : std::span<const Site<T>>(centre);
-                add_reach(basis, q, sites, set.factor, static_cast<double>(q.get(device)),
-                          widest[i], reaches[i]);
+                const std::vector<Site<T>>& sites = q.at_sample                     ? sample
+                                                    : q.attribute == -1 && is_split ? frag_coord
+                                                                                    : attributes;
+                add_reach(basis, q, std::span<const Site<T>>(sites), set.factor,
+                          static_cast<double>(q.get(device)), widest[i], reaches[i]);
             }
         }
     }
@@ -202,16 +210,20 @@ std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Pro
     const Point<T> sample{T(static_cast<double>(fixed.x) / static_cast<double>(kFixedOne)),
                           T(static_cast<double>(fixed.y) / static_cast<double>(kFixedOne))};
     const Point<T> centre{T(x + 0.5), T(y + 0.5)};
+    if (samples == 1) {
+        return {{{centre}, {centre}, sample}};
+    }
     std::vector<Evaluation<T>> all;
-    all.push_back({{centre}, sample});
-    if (samples > 1 && profile == cases::Profile::direct3d) {
+    all.push_back({{centre}, {centre, sample}, sample});
+    if (profile == cases::Profile::direct3d) {
         // Sample-rate shading evaluates at the sample.
-        all.push_back({{sample}, sample});
-    } else if (samples > 1) {
+        all.push_back({{sample}, {centre, sample}, sample});
+    } else {
         // "An implementation-defined position within the fragment area": a linear function, and a
         // quotient of two where the denominator stays positive, is largest at a corner.
-        all.push_back(
-            {{{T(x), T(y)}, {T(x + 1), T(y)}, {T(x), T(y + 1)}, {T(x + 1), T(y + 1)}}, sample});
+        const std::vector<Point<T>> corners = {
+            {T(x), T(y)}, {T(x + 1), T(y)}, {T(x), T(y + 1)}, {T(x + 1), T(y + 1)}};
+        all.push_back({corners, corners, sample});
     }
     return all;
 }

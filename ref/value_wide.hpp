@@ -46,11 +46,12 @@ template <class T>
 WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> quantities,
                          const Limits& limits, cases::Profile profile);
 
-// Where the values may be evaluated: one or more points (a hull over them).
+// Where the values may be evaluated: at one of several points, or anywhere between them (the hull).
 template <class T>
 struct Evaluation {
-    std::vector<Point<T>> centre;  // of quantities that are not at_sample
-    Point<T> sample;
+    std::vector<Point<T>> attributes;
+    std::vector<Point<T>> frag_coord;  // z and w: the specification does not say where
+    Point<T> sample;                   // depth
 };
 template <class T>
 std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Profile profile);

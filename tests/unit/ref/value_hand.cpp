@@ -262,4 +262,35 @@ TEST(ValueHand, TriangleWithoutAreaClaimsTheHullOnly) {
     EXPECT_EQ(verdict.mismatches[0].level, Profile::practice);
 }
 
+// Attribute and depth grow with x, so a value tells where it was evaluated.
+TEST(ValueHand, MultisampledPositions) {
+    cases::Case c =
+        make_case(8, {clip_of(0, 0, 0, 1, 8), clip_of(8, 0, 1, 1, 8), clip_of(0, 8, 0, 1, 8)});
+    c.target.samples = 4;
+    const std::array<glm::vec4, 3> x = {glm::vec4(0.0F), glm::vec4(8.0F), glm::vec4(0.0F)};
+    add_attribute(c, Interpolation::noperspective, 1, x);
+    add_attribute(c, Interpolation::smooth, 1, x);
+    // Sample 0 of pixel (3,2) is at (3.375, 2.125).
+    const ref::SampleId id{3, 2, 0};
+    const auto ok = [&](Profile profile, float a, float b, float coord_z, float depth) {
+        ref::ValueReference reference = reference_of(c, profile);
+        ref::FragmentValues v;
+        v.frag_coord = {3.5F, 2.5F, coord_z / 8, 1.0F};
+        v.depth = depth / 8;
+        v.attributes[0].x = a;
+        v.attributes[1].x = b;
+        EXPECT_EQ(reference.judge(0, id, v).ok, reference.judge_exact(0, id, v).ok);
+        return reference.judge(0, id, v).ok;
+    };
+    EXPECT_TRUE(ok(Profile::direct3d, 3.5F, 3.5F, 3.5F, 3.375F));
+    EXPECT_TRUE(ok(Profile::direct3d, 3.5F, 3.5F, 3.375F, 3.375F));
+    EXPECT_TRUE(ok(Profile::direct3d, 3.375F, 3.375F, 3.375F, 3.375F));
+    EXPECT_FALSE(ok(Profile::direct3d, 3.5F, 3.375F, 3.5F, 3.375F));  // two positions
+    EXPECT_FALSE(ok(Profile::direct3d, 3.5F, 3.5F, 3.5F, 3.5F));      // depth at the centre
+    EXPECT_FALSE(ok(Profile::direct3d, 3.25F, 3.25F, 3.5F, 3.375F));  // elsewhere in the pixel
+    EXPECT_TRUE(ok(Profile::practice, 3.25F, 3.25F, 3.5F, 3.375F));
+    EXPECT_FALSE(ok(Profile::practice, 4.25F, 4.25F, 3.5F, 3.375F));  // the next pixel
+    EXPECT_FALSE(ok(Profile::vulkan, 4.25F, 4.25F, 3.5F, 3.375F));
+}
+
 }  // namespace
