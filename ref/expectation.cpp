@@ -3,6 +3,8 @@
 #include "ref/expectation.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 
 #include "ref/coverage_fast.hpp"
 #include "ref/coverage_setup.hpp"
@@ -19,6 +21,9 @@ bool HitBounds::allows(uint32_t front, uint32_t back) const {
 }
 
 bool HitBounds::is_decided() const {
+    if (front_min == front_max && back_min == back_max) {
+        return allows(front_min, back_min);
+    }
     int64_t pairs = 0;
     for (int64_t front = front_min; front <= front_max && pairs < 2; ++front) {
         const int64_t low =
@@ -32,41 +37,62 @@ bool HitBounds::is_decided() const {
 
 namespace {
 
-// Which triangles touch each sample: the spans, turned into one list a sample.
+// The spans of each row of pixels, and, one row at a time, the triangles that touch each sample.
 class HitTable {
   public:
-    HitTable(const cases::Target& target, const std::vector<fast::Span>& spans) {
-        const size_t row = size_t{target.width} * target.samples;
-        begin_.assign(row * target.height + 1, 0);
-        const auto first = [&](const fast::Span& s) {
-            return s.y * row + size_t{s.x0} * target.samples + s.sample;
-        };
+    HitTable(const cases::Target& target, const std::vector<fast::Span>& spans)
+        : samples_(target.samples), row_begin_(size_t{target.height} + 1), sorted_(spans.size()) {
+        // A stable counting sort by row: the spans of a sample stay in drawing order.
         for (const fast::Span& s : spans) {
-            size_t at = first(s);
-            for (uint32_t x = s.x0; x < s.x1; ++x, at += target.samples) {
+            ++row_begin_[s.y + 1];
+        }
+        std::partial_sum(row_begin_.begin(), row_begin_.end(), row_begin_.begin());
+        std::vector<size_t> next = row_begin_;
+        for (const fast::Span& s : spans) {
+            sorted_[next[s.y]++] = s;
+        }
+        begin_.resize(size_t{target.width} * target.samples + 1);
+    }
+    // How many hits all samples have together.
+    size_t size() const {
+        return std::accumulate(sorted_.begin(), sorted_.end(), size_t{0},
+                               [](size_t n, const fast::Span& s) { return n + s.x1 - s.x0; });
+    }
+    // Makes row j the current one; false if nothing touches it.
+    bool select_row(uint32_t j) {
+        const std::span<const fast::Span> row(sorted_.data() + row_begin_[j],
+                                              row_begin_[j + 1] - row_begin_[j]);
+        if (row.empty()) {
+            return false;
+        }
+        std::fill(begin_.begin(), begin_.end(), 0U);
+        for (const fast::Span& s : row) {
+            size_t at = size_t{s.x0} * samples_ + s.sample;
+            for (uint32_t x = s.x0; x < s.x1; ++x, at += samples_) {
                 ++begin_[at];
             }
         }
-        uint64_t sum = 0;
-        for (uint64_t& b : begin_) {
-            sum += b;
-            b = sum;  // end of the list for now; filling from behind makes it the begin
-        }
-        hits_.resize(sum);
-        for (auto s = spans.rbegin(); s != spans.rend(); ++s) {
-            size_t at = first(*s);
-            for (uint32_t x = s->x0; x < s->x1; ++x, at += target.samples) {
+        // Ends of the lists; filling from behind makes them the begins.
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        hits_.resize(begin_.back());
+        for (auto s = row.rbegin(); s != row.rend(); ++s) {
+            size_t at = size_t{s->x0} * samples_ + s->sample;
+            for (uint32_t x = s->x0; x < s->x1; ++x, at += samples_) {
                 hits_[--begin_[at]] = {s->triangle, s->coverage};
             }
         }
+        return true;
     }
-    std::span<const Hit> of(size_t sample) const {
-        return {hits_.data() + begin_[sample], begin_[sample + 1] - begin_[sample]};
+    // Sample k of the current row: pixel k / samples, sample k % samples.
+    std::span<const Hit> of(size_t k) const {
+        return {hits_.data() + begin_[k], begin_[k + 1] - begin_[k]};
     }
-    size_t size() const { return hits_.size(); }
 
   private:
-    std::vector<uint64_t> begin_;
+    uint32_t samples_;
+    std::vector<size_t> row_begin_;
+    std::vector<fast::Span> sorted_;
+    std::vector<uint32_t> begin_;
     std::vector<Hit> hits_;
 };
 
@@ -91,24 +117,26 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
         setups.push_back(set_up(c, triangle, limits, profile, boxes, windows[triangle.draw]));
         fast::scan(setups.back(), t, c.target, spans);
     }
-    const HitTable table(c.target, spans);
+    HitTable table(c.target, spans);
     Narrowing narrowing(c, profile, out.triangles, setups, {fast::is_in_hull, fast::winding});
     out.samples.resize(size_t{c.target.width} * c.target.height * c.target.samples);
     out.writers.reserve(table.size());
     size_t at = 0;
     for (uint32_t j = 0; j < c.target.height; ++j) {
+        const bool is_touched = table.select_row(j);
+        size_t k = 0;
         for (uint32_t i = 0; i < c.target.width; ++i) {
-            for (uint32_t s = 0; s < c.target.samples; ++s, ++at) {
-                const std::span<const Hit> hits = table.of(at);
+            for (uint32_t s = 0; s < c.target.samples; ++s, ++at, ++k) {
+                SampleExpectation& sample = out.samples[at];
+                const std::span<const Hit> hits = is_touched ? table.of(k) : std::span<const Hit>();
                 if (hits.empty()) {
-                    out.samples[at].writers_begin = static_cast<uint32_t>(out.writers.size());
+                    sample.writers_begin = static_cast<uint32_t>(out.writers.size());
                     continue;
                 }
-                const FixedPoint p = sample_position(i, j, s, c.target.samples);
-                out.samples[at] = narrowing.judge(p, hits, out.writers);
-                const HitBounds& b = out.samples[at].hits;
-                out.must_samples += b.total_min > 0 ? 1U : 0U;
-                out.either_samples += b.is_decided() ? 0U : 1U;
+                sample =
+                    narrowing.judge(sample_position(i, j, s, c.target.samples), hits, out.writers);
+                out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
+                out.either_samples += sample.hits.is_decided() ? 0U : 1U;
             }
         }
     }

@@ -22,6 +22,7 @@
 #include <cstdint>
 
 #include "ref/position_detail.hpp"
+#include "ref/position_filter.hpp"
 
 namespace ref {
 
@@ -197,6 +198,16 @@ std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& vi
     if (!is_projectable(clip) || clip.w < 0x1p-126F) {
         return std::nullopt;
     }
+    const auto x = filtered_range(clip.x, clip.w, viewport.x, viewport.width, limits, profile);
+    const auto y = filtered_range(clip.y, clip.w, viewport.y, viewport.height, limits, profile);
+    if (x && y) {
+        return Box{x->low, y->low, x->high, y->high};
+    }
+    return exact_position_box(clip, viewport, limits, profile);
+}
+
+std::optional<Box> exact_position_box(const glm::vec4& clip, const cases::Viewport& viewport,
+                                      const Limits& limits, cases::Profile profile) {
     const IdealPosition ideal = ideal_position(clip, viewport);
     return box_around(ideal.x, ideal.y, transform_error(clip, viewport), viewport, limits, profile);
 }

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "ref/position_detail.hpp"
+#include "ref/position_filter.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {
@@ -164,6 +166,53 @@ TEST(Position, ProfilesAreNestedAndHoldTheNearestPoint) {
         EXPECT_EQ(strict.x0 % step, 0);
         EXPECT_EQ(usual.y1 % step, 0);
     }
+}
+
+// The binary64 filter never says anything else than the rationals, and says something mostly.
+TEST(Position, FilterAgreesWithRationals) {
+    RandomCases random(6);
+    int told = 0;
+    const int rounds = 30000;
+    for (int k = 0; k < rounds; ++k) {
+        cases::Viewport v{0, 0, 64, 64, 0, 1};
+        const int64_t kind = random.integer(0, 4);
+        if (kind == 0) {
+            v = {static_cast<float>(random.real(-9, 9)),
+                 static_cast<float>(random.integer(-9, 9)),
+                 static_cast<float>(random.real(1, 5000)),
+                 static_cast<float>(random.integer(-900, -1)),
+                 0,
+                 1};
+        }
+        cases::Draw d;
+        d.viewport = v;
+        const Limits limits{static_cast<int>(random.integer(4, 16))};
+        const double unit = std::exp2(-limits.subpixel_bits);
+        // Often on the grid, on midpoints, at the 0.6 of direct3d, or a little beside them.
+        const auto coordinate = [&] {
+            const double offsets[] = {0, 0.5, 0.4, 0.6, 0.25};
+            const double near = random.flip() ? 0 : random.real(-1, 1) * std::exp2(-20);
+            return static_cast<double>(random.integer(-2000, 20000)) * unit +
+                   (offsets[random.integer(0, 4)] + near) * unit;
+        };
+        const float ws[] = {1, 2, 0.25F, 3, static_cast<float>(random.real(0.01, 100))};
+        const glm::vec4 clip = at_pixel(d, coordinate(), coordinate(), ws[random.integer(0, 4)]);
+        for (const Profile profile : cases::kProfiles) {
+            const Box want = *exact_position_box(clip, v, limits, profile);
+            const auto x = filtered_range(clip.x, clip.w, v.x, v.width, limits, profile);
+            const auto y = filtered_range(clip.y, clip.w, v.y, v.height, limits, profile);
+            if (x) {
+                ASSERT_EQ(x->low, want.x0) << k;
+                ASSERT_EQ(x->high, want.x1) << k;
+                ++told;
+            }
+            if (y) {
+                ASSERT_EQ(y->low, want.y0) << k;
+                ASSERT_EQ(y->high, want.y1) << k;
+            }
+        }
+    }
+    EXPECT_GT(told, rounds * 2);
 }
 
 TEST(Position, NearestTiesGoToEven) {

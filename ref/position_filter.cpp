@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// With d = 2^-53: x_d = c/w has relative error d, t = x_d p/2 2d, o d, x_f = t + o d, so
+// |x_f - computed| <= 4d (|t| + |o| + |x_f|). The error bound of position.cpp is a sum of products
+// of positive terms, relative error below 16d. Both are taken four times as large.
+#include "ref/position_filter.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace ref {
+
+namespace {
+
+constexpr double kRound = 0x1p-53;
+constexpr double kSmall = 0x1p-100;  // covers underflow of binary64 on the way
+constexpr double kFar = 0x1p30;      // pixels; beyond it the rationals decide
+
+// The number is zero or a normal binary32.
+bool is_binary32(double v) {
+    const auto f = static_cast<float>(v);
+    return !(static_cast<double>(f) < v) && !(static_cast<double>(f) > v) &&
+           (std::isnormal(f) || std::fpclassify(f) == FP_ZERO);
+}
+
+bool is_equal(double a, double b) {
+    return !(a < b) && !(a > b);
+}
+
+// The sum, if binary64 holds it exactly.
+bool exact_sum(double a, double b, double& sum) {
+    sum = a + b;
+    return is_equal(sum - a, b) && is_equal(sum - b, a);
+}
+
+// As is_power_of_two in position.cpp.
+bool is_power_of_two(float w) {
+    constexpr uint32_t kFractionBits = 0x007fffff;
+    return (std::bit_cast<uint32_t>(w) & kFractionBits) == 0 && std::ilogb(w) > -126 &&
+           std::ilogb(w) < 126;
+}
+
+// A number known to lie within `slack` of `value`.
+struct Known {
+    double value = 0, slack = 0;
+};
+
+// floor or ceil, if it is the same for all numbers that are possible.
+bool certain_floor(const Known& k, int64_t& out) {
+    const double low = std::floor(k.value - k.slack);
+    const double high = std::floor(k.value + k.slack);
+    out = static_cast<int64_t>(low);
+    return is_equal(low, high);
+}
+bool certain_ceil(const Known& k, int64_t& out) {
+    if (!certain_floor({-k.value, k.slack}, out)) {
+        return false;
+    }
+    out = -out;
+    return true;
+}
+
+}  // namespace
+
+std::optional<FilteredRange> filtered_range(float c, float w, float origin, float extent,
+                                            const Limits& limits, cases::Profile profile) {
+    if (!(w >= 0x1p-60F) || !(w <= 0x1p60F) || !(std::abs(c) <= 0x1p90F)) {
+        return std::nullopt;
+    }
+    const double half = static_cast<double>(extent) / 2;
+    const double x_d = static_cast<double>(c) / static_cast<double>(w);
+    const double t = x_d * half;  // exact if x_d is a binary32: 24 + 24 bits
+    double o = 0;
+    double x_f = 0;
+    double shifted = 0;
+    const bool has_offset = exact_sum(static_cast<double>(origin), half, o);
+    const bool has_position = exact_sum(t, o, x_f);
+    if (!(std::abs(x_f) < kFar) || !(std::abs(o) < kFar)) {
+        return std::nullopt;
+    }
+    const bool is_exact =
+        is_power_of_two(w) && has_offset && has_position && is_binary32(x_d) && is_binary32(half) &&
+        is_binary32(t) && is_binary32(o) && is_binary32(x_f) && exact_sum(x_f, -0.5, shifted) &&
+        is_binary32(shifted) && exact_sum(o, -0.5, shifted) && is_binary32(shifted);
+    // position.cpp, "The binary32 error"
+    constexpr double kUnit = 0x1p-24;
+    double error = 0;
+    Known position{x_f, 0};
+    if (!is_exact) {
+        error = kUnit * (4 * std::abs(t) + std::abs(o) + 2 * std::abs(x_f) + 1) * (1 + 8 * kUnit) +
+                0x1p-120 * (1 + std::abs(half)) * (1 + std::abs(static_cast<double>(c)));
+        position.slack = 16 * kRound * (std::abs(t) + std::abs(o) + std::abs(x_f)) +
+                         64 * kRound * error + kSmall;
+    }
+    const double scale = std::ldexp(1.0, limits.subpixel_bits);
+    const bool is_direct3d = profile == cases::Profile::direct3d;
+    // 0.6 is no binary64 number: its rounding and that of the sum count as slack.
+    const double reach = error * scale + (is_direct3d ? 0.6 : 0.0);
+    const double slack =
+        position.slack * scale +
+        (is_exact && !is_direct3d ? 0 : 4 * kRound * (std::abs(x_f) * scale + reach + 1));
+    const Known low{x_f * scale - reach, slack};
+    const Known high{x_f * scale + reach, slack};
+    FilteredRange out;
+    const bool is_certain = is_direct3d
+                                ? certain_ceil(low, out.low) && certain_floor(high, out.high)
+                                : certain_floor(low, out.low) && certain_ceil(high, out.high);
+    if (!is_certain) {
+        return std::nullopt;
+    }
+    const int64_t unit = int64_t{1} << (kFixedBits - limits.subpixel_bits);
+    out.low *= unit;
+    out.high *= unit;
+    if (profile == cases::Profile::vulkan) {
+        const bool is_fractional = std::floor(origin) < origin || std::floor(extent) < extent;
+        const double wide = (1e-5 * (2 * std::abs(t) + std::abs(x_f)) + (is_fractional ? 1 : 0)) *
+                            static_cast<double>(kFixedOne);
+        const double wide_slack =
+            32 * kRound * wide + 1e-4 * static_cast<double>(kFixedOne) * position.slack + kSmall;
+        int64_t units = 0;
+        if (!certain_ceil({wide, wide_slack}, units)) {
+            return std::nullopt;
+        }
+        out.low -= units;
+        out.high += units;
+    }
+    return out;
+}
+
+}  // namespace ref
