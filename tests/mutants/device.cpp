@@ -134,6 +134,8 @@ class DrawCommand {
                            std::vector<WindowVertex> polygon, bool was_cut);
     void rasterize_line(const Primitive& primitive, std::vector<WindowVertex>& v);
     WindowVertex project(const ClipVertex& v) const;
+    std::unique_ptr<TrianglePlanes> planes_in_viewport(const std::array<ClipVertex, 3>& whole,
+                                                       bool positive) const;
     bool is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const;
     bool is_culled(bool front) const;
     bool inside_viewport(int64_t i, int64_t j, uint32_t s) const;
@@ -312,6 +314,29 @@ void DrawCommand::rasterize_line(const Primitive& primitive, std::vector<WindowV
          [&](int64_t i, int64_t j, uint32_t s) { shade(primitive, planes, v[0], front, i, j, s); });
 }
 
+// The planes of the largest piece inside the viewport; nothing if none is left there.
+std::unique_ptr<TrianglePlanes> DrawCommand::planes_in_viewport(
+    const std::array<ClipVertex, 3>& whole, bool positive) const {
+    Device geometric = device_;
+    geometric.clip = ClipMethod::geometric;
+    const ClippedPolygon inner = clip_triangle(whole, draw_, geometric);
+    std::array<WindowVertex, 3> best;
+    int64_t best_area = 0;
+    for (size_t k = 1; k + 1 < inner.vertices.size(); ++k) {
+        const std::array<WindowVertex, 3> piece{
+            project(inner.vertices[0]), project(inner.vertices[k]), project(inner.vertices[k + 1])};
+        const int64_t area = positive ? twice_area(piece) : -twice_area(piece);
+        if (area > best_area) {
+            best_area = area;
+            best = piece;
+        }
+    }
+    if (best_area == 0) {
+        return nullptr;
+    }
+    return std::make_unique<TrianglePlanes>(best, positive, draw_, device_);
+}
+
 void DrawCommand::rasterize_polygon(const Primitive& primitive,
                                     const std::array<ClipVertex, 3>& whole,
                                     std::vector<WindowVertex> polygon, bool was_cut) {
@@ -337,14 +362,21 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         ++culled_;
         return;
     }
-    // Planes of the whole triangle where it can be projected, else of each piece.
-    const bool projectable = std::all_of(whole.begin(), whole.end(),
-                                         [](const ClipVertex& v) { return v.position.w > 0; });
+    // Planes of the whole triangle where binary32 holds its snapped positions, else of each piece.
+    const bool projectable = std::all_of(whole.begin(), whole.end(), [&](const ClipVertex& v) {
+        const WindowVertex window = project(v);
+        return v.position.w > 0 && std::fabs(window.x) < 0x1p15F && std::fabs(window.y) < 0x1p15F;
+    });
     std::unique_ptr<TrianglePlanes> whole_planes;
     if (was_cut && projectable && !device_.piece_planes) {
         whole_planes = std::make_unique<TrianglePlanes>(
             std::array{project(whole[0]), project(whole[1]), project(whole[2])}, area > 0, draw_,
             device_);
+    }
+    // A guard band's cuts are too far away for planes in binary32: those are set up in the
+    // viewport.
+    if (was_cut && !whole_planes && device_.clip == ClipMethod::guard_band) {
+        whole_planes = planes_in_viewport(whole, area > 0);
     }
     const WindowVertex first = polygon[0];
     if (device_.fault == Fault::planes_of_last && cached_planes_ &&

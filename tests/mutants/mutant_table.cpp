@@ -5,6 +5,7 @@
 // about devices that break no rule. Not a test: it shows where the suite is thin.
 //
 //     mutant_table [FAULT...]        one line a fault
+//     mutant_table --small [...]     only cases of at most 64x64 samples: quick
 //     mutant_table --cases FAULT...  the catching cases, one a line
 //     mutant_table --legal [NAME...] legal devices and every false alarm
 #include <fmt/format.h>
@@ -125,9 +126,15 @@ int main(int argc, char** argv) {
     std::set<std::string> words(argv + 1, argv + argc);
     const bool legal = words.erase("--legal") > 0;
     const bool with_cases = words.erase("--cases") > 0;
-    const cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+    const bool small = words.erase("--small") > 0;
+    cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
     for (const cases::Error& error : suite.errors) {
         fmt::print(stderr, "{}\n", cases::to_string(error));
+    }
+    if (small) {
+        std::erase_if(suite.cases, [](const cases::Case& c) {
+            return c.target.width * c.target.height * c.target.samples > 64U * 64U;
+        });
     }
     if (legal) {
         return print_legal(suite.cases, words);
