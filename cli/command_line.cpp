@@ -43,7 +43,7 @@ constexpr const char* kFooter =
     "    4  no case is selected\n"
     "    5  no device, or not the demanded one\n"
     "    6  everything was skipped or unsupported\n"
-    "    7  internal error, or cases were not run\n"
+    "    7  internal error, or cases were not run or could not be judged\n"
     "  130  interrupted; the reports hold what was done\n";
 
 const std::map<std::string, cases::Profile> kProfileNames = {
@@ -334,7 +334,8 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
 
 Stop usage_error(const std::string& sentence, const std::string& command) {
     const std::string help = "edgecase " + command + (command.empty() ? "" : " ") + "--help";
-    return {report::kExitUsage, {sentence + "; see '" + help + "'"}};
+    return {report::kExitUsage,
+            {sentence + (sentence.ends_with('?') ? " See '" : "; see '") + help + "'"}};
 }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {

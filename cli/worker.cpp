@@ -55,15 +55,17 @@ void print_noise() {
     std::fflush(stdout);
 }
 
-// One hit more at the sample in the middle of the target: an undrawn one becomes drawn, a drawn one
-// double.
+// One hit more at the first drawn sample from the middle of the target on: a double hit.
 void flip_pixel(diff::Capture& capture) {
-    if (capture.hits.empty()) {
-        return;
+    const size_t n = capture.hits.size();
+    for (size_t k = 0; k < n; ++k) {
+        glm::vec4& hits = capture.hits[(n / 2 + k) % n];
+        if (hits.x + hits.y > 0) {
+            hits.x += 1;
+            hits.w += 1;
+            return;
+        }
     }
-    glm::vec4& hits = capture.hits[capture.hits.size() / 2];
-    hits.x += 1;
-    hits.w += 1;
 }
 
 void render_batch(Backend& backend, const RenderRequest& request,

@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Words that are wrong get a sentence, the nearest right one, and the documented exit code."""
+import json
+import re
+import unittest
+
+from support import SOURCE, ProgramTest
+
+COMMANDS = ["run", "list", "lint", "explain", "render", "doctor", "bench", "report", "version"]
+
+
+class Usage(ProgramTest):
+    def refused(self, words, part, exit_code=2):
+        done = self.edgecase(*words, check=exit_code)
+        self.assertIn(part, done.stderr)
+        self.assertEqual(done.stdout, "")
+
+    def test_command(self):
+        self.refused(["rnu"], "did you mean 'run'?")
+
+    def test_no_command(self):
+        self.refused([], "command")
+
+    def test_option(self):
+        self.refused(["run", "--shufle"], "did you mean '--shuffle'?")
+
+    def test_value(self):
+        self.refused(["run", "--profile", "direct3"], "did you mean 'direct3d'?")
+
+    def test_missing_value(self):
+        self.refused(["run", "--shard"], "--shard")
+
+    def test_numbers(self):
+        for words in (["--timeout", "x"], ["-j", "0"], ["--repeat", "-1"], ["--shard", "3/2"], ["--shard", "0/2"],
+                      ["--seed", "1x"], ["--batch", "99999999999999999999"]):
+            self.refused(["run", *words], words[0].lstrip("-")[:3])
+
+    def test_regular_expression(self):
+        self.refused(["run", "--require-device", "("], "regular expression")
+
+    def test_selector(self):
+        self.refused(["run", "fam/cc3"], "fam/c", 4)
+
+    def test_rule_selector(self):
+        self.refused(["run", "@rule:cover.insid"], "cover.inside", 4)
+
+    def test_invalid_case_file(self):
+        self.write_case("fam/bad", "format = 1\ndescriptoin = 'x'\n")
+        self.refused(["run"], "bad.toml:2:", 3)
+
+    def test_no_suite(self):
+        self.refused(["run", "--suite", "nowhere"], "nowhere", 3)
+
+    def test_resume_takes_no_selector(self):
+        self.refused(["run", "fam/c1", "--resume", "x"], "--resume")
+
+    def test_worker_by_hand(self):
+        self.refused(["worker"], "edgecase run")
+
+    def test_pixel_outside(self):
+        self.refused(["explain", "fam/c1", "--pixel", "8,0"], "outside")
+
+    def test_two_cases_to_explain(self):
+        self.refused(["explain", "fam/*", "--pixel", "1,1"], "one case")
+
+    def test_unknown_image_format(self):
+        self.refused(["render", "fam/c1", "-o", "x.bmp"], ".png")
+
+    def test_help_of_every_command(self):
+        for command in COMMANDS:
+            done = self.edgecase(command, "--help", check=0)
+            self.assertIn("--help", done.stdout)
+        self.assertIn("130", self.edgecase("--help", check=0).stdout)
+
+    def test_manual_lists_every_option(self):
+        manual = (SOURCE / "docs" / "cli.md").read_text()
+        for command in COMMANDS:
+            text = self.edgecase(command, "--help", check=0).stdout.split("Examples:")[0]
+            section = manual.split(f"## `edgecase {command}`", 1)[1].split("\n## ", 1)[0]
+            for option in set(re.findall(r"--[a-z][a-z-]+", text)) - {"--help"}:
+                self.assertIn(f"`{option}", section, f"docs/cli.md, {command}")
+
+
+class Listing(ProgramTest):
+    def test_ids(self):
+        self.assertEqual(self.edgecase("list", "--ids", check=0).stdout.split(), self.ids)
+
+    def test_json(self):
+        listed = json.loads(self.edgecase("list", "--json", "fam/c[12]", check=None).stdout or "[]")
+        listed = listed or json.loads(self.edgecase("list", "--json", "fam/c1", "fam/c2", check=0).stdout)
+        self.assertEqual([c["id"] for c in listed], ["fam/c1", "fam/c2"])
+
+    def test_ids_on_standard_input(self):
+        done = self.edgecase("list", "--ids", "-", stdin="fam/c2\nfam/c5\n", check=0)
+        self.assertEqual(done.stdout.split(), ["fam/c2", "fam/c5"])
+
+    def test_lint(self):
+        self.assertIn("10 cases", self.edgecase("lint", check=0).stdout)
+
+    def test_lint_finds_a_wrong_picture(self):
+        picture = "\\n".join(["........"] * 8)
+        self.write_case("fam/c3", (self.suite / "fam/c3.toml").read_text() + f'[expect]\nhits = "{picture}"\n')
+        self.assertIn("c3.toml", self.edgecase("lint", check=3).stderr)
+
+    def test_explain(self):
+        self.assertIn("must be covered", self.edgecase("explain", "fam/c1", "--pixel", "2,2", check=0).stdout)
+
+    def test_render_json(self):
+        self.edgecase("render", "fam/c1", "-o", "x.json", check=0)
+        picture = json.loads((self.folder / "x.json").read_text())
+        self.assertEqual(len(picture["samples"]), 36)
+        self.assertEqual({s["class"] for s in picture["samples"]}, {"must"})
+
+
+class Selection(ProgramTest):
+    def order(self, *words):
+        self.run_suite(*words, check=0)
+        return [c["id"] for c in self.results()["cases"]]
+
+    def test_shuffle_is_repeatable_and_keeps_subsets_in_order(self):
+        first = self.order("--shuffle", "--seed", "7")
+        self.assertEqual(sorted(first), self.ids)
+        self.assertNotEqual(first, self.ids)
+        self.assertEqual(self.order("--shuffle", "--seed", "7"), first)
+        self.assertNotEqual(self.order("--shuffle", "--seed", "8"), first)
+        part = self.order("--shuffle", "--seed", "7", "fam/c1", "fam/c4", "fam/c6", "fam/c9")
+        self.assertEqual(part, [i for i in first if i in part])
+
+    def test_shards_partition(self):
+        seen = []
+        for shard in (1, 2, 3):
+            seen += self.order("--shard", f"{shard}/3")
+        self.assertEqual(sorted(seen), self.ids)
+
+    def test_failed_in(self):
+        self.run_suite(fault="segv@fam/c3,flip-pixel@fam/c5", check=1)
+        again = self.folder / "again"
+        self.run_suite("--failed-in", self.out, out=again, check=0)
+        self.assertEqual(set(self.statuses(again)), {"fam/c3", "fam/c5"})
+        self.run_suite("--failed-in", again, check=4)
+
+    def test_empty_shard(self):
+        shards = [self.run_suite("fam/c1", "--shard", f"{k}/4").returncode for k in range(1, 5)]
+        self.assertEqual(sorted(shards), [0, 4, 4, 4])
+
+    def test_file_outside_the_suite(self):
+        (self.folder / "mine.toml").write_text((self.suite / "fam/c1.toml").read_text())
+        self.run_suite("mine.toml", check=0)
+        self.assertEqual(self.statuses(), {"mine": "pass"})
+
+
+if __name__ == "__main__":
+    unittest.main()

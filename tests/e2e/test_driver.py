@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""The whole way through a real Vulkan driver; skipped where there is none."""
+import unittest
+
+from support import ProgramTest
+
+
+class Driver(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        if self.edgecase("doctor").returncode != 0:
+            self.skipTest("no usable Vulkan device")
+
+    def run_driver(self, *words, fault="", check=None):
+        return self.edgecase("run", "-o", self.out, *words, fault=fault, check=check)
+
+    def test_small_suite(self):
+        self.run_driver(check=0)
+        self.assertEqual(set(self.statuses().values()), {"pass"})
+
+    def test_flipped_pixel_is_found(self):
+        self.run_driver(fault="flip-pixel@fam/c3", check=1)
+        self.assertEqual([i for i, s in self.statuses().items() if s == "fail"], ["fam/c3"])
+
+    def test_crash_in_the_driver_process(self):
+        self.run_driver(fault="segv@fam/c3", check=1)
+        self.assertEqual([i for i, s in self.statuses().items() if s == "crash"], ["fam/c3"])
+        self.assert_no_orphans()
+
+    def test_missing_manifest(self):
+        done = self.run_driver("--icd", "/nowhere/icd.json", check=5)
+        self.assertIn("/nowhere/icd.json", done.stderr)
+
+    def test_unknown_device(self):
+        done = self.run_driver("--device", "no such device", check=5)
+        self.assertIn("no such device", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Expectation files: known problems do not fail a run, news of any kind does."""
+import unittest
+
+from support import ProgramTest
+
+HEADER = "# edgecase-expectations 1\n# device: Edgecase*   driver: reference >=1.0 <2\n"
+
+
+class ExpectationTest(ProgramTest):
+    def expectations(self, text, header=HEADER):
+        folder = self.suite.parent / "expectations"
+        folder.mkdir(exist_ok=True)
+        (folder / "reference.txt").write_text(header + text)
+        return folder / "reference.txt"
+
+
+class Statuses(ExpectationTest):
+    def outcome(self, expected, fault, status, exit_code):
+        self.expectations(f"fam/c3  {expected}  bug#1  # It is known.\n")
+        self.run_suite(fault=f"{fault}@fam/c3" if fault else "", check=exit_code)
+        self.assertEqual(self.statuses()["fam/c3"], status)
+
+    def test_expected_fail(self):
+        self.outcome("fail", "flip-pixel", "xfail", 0)
+
+    def test_expected_crash(self):
+        self.outcome("crash", "segv", "xfail", 0)
+
+    def test_crash_is_no_expected_fail(self):
+        self.outcome("fail", "segv", "crash", 1)
+
+    def test_improvement(self):
+        self.outcome("crash", "flip-pixel", "improved", 1)
+
+    def test_unexpected_pass(self):
+        self.outcome("fail", "", "xpass", 1)
+
+    def test_flake_is_no_expected_fail_when_asked_twice(self):
+        self.outcome("flake", "flake", "xfail", 0)
+
+    def test_skip(self):
+        self.expectations("fam/c3  skip  -  # Too slow here.\n")
+        self.run_suite(fault="segv@fam/c3", check=0)
+        self.assertEqual(self.statuses()["fam/c3"], "skip")
+
+    def test_no_expect(self):
+        self.expectations("fam/c3  fail  bug#1  # It is known.\n")
+        self.run_suite("--no-expect", fault="flip-pixel@fam/c3", check=1)
+
+
+class Files(ExpectationTest):
+    def refused(self, text, words, header=HEADER, exit_code=3):
+        self.expectations(text, header)
+        done = self.run_suite(check=exit_code)
+        self.assertIn(words, done.stderr)
+
+    def test_no_reason(self):
+        self.refused("fam/c3 fail bug#1\n", "reason")
+
+    def test_no_bug(self):
+        self.refused("fam/c3 fail -  # Known.\n", "bug")
+
+    def test_unknown_status(self):
+        self.refused("fam/c3 fial bug#1  # Known.\n", "did you mean 'fail'")
+
+    def test_past_date(self):
+        self.refused("fam/c3 fail bug#1 until=2020-01-01  # Known.\n", "2020-01-01")
+
+    def test_line_that_matches_nothing(self):
+        self.refused("fam/cc3 fail bug#1  # Known.\n", "did you mean 'fam/c")
+
+    def test_line_that_matches_nothing_of_a_part(self):
+        self.expectations("fam/cc3 fail bug#1  # Known.\n")
+        self.run_suite("fam/c1", check=0)
+
+    def test_conflict(self):
+        self.refused("fam/c3 fail bug#1  # Known.\nfam/c* crash bug#2  # Known.\n", "disagrees")
+
+    def test_no_header(self):
+        self.refused("fam/c3 fail bug#1  # Known.\n", "first line", header="")
+
+    def test_another_device_is_passed_over(self):
+        self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER.replace("Edgecase*", "Other*"))
+        self.run_suite(check=0)
+
+    def test_another_version_is_passed_over(self):
+        self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER.replace("<2", "<1"))
+        self.run_suite(check=0)
+
+    def test_a_named_file_must_fit(self):
+        path = self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER.replace("Edgecase*", "Other*"))
+        done = self.run_suite("--expect", path, check=5)
+        self.assertIn("Edgecase reference", done.stderr)
+
+    def test_another_profile_is_passed_over(self):
+        self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER + "# profile: vulkan\n")
+        self.run_suite(check=0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""A broken driver harms only the case that breaks it."""
+import json
+import re
+import unittest
+import xml.etree.ElementTree
+
+from support import ProgramTest
+
+
+class Charging(ProgramTest):
+    def charge(self, fault, status, *words):
+        done = self.run_suite(*words, fault=f"{fault}@fam/c3", check=1)
+        expected = {case_id: "pass" for case_id in self.ids}
+        expected["fam/c3"] = status
+        self.assertEqual(self.statuses(), expected, done.stdout + done.stderr)
+        self.assert_no_orphans()
+        return next(c for c in self.results()["cases"] if c["id"] == "fam/c3")
+
+    def test_no_fault_is_a_pass(self):
+        self.run_suite(check=0)
+        self.assertEqual(set(self.statuses().values()), {"pass"})
+
+    def test_segv(self):
+        self.assertIn("SIGSEGV", json.dumps(self.charge("segv", "crash")))
+
+    def test_abort(self):
+        self.assertIn("SIGABRT", json.dumps(self.charge("abort", "crash")))
+
+    def test_exit_without_result(self):
+        self.charge("exit0", "crash")
+
+    def test_out_of_memory(self):
+        self.charge("oom", "crash")
+
+    def test_truncated_result(self):
+        self.charge("truncate", "crash")
+
+    def test_garbage(self):
+        self.charge("garbage", "crash")
+
+    def test_device_lost(self):
+        self.charge("device-lost", "device_lost")
+
+    def test_hang(self):
+        self.charge("hang", "timeout", "--timeout", "0.5")
+
+    def test_wrong_pixel(self):
+        case = self.charge("flip-pixel", "fail")
+        self.assertEqual(case["findings"][0]["kind"], "double")
+
+    def test_flake(self):
+        self.charge("flake", "flake")
+
+    def test_flake_without_retries_is_a_fail(self):
+        self.charge("flake", "fail", "--retries", "0")
+
+    def test_repeat_finds_other_bits(self):
+        self.charge("flake", "flake", "--repeat", "3", "--retries", "0")
+
+    def test_two_workers(self):
+        self.charge("segv", "crash", "-j", "2", "--batch", "2")
+
+    def test_every_case_alone(self):
+        self.charge("segv", "crash", "--batch", "1")
+
+    def test_unsupported_does_not_fail_the_run(self):
+        self.run_suite(fault="unsupported@fam/c3", check=0)
+        self.assertEqual(self.statuses()["fam/c3"], "unsupported")
+
+    def test_all_unsupported(self):
+        self.run_suite(fault="unsupported", check=6)
+
+    def test_case_without_control_sample_is_an_error(self):
+        self.write_case("fam/empty", """format = 1
+description = "Nothing can be seen."
+rules = ["cover.outside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[20,20], [30,20], [20,30]]
+""")
+        done = self.run_suite()
+        if done.returncode != 3:  # refused by the loader already
+            self.assertEqual(done.returncode, 7, done.stdout + done.stderr)
+            self.assertEqual(self.statuses()["fam/empty"], "error")
+
+    def test_wrong_picture_is_an_error_before_any_device(self):
+        picture = "\\n".join(["........"] * 8)
+        text = (self.suite / "fam/c3.toml").read_text() + f'[expect]\nhits = "{picture}"\n'
+        self.write_case("fam/c3", text)
+        self.run_suite(fault="segv@fam/c3", check=7)
+        self.assertEqual(self.statuses()["fam/c3"], "error")
+
+
+class Start(ProgramTest):
+    def test_no_device(self):
+        done = self.run_suite(fault="no-device", check=5)
+        self.assertIn("doctor", done.stderr)
+
+    def test_crash_at_start(self):
+        self.assertIn("SIGSEGV", self.run_suite(fault="segv-at-start", check=5).stderr)
+
+    def test_hang_at_start(self):
+        self.run_suite("--timeout", "0.5", fault="hang-at-start", check=5)
+        self.assert_no_orphans()
+
+    def test_wrong_device(self):
+        done = self.run_suite("--require-device", "llvmpipe", check=5)
+        self.assertIn("Edgecase reference", done.stderr)
+        self.run_suite("--require-device", "Edgecase.*reference", check=0)
+
+    def test_unknown_fault(self):
+        self.assertIn("segv", self.run_suite(fault="sgev", check=5).stderr)
+
+
+class Output(ProgramTest):
+    def test_bytes_that_break_reports(self):
+        self.run_suite(fault="noise@fam/c3,segv@fam/c3", check=1)
+        case = next(c for c in self.results()["cases"] if c["id"] == "fam/c3")
+        self.assertIn("driver ", json.dumps(case))
+        html = (self.out / "report.html").read_text(encoding="utf-8")
+        self.assertIsNone(re.search(r"\]\]>\s*</script>\s*(&amp;|&|\\u0026) ", html))
+        junit = xml.etree.ElementTree.tostring(xml.etree.ElementTree.parse(self.out / "junit.xml").getroot())
+        self.assertNotIn(b"\x1b", junit)
+
+    def test_console_shows_no_control_characters(self):
+        done = self.run_suite(fault="noise@fam/c3,segv@fam/c3", check=1)
+        self.assertNotIn("\x1b", done.stdout)
+
+    def test_full_disk(self):
+        done = self.run_suite("--json", "/dev/full", check=7)
+        self.assertIn("No space left", done.stderr)
+
+    def test_folder_that_cannot_be_made(self):
+        (self.folder / "file").write_text("")
+        done = self.run_suite(out=self.folder / "file" / "below", check=2)
+        self.assertIn("-o", done.stderr)
+
+    def test_json_on_standard_output(self):
+        done = self.run_suite("--json", "-", check=0)
+        self.assertEqual(len(json.loads(done.stdout)["cases"]), 10)
+
+    def test_report_rebuilds(self):
+        self.run_suite(fault="segv@fam/c3", check=1)
+        before = {name: (self.out / name).read_bytes() for name in ("results.json", "junit.xml", "report.html")}
+        for name in before:
+            (self.out / name).unlink()
+        self.edgecase("report", self.out, check=0)
+        self.assertEqual(before, {name: (self.out / name).read_bytes() for name in before})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is left of a run that is killed, interrupted, resumed."""
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from support import PROGRAM, ProgramTest, processes_with
+
+
+class JournalTest(ProgramTest):
+    def start_hanging(self, *words):
+        """A run that settles eight cases and then hangs in fam/c8."""
+        process = subprocess.Popen(
+            [PROGRAM, "run", "--renderer=reference", "-o", self.out, "--batch", "4", "--timeout", "60", *words],
+            env=self.environment("hang@fam/c8"), cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        journal = self.out / "journal.jsonl"
+        for _ in range(600):
+            if journal.exists():
+                text = journal.read_text()
+                ends = sum(1 for line in text.splitlines() if '"end"' in line[:60])
+                if ends >= 8 and '{"record":"begin","id":"fam/c8"' in text:
+                    return process
+            time.sleep(0.05)
+        process.kill()
+        self.fail("the run never reached its eighth end")
+
+    def wait_for_no_orphans(self):
+        for _ in range(100):
+            if not processes_with(str(self.folder)):
+                return
+            time.sleep(0.05)
+        self.assert_no_orphans()
+
+
+def comparable(results):
+    """The cases of a run without what no two runs share."""
+    cases = []
+    for case in results["cases"]:
+        cases.append({k: v for k, v in case.items() if k not in ("seconds", "attempts", "rerun", "explain")})
+    return json.dumps(cases, sort_keys=True)
+
+
+class Resume(JournalTest):
+    def test_after_kill(self):
+        process = self.start_hanging()
+        process.kill()
+        process.communicate()
+        self.wait_for_no_orphans()
+        self.edgecase("run", "--resume", self.out, check=0)
+        whole = self.folder / "whole"
+        self.run_suite(out=whole, check=0)
+        self.assertEqual(comparable(self.results()), comparable(self.results(whole)))
+
+    def test_a_finished_run_draws_nothing(self):
+        self.run_suite(check=0)
+        lines = len((self.out / "journal.jsonl").read_text().splitlines())
+        self.edgecase("run", "--resume", self.out, check=0)
+        begins = [line for line in (self.out / "journal.jsonl").read_text().splitlines()[lines:] if '"begin"' in line]
+        self.assertEqual(begins, [])
+
+    def test_a_case_that_is_gone(self):
+        process = self.start_hanging()
+        process.kill()
+        process.communicate()
+        (self.suite / "fam/c9.toml").unlink()
+        self.assertIn("fam/c9", self.edgecase("run", "--resume", self.out, check=3).stderr)
+
+    def test_no_journal(self):
+        self.edgecase("run", "--resume", self.folder, check=3)
+
+    def test_torn_last_line(self):
+        self.run_suite(check=0)
+        journal = self.out / "journal.jsonl"
+        lines = journal.read_bytes().splitlines(keepends=True)
+        last_end = max(k for k, line in enumerate(lines) if b'"end"' in line[:60])
+        journal.write_bytes(b"".join(lines[:last_end]) + lines[last_end][:30])
+        self.edgecase("run", "--resume", self.out, check=0)
+        self.assertEqual(set(self.statuses().values()), {"pass"})
+
+
+class Interrupt(JournalTest):
+    def interrupt(self, number):
+        process = self.start_hanging("-j", "2")
+        process.send_signal(number)
+        output, _ = process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 130, output)
+        statuses = self.statuses()
+        self.assertEqual([statuses[i] for i in self.ids[:8]], ["pass"] * 8)
+        self.assertEqual(statuses["fam/c8"], "not_run")
+        self.wait_for_no_orphans()
+
+    def test_sigint(self):
+        self.interrupt(signal.SIGINT)
+
+    def test_sigterm(self):
+        self.interrupt(signal.SIGTERM)
+
+
+if __name__ == "__main__":
+    unittest.main()
