@@ -31,6 +31,14 @@ std::string one_line(const std::string& bytes) {
     return text;
 }
 
+// The finding that a case is known by: the first of the loosest level, so that a broken Vulkan rule
+// is never hidden behind a difference in a tie. The record has at least one.
+const diff::Finding& leading_finding(const CaseRecord& record) {
+    return *std::min_element(
+        record.findings.begin(), record.findings.end(),
+        [](const diff::Finding& a, const diff::Finding& b) { return a.level < b.level; });
+}
+
 uint64_t count_of(const CaseRecord& record, diff::FindingKind kind) {
     return record.counts.at(static_cast<size_t>(kind));
 }
@@ -123,9 +131,9 @@ std::string what_happened(const CaseRecord& record) {
         text += (text.empty() ? "" : ", ") + counts;
     }
     if (!record.findings.empty()) {
-        text += fmt::format("   {} [{}: {}]", one_line(record.findings.front().rule),
-                            cases::to_string(record.findings.front().level),
-                            meaning(record.findings.front().level));
+        const diff::Finding& leading = leading_finding(record);
+        text += fmt::format("   {} [{}: {}]", one_line(leading.rule),
+                            cases::to_string(leading.level), meaning(leading.level));
     }
     if (!expected.empty()) {
         text += (text.empty() ? "" : ", ") + expected;
@@ -135,7 +143,7 @@ std::string what_happened(const CaseRecord& record) {
 
 std::string why_it_happened(const CaseRecord& record) {
     if (!record.findings.empty()) {
-        const diff::Finding& f = record.findings.front();
+        const diff::Finding& f = leading_finding(record);
         std::string text = sample_text(f) + ": ";
         if (!f.quantity.empty()) {
             text += one_line(f.quantity) + ": ";

@@ -4,7 +4,7 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const GLYPHS = {pass: "\u2713", unsupported: "\u2013", skip: "\u21b7", xfail: "x", xpass: "!", improved: "!", flake: "\u2248",
-  fail: "\u2717", device_lost: "\u26a1", timeout: "\u23f1", crash: "\u2620", error: "E", not_run: "\u00b7"};
+  fail: "\u2717", device_lost: "\u26a1", timeout: "\u2026", crash: "\u2620", error: "E", not_run: "\u00b7"};
 const EXPECTED = ["pass", "unsupported", "skip", "xfail"];
 const ZOOMS = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64];
 const byId = (id) => document.getElementById(id);

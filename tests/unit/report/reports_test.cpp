@@ -114,6 +114,14 @@ TEST(console, three_lines_and_the_explain_command) {
     }
 }
 
+TEST(console, the_loosest_level_leads) {
+    CaseRecord r = test::sample_run().cases[3];
+    std::rotate(r.findings.begin(), r.findings.begin() + 1, r.findings.end());
+    ASSERT_EQ(r.findings[0].level, cases::Profile::direct3d);
+    EXPECT_NE(console_case(r, {}).find("[vulkan: not conformant]"), std::string::npos);
+    EXPECT_NE(console_case(r, {}).find("(1,1): expected 1, got 2"), std::string::npos);
+}
+
 TEST(console, hostile_bytes_are_shown_inert) {
     expect_clean(console_of(test::hostile_run(), {false, true, 100}));
 }
