@@ -105,6 +105,8 @@ TEST(Selector, SaysWhatIsWrong) {
         {"@family:x", "error: the selector @family:x is unknown; write @rule:PATTERN or a case id"},
         {"", "error: a selector is empty; write a case id or a pattern"},
         {"!", "error: a selector is empty; write a case id or a pattern"},
+        // "*" does not cross ':'.
+        {"ties/a*90", "error: no case matches ties/a*90; did you mean ties/apex?"},
         {"!tie/apex-up", "error: no case matches tie/apex-up; did you mean ties/apex-up?"},
     };
     for (const auto& [selector, message] : rows) {
