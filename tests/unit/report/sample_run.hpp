@@ -17,7 +17,6 @@ inline const std::string kHostile = std::string("\x1b[31mred\0nul", 12) +
                                     "]]> </script><script>alert(1)</script> <!-- --> & \" ' "
                                     "\r\n\t \x7f \xc2\x9b \xf0\x9f\x98\x80";
 
-// The length that a literal with embedded NUL really has is checked by a test.
 Run sample_run();
 // As sample_run, every text replaced by hostile bytes (ids stay distinct).
 Run hostile_run();
