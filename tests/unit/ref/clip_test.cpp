@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/unit/ref/clip_float.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {
 namespace {
 
 using cases::Profile;
-using Triple = std::array<glm::vec4, 3>;
 
 constexpr cases::Viewport kSquare{0, 0, 64, 64, 0, 1};
 
@@ -113,66 +113,6 @@ TEST(Clip, VerticesAreTheirWeightsAndInside) {
         }
     }
     EXPECT_GT(cut, 300);
-}
-
-// A clipper in binary32: the order of the planes and the end that a cut starts from are its own.
-struct FloatVertex {
-    glm::vec4 p{};
-    EdgeLabel edge = 0;
-};
-float float_distance(const glm::vec4& p, ClipPlane plane) {
-    switch (plane) {
-        case ClipPlane::x_low:
-            return p.w + p.x;
-        case ClipPlane::x_high:
-            return p.w - p.x;
-        case ClipPlane::y_low:
-            return p.w + p.y;
-        case ClipPlane::y_high:
-            return p.w - p.y;
-        case ClipPlane::z_low:
-            return p.z;
-        case ClipPlane::z_high:
-            return p.w - p.z;
-    }
-    return 0;
-}
-glm::vec4 float_cut(glm::vec4 a, glm::vec4 b, ClipPlane plane, int style) {
-    if (style == 1) {
-        std::swap(a, b);
-    }
-    const float da = float_distance(a, plane);
-    const float db = float_distance(b, plane);
-    const float t = da / (da - db);
-    if (style == 2) {
-        return (1 - t) * a + t * b;
-    }
-    return a + t * (b - a);
-}
-std::vector<FloatVertex> float_clip(const Triple& t, bool is_depth_first, int style) {
-    std::vector<FloatVertex> polygon{{t[0], 0}, {t[1], 1}, {t[2], 2}};
-    std::vector<ClipPlane> order(std::begin(kViewVolume), std::end(kViewVolume));
-    if (is_depth_first) {
-        std::rotate(order.begin(), order.begin() + 4, order.end());
-    }
-    for (const ClipPlane plane : order) {
-        std::vector<FloatVertex> out;
-        const auto label = static_cast<EdgeLabel>(kFirstClipEdge + static_cast<int>(plane));
-        for (size_t i = 0; i < polygon.size(); ++i) {
-            const FloatVertex& a = polygon[i];
-            const FloatVertex& b = polygon[(i + 1) % polygon.size()];
-            const bool is_a_in = float_distance(a.p, plane) >= 0;
-            const bool is_b_in = float_distance(b.p, plane) >= 0;
-            if (is_a_in) {
-                out.push_back(a);
-            }
-            if (is_a_in != is_b_in) {
-                out.push_back({float_cut(a.p, b.p, plane, style), is_a_in ? label : a.edge});
-            }
-        }
-        polygon = out;
-    }
-    return polygon;
 }
 
 TEST(Clip, ErrorBoundsBinary32) {

@@ -11,6 +11,7 @@
 
 #include "ref/coverage_fast.hpp"
 #include "ref/position.hpp"
+#include "tests/unit/ref/clip_float.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {
@@ -332,6 +333,98 @@ TEST(CoverageMesh, WritersEndWithTheLastThatMustHit) {
     EXPECT_EQ(writers(4, 2), std::vector<uint32_t>({2}));
     EXPECT_EQ(writers(7, 7), std::vector<uint32_t>());
     EXPECT_EQ(writers(3, 4), std::vector<uint32_t>({0, 1, 2}));  // on the common hypotenuse
+}
+
+// The near plane cuts two triangles along x = 8.5; where it meets their common edge nothing is
+// fixed.
+TEST(CoverageMesh, EdgesThatClippingMakesAreFree) {
+    cases::Case c = blank(16, 16);
+    cases::Draw d = whole(c);
+    for (const Point& p : {Point{2, 8.5}, {14, 8.5}, {14, 2}, {2, 8.5}, {14, 8.5}, {14, 14}}) {
+        d.positions.push_back(at_pixel(d, p[0], p[1]));
+        d.positions.back().z = static_cast<float>((p[0] - 8.5) / 16);
+    }
+    c.draws.push_back(d);
+    for (const cases::Profile profile : {cases::Profile::practice, cases::Profile::direct3d}) {
+        const Expectation e = expect(c, {8}, profile);
+        EXPECT_EQ(hits_at(e, 5, 8).total_max, 0U);
+        EXPECT_EQ(hits_at(e, 12, 8).total_min, 1U);
+        EXPECT_EQ(hits_at(e, 12, 8).total_max, 1U);
+    }
+    const Expectation e = expect(c, {8}, cases::Profile::practice);
+    EXPECT_EQ(hits_at(e, 8, 8).total_min, 0U);
+    EXPECT_EQ(hits_at(e, 8, 8).total_max, 2U);
+    EXPECT_EQ(hits_at(expect(c, {8}, cases::Profile::vulkan), 12, 8).total_min, 0U);
+}
+
+// A device that clips in binary32, from the inner end of each edge, snaps to nearest and draws the
+// polygon with the top-left rule: all it shows is allowed at every profile.
+TEST(CoverageMesh, ClippingDeviceIsAllowed) {
+    uint64_t decided = 0;
+    uint64_t clipped = 0;
+    for (uint64_t seed = 1; seed <= 200; ++seed) {
+        RandomCases random(seed);
+        cases::Case c = blank(16, 16);
+        cases::Draw d = whole(c);
+        const double scale = std::pow(10.0, random.real(0.05, 3));
+        const uint32_t n = 4;
+        const bool is_behind = random.integer(0, 2) == 0;  // a plane through the eye
+        for (uint32_t y = 0; y <= n; ++y) {
+            for (uint32_t x = 0; x <= n; ++x) {
+                const double px = scale * (2.0 * x / n - 1 + random.real(-.1, .1));
+                const double py = scale * (2.0 * y / n - 1 + random.real(-.1, .1));
+                const double w = is_behind ? 1 + py : random.real(0.5, 4);
+                d.positions.emplace_back(px * (is_behind ? 1 : w), py * (is_behind ? 1 : w),
+                                         w * random.real(0.2, 0.8), w);
+            }
+        }
+        std::vector<uint32_t> indices;
+        for (uint32_t y = 0; y < n; ++y) {
+            for (uint32_t x = 0; x < n; ++x) {
+                const uint32_t a = y * (n + 1) + x;
+                indices.insert(indices.end(), {a, a + 1, a + n + 1, a + 1, a + n + 2, a + n + 1});
+            }
+        }
+        d.indices = indices;
+        c.draws.push_back(d);
+        const std::vector<Triangle> triangles = assemble(c);
+        std::vector<std::vector<FixedPoint>> polygons;
+        const bool is_depth_first = random.flip();
+        for (const Triangle& t : triangles) {
+            const Triple v{d.positions[t.vertex[0]], d.positions[t.vertex[1]],
+                           d.positions[t.vertex[2]]};
+            polygons.emplace_back();
+            clipped += !(is_inside(v[0]) && is_inside(v[1]) && is_inside(v[2]));
+            for (const FloatVertex& p : float_clip(v, is_depth_first, 0)) {
+                const float x = p.p.x * (1.0F / p.p.w) * 8 + 8;
+                const float y = p.p.y * (1.0F / p.p.w) * 8 + 8;
+                polygons.back().push_back({std::llrint(static_cast<double>(x) * 256) * 256,
+                                           std::llrint(static_cast<double>(y) * 256) * 256});
+            }
+        }
+        for (const cases::Profile profile : cases::kProfiles) {
+            const Expectation e = expect(c, {8}, profile);
+            for (uint32_t j = 0; j < 16; ++j) {
+                for (uint32_t i = 0; i < 16; ++i) {
+                    uint32_t front = 0;
+                    uint32_t back = 0;
+                    for (const auto& polygon : polygons) {
+                        const int turns = fast::winding(polygon, sample_position(i, j, 0, 1));
+                        front += turns < 0 ? 1U : 0U;
+                        back += turns > 0 ? 1U : 0U;
+                    }
+                    const HitBounds& b = hits_at(e, i, j);
+                    ASSERT_TRUE(b.allows(front, back))
+                        << "seed " << seed << " profile " << cases::to_string(profile) << " pixel "
+                        << i << " " << j << " front " << front << " back " << back << " allowed "
+                        << b.total_min << ".." << b.total_max;
+                    decided += b.is_decided() && b.total_min == 1 ? 1U : 0U;
+                }
+            }
+        }
+    }
+    EXPECT_GT(clipped, 1000U);
+    EXPECT_GT(decided, 40000U);
 }
 
 }  // namespace
