@@ -112,6 +112,25 @@ size_t longest_line(std::string_view text) {
     return longest;
 }
 
+// The line of a key with very many dots, or 0. The parser recurses once a part of a dotted key, so
+// such keys must not reach it. A key ends at '=' or ']'; rows of an expected picture do not.
+uint32_t line_of_long_key(std::string_view text) {
+    constexpr int kMaxDots = 64;
+    int dots = 0;
+    uint32_t line = 1;
+    for (const char c : text) {
+        if (c == '.') {
+            ++dots;
+        } else if ((c == '=' || c == ']') && dots > kMaxDots) {
+            return line;
+        } else if (std::string_view("=[]{},\n").find(c) != std::string_view::npos) {
+            dots = 0;
+            line += c == '\n' ? 1 : 0;
+        }
+    }
+    return 0;
+}
+
 }  // namespace
 
 const TomlValue* TomlValue::find(std::string_view key) const {
@@ -153,6 +172,11 @@ Expected<TomlValue> read_toml(std::string_view text, const std::string& file_nam
     if (longest_line(text) > kMaxLineLength) {
         return tl::unexpected(Error{file, "the file has a line of more than " +
                                               std::to_string(kMaxLineLength) + " bytes; break it"});
+    }
+    if (const uint32_t line = line_of_long_key(text); line != 0) {
+        return tl::unexpected(
+            Error{{file_name, line, 1},
+                  "a key has more than 64 dots, which nests too deeply; write fewer"});
     }
     const toml::parse_result parsed = toml::parse(text);
     Converter converter(file_name);
