@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/device_answer.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <sstream>
 #include <utility>
 
@@ -46,6 +50,13 @@ Stop explain_death(const Death& death) {
 }
 
 OrStop<ReadyWorker> start_first_worker(const LoopConfig& config, SignalFd& signals) {
+    const std::string& icd = config.worker.vulkan.icd_file;
+    if (!icd.empty() && ::access(icd.c_str(), R_OK) != 0) {
+        return tl::unexpected(Stop{
+            report::kExitDevice,
+            {"the driver manifest '" + icd + "' (--icd) cannot be read: " + std::strerror(errno) +
+             "; 'edgecase doctor' lists those installed"}});
+    }
     cases::Expected<WorkerClient> client =
         WorkerClient::start(config.command, config.worker, config.timeout);
     if (!client) {
