@@ -54,8 +54,6 @@ constexpr FaultInfo kFaults[] = {
     {Fault::ties_top_only, "ties_top_only"},
     {Fault::ties_by_winding, "ties_by_winding"},
     {Fault::sample_corner, "sample_corner"},
-    {Fault::samples_one_location, "samples_one_location"},
-    {Fault::samples_mirrored, "samples_mirrored"},
     {Fault::edge_int32, "edge_int32"},
     {Fault::edge_int32_256, "edge_int32_256"},
     {Fault::edge_binary32, "edge_binary32"},

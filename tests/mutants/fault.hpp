@@ -62,15 +62,13 @@ enum class Fault : uint8_t {
     ties_bottom_right,
     ties_all_inclusive,
     ties_all_exclusive,
-    ties_top_only,         // the left edge lost its bias
-    ties_by_winding,       // the bias is taken before the vertices are put in clockwise order
-    sample_corner,         // the sample is the pixel's upper left corner
-    samples_one_location,  // all samples of a pixel at its centre
-    samples_mirrored,      // sample locations with y upwards
-    edge_int32,            // edge functions in 32 bits
-    edge_int32_256,        // 32 bits up to a bounding box of 256 pixels (128 would be right)
-    edge_binary32,         // edge functions of unsnapped positions in binary32
-    edge_truncated,        // edge functions are divided down, towards zero
+    ties_top_only,      // the left edge lost its bias
+    ties_by_winding,    // the bias is taken before the vertices are put in clockwise order
+    sample_corner,      // the sample is the pixel's upper left corner
+    edge_int32,         // edge functions in 32 bits
+    edge_int32_256,     // 32 bits up to a bounding box of 256 pixels (128 would be right)
+    edge_binary32,      // edge functions of unsnapped positions in binary32
+    edge_truncated,     // edge functions are divided down, towards zero
     tile_wrong_corner,  // trivial reject looks at the corner that is nearest to the edge's outside
     tile_off_by_one,    // trivial reject looks at the last pixel but one
     box_last_column,    // bounding box: last column lost

@@ -178,12 +178,6 @@ std::vector<SampleOffset> sample_offsets(uint32_t samples, const Device& device)
     std::vector<SampleOffset> offsets;
     for (const Location& at : locations) {
         Location place = at;
-        if (device.fault == Fault::samples_mirrored) {
-            place[1] = 16 - at[1];
-        }
-        if (device.fault == Fault::samples_one_location) {
-            place = {8, 8};
-        }
         if (device.fault == Fault::sample_corner) {
             place = {at[0] - 8, at[1] - 8};
         }
