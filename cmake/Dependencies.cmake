@@ -4,7 +4,6 @@
 # (scripts/packages.txt).
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
-find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -18,6 +17,7 @@ endfunction()
 edgecase_header_only(expected tl/expected.hpp)
 edgecase_header_only(glm glm/glm.hpp)
 edgecase_header_only(vulkan_headers vulkan/vulkan.h)
+edgecase_header_only(tomlplusplus toml++/toml.h)
 
 # Static where Debian has an archive: the program then starts faster and runs under another C library.
 add_library(edgecase::fmt ALIAS fmt::fmt-header-only)
@@ -27,9 +27,6 @@ add_library(edgecase_gmp INTERFACE)
 target_link_libraries(edgecase_gmp INTERFACE ${EDGECASE_GMPXX} ${EDGECASE_GMP})
 add_library(edgecase::gmp ALIAS edgecase_gmp)
 
-add_library(edgecase_tomlplusplus INTERFACE)
-target_link_libraries(edgecase_tomlplusplus INTERFACE tomlplusplus::tomlplusplus)
-add_library(edgecase::tomlplusplus ALIAS edgecase_tomlplusplus)
 add_library(edgecase::json ALIAS nlohmann_json)
 if(NOT TARGET edgecase::json)
     add_library(edgecase::json ALIAS nlohmann_json::nlohmann_json)
