@@ -288,11 +288,11 @@ TEST(Facing, BehindTheEyeShowsItsVisibleSide) {
     d.positions = {{-.5F, -.5F, .5F, 1}, {.5F, -.5F, .5F, 1}, {0, .9F, -.5F, -1}};
     c.draws = {d};
     for (const Profile profile : {Profile::practice, Profile::direct3d}) {
-        const HitBounds& b = hits_at(expect(c, {8}, profile), 16, 20);
+        const HitBounds b = hits_at(expect(c, {8}, profile), 16, 20);
         EXPECT_EQ(b.front_max, 0U);
         EXPECT_EQ(b.back_min, 1U);
     }
-    const HitBounds& b = hits_at(expect(c, {8}, Profile::vulkan), 16, 20);
+    const HitBounds b = hits_at(expect(c, {8}, Profile::vulkan), 16, 20);
     EXPECT_EQ(b.front_max, 1U);
     EXPECT_EQ(b.back_max, 1U);
     EXPECT_EQ(b.total_min, 1U);
