@@ -150,18 +150,15 @@ std::string to_text(const mpq_class& value) {
     // Up to eight decimals say it exactly, or else the fraction does.
     const mpz_class decimals = 100000000;
     if (decimals % value.get_den() == 0) {
-        const mpz_class scaled = value.get_num() * (decimals / value.get_den());
-        const bool negative = scaled < 0;
-        std::string digits = mpz_class(abs(scaled)).get_str();
-        if (digits.size() < 9) {
-            digits.insert(0, 9 - digits.size(), '0');
+        const mpz_class scaled = abs(value.get_num()) * (decimals / value.get_den());
+        const mpz_class whole = scaled / decimals;
+        std::string text = fmt::format("{}{}.{:08}", value < 0 ? "-" : "", whole.get_str(),
+                                       mpz_class(scaled % decimals).get_ui());
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.back() == '.') {
+            text.pop_back();
         }
-        digits.insert(digits.size() - 8, ".");
-        digits.erase(digits.find_last_not_of('0') + 1);
-        if (digits.back() == '.') {
-            digits.pop_back();
-        }
-        return negative ? "-" + digits : digits;
+        return text;
     }
     return value.get_str();
 }
