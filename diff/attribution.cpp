@@ -177,6 +177,23 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     }
     finding.got = hits_text(front, back, by_face);
 
+    const std::string key =
+        fmt::format("{} {} {}|{}", static_cast<int>(finding.kind), static_cast<int>(finding.level),
+                    finding.expected, finding.got);
+    const auto earlier = like_.find(key);
+    if (explained_ >= kExplained && earlier != like_.end()) {
+        finding.rule = earlier->second.rule;
+        finding.quantity = earlier->second.quantity;
+        finding.why = fmt::format("as at pixel ({}, {})", earlier->second.x, earlier->second.y);
+        return;
+    }
+    explain_hits(finding, asked, front + back);
+    ++explained_;
+    like_.insert_or_assign(key, finding);
+}
+
+void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked,
+                               uint32_t total) const {
     const ref::SampleExplanation s = ref::explain_sample(case_, expectation_.limits, finding.level,
                                                          {finding.x, finding.y, finding.sample});
     if (finding.kind == FindingKind::value) {
@@ -189,7 +206,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
         return;
     }
     const Cause cause = asked.total_max == 0 ? cause_of_extra(s, finding.level)
-                                             : cause_of_count(s, finding.level, front + back);
+                                             : cause_of_count(s, finding.level, total);
     finding.rule = cause.rule;
     finding.why = cause.why;
 }

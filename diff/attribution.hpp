@@ -4,6 +4,7 @@
 // Which rule a wrong number of hits breaks, at which profile, and why.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -30,9 +31,18 @@ class Attribution {
     const ref::Expectation& at(cases::Profile profile);
 
   private:
+    // Rule and why, from the story of the sample.
+    void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) const;
+
+    // Explaining a sample costs as much as judging thousands. After kExplained findings, one that
+    // looks like an earlier one (same kind, level and numbers) takes over its rule.
+    static constexpr size_t kExplained = 64;
+
     const cases::Case& case_;
     const ref::Expectation& expectation_;
     std::optional<ref::Expectation> looser_[2];
+    size_t explained_ = 0;
+    std::map<std::string, Finding> like_;  // by kind, level, expected and got
 };
 
 // "1", "0 or 1", "1 to 3"; with facing when both faces play a part: "1 front, 0 back".
