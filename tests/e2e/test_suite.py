@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""The suite itself, on lavapipe: it has to pass at every profile, silently under the validation layer, and a
+broken picture has to fail it. A machine without lavapipe fails these tests: they are never skipped."""
+import os
+import unittest
+
+import support
+from support import ProgramTest
+
+
+class Suite(ProgramTest):
+    def environment(self, fault=""):
+        env = super().environment(fault)
+        env["EDGECASE_SUITE"] = str(support.SOURCE / "cases" / "suite")
+        return env
+
+    def run_lavapipe(self, *words, fault="", check=None):
+        return self.edgecase("run", "-o", self.out, "--device", "llvmpipe", *words, fault=fault, check=check)
+
+    def test_every_profile(self):
+        for profile in ("vulkan", "practice", "direct3d"):
+            with self.subTest(profile=profile):
+                self.run_lavapipe("--profile", profile, check=0)
+                results = self.results()
+                self.assertEqual(results["totals"]["cases"], results["totals"]["pass"] + results["totals"]["xfail"])
+                self.assertGreaterEqual(results["totals"]["cases"], 200)
+                self.assertLess(results["worst"]["ratio"], 2)
+                # What is left free must stay the exception: a suite of "either" would judge nothing.
+                free = sum(case["either_samples"] for case in results["cases"])
+                samples = sum(case["compared_samples"] for case in results["cases"])
+                self.assertLess(free, samples / {"vulkan": 20, "practice": 100, "direct3d": 1000}[profile])
+                for case in results["cases"]:
+                    self.assertGreater(case["must_samples"], 0, case["id"])
+
+    def test_silent_under_the_validation_layer(self):
+        self.run_lavapipe("--validation", check=0)
+        self.assertEqual({case["id"]: case["messages"] for case in self.results()["cases"] if case["messages"]}, {})
+
+    def test_two_workers_agree_with_one(self):
+        self.run_lavapipe(check=0)
+        one = self.results()["cases"]
+        self.run_lavapipe("-j", "2", check=0)
+        two = self.results()["cases"]
+
+        def told(cases):
+            return [(c["id"], c["status"], c["counts"], c["either_samples"], c["worst_ratio"]) for c in cases]
+
+        self.assertEqual(told(one), told(two))
+
+    def test_one_flipped_pixel_in_every_case_fails_every_case(self):
+        self.run_lavapipe("--no-expect", "--retries", "0", fault="flip-pixel", check=1)
+        self.assertEqual({s for s in self.statuses().values()}, {"fail"})
+
+    def test_pictures_drawn_by_hand(self):
+        with_picture = sum(1 for path in (support.SOURCE / "cases" / "suite").rglob("*.toml")
+                           if "[expect" in path.read_text())
+        self.assertGreaterEqual(with_picture, 40)
+        self.edgecase("lint", check=0)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("EDGECASE_PROGRAM", "edgecase")
+    unittest.main()
