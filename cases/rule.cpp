@@ -81,17 +81,14 @@ constexpr std::array kRules = {
          "docs/design.md.",
          "primsrast-polygon-barycentrics", "15.16", "ref/value.hpp"},
     Rule{"interp.perspective", Profile::practice, "smooth values are perspective-correct",
-         "(sum a_i f_i/w_i) / (sum a_i/w_i); binary32 budget of docs/design.md.",
+         "(sum a_i f_i/w_i) / (sum a_i/w_i); binary32 budget of docs/precision.md. Vulkan itself "
+         "bounds only each operation, to 1 part in 10^5.",
          "primsrast-polygon-barycentrics", "15.16", "ref/value.hpp"},
     Rule{"interp.hull", Profile::vulkan, "A value stays inside the vertex values' range",
          "NaN, or a value outside the hull of the vertex values by more than the budget, is wrong "
          "under every "
          "profile.",
          "primsrast-polygon-barycentrics", "", "ref/value.hpp"},
-    Rule{"interp.precision", Profile::vulkan,
-         "Values are accurate to one part in 10^5 per operation",
-         "The only precision that Vulkan states for fixed-function arithmetic.",
-         "fundamentals-floating-point", "", "ref/value.hpp"},
     Rule{"interp.flat", Profile::vulkan, "flat values arrive bit for bit",
          "Finite normal numbers of the provoking vertex, unchanged.", "vertexpostproc-flatshading",
          "15.16", "ref/value.hpp"},
