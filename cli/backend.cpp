@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/backend.hpp"
 
+#include <algorithm>
+#include <span>
 #include <string>
 
 #include "diff/capture.hpp"
@@ -20,13 +22,36 @@ class VulkanBackend : public Backend {
     explicit VulkanBackend(vk_harness::Renderer renderer) : renderer_(std::move(renderer)) {}
     const DeviceInfo& device() const override { return renderer_.device(); }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
-                                 const std::function<void(std::string_view)>& step) override {
-        return renderer_.render(batch, step);
+                                 const std::function<void(std::string_view)>& step,
+                                 const vk_harness::PlaneStore& store) override {
+        return renderer_.render(batch, step, store);
     }
 
   private:
     vk_harness::Renderer renderer_;
 };
+
+// Moves the planes of a capture to where the store wants them, if anywhere.
+void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t slot) {
+    diff::Capture& c = rendered.capture;
+    rendered.placed = store(slot, diff::plane_bytes(c.target, c.attribute_count));
+    if (rendered.placed.empty()) {
+        return;
+    }
+    std::byte* to = rendered.placed.data();
+    const auto move = [&to](auto& plane) {
+        const auto bytes = std::as_bytes(std::span(plane));
+        to = std::copy(bytes.begin(), bytes.end(), to);
+        plane.clear();
+    };
+    move(c.hits);
+    move(c.writers);
+    move(c.frag_coord);
+    for (auto& attribute : c.attributes) {
+        move(attribute);
+    }
+    move(c.depth);
+}
 
 class ReferenceBackend : public Backend {
   public:
@@ -45,12 +70,14 @@ class ReferenceBackend : public Backend {
     }
     const DeviceInfo& device() const override { return device_; }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
-                                 const std::function<void(std::string_view)>& step) override {
+                                 const std::function<void(std::string_view)>& step,
+                                 const vk_harness::PlaneStore& store) override {
         step("submit");
         std::vector<Rendered> results(batch.size());
         for (size_t k = 0; k < batch.size(); ++k) {
             results[k].status = Rendered::Status::drawn;
             results[k].capture = draw_by_reference(batch[k]);
+            move_planes(results[k], store, k);
         }
         step("readback");
         return results;

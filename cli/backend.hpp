@@ -19,8 +19,8 @@ class Backend {
     virtual ~Backend() = default;
     virtual const vk_harness::DeviceInfo& device() const = 0;
     virtual std::vector<vk_harness::Rendered> render(
-        const std::vector<cases::Case>& batch,
-        const std::function<void(std::string_view)>& step) = 0;
+        const std::vector<cases::Case>& batch, const std::function<void(std::string_view)>& step,
+        const vk_harness::PlaneStore& store) = 0;
 };
 
 vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options);

@@ -32,7 +32,7 @@ struct Frame {
     std::string payload;
 };
 
-// 64-bit checksum of a frame's type and payload (FNV-1a over 8-byte words).
+// 64-bit checksum of a frame's type and payload (FNV-1a over 8-byte words, four lanes).
 uint64_t checksum(FrameType type, std::string_view payload);
 
 std::string encode_frame(FrameType type, std::string_view payload);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <span>
 
 #include "cli/frame.hpp"
 #include "diff/verdict.hpp"
@@ -55,8 +56,8 @@ report::Pictures cut_pictures(const diff::Verdict& verdict, const cases::Target&
 }
 
 template <class T>
-std::string_view raw(const std::vector<T>& v) {
-    return {reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T)};
+std::string_view raw(std::span<const T> v) {
+    return {reinterpret_cast<const char*>(v.data()), v.size_bytes()};
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ CaseRecord make_record(const cases::Case& c) {
     return record;
 }
 
-void judge(CaseRecord& record, const cases::Case& c, const diff::Capture& capture,
+void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& capture,
            const ref::Limits& limits, cases::Profile profile, KeepPictures pictures) {
     try {
         const ref::Expectation expectation = ref::expect(c, limits, profile);
@@ -112,7 +113,7 @@ std::string check_before_running(const cases::Case& c) {
     }
 }
 
-uint64_t capture_bits(const diff::Capture& capture) {
+uint64_t capture_bits(const diff::CaptureView& capture) {
     uint64_t sum = 0;
     const auto add = [&](std::string_view bytes) {
         sum = sum * 0x9e3779b97f4a7c15U + checksum(FrameType::result, bytes);
@@ -121,7 +122,7 @@ uint64_t capture_bits(const diff::Capture& capture) {
     add(raw(capture.writers));
     add(raw(capture.frag_coord));
     add(raw(capture.depth));
-    for (const std::vector<glm::vec4>& attribute : capture.attributes) {
+    for (const std::span<const glm::vec4> attribute : capture.attributes) {
         add(raw(attribute));
     }
     return sum;

@@ -26,7 +26,7 @@ enum class KeepPictures { none, failed, all };
 report::CaseRecord make_record(const cases::Case& c);
 
 // Judges a capture into `record`: pass, fail, or error if the case or the capture cannot be judged.
-void judge(report::CaseRecord& record, const cases::Case& c, const diff::Capture& capture,
+void judge(report::CaseRecord& record, const cases::Case& c, const diff::CaptureView& capture,
            const ref::Limits& limits, cases::Profile profile, KeepPictures pictures);
 
 // What can be said of a case before any device is asked: empty, or why the reference disagrees with
@@ -34,7 +34,7 @@ void judge(report::CaseRecord& record, const cases::Case& c, const diff::Capture
 std::string check_before_running(const cases::Case& c);
 
 // A hash of every bit of a capture.
-uint64_t capture_bits(const diff::Capture& capture);
+uint64_t capture_bits(const diff::CaptureView& capture);
 // Bytes that a case's capture takes.
 uint64_t capture_bytes(const cases::Case& c);
 

@@ -34,9 +34,11 @@ std::optional<WorkerOptions> decode_options(std::string_view bytes) {
     return in.finished() ? std::optional(options) : std::nullopt;
 }
 
-std::string encode_request(uint32_t attempt, const std::vector<const cases::Case*>& cases) {
+std::string encode_request(uint32_t attempt, const Room& room,
+                           const std::vector<const cases::Case*>& cases) {
     ByteWriter out;
     out.value(attempt);
+    out.value(room);
     out.value(uint64_t{cases.size()});
     for (const cases::Case* c : cases) {
         out.text(cases::to_bytes(*c));
@@ -49,6 +51,7 @@ std::optional<RenderRequest> decode_request(std::string_view bytes) {
     RenderRequest request;
     uint64_t count = 0;
     in.value(request.attempt);
+    in.value(request.room);
     in.value(count);
     for (uint64_t k = 0; k < count; ++k) {
         std::string raw;
@@ -176,6 +179,12 @@ std::string encode_result(const CaseResult& result) {
     out.value(c.target);
     out.value(uint8_t{c.has_primitive});
     out.value(c.attribute_count);
+    out.value(uint8_t{result.is_shared});
+    if (result.is_shared) {
+        out.value(result.offset);
+        out.value(result.bits);
+        return out.take();
+    }
     out.plane(c.hits);
     out.plane(c.writers);
     out.plane(c.frag_coord);
@@ -193,6 +202,7 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
     diff::Capture& c = r.capture;
     uint32_t status = 0;
     uint8_t has_primitive = 0;
+    uint8_t is_shared = 0;
     in.value(result.index);
     in.value(status);
     in.text(r.reason);
@@ -200,12 +210,18 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
     in.value(c.target);
     in.value(has_primitive);
     in.value(c.attribute_count);
-    in.plane(c.hits);
-    in.plane(c.writers);
-    in.plane(c.frag_coord);
-    in.plane(c.depth);
-    for (std::vector<glm::vec4>& attribute : c.attributes) {
-        in.plane(attribute);
+    in.value(is_shared);
+    if (is_shared != 0) {
+        in.value(result.offset);
+        in.value(result.bits);
+    } else {
+        in.plane(c.hits);
+        in.plane(c.writers);
+        in.plane(c.frag_coord);
+        in.plane(c.depth);
+        for (std::vector<glm::vec4>& attribute : c.attributes) {
+            in.plane(attribute);
+        }
     }
     if (!in.finished() || status > static_cast<uint32_t>(Rendered::Status::error) ||
         c.attribute_count > cases::kMaxAttributes) {
@@ -213,7 +229,8 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
     }
     r.status = static_cast<Rendered::Status>(status);
     c.has_primitive = has_primitive != 0;
-    if (r.status == Rendered::Status::drawn) {
+    result.is_shared = is_shared != 0;
+    if (r.status == Rendered::Status::drawn && !result.is_shared) {
         const size_t n = c.sample_count();
         bool fits = c.hits.size() == n && c.writers.size() == n && c.frag_coord.size() == n &&
                     c.depth.size() == n;

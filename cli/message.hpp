@@ -5,6 +5,7 @@
 // that its encode_* could not have written.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,11 +25,17 @@ std::string encode_options(const WorkerOptions& options);
 std::optional<WorkerOptions> decode_options(std::string_view bytes);
 
 // A batch of cases; attempt counts from 1.
+// Where in the shared memory a batch may write its captures; size 0: nowhere.
+struct Room {
+    uint64_t offset = 0, size = 0;
+};
 struct RenderRequest {
     uint32_t attempt = 1;
+    Room room;
     std::vector<cases::Case> cases;
 };
-std::string encode_request(uint32_t attempt, const std::vector<const cases::Case*>& cases);
+std::string encode_request(uint32_t attempt, const Room& room,
+                           const std::vector<const cases::Case*>& cases);
 std::optional<RenderRequest> decode_request(std::string_view bytes);
 
 std::string encode_device(const vk_harness::DeviceInfo& device);
@@ -44,6 +51,14 @@ std::optional<vk_harness::Failure> decode_failure(std::string_view bytes);
 struct CaseResult {
     uint32_t index = 0;  // in the batch
     vk_harness::Rendered rendered;
+    // Set if the planes lie in shared memory: where, and capture_bits() of them when they were
+    // written. The message is worth nothing if the bits are others when it arrives.
+    bool is_shared = false;
+    uint64_t offset = 0;
+    uint64_t bits = 0;
+    // In the parent: the capture, wherever it lies, and what keeps it there.
+    diff::CaptureView view;
+    std::shared_ptr<const void> keep;
 };
 std::string encode_result(const CaseResult& result);
 std::optional<CaseResult> decode_result(std::string_view bytes);

@@ -96,7 +96,8 @@ void set_nonblocking(int fd) {
 }
 
 // In the child between fork and exec: only calls that are safe there.
-[[noreturn]] void become(char* const* argv, pid_t parent, int request, int result, int output) {
+[[noreturn]] void become(char* const* argv, pid_t parent, int request, int result, int output,
+                         int shared) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) {
@@ -114,6 +115,9 @@ void set_nonblocking(int fd) {
     ::dup2(output, STDERR_FILENO);
     ::dup2(request, kRequestFd);
     ::dup2(result, kResultFd);
+    if (shared >= 0) {
+        ::dup2(shared, kSharedFd);
+    }
     ::execv(argv[0], argv);
     constexpr char kMessage[] = "edgecase: a worker could not be started: ";
     const char* reason = ::strerrordesc_np(errno);
@@ -126,7 +130,7 @@ void set_nonblocking(int fd) {
 
 }  // namespace
 
-cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command) {
+cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int shared) {
     Pipe request;
     Pipe result;
     Pipe output;
@@ -148,7 +152,7 @@ cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command) {
     }
     if (pid == 0) {
         become(argv.data(), parent, request.read_end.get(), result.write_end.get(),
-               output.write_end.get());
+               output.write_end.get(), shared);
     }
     ::setpgid(pid, pid);  // in both, so that neither has to wait for the other
     constexpr int kPipeBytes = 1 << 20;

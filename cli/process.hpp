@@ -60,8 +60,9 @@ struct ChildProcess {
 };
 
 // Starts a command: own process group, killed when the calling thread's process dies, no core file,
-// stdin from /dev/null, the worker's fds 3 and 4 connected, everything else closed on exec.
-cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command);
+// stdin from /dev/null, the worker's fds 3 and 4 connected, `shared` (if not -1) as its fd 5,
+// everything else closed on exec.
+cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int shared = -1);
 
 // Kills the child's whole process group and reaps the child. A child that is dying by itself is
 // given `grace_ms` to do so, and its own status is told.

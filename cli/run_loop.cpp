@@ -187,7 +187,8 @@ void RunLoop::feed(Slot& slot) {
     if (!slot.client || (slot.batch->fresh && !slot.client->is_fresh())) {
         start_worker(slot);
     }
-    if (!slot.client || slot.client->state() != WorkerClient::State::idle) {
+    if (!slot.client || slot.client->state() != WorkerClient::State::idle ||
+        !slot.client->has_room()) {
         return;
     }
     std::vector<const cases::Case*> batch;
@@ -285,26 +286,25 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
         settle(k, std::move(record));
         return;
     }
-    if (rendered.capture.target != cases_[k].data.target) {
+    if (result.view.target != cases_[k].data.target) {
         CaseRecord record = fresh_record(k);
         record.status = Status::error;
         record.reason = "the worker sent an image of another size than the case's target";
         settle(k, std::move(record));
         return;
     }
-    switch (schedule_.drawn(k, capture_bits(rendered.capture))) {
+    switch (schedule_.drawn(k, result.bits)) {
         case Schedule::Drawn::judge: {
-            auto capture = std::make_shared<diff::Capture>(std::move(rendered.capture));
             auto record = std::make_shared<CaseRecord>(fresh_record(k));
             record->messages = rendered.messages;
             const uint64_t bytes = capture_bytes(cases_[k].data);
             judging_bytes_ += bytes;
             pool_.submit(
-                [this, k, capture, record] {
-                    judge(*record, cases_[k].data, *capture, config_.limits, config_.profile,
+                [this, k, view = result.view, record] {
+                    judge(*record, cases_[k].data, view, config_.limits, config_.profile,
                           config_.pictures);
                 },
-                [this, k, bytes, record] {
+                [this, k, bytes, record, keep = result.keep] {
                     judging_bytes_ -= bytes;
                     on_judged(k, std::move(*record));
                 });

@@ -8,12 +8,15 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <vector>
 
 #include "cli/backend.hpp"
 #include "cli/fault.hpp"
 #include "cli/frame.hpp"
+#include "cli/judge.hpp"
 #include "cli/message.hpp"
+#include "cli/shared_memory.hpp"
 #include "report/run.hpp"
 
 namespace cli {
@@ -56,10 +59,15 @@ void print_noise() {
 }
 
 // One hit more at the first drawn sample from the middle of the target on: a double hit.
-void flip_pixel(diff::Capture& capture) {
-    const size_t n = capture.hits.size();
+void flip_pixel(Rendered& rendered) {
+    std::span<glm::vec4> planes(rendered.capture.hits);
+    if (!rendered.placed.empty()) {  // the hits come first
+        planes = std::span(reinterpret_cast<glm::vec4*>(rendered.placed.data()),
+                           rendered.capture.sample_count());
+    }
+    const size_t n = planes.size();
     for (size_t k = 0; k < n; ++k) {
-        glm::vec4& hits = capture.hits[(n / 2 + k) % n];
+        glm::vec4& hits = planes[(n / 2 + k) % n];
         if (hits.x + hits.y > 0) {
             hits.x += 1;
             hits.w += 1;
@@ -68,8 +76,23 @@ void flip_pixel(diff::Capture& capture) {
     }
 }
 
-void render_batch(Backend& backend, const RenderRequest& request,
-                  const std::vector<Fault>& faults) {
+// The message about a result, with its planes or with the place where they lie.
+std::string frame_of(uint32_t k, Rendered rendered, const SharedWriter& shared) {
+    CaseResult result;
+    result.index = k;
+    if (!rendered.placed.empty() && rendered.status == Rendered::Status::drawn) {
+        const diff::Capture& c = rendered.capture;
+        result.is_shared = true;
+        result.offset = shared.offset_of(rendered.placed);
+        result.bits = capture_bits(diff::view_planes(c.target, c.has_primitive, c.attribute_count,
+                                                     rendered.placed.data()));
+    }
+    result.rendered = std::move(rendered);
+    return encode_frame(FrameType::result, encode_result(result));
+}
+
+void render_batch(Backend& backend, const RenderRequest& request, const std::vector<Fault>& faults,
+                  SharedWriter& shared) {
     const auto step = [](std::string_view name) { send(FrameType::step, name); };
     for (const cases::Case& c : request.cases) {
         if (has_fault(faults, FaultKind::noise, c.id)) {
@@ -83,7 +106,9 @@ void render_batch(Backend& backend, const RenderRequest& request,
             }
         }
     }
-    std::vector<Rendered> results = backend.render(request.cases, step);
+    shared.open(request.room.offset, request.room.size);
+    std::vector<Rendered> results = backend.render(
+        request.cases, step, [&shared](size_t, uint64_t bytes) { return shared.place(bytes); });
     for (const cases::Case& c : request.cases) {
         if (has_fault(faults, FaultKind::device_lost, c.id)) {
             for (Rendered& r : results) {
@@ -100,10 +125,9 @@ void render_batch(Backend& backend, const RenderRequest& request,
         }
         if (has_fault(faults, FaultKind::flip_pixel, id) ||
             (request.attempt == 1 && has_fault(faults, FaultKind::flake, id))) {
-            flip_pixel(results[k].capture);
+            flip_pixel(results[k]);
         }
-        const std::string frame = encode_frame(
-            FrameType::result, encode_result({static_cast<uint32_t>(k), std::move(results[k])}));
+        const std::string frame = frame_of(static_cast<uint32_t>(k), std::move(results[k]), shared);
         if (has_fault(faults, FaultKind::truncate, id)) {
             write_all(kResultFd, std::string_view(frame).substr(0, frame.size() / 2));
             ::_exit(0);
@@ -115,6 +139,7 @@ void render_batch(Backend& backend, const RenderRequest& request,
             ::_exit(report::kExitInternal);
         }
     }
+    shared.lock();
     send(FrameType::batch_done, {});
 }
 
@@ -151,6 +176,7 @@ int run_worker() {
         commit(FaultKind::hang);
     }
     WorkerOptions options;
+    SharedWriter shared(kSharedFd);
     std::unique_ptr<Backend> backend;
     while (std::optional<Frame> frame = receive(reader)) {
         if (frame->type == FrameType::configure) {
@@ -178,7 +204,7 @@ int run_worker() {
             if (!request) {
                 return report::kExitInternal;
             }
-            render_batch(*backend, *request, *faults);
+            render_batch(*backend, *request, *faults, shared);
         } else {
             return report::kExitInternal;
         }

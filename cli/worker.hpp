@@ -9,6 +9,7 @@ namespace cli {
 
 inline constexpr int kRequestFd = 3;
 inline constexpr int kResultFd = 4;
+inline constexpr int kSharedFd = 5;  // memory for captures, may be closed
 
 int run_worker();
 

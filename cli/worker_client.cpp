@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <utility>
 
+#include "cli/judge.hpp"
+
 namespace cli {
 
 namespace {
@@ -36,11 +38,13 @@ cases::Expected<WorkerClient> WorkerClient::start_with(const std::vector<std::st
                                                        const WorkerOptions& options,
                                                        std::chrono::milliseconds timeout,
                                                        FrameType request) {
-    cases::Expected<ChildProcess> child = spawn(command);
+    std::shared_ptr<SharedMemory> memory =
+        request == FrameType::hello ? SharedMemory::create() : nullptr;
+    cases::Expected<ChildProcess> child = spawn(command, memory ? memory->fd() : -1);
     if (!child) {
         return tl::unexpected(child.error());
     }
-    WorkerClient client(std::move(*child), timeout);
+    WorkerClient client(std::move(*child), std::move(memory), timeout);
     client.pending_ = encode_frame(FrameType::configure, encode_options(options));
     client.pending_ += encode_frame(request, {});
     client.write_pending();
@@ -73,7 +77,9 @@ void WorkerClient::kill() {
 }
 
 void WorkerClient::render(uint32_t attempt, const std::vector<const cases::Case*>& batch) {
-    pending_ += encode_frame(FrameType::render, encode_request(attempt, batch));
+    region_ = memory_ ? memory_->take() : nullptr;
+    const Room room = region_ ? Room{region_->offset, region_->bytes.size()} : Room{};
+    pending_ += encode_frame(FrameType::render, encode_request(attempt, room, batch));
     state_ = State::busy;
     deadline_ = Clock::now() + timeout_;
     read_output();
@@ -147,6 +153,35 @@ bool WorkerClient::read_result() {
     }
 }
 
+bool WorkerClient::find_planes(CaseResult& result) const {
+    if (result.rendered.status != vk_harness::Rendered::Status::drawn) {
+        return !result.is_shared;
+    }
+    diff::Capture& c = result.rendered.capture;
+    if (!result.is_shared) {
+        auto capture = std::make_shared<const diff::Capture>(std::move(c));
+        c = diff::Capture();
+        result.view = *capture;
+        result.keep = std::move(capture);
+        result.bits = capture_bits(result.view);
+        return true;
+    }
+    if (region_ == nullptr || result.offset < region_->offset || result.offset % 16 != 0 ||
+        c.target.width > cases::kMaxTargetSize || c.target.height > cases::kMaxTargetSize ||
+        c.target.samples > 64) {
+        return false;
+    }
+    const uint64_t at = result.offset - region_->offset;
+    const uint64_t bytes = diff::plane_bytes(c.target, c.attribute_count);
+    if (bytes > region_->bytes.size() || at > region_->bytes.size() - bytes) {
+        return false;
+    }
+    result.view =
+        diff::view_planes(c.target, c.has_primitive, c.attribute_count, region_->bytes.data() + at);
+    result.keep = region_;
+    return capture_bits(result.view) == result.bits;
+}
+
 bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) {
     switch (frame.type) {
         case FrameType::step:
@@ -174,7 +209,8 @@ bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) 
             }
             return false;
         case FrameType::result:
-            if (auto result = decode_result(frame.payload); result && state_ == State::busy) {
+            if (auto result = decode_result(frame.payload);
+                result && state_ == State::busy && find_planes(*result)) {
                 events.emplace_back(std::move(*result));
                 return true;
             }
@@ -184,6 +220,7 @@ bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) 
                 return false;
             }
             state_ = State::idle;
+            region_ = nullptr;
             events.emplace_back(BatchDone{});
             return true;
         default:

@@ -14,6 +14,7 @@
 #include "cli/frame.hpp"
 #include "cli/message.hpp"
 #include "cli/process.hpp"
+#include "cli/shared_memory.hpp"
 
 namespace cli {
 
@@ -57,6 +58,8 @@ class WorkerClient {
     pid_t pid() const { return child_.pid; }
     std::string output_since_batch() const { return output_.text(); }
 
+    // True if a batch handed over now finds room for its captures.
+    bool has_room() const { return memory_ == nullptr || memory_->has_free(); }
     // Hands a batch over; the worker must be idle.
     void render(uint32_t attempt, const std::vector<const cases::Case*>& batch);
 
@@ -70,8 +73,12 @@ class WorkerClient {
     void kill();
 
   private:
-    WorkerClient(ChildProcess child, std::chrono::milliseconds timeout)
-        : child_(std::move(child)), timeout_(timeout), deadline_(Clock::now() + timeout) {}
+    WorkerClient(ChildProcess child, std::shared_ptr<SharedMemory> memory,
+                 std::chrono::milliseconds timeout)
+        : child_(std::move(child)),
+          memory_(std::move(memory)),
+          timeout_(timeout),
+          deadline_(Clock::now() + timeout) {}
     static cases::Expected<WorkerClient> start_with(const std::vector<std::string>& command,
                                                     const WorkerOptions& options,
                                                     std::chrono::milliseconds timeout,
@@ -80,9 +87,12 @@ class WorkerClient {
     void read_output();
     bool read_result();  // false at the end of the pipe
     bool handle(const Frame& frame, std::vector<WorkerEvent>& events);
+    bool find_planes(CaseResult& result) const;  // false if they are not what was written
     Death die(bool timed_out, bool malformed, int grace_ms);
 
     ChildProcess child_;
+    std::shared_ptr<SharedMemory> memory_;
+    std::shared_ptr<const Region> region_;  // of the batch in hand
     State state_ = State::starting;
     std::chrono::milliseconds timeout_;
     Clock::time_point deadline_;

@@ -32,7 +32,7 @@ bool is_count(float value) {
 
 }  // namespace
 
-SampleState sample_state(const Capture& capture, size_t index) {
+SampleState sample_state(const CaptureView& capture, size_t index) {
     const glm::vec4& hits = capture.hits[index];
     const Writer& writer = capture.writers[index];
     const glm::vec4& frag_coord = capture.frag_coord[index];

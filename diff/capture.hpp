@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What any renderer produced for a case, sample by sample, float bits as they are. A sample's index
-// is (j * width + i) * samples + s. Header only, so that the harness needs nothing else of this
-// room.
+// is (j * width + i) * samples + s. All but sample_state() is header only, so that the harness
+// needs nothing else of this room.
 #pragma once
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,6 +57,66 @@ struct Capture {
     size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
 };
 
+// A capture whose planes lie anywhere: in a Capture, or in memory shared with another process.
+struct CaptureView {
+    cases::Target target;
+    bool has_primitive = false;
+    uint32_t attribute_count = 0;
+    std::span<const glm::vec4> hits;
+    std::span<const Writer> writers;
+    std::span<const glm::vec4> frag_coord;
+    std::span<const float> depth;
+    std::array<std::span<const glm::vec4>, cases::kMaxAttributes> attributes;
+
+    CaptureView() = default;
+    CaptureView(const Capture& c)  // not explicit: a capture is a view of itself
+        : target(c.target),
+          has_primitive(c.has_primitive),
+          attribute_count(c.attribute_count),
+          hits(c.hits),
+          writers(c.writers),
+          frag_coord(c.frag_coord),
+          depth(c.depth) {
+        for (size_t a = 0; a < attributes.size(); ++a) {
+            attributes[a] = c.attributes[a];
+        }
+    }
+    size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
+};
+
+// Bytes of all planes of a capture, one after the other: hits, writers, frag_coord, attributes,
+// depth.
+inline uint64_t plane_bytes(const cases::Target& target, uint32_t attribute_count) {
+    const uint64_t samples = uint64_t{target.width} * target.height * target.samples;
+    return samples *
+           (sizeof(glm::vec4) * (2 + uint64_t{attribute_count}) + sizeof(Writer) + sizeof(float));
+}
+
+// The capture whose planes lie at `planes`: plane_bytes() bytes, aligned to 16.
+inline CaptureView view_planes(const cases::Target& target, bool has_primitive,
+                               uint32_t attribute_count, const std::byte* planes) {
+    CaptureView view;
+    view.target = target;
+    view.has_primitive = has_primitive;
+    view.attribute_count = attribute_count;
+    const size_t count = view.sample_count();
+    // Storage of bytes holds whatever objects were written there (C++20, implicit object creation).
+    const auto vectors = [&] {
+        const auto* first = reinterpret_cast<const glm::vec4*>(planes);
+        planes += count * sizeof(glm::vec4);
+        return std::span(first, count);
+    };
+    view.hits = vectors();
+    view.writers = std::span(reinterpret_cast<const Writer*>(planes), count);
+    planes += count * sizeof(Writer);
+    view.frag_coord = vectors();
+    for (uint32_t a = 0; a < attribute_count; ++a) {
+        view.attributes[a] = vectors();
+    }
+    view.depth = std::span(reinterpret_cast<const float*>(planes), count);
+    return view;
+}
+
 // What the sample's bits say before any expectation is asked.
 enum class SampleState : uint8_t {
     clear,         // nothing hit it, every attachment holds its clear value
@@ -62,6 +124,6 @@ enum class SampleState : uint8_t {
     not_copied,    // poison: read-back failed
     inconsistent,  // anything else: the attachments contradict each other
 };
-SampleState sample_state(const Capture& capture, size_t index);
+SampleState sample_state(const CaptureView& capture, size_t index);
 
 }  // namespace diff

@@ -14,7 +14,8 @@ namespace {
 // One comparison's state; the phases of a sample stand in judge_sample().
 class Comparison {
   public:
-    Comparison(const cases::Case& c, const ref::Expectation& expectation, const Capture& capture)
+    Comparison(const cases::Case& c, const ref::Expectation& expectation,
+               const CaptureView& capture)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
@@ -308,7 +309,7 @@ class Comparison {
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
-    const Capture& capture_;
+    const CaptureView& capture_;
     Attribution attribution_;
     ref::ValueReference values_;
     Verdict verdict_;
@@ -332,7 +333,8 @@ std::string_view to_string(FindingKind kind) {
     return "";
 }
 
-Verdict compare(const cases::Case& c, const ref::Expectation& expectation, const Capture& capture) {
+Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
+                const CaptureView& capture) {
     return Comparison(c, expectation, capture).run();
 }
 

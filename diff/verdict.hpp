@@ -66,7 +66,8 @@ struct Verdict {
 inline constexpr size_t kMaxFindings = 1000;
 
 // Judges a capture. A case without any sample that must be hit is an error, never a pass.
-Verdict compare(const cases::Case& c, const ref::Expectation& expectation, const Capture& capture);
+Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
+                const CaptureView& capture);
 
 // Checks the hand-drawn picture of a case against the reference (profile direct3d, 8 subpixel
 // bits). Empty if it agrees or the case has none; else one sentence with the first pixel that

@@ -58,8 +58,13 @@ struct Rendered {
     enum class Status { drawn, unsupported, device_lost, error } status = Status::error;
     std::string reason;                 // of unsupported, device_lost, error
     diff::Capture capture;              // if drawn
+    std::span<std::byte> placed;        // if not empty: the capture's planes, which are not in it
     std::vector<std::string> messages;  // of the validation layer
 };
+
+// Memory for the planes of case `slot` of the batch, diff::plane_bytes() long and aligned to 16;
+// empty if they shall lie in Rendered::capture.
+using PlaneStore = std::function<std::span<std::byte>(size_t slot, uint64_t bytes)>;
 
 class Renderer {
   public:
@@ -72,9 +77,10 @@ class Renderer {
     // Draws the cases in one submission and reads each back. Results in the order of the cases.
     // `step` is called with the name of each stage before it starts: "pipeline", "record",
     // "submit", "readback"; again for each part if the batch needs more memory than one submission
-    // may take.
+    // may take. `store`, if any, says where the planes go.
     std::vector<Rendered> render(std::span<const cases::Case> batch,
-                                 const std::function<void(std::string_view)>& step);
+                                 const std::function<void(std::string_view)>& step,
+                                 const PlaneStore& store = {});
 
     // As render, without read-back and without capture memory traffic: the bare cost of drawing,
     // for benchmarks. Returns false if any case could not be drawn.

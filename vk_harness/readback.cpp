@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "vk_harness/case_check.hpp"
 
@@ -20,19 +21,19 @@ std::vector<T> copy_out(std::span<const std::byte> memory, VkDeviceSize offset, 
 }
 
 // Neighbours mostly have the same origin, so the last answer is kept.
-void decode_writers(std::vector<diff::Writer>& writers) {
+void decode_writers(std::span<const diff::Writer> from, diff::Writer* to) {
     const auto decode = [](const diff::Writer& words) {
         return diff::Writer{decode_id(words.draw), decode_id(words.primitive),
                             decode_id(words.provoking_vertex), decode_id(words.spare)};
     };
     diff::Writer last;
     diff::Writer decoded = decode(last);
-    for (diff::Writer& writer : writers) {
+    for (const diff::Writer& writer : from) {
         if (!(writer == last)) {
             last = writer;
             decoded = decode(writer);
         }
-        writer = decoded;
+        *to++ = decoded;
     }
 }
 
@@ -86,7 +87,7 @@ diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count
     const size_t count = capture.sample_count();
     capture.hits = copy_out<glm::vec4>(memory, layout.color[0], count);
     capture.writers = copy_out<diff::Writer>(memory, layout.color[1], count);
-    decode_writers(capture.writers);
+    decode_writers(capture.writers, capture.writers.data());
     capture.frag_coord = copy_out<glm::vec4>(memory, layout.color[2], count);
     for (uint32_t k = 0; k < attribute_count; ++k) {
         capture.attributes[k] =
@@ -94,6 +95,25 @@ diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count
     }
     capture.depth = copy_out<float>(memory, layout.depth, count);
     return capture;
+}
+
+void read_planes(const cases::Target& target, uint32_t attribute_count,
+                 const ReadbackLayout& layout, std::span<const std::byte> memory,
+                 std::span<std::byte> planes) {
+    const size_t count = size_t{target.width} * target.height * target.samples;
+    std::byte* to = planes.data();
+    const auto copy = [&](VkDeviceSize offset, size_t bytes) {
+        std::memcpy(to, memory.data() + offset, bytes);
+        to += bytes;
+    };
+    copy(layout.color[0], count * sizeof(glm::vec4));
+    const auto* writers = reinterpret_cast<const diff::Writer*>(memory.data() + layout.color[1]);
+    decode_writers(std::span(writers, count), reinterpret_cast<diff::Writer*>(to));
+    to += count * sizeof(diff::Writer);
+    for (uint32_t k = 2; k < kFixedAttachments + attribute_count; ++k) {
+        copy(layout.color[k], count * sizeof(glm::vec4));
+    }
+    copy(layout.depth, count * sizeof(float));
 }
 
 }  // namespace vk_harness

@@ -33,6 +33,11 @@ diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count
                            bool has_primitive, const ReadbackLayout& layout,
                            std::span<const std::byte> memory);
 
+// The same into `planes`, in the order of diff::view_planes; diff::plane_bytes() bytes.
+void read_planes(const cases::Target& target, uint32_t attribute_count,
+                 const ReadbackLayout& layout, std::span<const std::byte> memory,
+                 std::span<std::byte> planes);
+
 // An id that the device wrote as binary32: an integer below 2^24, -1 for 'cleared' and -2 for 'this
 // device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.
 uint32_t decode_id(uint32_t bits);

@@ -83,7 +83,8 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
 
 Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_back,
                                        std::vector<Rendered>& results,
-                                       const std::function<void(std::string_view)>& step) {
+                                       const std::function<void(std::string_view)>& step,
+                                       const PlaneStore& store) {
     step("record");
     VkDeviceSize vertex_bytes = 0;
     VkDeviceSize readback_bytes = 0;
@@ -161,9 +162,23 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
             return visible;
         }
         for (const CasePlan& plan : plans) {
-            results[plan.slot].capture = read_capture(plan.test->target, plan.attribute_count,
-                                                      device_->capabilities().info.has_primitive_id,
-                                                      plan.readback, readback->bytes());
+            const cases::Target& target = plan.test->target;
+            const bool has_primitive = device_->capabilities().info.has_primitive_id;
+            Rendered& result = results[plan.slot];
+            if (store) {
+                const uint64_t bytes = diff::plane_bytes(target, plan.attribute_count);
+                result.placed = store(plan.slot, bytes);
+            }
+            if (result.placed.empty()) {
+                result.capture = read_capture(target, plan.attribute_count, has_primitive,
+                                              plan.readback, readback->bytes());
+            } else {
+                result.capture.target = target;
+                result.capture.has_primitive = has_primitive;
+                result.capture.attribute_count = plan.attribute_count;
+                read_planes(target, plan.attribute_count, plan.readback, readback->bytes(),
+                            result.placed);
+            }
         }
     }
     for (const CasePlan& plan : plans) {
@@ -182,11 +197,12 @@ VkDeviceSize BatchRenderer::alignment() const {
 
 void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
                               std::vector<Rendered>& results,
-                              const std::function<void(std::string_view)>& step) {
+                              const std::function<void(std::string_view)>& step,
+                              const PlaneStore& store) {
     if (plans.empty()) {
         return;
     }
-    const auto done = draw_chunk(plans, read_back, results, step);
+    const auto done = draw_chunk(plans, read_back, results, step, store);
     const std::vector<std::string> messages = instance_.messages().take();
     for (const CasePlan& plan : plans) {
         if (!done) {
@@ -206,7 +222,8 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
 }
 
 std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, bool read_back,
-                                            const std::function<void(std::string_view)>& step) {
+                                            const std::function<void(std::string_view)>& step,
+                                            const PlaneStore& store) {
     std::vector<Rendered> results(batch.size());
     std::vector<CasePlan> plans;
     VkDeviceSize bytes = 0;
@@ -224,7 +241,7 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         const VkDeviceSize size =
             attachment_bytes(item.test->target, kFixedAttachments + attribute_count(*item.test));
         if (bytes + size > kChunkBytes && !plans.empty()) {
-            run_chunk(plans, read_back, results, step);
+            run_chunk(plans, read_back, results, step, store);
             bytes = 0;
             step("pipeline");
         }
@@ -234,7 +251,7 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         }
         append(result.messages, instance_.messages().take());
     }
-    run_chunk(plans, read_back, results, step);
+    run_chunk(plans, read_back, results, step, store);
     return results;
 }
 
@@ -281,13 +298,14 @@ const DeviceInfo& Renderer::device() const {
 }
 
 std::vector<Rendered> Renderer::render(std::span<const cases::Case> batch,
-                                       const std::function<void(std::string_view)>& step) {
+                                       const std::function<void(std::string_view)>& step,
+                                       const PlaneStore& store) {
     return impl_->body.render(
-        batch, true, step ? step : [](std::string_view) {});
+        batch, true, step ? step : [](std::string_view) {}, store);
 }
 
 bool Renderer::render_bare(std::span<const cases::Case> batch) {
-    const auto results = impl_->body.render(batch, false, [](std::string_view) {});
+    const auto results = impl_->body.render(batch, false, [](std::string_view) {}, {});
     return std::all_of(results.begin(), results.end(), [](const Rendered& result) {
         return result.status == Rendered::Status::drawn;
     });

@@ -49,7 +49,8 @@ class BatchRenderer {
 
     // As Renderer::render, or render_bare if not `read_back`.
     std::vector<Rendered> render(std::span<const cases::Case> batch, bool read_back,
-                                 const std::function<void(std::string_view)>& step);
+                                 const std::function<void(std::string_view)>& step,
+                                 const PlaneStore& store);
 
     const Device& device() const { return *device_; }
 
@@ -60,10 +61,11 @@ class BatchRenderer {
     // Pipelines, attachments and places of one case; nothing if the result says why not.
     bool plan(CasePlan& plan, Rendered& result);
     void run_chunk(std::vector<CasePlan>& plans, bool read_back, std::vector<Rendered>& results,
-                   const std::function<void(std::string_view)>& step);
+                   const std::function<void(std::string_view)>& step, const PlaneStore& store);
     Result<void> draw_chunk(std::vector<CasePlan>& plans, bool read_back,
                             std::vector<Rendered>& results,
-                            const std::function<void(std::string_view)>& step);
+                            const std::function<void(std::string_view)>& step,
+                            const PlaneStore& store);
 
     Instance instance_;
     std::unique_ptr<Device> device_;  // stable address: everything below points to it
