@@ -56,6 +56,28 @@ std::optional<int64_t> snap(const mpq_class& pixels, int bits) {
     return fixed.get_si();
 }
 
+// The same for a vertex, in binary64: half extent * c / w + offset. Nothing if the nearest grid
+// point is not proven. Products of two binary32 are exact; the quotient, the offset and the sum
+// are each off by at most 2^-53 of |quotient| + |offset|, and 2^-50 of it is more than all three.
+std::optional<int64_t> snap_fast(float c, float w, float origin, float extent, int bits) {
+    const double half = static_cast<double>(extent) / 2;
+    const double quotient = half * static_cast<double>(c) / static_cast<double>(w);
+    const double offset = static_cast<double>(origin) + half;
+    const double scale = std::ldexp(1.0, bits);
+    const double error = (std::fabs(quotient) + std::fabs(offset)) * scale * 0x1p-50 + 0x1p-900;
+    const double scaled = (quotient + offset) * scale;
+    if (!(std::fabs(scaled) < 0x1p31 * scale) || !(error < 0x1p-4)) {
+        return std::nullopt;
+    }
+    const double floor = std::floor(scaled);
+    const double from_tie = scaled - floor - 0.5;  // its sign is right: |scaled| < 2^47
+    if (!(std::fabs(from_tie) > error)) {
+        return std::nullopt;
+    }
+    const auto nearest = static_cast<int64_t>(floor) + (from_tie > 0 ? 1 : 0);
+    return nearest * (int64_t{1} << (kFixedBits - bits));
+}
+
 }  // namespace
 
 float Quantity::get(const FragmentValues& device) const {
@@ -206,14 +228,25 @@ std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
 
 std::optional<std::array<FixedPoint, 3>> snapped_positions(const Primitive& primitive,
                                                            const Limits& limits) {
-    const Vertices<mpq_class> v = ideal_vertices<mpq_class>(primitive);
+    const cases::Viewport& viewport = primitive.draw->viewport;
+    const auto snap_axis = [&](float c, float w, float origin, float extent) {
+        const int bits = limits.subpixel_bits;
+        if (const auto fast = snap_fast(c, w, origin, extent, bits); fast) {
+            return fast;
+        }
+        const auto half = mpq_class(from_float<mpq_class>(extent) / 2);
+        const auto offset = mpq_class(from_float<mpq_class>(origin) + half);
+        return snap(mpq_class(half * from_float<mpq_class>(c) / from_float<mpq_class>(w) + offset),
+                    bits);
+    };
     std::array<FixedPoint, 3> out;
     for (size_t i = 0; i < 3; ++i) {
-        if (!v.finite[i]) {
+        const glm::vec4& clip = primitive.clip[i];
+        if (!(clip.w > 0 || clip.w < 0)) {
             return std::nullopt;
         }
-        const auto x = snap(mpq_class(v.hx[i] / v.w[i]), limits.subpixel_bits);
-        const auto y = snap(mpq_class(v.hy[i] / v.w[i]), limits.subpixel_bits);
+        const auto x = snap_axis(clip.x, clip.w, viewport.x, viewport.width);
+        const auto y = snap_axis(clip.y, clip.w, viewport.y, viewport.height);
         if (!x || !y) {
             return std::nullopt;
         }
