@@ -5,6 +5,8 @@
 // words.
 #include "cli/command_line.hpp"
 
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -454,6 +456,11 @@ OrStop<RunOptions> parse_run_arguments(const std::vector<std::string>& arguments
 }
 
 int edgecase_main(int argc, const char* const* argv) {
+    // Captures and expectations are megabytes that come and go with every case; taking them from
+    // the system each time costs more than filling them.
+    constexpr int kKeep = 1 << 30;  // bytes
+    ::mallopt(M_MMAP_THRESHOLD, kKeep);
+    ::mallopt(M_TRIM_THRESHOLD, kKeep);
     const Program program = make_program(argc, argv);
     if (program.arguments.size() == 2 && program.arguments[1] == "worker") {
         return run_worker();

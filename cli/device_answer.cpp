@@ -49,7 +49,7 @@ Stop explain_death(const Death& death) {
     return stop;
 }
 
-OrStop<ReadyWorker> start_first_worker(const LoopConfig& config, SignalFd& signals) {
+OrStop<WorkerClient> start_first_worker(const LoopConfig& config) {
     const std::string& icd = config.worker.vulkan.icd_file;
     if (!icd.empty() && ::access(icd.c_str(), R_OK) != 0) {
         return tl::unexpected(Stop{
@@ -62,13 +62,17 @@ OrStop<ReadyWorker> start_first_worker(const LoopConfig& config, SignalFd& signa
     if (!client) {
         return tl::unexpected(Stop{report::kExitInternal, {client.error().message}});
     }
-    const std::optional<WorkerEvent> answer = wait_for_answer(*client, signals);
+    return std::move(*client);
+}
+
+OrStop<ReadyWorker> await_first_worker(WorkerClient client, SignalFd& signals) {
+    const std::optional<WorkerEvent> answer = wait_for_answer(client, signals);
     if (!answer) {
         return tl::unexpected(
             Stop{report::kExitInterrupted, {"interrupted before any case was run"}});
     }
     if (const auto* device = std::get_if<vk_harness::DeviceInfo>(&*answer); device != nullptr) {
-        return ReadyWorker{std::move(*client), *device};
+        return ReadyWorker{std::move(client), *device};
     }
     if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer); failure != nullptr) {
         return tl::unexpected(explain_failure(*failure));

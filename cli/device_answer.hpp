@@ -18,8 +18,10 @@ struct ReadyWorker {
     WorkerClient client;
     vk_harness::DeviceInfo device;
 };
-// Errors: no or wrong device (5), interrupted (130).
-OrStop<ReadyWorker> start_first_worker(const LoopConfig& config, SignalFd& signals);
+// Starts the first worker, which then gets its device ready while the parent does something else.
+OrStop<WorkerClient> start_first_worker(const LoopConfig& config);
+// Waits until it is ready. Errors: no or wrong device (5), interrupted (130).
+OrStop<ReadyWorker> await_first_worker(WorkerClient client, SignalFd& signals);
 
 // What a failed start looks like to the user.
 Stop explain_failure(const vk_harness::Failure& failure);

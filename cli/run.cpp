@@ -257,12 +257,7 @@ int conclude(const Prepared& p, std::FILE* console, const report::ConsoleStyle& 
     return failed && code != report::kExitInterrupted ? report::kExitInternal : code;
 }
 
-int run_prepared(const Program& program, Prepared& p) {
-    const bool resumed = !p.header.device.name.empty();
-    const RunOptions& options = p.options;
-    SignalFd signals;
-    check_pictures(p.plan);
-
+LoopConfig loop_config(const Program& program, const RunOptions& options) {
     LoopConfig config;
     config.command = worker_command(program);
     config.worker = worker_options(options.device);
@@ -273,8 +268,15 @@ int run_prepared(const Program& program, Prepared& p) {
     config.schedule.retries = options.retries;
     config.profile = options.profile;
     config.pictures = options.capture;
+    return config;
+}
 
-    OrStop<ReadyWorker> first = start_first_worker(config, signals);
+int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerClient worker,
+                 SignalFd& signals) {
+    const bool resumed = !p.header.device.name.empty();
+    const RunOptions& options = p.options;
+    check_pictures(p.plan);
+    OrStop<ReadyWorker> first = await_first_worker(std::move(worker), signals);
     if (!first) {
         return report_stop(first.error());
     }
@@ -362,12 +364,27 @@ int run_prepared(const Program& program, Prepared& p) {
 }  // namespace
 
 int run_command(const Program& program, const RunOptions& options) {
+    SignalFd signals;
+    const bool resumes = !options.resume.empty();
+    // The driver's start takes as long as reading the suite, so both are done at once. What is
+    // wrong with the suite is told first all the same.
+    std::optional<OrStop<WorkerClient>> worker;
+    if (!resumes) {
+        worker.emplace(start_first_worker(loop_config(program, options)));
+    }
     OrStop<Prepared> prepared =
-        options.resume.empty() ? prepare(program, options) : prepare_resume(program, options);
+        resumes ? prepare_resume(program, options) : prepare(program, options);
     if (!prepared) {
         return report_stop(prepared.error());
     }
-    return run_prepared(program, *prepared);
+    const LoopConfig config = loop_config(program, prepared->options);
+    if (!worker) {
+        worker.emplace(start_first_worker(config));
+    }
+    if (!*worker) {
+        return report_stop(worker->error());
+    }
+    return run_prepared(program, *prepared, config, std::move(**worker), signals);
 }
 
 }  // namespace cli

@@ -192,14 +192,16 @@ void RunLoop::feed(Slot& slot) {
         return;
     }
     std::vector<const cases::Case*> batch;
+    uint64_t bytes = 0;
     for (const size_t k : slot.batch->cases) {
         check(journal_.write_begin(cases_[k].data.id, schedule_.attempts(k)));
         batch.push_back(&cases_[k].data);
+        bytes += capture_bytes(cases_[k].data);
     }
     slot.answered.assign(batch.size(), false);
     slot.since = Clock::now();
     slot.sent = true;
-    slot.client->render(slot.batch->attempt, batch);
+    slot.client->render(slot.batch->attempt, batch, bytes);
 }
 
 void RunLoop::advance(Slot& slot) {

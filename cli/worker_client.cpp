@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <utility>
 
@@ -76,9 +77,16 @@ void WorkerClient::kill() {
     state_ = State::dead;
 }
 
-void WorkerClient::render(uint32_t attempt, const std::vector<const cases::Case*>& batch) {
+void WorkerClient::render(uint32_t attempt, const std::vector<const cases::Case*>& batch,
+                          uint64_t bytes) {
     region_ = memory_ ? memory_->take() : nullptr;
-    const Room room = region_ ? Room{region_->offset, region_->bytes.size()} : Room{};
+    Room room;
+    if (region_) {  // no more than needed: the worker unlocks and locks page by page
+        constexpr uint64_t kPage = 4096;
+        const uint64_t padded = bytes + batch.size() * 64;  // places are aligned
+        room = {region_->offset,
+                std::min<uint64_t>((padded + kPage - 1) / kPage * kPage, region_->bytes.size())};
+    }
     pending_ += encode_frame(FrameType::render, encode_request(attempt, room, batch));
     state_ = State::busy;
     deadline_ = Clock::now() + timeout_;

@@ -60,8 +60,8 @@ class WorkerClient {
 
     // True if a batch handed over now finds room for its captures.
     bool has_room() const { return memory_ == nullptr || memory_->has_free(); }
-    // Hands a batch over; the worker must be idle.
-    void render(uint32_t attempt, const std::vector<const cases::Case*>& batch);
+    // Hands a batch over whose captures take `bytes` bytes; the worker must be idle.
+    void render(uint32_t attempt, const std::vector<const cases::Case*>& batch, uint64_t bytes);
 
     // For poll(2): appends what this worker waits for.
     void add_poll(std::vector<pollfd>& fds) const;

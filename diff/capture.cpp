@@ -3,6 +3,7 @@
 #include "diff/capture.hpp"
 
 #include <cmath>
+#include <cstring>
 
 namespace diff {
 
@@ -25,6 +26,10 @@ bool is_clear(const glm::vec4& v) {
            same_bits(v.z, kClearValue) && same_bits(v.w, kClearValue);
 }
 
+bool same_bits(const glm::vec4& a, const glm::vec4& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 // A count that additive blending of ones can have reached exactly.
 bool is_count(float value) {
     return value >= 0.0F && value <= 0x1p23F && same_bits(value, std::floor(value));
@@ -32,7 +37,27 @@ bool is_count(float value) {
 
 }  // namespace
 
+namespace {
+
+// The usual clear sample, in few comparisons. False says nothing.
+bool is_all_clear(const CaptureView& capture, size_t index) {
+    static const glm::vec4 kNoHits(0, 0, kHitGuard, kHitGuard);
+    static const glm::vec4 kCleared(kClearValue);
+    bool clear = same_bits(capture.hits[index], kNoHits) && capture.writers[index] == Writer{} &&
+                 same_bits(capture.frag_coord[index], kCleared) &&
+                 same_bits(capture.depth[index], kClearDepth);
+    for (uint32_t a = 0; clear && a < capture.attribute_count; ++a) {
+        clear = same_bits(capture.attributes[a][index], kCleared);
+    }
+    return clear;
+}
+
+}  // namespace
+
 SampleState sample_state(const CaptureView& capture, size_t index) {
+    if (is_all_clear(capture, index)) {
+        return SampleState::clear;
+    }
     const glm::vec4& hits = capture.hits[index];
     const Writer& writer = capture.writers[index];
     const glm::vec4& frag_coord = capture.frag_coord[index];
