@@ -55,8 +55,11 @@ bool add_corner_triangles(const Primitive& primitive, const std::vector<PlaneInp
     std::array<std::vector<FixedPoint>, 3> choice;
     size_t count = 1;
     for (size_t i = 0; i < 3; ++i) {
+        // A vertex behind the eye has the framebuffer position of its negative, and devices snap it
+        // like any other when they set planes up from unclipped vertices.
+        const glm::vec4& clip = primitive.clip[i];
         const std::optional<Box> box =
-            position_box(primitive.clip[i], primitive.draw->viewport, limits, profile);
+            position_box(clip.w < 0 ? -clip : clip, primitive.draw->viewport, limits, profile);
         if (!box) {
             return true;
         }
@@ -329,10 +332,7 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
             set.candidates.push_back({ref::Basis::snapped, {std::move(basis)}, false, false});
         }
     }
-    if (primitive.is_projectable) {
-        set.is_known =
-            set.is_known && add_corner_triangles(primitive, inputs, limits, profile, set);
-    }
+    set.is_known = set.is_known && add_corner_triangles(primitive, inputs, limits, profile, set);
     if (primitive.needs_clipping) {
         if (profile == cases::Profile::vulkan) {
             // "a convex combination": the hull of the clipped polygon's vertices is all that the
