@@ -118,7 +118,7 @@ void choose_mode(Outline& o, int64_t step, cases::Profile profile) {
     }
     draw_together(o);
     o.mode = OutlineMode::boxes;
-    if (profile != cases::Profile::direct3d || o.count < 3) {
+    if (profile != cases::Profile::direct3d || o.count < 3 || !o.is_on_grid) {
         return;
     }
     const int64_t candidates = candidate_count(o, step);
@@ -150,17 +150,46 @@ struct Source {
     std::array<glm::vec4, 3> clip;
 };
 
+// Whether all points of an edge of the triangle have the same ideal x, or the same ideal y.
+bool is_axis_aligned(const std::array<glm::vec4, 3>& clip, EdgeLabel edge) {
+    const glm::vec4& a = clip[edge];
+    const glm::vec4& b = clip[(edge + 1U) % 3U];
+    return exact(a.x) * exact(b.w) == exact(b.x) * exact(a.w) ||
+           exact(a.y) * exact(b.w) == exact(b.y) * exact(a.w);
+}
+
+// Whether a cut vertex lies where an edge of the triangle, or a depth plane's, meets the border of
+// the viewport: a device with a guard band has no vertex there, only an edge that runs across. An
+// axis-aligned edge is snapped to the same coordinate wherever it is cut.
+bool is_crossing(const std::array<glm::vec4, 3>& clip, EdgeLabel in, EdgeLabel out) {
+    constexpr EdgeLabel kFirstDepthEdge = kFirstClipEdge + static_cast<EdgeLabel>(ClipPlane::z_low);
+    const auto is_border = [](EdgeLabel e) { return e >= kFirstClipEdge && e < kFirstDepthEdge; };
+    if (is_border(in) == is_border(out)) {
+        return false;
+    }
+    const EdgeLabel line = is_border(in) ? out : in;
+    return line >= kFirstDepthEdge || !is_axis_aligned(clip, line);
+}
+
 // False if some vertex has no box.
 bool outline_of(const std::vector<ClippedVertex>& polygon, const Source& s, Outline& out) {
     out.count = 0;
     if (polygon.size() > kMaxClippedVertices) {
         return false;
     }
-    for (const ClippedVertex& v : polygon) {
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const ClippedVertex& v = polygon[i];
+        const EdgeLabel in = polygon[(i + polygon.size() - 1) % polygon.size()].edge;
         std::optional<Box> box;
         if (v.original >= 0) {
             box = s.boxes.of(s.triangle.draw, s.triangle.vertex[static_cast<size_t>(v.original)]);
-        } else if (v.is_bounded) {
+        } else if (!v.is_bounded) {
+            return false;
+        } else if (is_crossing(s.clip, in, v.edge)) {
+            box = box_around_crossing(v.position.x, v.position.y, v.error, s.draw.viewport,
+                                      s.limits, s.profile);
+            out.is_on_grid = false;
+        } else {
             box = box_around(v.position.x, v.position.y, v.error, s.draw.viewport, s.limits,
                              s.profile);
         }

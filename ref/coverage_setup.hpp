@@ -34,6 +34,7 @@ inline constexpr int64_t kMaxCandidates = 64;
 
 struct Outline {
     OutlineMode mode = OutlineMode::empty;
+    bool is_on_grid = true;                             // every corner of the boxes is a grid point
     uint32_t count = 0;                                 // vertices, at most kMaxClippedVertices
     std::array<Box, kMaxClippedVertices> boxes{};       // in the order of the triangle
     std::array<EdgeLabel, kMaxClippedVertices> edge{};  // from vertex i to the next

@@ -158,6 +158,16 @@ void to_fixed(const mpz_class& low, const mpz_class& high, int bits, int64_t& x0
     x1 = high.get_si() * (int64_t{1} << (kFixedBits - bits));
 }
 
+// What profile vulkan adds on either side of a coordinate: about 1 part in 10^5 for each operation
+// (Vulkan, "Floating-Point Computation"), outward to S47.16.
+int64_t vulkan_slack(const mpq_class& ideal, const Axis& axis, bool is_fractional) {
+    mpq_class slack = mpq_class(1, 100000) * (2 * abs(ideal - axis.offset) + abs(ideal));
+    if (is_fractional) {
+        slack += 1;  // viewportSubPixelBits may be 0: the viewport may move by less than a pixel
+    }
+    return ceil_of(slack * power_of_two(kFixedBits)).get_si();
+}
+
 void axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& axis, bool is_fractional,
               const Limits& limits, cases::Profile profile, int64_t& x0, int64_t& x1) {
     const mpq_class scale = power_of_two(limits.subpixel_bits);
@@ -171,16 +181,31 @@ void axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& axis, 
     to_fixed(floor_of((ideal - error) * scale), ceil_of((ideal + error) * scale),
              limits.subpixel_bits, x0, x1);
     if (profile == cases::Profile::vulkan) {
-        // About 1 part in 10^5 for each operation (Vulkan, "Floating-Point Computation").
-        mpq_class slack = mpq_class(1, 100000) * (2 * abs(ideal - axis.offset) + abs(ideal));
-        if (is_fractional) {
-            slack +=
-                1;  // viewportSubPixelBits may be 0: the viewport may move by less than a pixel
-        }
-        const mpz_class units = ceil_of(slack * power_of_two(kFixedBits));
-        x0 -= units.get_si();
-        x1 += units.get_si();
+        const int64_t units = vulkan_slack(ideal, axis, is_fractional);
+        x0 -= units;
+        x1 += units;
     }
+}
+
+// The same for a point of an edge that a device may cut and snap elsewhere: all positions within
+// the snapping error, off the grid too.
+void axis_crossing(const mpq_class& ideal, const mpq_class& error, const Axis& axis,
+                   bool is_fractional, const Limits& limits, cases::Profile profile, int64_t& x0,
+                   int64_t& x1) {
+    const mpq_class units = profile == cases::Profile::direct3d ? mpq_class(3, 5) : mpq_class(1);
+    const mpq_class reach = error + units * power_of_two(-limits.subpixel_bits);
+    x0 = floor_of((ideal - reach) * power_of_two(kFixedBits)).get_si();
+    x1 = ceil_of((ideal + reach) * power_of_two(kFixedBits)).get_si();
+    if (profile == cases::Profile::vulkan) {
+        const int64_t slack = vulkan_slack(ideal, axis, is_fractional);
+        x0 -= slack;
+        x1 += slack;
+    }
+}
+
+bool is_in_range(const mpq_class& x, const mpq_class& y, const TransformError& error) {
+    const mpq_class& limit = power_of_two(32);
+    return abs(x) <= limit && abs(y) <= limit && error.x <= limit && error.y <= limit;
 }
 
 }  // namespace
@@ -222,8 +247,7 @@ TransformError transform_error(const glm::vec4& clip, const cases::Viewport& vie
 std::optional<Box> box_around(const mpq_class& x, const mpq_class& y, const TransformError& error,
                               const cases::Viewport& viewport, const Limits& limits,
                               cases::Profile profile) {
-    const mpq_class& limit = power_of_two(32);
-    if (abs(x) > limit || abs(y) > limit || error.x > limit || error.y > limit) {
+    if (!is_in_range(x, y, error)) {
         return std::nullopt;
     }
     Box box;
@@ -231,6 +255,22 @@ std::optional<Box> box_around(const mpq_class& x, const mpq_class& y, const Tran
              limits, profile, box.x0, box.x1);
     axis_box(y, error.y, axis_y(viewport), !is_integer(viewport.y) || !is_integer(viewport.height),
              limits, profile, box.y0, box.y1);
+    return box;
+}
+
+std::optional<Box> box_around_crossing(const mpq_class& x, const mpq_class& y,
+                                       const TransformError& error, const cases::Viewport& viewport,
+                                       const Limits& limits, cases::Profile profile) {
+    if (!is_in_range(x, y, error)) {
+        return std::nullopt;
+    }
+    Box box;
+    axis_crossing(x, error.x, axis_x(viewport),
+                  !is_integer(viewport.x) || !is_integer(viewport.width), limits, profile, box.x0,
+                  box.x1);
+    axis_crossing(y, error.y, axis_y(viewport),
+                  !is_integer(viewport.y) || !is_integer(viewport.height), limits, profile, box.y0,
+                  box.y1);
     return box;
 }
 

@@ -26,8 +26,16 @@ std::optional<Box> box_around(const mpq_class& x, const mpq_class& y, const Tran
                               const cases::Viewport& viewport, const Limits& limits,
                               cases::Profile profile);
 
-// position_box by rationals alone, for a projectable vertex; position_box takes it where binary64
-// cannot tell.
+// All positions where an edge may cross the border, if (x,y) is where the ideal edge does. A device
+// with a guard band cuts the edge farther out and snaps it there. Its edge is off the ideal one by
+// at most the snapping error of either end: less than one subpixel unit, 0.6 at profile direct3d;
+// so the crossing need not be near a grid point. Contains box_around of the same point.
+std::optional<Box> box_around_crossing(const mpq_class& x, const mpq_class& y,
+                                       const TransformError& error, const cases::Viewport& viewport,
+                                       const Limits& limits, cases::Profile profile);
+
+// position_box by rationals alone, for a projectable vertex; position_box
+// takes it where binary64 cannot tell.
 std::optional<Box> exact_position_box(const glm::vec4& clip, const cases::Viewport& viewport,
                                       const Limits& limits, cases::Profile profile);
 

@@ -70,7 +70,7 @@ std::vector<ExpectedCatch> expected_catches() {
          {"attributes/off-grid", "coverage/subpixel-slope", "mesh/grid-fine"}},
         {Fault::floor_snapping,
          Profile::direct3d,
-         {"snap/two-thirds-of-a-subpixel", "attributes/random", "clip/one-behind"}},
+         {"snap/two-thirds-of-a-subpixel", "attributes/random"}},
         {Fault::coarse_snapping,
          Profile::vulkan,
          {"coverage/off-by-one-subpixel", "ties/smallest-square", "attributes/off-grid"}},

@@ -19,16 +19,6 @@ const cases::Suite& suite() {
     return loaded;
 }
 
-// Where the reference holds a legal device to more than the specification does. Two samples lie
-// exactly on an edge towards a vertex behind the eye; the reference takes that edge's end as cut at
-// the viewport's border and then snapped, and decides them. A guard band cuts it elsewhere, so
-// that either answer is right.
-bool is_disputed(const Device& device, const diff::Verdict& verdict, const cases::Case& c) {
-    return device.clip == ClipMethod::guard_band && is_named(c, "clip/one-behind") &&
-           verdict.error.empty() && verdict.level == cases::Profile::direct3d &&
-           verdict.findings.size() <= 2;
-}
-
 // One line for each case of the suite whose verdict `is_wrong`.
 template <class Wrong>
 std::vector<std::string> wrong_cases(const Device& device, cases::Profile profile,
@@ -38,7 +28,7 @@ std::vector<std::string> wrong_cases(const Device& device, cases::Profile profil
     for_each_parallel(suite().cases.size(), [&](size_t k) {
         const cases::Case& c = suite().cases[k];
         const diff::Verdict verdict = judge(c, device, profile);
-        if (is_wrong(verdict) && !is_disputed(device, verdict, c)) {
+        if (is_wrong(verdict)) {
             const std::lock_guard lock(mutex);
             lines.push_back(describe(c, verdict));
         }

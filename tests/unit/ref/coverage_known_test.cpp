@@ -246,5 +246,40 @@ TEST(CoverageKnown, NegativeHeightMirrors) {
     EXPECT_EQ(column, 15U);
 }
 
+// The edge to the vertex behind the eye runs exactly through two samples. A device with a guard
+// band cuts it beyond the border and snaps it there, one without at the border: either may be
+// covered.
+TEST(CoverageKnown, AGuardBandDecidesWhereAnEdgeIsSnapped) {
+    cases::Case c = blank(64, 64);
+    cases::Draw d = whole(c);
+    d.positions = {{-0.5F, -0.5F, 0.5F, 1}, {0.5F, -0.5F, 0.5F, 1}, {0, -0.5F, -0.0625F, -0.125F}};
+    c.draws.push_back(d);
+    for (const cases::Profile profile : cases::kProfiles) {
+        const Expectation e = expect(c, {8}, profile);
+        for (const uint32_t i : {14U, 49U}) {
+            EXPECT_EQ(hits_at(e, i, 2).total_min, 0U) << i;
+            EXPECT_EQ(hits_at(e, i, 2).total_max, 1U) << i;
+        }
+        EXPECT_EQ(hits_at(e, 32, 2).total_min, 1U);
+        EXPECT_EQ(hits_at(e, 32, 40).total_max, 0U);
+    }
+}
+
+// An edge along an axis is snapped to the same coordinate wherever it is cut: the top-left rule
+// decides the samples on it.
+TEST(CoverageKnown, AnAxisAlignedEdgeIsTheSameForEveryGuardBand) {
+    cases::Case c = blank(64, 64);
+    cases::Draw d = whole(c);
+    // y = 8.5 is the top edge; the others lie outside.
+    const float top = -0.734375F;
+    d.positions = {{-8, top, 0.5F, 1}, {8, top, 0.5F, 1}, {0, 4, 0.5F, 1}};
+    c.draws.push_back(d);
+    const Expectation e = direct3d(c);
+    for (uint32_t i = 0; i < 64; ++i) {
+        EXPECT_EQ(hits_at(e, i, 8).total_min, 1U) << i;
+        EXPECT_EQ(hits_at(e, i, 7).total_max, 0U) << i;
+    }
+}
+
 }  // namespace
 }  // namespace ref::test
