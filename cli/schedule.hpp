@@ -31,7 +31,7 @@ class Schedule {
   public:
     struct Options {
         size_t batch = 16;                          // cases at most
-        uint64_t batch_bytes = uint64_t{64} << 20;  // of captures, a case alone may be larger
+        uint64_t batch_bytes = uint64_t{8} << 20;   // of captures, a case alone may be larger
         uint32_t repeat = 1;                        // renderings of each case
         uint32_t retries = 1;                       // more renderings of an unexpected failure
     };
