@@ -150,6 +150,13 @@ struct Source {
     std::array<glm::vec4, 3> clip;
 };
 
+// As for a vertex of the triangle (ref/position.hpp). x, y and z of a vertex of the view volume are
+// at most w.
+bool is_in_guaranteed_range(const ClippedVertex& v, cases::Profile profile) {
+    constexpr int64_t kLargest = int64_t{1} << 32;
+    return profile != cases::Profile::vulkan || v.position.inv_w <= kLargest;
+}
+
 // Whether all points of an edge of the triangle have the same ideal x, or the same ideal y.
 bool is_axis_aligned(const std::array<glm::vec4, 3>& clip, EdgeLabel edge) {
     const glm::vec4& a = clip[edge];
@@ -183,7 +190,7 @@ bool outline_of(const std::vector<ClippedVertex>& polygon, const Source& s, Outl
         std::optional<Box> box;
         if (v.original >= 0) {
             box = s.boxes.of(s.triangle.draw, s.triangle.vertex[static_cast<size_t>(v.original)]);
-        } else if (!v.is_bounded) {
+        } else if (!v.is_bounded || !is_in_guaranteed_range(v, s.profile)) {
             return false;
         } else if (is_crossing(s.clip, in, v.edge)) {
             box = box_around_crossing(v.position.x, v.position.y, v.error, s.draw.viewport,
@@ -329,8 +336,12 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
         choose_mode(t.unclipped, t.grid_step, profile);
         signs |= signs_of(t.unclipped, t.grid_step);
     }
-    bool is_defined = t.has_outline || t.is_clipped;
-    if (t.is_clipped) {
+    // A vertex beyond the range takes what is cut from its edges with it.
+    const bool is_in_range = std::all_of(s.clip.begin(), s.clip.end(), [&](const glm::vec4& v) {
+        return is_in_guaranteed_range(v, profile);
+    });
+    bool is_defined = is_in_range && (t.has_outline || t.is_clipped);
+    if (t.is_clipped && is_in_range) {
         is_defined = outline_of(clip_triangle(s.clip, draw.viewport, profile), s, t.clipped);
         const bool is_fractional = t.window.zone_x.low != t.window.core_x.low ||
                                    t.window.zone_y.low != t.window.core_y.low;

@@ -233,6 +233,17 @@ bool is_projectable(const glm::vec4& clip) {
            std::isfinite(clip.w) && clip.w > 0;
 }
 
+bool is_in_guaranteed_range(const glm::vec4& clip, cases::Profile profile) {
+    // |c| <= 2^32 |w|; a binary64 holds the product exactly.
+    const double bound = 0x1p32 * std::abs(static_cast<double>(clip.w));
+    if (profile != cases::Profile::vulkan || !(bound > 0)) {
+        return true;
+    }
+    return bound >= 1 && std::abs(static_cast<double>(clip.x)) <= bound &&
+           std::abs(static_cast<double>(clip.y)) <= bound &&
+           std::abs(static_cast<double>(clip.z)) <= bound;
+}
+
 TransformError transform_error(const glm::vec4& clip, const cases::Viewport& viewport) {
     TransformError error;  // zero
     if (!is_exact_in_binary32(clip.x, clip.w, viewport.x, viewport.width)) {
@@ -278,6 +289,9 @@ std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& vi
                                 const Limits& limits, cases::Profile profile) {
     // A subnormal w may be flushed to zero, and 1/w then is anything.
     if (!is_projectable(clip) || clip.w < 0x1p-126F) {
+        return std::nullopt;
+    }
+    if (!is_in_guaranteed_range(clip, profile)) {
         return std::nullopt;
     }
     const auto x = filtered_range(clip.x, clip.w, viewport.x, viewport.width, limits, profile);

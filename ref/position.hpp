@@ -29,6 +29,12 @@ IdealPosition ideal_position(const glm::vec4& clip, const cases::Viewport& viewp
 // True if every component is finite and w > 0.
 bool is_projectable(const glm::vec4& clip);
 
+// False if the vertex is no longer one of which the profile can ask something: Vulkan guarantees a
+// largest magnitude of 2^32 only ("Floating-Point Computation": "at least 2^32"), so at profile
+// vulkan 1/w, x/w, y/w and z/w must stay within it. A vertex with w = 0 has no quotients and is
+// left to clipping. Other profiles have the range of binary32. Finite components.
+bool is_in_guaranteed_range(const glm::vec4& clip, cases::Profile profile);
+
 // Bound on |computed - ideal| of x_f and y_f in pixels for a binary32 evaluation of divide and
 // viewport transform; 0 if every step is exact in binary32. The derivation stands in position.cpp.
 struct TransformError {
@@ -50,8 +56,8 @@ struct Box {
 //             position;
 //   practice  floor..ceil of the ideal position (widened by the transform error) on the subpixel
 //   grid; vulkan    practice, widened by 1e-5 (2 |p/2 x_d| + |x_f|), outward to 2^-16.
-// Nothing if a coordinate's magnitude exceeds 2^32 pixels (outside the range that Vulkan
-// guarantees).
+// Nothing if a coordinate's magnitude exceeds 2^32 pixels, or the vertex is beyond the range that
+// the profile guarantees (is_in_guaranteed_range).
 std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& viewport,
                                 const Limits& limits, cases::Profile profile);
 

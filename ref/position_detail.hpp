@@ -34,7 +34,7 @@ std::optional<Box> box_around_crossing(const mpq_class& x, const mpq_class& y,
                                        const TransformError& error, const cases::Viewport& viewport,
                                        const Limits& limits, cases::Profile profile);
 
-// position_box by rationals alone, for a projectable vertex; position_box
+// position_box by rationals alone, for a projectable vertex in the guaranteed range; position_box
 // takes it where binary64 cannot tell.
 std::optional<Box> exact_position_box(const glm::vec4& clip, const cases::Viewport& viewport,
                                       const Limits& limits, cases::Profile profile);

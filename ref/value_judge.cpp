@@ -10,8 +10,11 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <numeric>
 #include <optional>
 
+#include "ref/clip.hpp"
+#include "ref/position.hpp"
 #include "ref/sample.hpp"
 #include "ref/value.hpp"
 #include "ref/value_filter.hpp"
@@ -62,7 +65,42 @@ struct Loaded {
     value::Primitive primitive;
     value::Filter unsnapped, snapped;
     bool has_snapped = false;  // and it differs from the unsnapped one
+    // By quantity: not asked at profile vulkan. Filled when first asked for.
+    std::optional<std::vector<bool>> beyond;
 };
+
+// Vulkan guarantees magnitudes up to 2^32 only ("Floating-Point Computation").
+constexpr double kGuaranteed = 0x1p32;
+
+// Whether 1/w or a quotient by w of a vertex that a device may use is beyond it.
+bool is_position_beyond(const value::Primitive& primitive) {
+    if (!std::all_of(primitive.clip.begin(), primitive.clip.end(), [](const glm::vec4& v) {
+            return is_in_guaranteed_range(v, Profile::vulkan);
+        })) {
+        return true;
+    }
+    if (!primitive.needs_clipping) {
+        return false;
+    }
+    const auto polygon = clip_triangle(primitive.clip, primitive.draw->viewport, Profile::vulkan);
+    return std::any_of(polygon.begin(), polygon.end(), [](const ClippedVertex& v) {
+        return v.clip[3] * mpq_class(kGuaranteed) < 1;
+    });
+}
+
+// Whether an attribute f, or f/w if the quantity is a quotient, is beyond it.
+bool is_attribute_beyond(const value::Primitive& primitive, const Quantity& q) {
+    const auto values =
+        value::attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+    for (size_t i = 0; i < 3; ++i) {
+        const double f = std::fabs(static_cast<double>(values[i]));
+        const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
+        if (f > kGuaranteed || (q.kind == Kind::perspective && w > 0 && f > kGuaranteed * w)) {
+            return true;
+        }
+    }
+    return false;
+}
 
 std::string bits_of(float f) {
     return fmt::format("{:.9g} (0x{:08x})", f, std::bit_cast<uint32_t>(f));
@@ -152,8 +190,41 @@ struct ValueReference::Impl {
         return std::fabs(a.v - b.v) > 0 || a.e > std::fabs(a.v) * 0x1p-40;
     }
 
+    // Not asked at profile vulkan, by quantity.
+    const std::vector<bool>& beyond(uint32_t t) {
+        Loaded& triangle = load(t);
+        if (!triangle.beyond) {
+            const bool is_everything = is_position_beyond(triangle.primitive);
+            triangle.beyond.emplace();
+            for (const Quantity& q : quantities_of(t)) {
+                const bool is_quotient = q.kind == Kind::linear || q.kind == Kind::perspective;
+                triangle.beyond->push_back(
+                    is_quotient && (is_everything || (q.attribute >= 0 &&
+                                                      is_attribute_beyond(triangle.primitive, q))));
+            }
+        }
+        return *triangle.beyond;
+    }
+
+    // Those of `only` (empty: of all) that the profile asks for.
+    std::vector<size_t> asked(uint32_t t, Profile at, std::span<const size_t> only) {
+        std::vector<size_t> out(only.begin(), only.end());
+        if (only.empty()) {
+            out.resize(quantities_of(t).size());
+            std::iota(out.begin(), out.end(), size_t{0});
+        }
+        if (at == Profile::vulkan) {
+            std::erase_if(out, [&](size_t index) { return beyond(t)[index]; });
+        }
+        return out;
+    }
+
     value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at,
-                            std::span<const size_t> only = {}) {
+                            std::span<const size_t> among = {}) {
+        const std::vector<size_t> only = asked(t, at, among);
+        if (only.empty()) {
+            return {true, true, ref::Basis::unsnapped, 0, {}, {}};
+        }
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
         const value::WideSet<Ball>& set =
@@ -175,12 +246,16 @@ struct ValueReference::Impl {
     // The oracle: rationals only, no filter.
     value::WideVerdict wide_exact(uint32_t t, SampleId id, const FragmentValues& device,
                                   Profile at) {
+        const std::vector<size_t> only = asked(t, at, {});
+        if (only.empty()) {
+            return {true, true, ref::Basis::unsnapped, 0, {}, {}};
+        }
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(id, c.target.samples, at), device, {});
+                          value::evaluations<mpq_class>(id, c.target.samples, at), device, only);
     }
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
@@ -297,7 +372,7 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
         if (!std::isfinite(got)) {
             m.rule = "interp.hull";
-            m.level = Profile::vulkan;
+            m.level = beyond(t)[index] ? m.level : Profile::vulkan;
         } else if (g < low || g > high) {
             m.rule = "interp.hull";
         }

@@ -281,5 +281,26 @@ TEST(CoverageKnown, AnAxisAlignedEdgeIsTheSameForEveryGuardBand) {
     }
 }
 
+// 1/w = 2^50 is more than Vulkan guarantees: at profile vulkan every sample of the viewport is left
+// open, whether the triangle is cut or not.
+TEST(CoverageKnown, LiteralVulkanAsksNothingOfTinyW) {
+    for (const float left : {-2.25F, -0.75F}) {
+        cases::Case c = blank(32, 32);
+        cases::Draw d = whole(c);
+        d.viewport.width = 16;
+        d.positions = {
+            {left, 0.125F, 0.5F, 1}, {0.625F, -0.75F, 0.5F, 1}, {0.5F, 0.8125F, 0.5F, 1}};
+        for (glm::vec4& p : d.positions) {
+            p *= 0x1p-50F;
+        }
+        c.draws.push_back(d);
+        const Expectation literal = expect(c, {8}, cases::Profile::vulkan);
+        EXPECT_EQ(literal.must_samples, 0U);
+        EXPECT_EQ(literal.either_samples, 16U * 32U);
+        EXPECT_GT(expect(c, {8}, cases::Profile::practice).must_samples, 100U);
+        EXPECT_GT(expect(c, {8}, cases::Profile::direct3d).must_samples, 100U);
+    }
+}
+
 }  // namespace
 }  // namespace ref::test

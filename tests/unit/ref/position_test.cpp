@@ -240,6 +240,22 @@ TEST(Position, NothingOutsideTheGuaranteedRange) {
     }
 }
 
+// Vulkan guarantees magnitudes up to 2^32: 1/w, x/w, y/w and z/w have to stay within it.
+TEST(Position, LiteralVulkanAsksNothingBeyondTwoToThe32) {
+    const Limits limits;
+    const auto has_box = [&](const glm::vec4& clip, Profile profile) {
+        return position_box(clip, kSquare, limits, profile).has_value();
+    };
+    EXPECT_TRUE(has_box({0, 0, 0, 0x1p-32F}, Profile::vulkan));
+    EXPECT_FALSE(has_box({0, 0, 0, 0x1.fffffep-33F}, Profile::vulkan));
+    EXPECT_TRUE(has_box({0, 0, 0x1p32F, 1}, Profile::vulkan));
+    EXPECT_FALSE(has_box({0, 0, -0x1.000002p32F, 1}, Profile::vulkan));
+    for (const Profile profile : {Profile::practice, Profile::direct3d}) {
+        EXPECT_TRUE(has_box({0, 0, 0, 0x1p-50F}, profile));
+        EXPECT_TRUE(has_box({0, 0, -0x1.000002p32F, 1}, profile));
+    }
+}
+
 TEST(Position, FractionalViewportMovesInLiteralVulkan) {
     const cases::Viewport v{0.5F, 0, 64, 64, 0, 1};
     const Box b = *position_box({0, 0, 0, 1}, v, {8}, Profile::vulkan);

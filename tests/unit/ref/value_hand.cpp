@@ -244,6 +244,37 @@ TEST(ValueHand, NonFiniteTriangleIsNotJudged) {
     EXPECT_TRUE(reference.expected(0, {3, 0, 0}).empty());
 }
 
+// 1/w = 2^50, or f/w = 2^40, is more than Vulkan guarantees: wrong at practice, not at vulkan. What
+// stays within 2^32 is asked as ever.
+TEST(ValueHand, BeyondTwoToThe32IsLeftToPractice) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const auto judged = [](float w, float f, Profile profile, const auto& spoil) {
+        cases::Case c = make_case(64, {clip_of(4, 4, 0.5, static_cast<double>(w), 64),
+                                       clip_of(60, 4, 0.5, static_cast<double>(w), 64),
+                                       clip_of(4, 60, 0.5, static_cast<double>(w), 64)});
+        add_attribute(c, Interpolation::smooth, 1, {glm::vec4(f), glm::vec4(f), glm::vec4(f)});
+        auto reference = reference_of(c, profile);
+        ref::FragmentValues values = rounded(reference.expected(0, {10, 10, 0}));
+        EXPECT_TRUE(reference.judge(0, {10, 10, 0}, values).ok);
+        spoil(values);
+        ref::FragmentVerdict verdict = reference.judge(0, {10, 10, 0}, values);
+        EXPECT_EQ(verdict.ok, reference.judge_exact(0, {10, 10, 0}, values).ok);
+        return verdict;
+    };
+    const auto no_w = [&](ref::FragmentValues& v) { v.frag_coord.w = -kInfinity; };
+    const auto no_attribute = [&](ref::FragmentValues& v) { v.attributes[0].x = kInfinity; };
+    const auto level = [](const ref::FragmentVerdict& v) {
+        return v.mismatches.size() == 1 ? v.mismatches[0].level : Profile::direct3d;
+    };
+    EXPECT_TRUE(judged(0x1p-50F, 1, Profile::vulkan, no_w).ok);
+    EXPECT_EQ(level(judged(0x1p-50F, 1, Profile::practice, no_w)), Profile::practice);
+    EXPECT_EQ(level(judged(0x1p-50F, 1, Profile::direct3d, no_w)), Profile::practice);
+    EXPECT_EQ(level(judged(0x1p-30F, 1, Profile::direct3d, no_w)), Profile::vulkan);
+    EXPECT_TRUE(judged(0x1p-30F, 1024, Profile::vulkan, no_attribute).ok);
+    EXPECT_FALSE(judged(0x1p-30F, 1024, Profile::vulkan, no_w).ok);
+    EXPECT_EQ(level(judged(0x1p-30F, 1024, Profile::direct3d, no_attribute)), Profile::practice);
+}
+
 TEST(ValueHand, TriangleWithoutAreaClaimsTheHullOnly) {
     cases::Case c = make_case(
         8, {clip_of(1, 1, 0.5, 1, 8), clip_of(2, 2, 0.5, 1, 8), clip_of(4, 4, 0.5, 1, 8)});
