@@ -166,9 +166,10 @@ std::string console_summary(const Run& run, const std::string& report_path,
     }
     text += fmt::format("   {}   seed {}\n", seconds_text(run.seconds), run.seed);
     if (const CaseRecord* worst = worst_case(run)) {
-        text += fmt::format("largest error {} budgets{}{} in {}\n", ratio_text(worst->worst_ratio),
-                            worst->worst_quantity.empty() ? "" : ", ",
-                            printable(worst->worst_quantity), printable(worst->id));
+        text +=
+            fmt::format("largest accepted error {} budgets{}{} in {}\n",
+                        ratio_text(worst->worst_ratio), worst->worst_quantity.empty() ? "" : ", ",
+                        printable(worst->worst_quantity), printable(worst->id));
     }
     const std::string exit = exit_text(exit_code(run));
     text += report_path.empty() ? exit + '\n'

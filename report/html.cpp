@@ -234,7 +234,7 @@ std::string header(const Run& run) {
     text += fact("profile", fmt::format("{} (a finding at this level: {})",
                                         cases::to_string(run.profile), meaning(run.profile)));
     if (const CaseRecord* worst = worst_case(run)) {
-        text += fact("largest error",
+        text += fact("largest accepted error",
                      fmt::format("{} budgets, {}", ratio_text(worst->worst_ratio), worst->id));
     }
     text += fact("edgecase", run.tool_version);

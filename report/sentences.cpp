@@ -200,7 +200,8 @@ std::string exit_text(int code) {
 const CaseRecord* worst_case(const Run& run) {
     const CaseRecord* worst = nullptr;
     for (const CaseRecord& record : run.cases) {
-        if (record.compared_values > 0 &&
+        const bool is_clean = record.counts == decltype(record.counts){};
+        if (is_clean && record.compared_values > 0 &&
             (worst == nullptr || record.worst_ratio > worst->worst_ratio)) {
             worst = &record;
         }

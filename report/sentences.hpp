@@ -32,7 +32,8 @@ std::string why_it_happened(const CaseRecord& record);
 // "exit 1: unexpected results"
 std::string exit_text(int code);
 
-// The largest error of the run in budgets, and the case that has it; null if nothing was compared.
+// The case with the largest accepted error in budgets (what findings are off by stands with them);
+// null if no case without a finding compared a value.
 const CaseRecord* worst_case(const Run& run);
 
 }  // namespace report

@@ -165,7 +165,7 @@ function facts(record) {
   fact("signal", record.signal);
   fact("last step", record.step);
   fact("compared", record.compared);
-  fact("largest error", record.worst);
+  fact("largest accepted error", record.worst);
   fact("time", record.time + (record.attempts > 1 ? ", " + record.attempts + " attempts" : ""));
   return list;
 }
