@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run_loop.hpp"
 
-#include <signal.h>
-#include <sys/signalfd.h>
-#include <unistd.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <memory>
@@ -21,15 +19,6 @@ namespace {
 constexpr uint64_t kMaxJudgingBytes = uint64_t{512} << 20;
 constexpr uint32_t kMaxStartFailures = 3;
 constexpr int kProgressMs = 200;
-
-sigset_t run_signals() {
-    sigset_t set;
-    ::sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        ::sigaddset(&set, signal);
-    }
-    return set;
-}
 
 std::vector<uint64_t> all_bytes(const std::vector<PlannedCase>& cases) {
     std::vector<uint64_t> bytes;
@@ -49,41 +38,6 @@ Status death_status(const Death& death) {
 }
 
 }  // namespace
-
-SignalFd::SignalFd() {
-    const sigset_t set = run_signals();
-    ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
-    fd_ = Fd(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
-    ::signal(SIGPIPE, SIG_IGN);
-}
-
-SignalFd::~SignalFd() {
-    const sigset_t set = run_signals();
-    ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
-}
-
-bool SignalFd::has_come() {
-    signalfd_siginfo info{};
-    while (::read(fd_.get(), &info, sizeof info) == static_cast<ssize_t>(sizeof info)) {
-        come_ = true;
-    }
-    return come_;
-}
-
-std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals) {
-    for (;;) {
-        std::vector<pollfd> fds{{signals.fd(), POLLIN, 0}};
-        client.add_poll(fds);
-        ::poll(fds.data(), fds.size(), kProgressMs);
-        if (signals.has_come()) {
-            client.kill();
-            return std::nullopt;
-        }
-        for (WorkerEvent& event : client.advance()) {
-            return std::move(event);
-        }
-    }
-}
 
 RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal& journal,
                  SignalFd& signals, OnRecord on_record, OnProgress on_progress)

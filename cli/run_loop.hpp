@@ -16,6 +16,7 @@
 #include "cli/expectation_file.hpp"
 #include "cli/judge.hpp"
 #include "cli/schedule.hpp"
+#include "cli/signal_fd.hpp"
 #include "cli/worker_client.hpp"
 #include "report/journal.hpp"
 #include "report/run.hpp"
@@ -30,26 +31,6 @@ struct PlannedCase {
     bool alone = false;          // was in flight when an earlier run was cut off
     std::string rerun, explain;  // command lines without --pixel
 };
-
-// Delivered signals as a descriptor. Signals are blocked while it lives, so construct it before any
-// thread.
-class SignalFd {
-  public:
-    SignalFd();
-    ~SignalFd();
-    SignalFd(const SignalFd&) = delete;
-    SignalFd& operator=(const SignalFd&) = delete;
-    int fd() const { return fd_.get(); }
-    // True once SIGINT, SIGTERM or SIGHUP has come.
-    bool has_come();
-
-  private:
-    Fd fd_;
-    bool come_ = false;
-};
-
-// Waits until a starting worker has said what it is. Nothing if a signal came.
-std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals);
 
 struct LoopConfig {
     std::vector<std::string> command;  // starts a worker

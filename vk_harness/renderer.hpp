@@ -50,7 +50,7 @@ class BatchRenderer {
     // As Renderer::render, or render_bare if not `read_back`.
     std::vector<Rendered> render(std::span<const cases::Case> batch, bool read_back,
                                  const std::function<void(std::string_view)>& step,
-                                 const PlaneStore& store);
+                                 const PlaneStore& store = {});
 
     const Device& device() const { return *device_; }
 

@@ -46,9 +46,12 @@ Result<Submission> Submission::create(const Device& device) {
 Result<Buffer*> Submission::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage,
                                  HostAccess access) {
     if (buffer.size() < size) {
-        constexpr VkDeviceSize kSmallest = 1U << 16;  // saves growing step by step
-        buffer = Buffer();                            // frees the old one first
-        auto bigger = Buffer::create(*device_, std::max(size, kSmallest), usage, access);
+        constexpr VkDeviceSize kSmallest = 1U << 16;
+        constexpr VkDeviceSize kLargestStep = 1U << 26;
+        // Memory is taken where it is written to; growing step by step would take it again.
+        const VkDeviceSize enough = std::clamp(2 * buffer.size(), kSmallest, kLargestStep);
+        buffer = Buffer();  // frees the old one first
+        auto bigger = Buffer::create(*device_, std::max(size, enough), usage, access);
         if (!bigger) {
             return fail(bigger.error());
         }

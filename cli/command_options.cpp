@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/command_options.hpp"
+
+#include <charconv>
+#include <map>
+
+#include "cases/selector.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  edgecase run                                   the whole suite on the first device\n"
+    "  edgecase run 'coverage/**' -o out/mine         one family, reports in out/mine\n"
+    "  edgecase run my-case.toml --device llvmpipe    a file of your own on a chosen device\n"
+    "  edgecase explain 'ties/diagonal' --pixel 3,4   why a sample must be covered\n"
+    "  edgecase doctor                                what is installed, what is missing\n"
+    "\n"
+    "Selectors: globs on ids ('*' within a part, '**' across), '@rule:PATTERN', a case file or "
+    "folder,\n"
+    "  '-' for ids on standard input, '!' in front excludes. Without any, the whole suite.\n"
+    "\n"
+    "Exit codes:\n"
+    "    0  every selected case ended as expected\n"
+    "    1  an unexpected result: fail, crash, timeout, device lost, flake, xpass, improved, "
+    "error\n"
+    "    2  wrong use of the command line\n"
+    "    3  an invalid case, suite, expectation file or journal\n"
+    "    4  no case is selected\n"
+    "    5  no device, or not the demanded one\n"
+    "    6  everything was skipped or unsupported\n"
+    "    7  internal error, or cases were not run or could not be judged\n"
+    "  130  interrupted; the reports hold what was done\n";
+
+const std::map<std::string, cases::Profile> kProfileNames = {
+    {"vulkan", cases::Profile::vulkan},
+    {"practice", cases::Profile::practice},
+    {"direct3d", cases::Profile::direct3d}};
+const std::map<std::string, When> kWhenNames = {
+    {"auto", When::automatic}, {"always", When::always}, {"never", When::never}};
+const std::map<std::string, ProgressStyle> kProgressNames = {{"auto", ProgressStyle::automatic},
+                                                             {"plain", ProgressStyle::plain},
+                                                             {"none", ProgressStyle::none}};
+const std::map<std::string, KeepPictures> kCaptureNames = {
+    {"failed", KeepPictures::failed}, {"all", KeepPictures::all}, {"none", KeepPictures::none}};
+
+// An option whose value is one of a few words.
+template <class T>
+CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
+                        const std::map<std::string, T>& names, const std::string& what) {
+    std::vector<std::string> words;
+    for (const auto& [word, value] : names) {
+        words.push_back(word);
+    }
+    const auto parse = [&target, &names, words, name](const CLI::results_t& results) {
+        const auto found = names.find(results.back());
+        if (found == names.end()) {
+            const std::string nearest = cases::nearest_name(results.back(), words);
+            std::string all;
+            for (const std::string& word : words) {
+                all += (all.empty() ? "" : ", ") + word;
+            }
+            throw CLI::ValidationError(
+                name, "'" + results.back() + "' is none of " + all +
+                          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+        }
+        target = found->second;
+        return true;
+    };
+    std::string shown;
+    std::string initial;
+    for (const auto& [word, value] : names) {
+        shown += (shown.empty() ? "" : "|") + word;
+        if (value == target) {
+            initial = word;
+        }
+    }
+    return app->add_option(name, parse, what + " [" + initial + "]")->type_name(shown);
+}
+
+bool parse_number(std::string_view text, uint32_t& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+// "A<separator>B"
+bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& b) {
+    const size_t at = text.find(separator);
+    return at != std::string::npos && parse_number(std::string_view(text).substr(0, at), a) &&
+           parse_number(std::string_view(text).substr(at + 1), b);
+}
+
+void add_suite(CLI::App* app, SuiteOptions& o) {
+    app->add_option("SELECTOR", o.selectors, "which cases; all without one")->type_name("");
+    app->add_option("--suite", o.suite, "the folder of the suite (EDGECASE_SUITE)")
+        ->type_name("DIR")
+        ->group("Selection");
+}
+
+void add_profile(CLI::App* app, cases::Profile& profile) {
+    add_choice(app, "--profile", profile, kProfileNames, "what the device is held to")
+        ->envname("EDGECASE_PROFILE")
+        ->group("Judging");
+}
+
+void add_subpixel_bits(CLI::App* app, uint32_t& bits) {
+    app->add_option("--subpixel-bits", bits, "subpixel precision bits of the device [8]")
+        ->type_name("N")
+        ->check(CLI::Range(4, 16))
+        ->group("Judging");
+}
+
+void add_device(CLI::App* app, DeviceOptions& o) {
+    app->add_option("--device", o.device, "a part of its name, its index or its UUID")
+        ->type_name("DEVICE")
+        ->envname("EDGECASE_DEVICE")
+        ->group("Device");
+    app->add_option("--icd", o.icd, "the driver's manifest file, and no other driver")
+        ->type_name("FILE")
+        ->envname("EDGECASE_ICD")
+        ->group("Device");
+    app->add_option("--timeout", o.timeout, "seconds without a sign of life that end a worker [30]")
+        ->type_name("SECONDS")
+        ->envname("EDGECASE_TIMEOUT")
+        ->check(CLI::Range(0.01, 86400.0))
+        ->group("Isolation");
+    app->add_option(
+           "--renderer",
+           [&o](const CLI::results_t& results) {
+               o.reference = results.back() == "reference";
+               return o.reference || results.back() == "vulkan";
+           },
+           "")
+        ->group("");  // hidden: tests of the runner draw with the reference
+}
+
+void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color) {
+    app->add_flag("-q,--quiet", quiet, "only unexpected results")->group("Output");
+    app->add_flag("-v,--verbose", verbose, "add a picture of each unexpected case")
+        ->group("Output");
+    add_choice(app, "--color", color, kWhenNames, "colours")->group("Output");
+}
+
+void add_report_files(CLI::App* app, std::string& json, std::string& junit, std::string& html) {
+    for (const auto& [name, target] :
+         {std::pair{"--json", &json}, std::pair{"--junit", &junit}, std::pair{"--html", &html}}) {
+        app->add_option(name, *target, "write this report also to FILE ('-': standard output)")
+            ->type_name("FILE")
+            ->group("Output");
+    }
+}
+
+void define_run(CLI::App& app, RunOptions& o) {
+    CLI::App* run =
+        app.add_subcommand("run", "draw cases on a device and compare with the exact reference");
+    run->footer(kFooter);
+    add_suite(run, o.suite);
+    run->add_option("--failed-in", o.failed_in,
+                    "only the cases that ended unexpectedly in an earlier run")
+        ->type_name("DIR")
+        ->group("Selection");
+    run->add_option(
+           "--shard",
+           [&o](const CLI::results_t& results) {
+               Shard& s = o.shard;
+               return parse_pair(results.back(), '/', s.index, s.count) && s.index >= 1 &&
+                      s.index <= s.count;
+           },
+           "the I-th of N parts, by a hash of the id")
+        ->type_name("I/N")
+        ->group("Selection");
+    run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
+        ->group("Selection");
+    run->add_option("--seed", o.seed, "seed of --shuffle [1]")->type_name("N")->group("Selection");
+    run->add_option("--repeat", o.repeat, "draw each case N times; other bits make a flake [1]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000))
+        ->group("Selection");
+    add_device(run, o.device);
+    run->add_option("--require-device", o.require_device,
+                    "stop unless the device's name and driver match this regular expression")
+        ->type_name("REGEX")
+        ->group("Device");
+    run->add_flag("--validation", o.device.validation, "with the Khronos validation layer")
+        ->group("Device");
+    add_profile(run, o.profile);
+    run->add_option("--expect", o.expect, "an expectation file, instead of those beside the suite")
+        ->type_name("FILE")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group("Judging");
+    run->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
+    run->add_option("-j,--jobs", o.jobs, "workers [1]")
+        ->type_name("N")
+        ->envname("EDGECASE_JOBS")
+        ->check(CLI::Range(1, 256))
+        ->group("Isolation");
+    run->add_option("--batch", o.batch, "cases in one submission, at most [16]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024))
+        ->group("Isolation");
+    run->add_option("--retries", o.retries,
+                    "how often an unexpected failure is drawn again, alone [1]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1000))
+        ->group("Isolation");
+    run->add_option("--resume", o.resume, "go on with an interrupted run")
+        ->type_name("DIR")
+        ->group("Isolation");
+    run->add_option("-o,--output", o.output, "where the reports go [out/<time>-<device>]")
+        ->type_name("DIR")
+        ->group("Output");
+    add_report_files(run, o.json, o.junit, o.html);
+    add_choice(run, "--capture", o.capture, kCaptureNames,
+               "of which cases the reports keep pictures")
+        ->group("Output");
+    add_terminal(run, o.quiet, o.verbose, o.color);
+    add_choice(run, "--progress", o.progress, kProgressNames, "how progress is shown")
+        ->group("Output");
+}
+
+void define_others(CLI::App& app, AllOptions& all) {
+    CLI::App* list = app.add_subcommand("list", "list case ids");
+    add_suite(list, all.list.suite);
+    list->add_flag("--long", all.list.long_form, "with file, rules, description and notes");
+    list->add_flag("--ids", all.list.ids, "ids only, one a line");
+    list->add_flag("--json", all.list.json, "as JSON");
+
+    CLI::App* lint =
+        app.add_subcommand("lint", "check case and expectation files; needs no Vulkan");
+    add_suite(lint, all.lint.suite);
+    lint->add_flag("-q,--quiet", all.lint.quiet, "print errors only");
+
+    CLI::App* explain =
+        app.add_subcommand("explain", "why a sample must, must not or may be covered");
+    add_suite(explain, all.explain.suite);
+    explain
+        ->add_option(
+            "--pixel",
+            [&all](const CLI::results_t& results) {
+                return parse_pair(results.back(), ',', all.explain.x, all.explain.y);
+            },
+            "the pixel")
+        ->type_name("X,Y")
+        ->required();
+    explain->add_option("--sample", all.explain.sample, "the sample in it [0]")->type_name("S");
+    add_profile(explain, all.explain.profile);
+    add_subpixel_bits(explain, all.explain.subpixel_bits);
+
+    CLI::App* render =
+        app.add_subcommand("render", "write the reference picture of a case; needs no Vulkan");
+    add_suite(render, all.render.suite);
+    render
+        ->add_option("-o,--output", all.render.output,
+                     "*.exr (values), *.png (to look at) or *.json")
+        ->type_name("FILE")
+        ->required();
+    add_profile(render, all.render.profile);
+    add_subpixel_bits(render, all.render.subpixel_bits);
+
+    CLI::App* doctor =
+        app.add_subcommand("doctor", "what is installed, which devices there are, what is missing");
+    add_device(doctor, all.doctor.device);
+    doctor->add_flag("--json", all.doctor.json, "as JSON");
+
+    CLI::App* report =
+        app.add_subcommand("report", "rebuild the reports of a run from its journal");
+    report->add_option("DIR", all.report.directory, "the folder of the run")
+        ->required()
+        ->type_name("");
+    add_report_files(report, all.report.json, all.report.junit, all.report.html);
+    add_terminal(report, all.report.quiet, all.report.verbose, all.report.color);
+
+    CLI::App* bench = app.add_subcommand("bench", "what checking costs beside drawing");
+    add_suite(bench, all.bench.suite);
+    add_device(bench, all.bench.device);
+    bench->add_option("--runs", all.bench.runs, "pairs of processes that are timed [3]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
+    bench->add_flag("--json", all.bench.json, "as JSON");
+    bench->add_flag("--bare", all.bench.bare, "")->group("");
+
+    app.add_subcommand("version", "print the version");
+}
+
+}  // namespace
+
+void define(CLI::App& app, AllOptions& all) {
+    app.footer(kFooter);
+    app.set_help_flag("-h,--help", "this help");
+    app.add_flag("--version", all.version, "print the version");
+    app.require_subcommand(0, 1);
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    define_run(app, all.run);
+    define_others(app, all);
+    for (CLI::App* command : app.get_subcommands({})) {
+        command->set_help_flag("-h,--help", "this help");
+        command->allow_extras();  // so that unknown options get our own words
+    }
+}
+
+}  // namespace cli
