@@ -5,17 +5,24 @@
 // points P1, P2 are sums of two components that are off by at most e, so |dd_i| <= eta_i = e_w +
 // e_c + u |d_i| (1 + u covers the rest). t = d1 / (d1 - d2), with D = |d1| + |d2|:
 //
-//     |dt| <= ((1-t) eta_1 + t eta_2) / (D - eta_1 - eta_2) + 5u
+//     |dt| <= ((1-t) eta_1 + t eta_2) / (D - eta_1 - eta_2) + 4u m,    m = max(t, 1-t)
 //
-// (one subtraction, a divide by reciprocal: 4u, 5u with the second order). The new point is
-// computed as P1 + t (P2 - P1) or t P1 + (1-t) P2 from either end:
+// (a subtraction, a reciprocal of 1 ulp and a product: 4u of t, which counts from either end). The
+// new point R is computed as
 //
-//     |dP_c| <= max(e1_c, e2_c) + |dt| |P2_c - P1_c| + 4u (|P1_c| + |P2_c|)
+//     P1 + t (P2 - P1)      difference and product 2u m |P2 - P1|, the sum u |R|
+//     (1-t) P1 + t P2       1-t and the products 2u ((1-t) |P1| + t |P2|), the sum u |R|
 //
-// Several planes: the bound is carried from cut to cut. Devices cut in different orders; the larger
-// bound of two orders (x y z and z x y) is taken. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times
-// |p/2|, plus the rounding of divide and transform (position.cpp). Bounds are symmetric in the two
-// end points, so that two triangles which share the edge get the same box for the same point.
+// from either end, with the larger of both, r_c,
+//
+//     |dP_c| <= max(e1_c, e2_c) + (|dt| |P2_c - P1_c| + r_c + u |R_c|) (1 + 16u)
+//
+// where 1 + 16u covers the products of the at most seven roundings of a chain. The end points'
+// errors enter as weights (1-t) and t, which are off by |dt| times e1 + e2. Several planes: the
+// bound is carried from cut to cut. Devices cut in different orders; the larger bound of two orders
+// (x y z and z x y) is taken. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times |p/2|, plus the
+// rounding of divide and transform (position.cpp). Bounds are symmetric in the two end points, so
+// that two triangles which share the edge get the same box for the same point.
 #include "ref/clip.hpp"
 
 #include <algorithm>
@@ -79,6 +86,7 @@ Work cut(const Work& p1, const Work& p2, const mpq_class& d1, const mpq_class& d
     const mpq_class span = abs(d1) + abs(d2);
     const mpq_class t = abs(d1) / span;
     const mpq_class rest = 1 - t;
+    const mpq_class larger = std::max(t, rest);
     for (size_t i = 0; i < 3; ++i) {
         out.v.weights[i] = rest * p1.v.weights[i] + t * p2.v.weights[i];
     }
@@ -88,14 +96,18 @@ Work cut(const Work& p1, const Work& p2, const mpq_class& d1, const mpq_class& d
     out.v.is_bounded = p1.v.is_bounded && p2.v.is_bounded && sure > 0;
     mpq_class dt = 1;  // t stays in [0,1]
     if (out.v.is_bounded) {
-        dt = std::min<mpq_class>(dt, (rest * eta1 + t * eta2) / sure + 5 * u);
+        dt = std::min<mpq_class>(dt, (rest * eta1 + t * eta2) / sure + 4 * u * larger);
     }
     for (size_t c = 0; c < 4; ++c) {
         const mpq_class& a = p1.v.clip[c];
         const mpq_class& b = p2.v.clip[c];
         out.v.clip[c] = rest * a + t * b;
-        out.error[c] = round_up(std::max(p1.error[c], p2.error[c]) + dt * abs(b - a) +
-                                4 * u * (abs(a) + abs(b)));
+        const mpq_class difference = abs(b - a);
+        const mpq_class rounding =
+            2 * u * std::max<mpq_class>(larger * difference, rest * abs(a) + t * abs(b));
+        const mpq_class own =
+            dt * (difference + p1.error[c] + p2.error[c]) + rounding + u * abs(out.v.clip[c]);
+        out.error[c] = round_up(std::max(p1.error[c], p2.error[c]) + own * (1 + 16 * u));
     }
     return out;
 }
