@@ -115,6 +115,7 @@ Work cut(const Work& p1, const Work& p2, const mpq_class& d1, const mpq_class& d
 std::vector<Work> clip_by(const std::vector<Work>& polygon, ClipPlane plane, const mpq_class& u) {
     std::vector<Work> out;
     const size_t n = polygon.size();
+    out.reserve(n + 1);
     const auto label = static_cast<EdgeLabel>(kFirstClipEdge + static_cast<EdgeLabel>(plane));
     for (size_t i = 0; i < n; ++i) {
         const Work& a = polygon[i];
@@ -148,7 +149,11 @@ std::vector<Work> clip_in_order(const std::vector<Work>& triangle, std::span<con
         if (polygon.empty()) {
             break;
         }
-        polygon = clip_by(polygon, plane, u);
+        // Most planes cut nothing off, and rationals are costly to copy.
+        if (std::any_of(polygon.begin(), polygon.end(),
+                        [&](const Work& p) { return distance(p.v.clip, plane) < 0; })) {
+            polygon = clip_by(polygon, plane, u);
+        }
     }
     return polygon;
 }
