@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "ref/explain.hpp"
 
@@ -64,6 +65,35 @@ struct Cause {
     std::string why;
 };
 
+// A triangle that would cover the sample but for scissor, viewport, culling or clipping: why it
+// must not.
+std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
+    for (const ref::TriangleExplanation& t : s.triangles) {
+        const bool negative =
+            std::any_of(t.edges.begin(), t.edges.end(), [](const auto& e) { return e.value < 0; });
+        const bool outside = negative || (!t.edges.empty() && !t.has_area);
+        if (outside || t.coverage != ref::Coverage::must_not) {
+            continue;
+        }
+        if (!t.in_scissor) {
+            return Cause{
+                "scissor.half-open",
+                fmt::format("{}: the sample lies outside its scissor rectangle", name_of(t))};
+        }
+        if (!t.in_viewport) {
+            return Cause{"clip.viewport",
+                         fmt::format("{}: the sample lies outside its viewport", name_of(t))};
+        }
+        if (t.culled) {
+            return Cause{"face.cull", fmt::format("{} is culled", name_of(t))};
+        }
+        if (t.needs_clipping && !t.on_edge) {
+            return Cause{"clip.volume", fmt::format("{} is clipped away here", name_of(t))};
+        }
+    }
+    return std::nullopt;
+}
+
 // Too many hits at a sample that no triangle may cover.
 Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
     if (!s.in_scissor) {
@@ -72,14 +102,9 @@ Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
     if (!s.in_viewport) {
         return {"clip.viewport", "the sample lies outside the viewport"};
     }
-    for (const ref::TriangleExplanation& t : s.triangles) {
-        if (t.culled) {
-            return {"face.cull", fmt::format("{} is culled", name_of(t))};
-        }
-    }
     if (level == cases::Profile::direct3d) {
         for (const ref::TriangleExplanation& t : s.triangles) {
-            if (t.on_edge) {
+            if (t.on_edge && t.in_scissor && !t.culled) {
                 return {t.has_area ? "tie.top-left" : "cover.degenerate",
                         fmt::format("{}: {}", name_of(t), t.reason)};
             }
@@ -87,12 +112,8 @@ Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
         return {"snap.nearest",
                 "no vertex position within the rounding of Direct3D covers the sample"};
     }
-    for (const ref::TriangleExplanation& t : s.triangles) {
-        const bool negative =
-            std::any_of(t.edges.begin(), t.edges.end(), [](const auto& e) { return e.value < 0; });
-        if (t.needs_clipping && (t.edges.empty() || !negative)) {
-            return {"clip.volume", fmt::format("{} is clipped away here", name_of(t))};
-        }
+    if (const std::optional<Cause> cause = cause_of_suppressed(s)) {
+        return *cause;
     }
     const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must_not);
     return {"cover.outside", t ? fmt::format("{}: {}", name_of(*t), t->reason)
@@ -131,6 +152,9 @@ Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint
         const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
         return {"cover.inside", fmt::format("{}: {}", name_of(*t), t->reason)};
     }
+    if (const std::optional<Cause> cause = cause_of_suppressed(s)) {
+        return *cause;
+    }
     return {"cover.outside",
             fmt::format("at most {} of the triangles near the sample may cover it", may)};
 }
@@ -157,10 +181,13 @@ const ref::Expectation& Attribution::at(cases::Profile profile) {
     return *slot;
 }
 
-void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back) {
-    const size_t index =
-        (size_t{finding.y} * case_.target.width + finding.x) * case_.target.samples +
-        finding.sample;
+size_t Attribution::index_of(const Finding& finding) const {
+    return (size_t{finding.y} * case_.target.width + finding.x) * case_.target.samples +
+           finding.sample;
+}
+
+void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
+    const size_t index = index_of(finding);
     finding.level = expectation_.profile;
     for (const cases::Profile profile : cases::kProfiles) {
         if (profile <= expectation_.profile &&
@@ -169,6 +196,41 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
             break;
         }
     }
+}
+
+void Attribution::attribute_writer(Finding& finding,
+                                   const std::function<bool(const ref::Triangle&)>& wrote) {
+    const size_t index = index_of(finding);
+    finding.level = expectation_.profile;
+    for (const cases::Profile profile : cases::kProfiles) {
+        const ref::Expectation& e = at(std::min(profile, expectation_.profile));
+        const ref::SampleExpectation& s = e.samples[index];
+        const auto begin = e.writers.begin() + s.writers_begin;
+        if (std::none_of(begin, begin + s.writers_count,
+                         [&](uint32_t t) { return wrote(e.triangles[t]); })) {
+            finding.level = std::min(profile, expectation_.profile);
+            break;
+        }
+    }
+    if (finding.level == cases::Profile::vulkan) {
+        return;  // whatever is granted, that triangle cannot have been the last
+    }
+    // A looser profile lets the writer cover the sample: it is a question of who owns it.
+    const ref::SampleExplanation s = ref::explain_sample(case_, expectation_.limits, finding.level,
+                                                         {finding.x, finding.y, finding.sample});
+    const Ties ties = ties_of(s);
+    if (ties.first != nullptr) {
+        finding.rule = "tie.top-left";
+        finding.why = fmt::format("{}: {}", name_of(*ties.first), ties.first->reason);
+    } else {
+        finding.rule = finding.level == cases::Profile::direct3d ? "snap.nearest" : "cover.outside";
+        finding.why = "where the vertices snap decides which triangle covers the sample";
+    }
+}
+
+void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back) {
+    const size_t index = index_of(finding);
+    level_hits(finding, front, back);
     const ref::HitBounds& asked = at(finding.level).samples[index].hits;
     const bool by_face = faces_matter(asked, front, back);
     finding.expected = to_text(asked);
@@ -197,6 +259,13 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked,
     const ref::SampleExplanation s = ref::explain_sample(case_, expectation_.limits, finding.level,
                                                          {finding.x, finding.y, finding.sample});
     if (finding.kind == FindingKind::value) {
+        if (const Ties ties = ties_of(s);
+            finding.level == cases::Profile::direct3d && ties.first != nullptr) {
+            finding.rule = "tie.top-left";
+            finding.quantity = "facing";
+            finding.why = fmt::format("{}: {}", name_of(*ties.first), ties.first->reason);
+            return;
+        }
         finding.rule = "face.area-sign";
         finding.quantity = "facing";
         const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);

@@ -4,6 +4,7 @@
 // Which rule a wrong number of hits breaks, at which profile, and why.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,11 +27,19 @@ class Attribution {
     // sample where the device counted `front` and `back` hits.
     void attribute_hits(Finding& finding, uint32_t front, uint32_t back);
 
-    // The loosest profile at which `writers` of a sample are still those that exclude the device's
-    // writer is the vulkan one: drawing order is free nowhere. What differs is who may hit at all.
+    // As attribute_hits, level alone: cheap enough for every wrong sample of a broken device.
+    void level_hits(Finding& finding, uint32_t front, uint32_t back);
+
+    // Finds the loosest profile at which no triangle for which `wrote` holds may have written a
+    // sample last, and sets level; where a looser profile allows it, rule and why as well (a tie's
+    // owner or a snapping, not the order of drawing).
+    void attribute_writer(Finding& finding, const std::function<bool(const ref::Triangle&)>& wrote);
+
+    // The expectation of the case at a profile not stricter than the asked one.
     const ref::Expectation& at(cases::Profile profile);
 
   private:
+    size_t index_of(const Finding& finding) const;
     // Rule and why, from the story of the sample.
     void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) const;
 

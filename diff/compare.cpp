@@ -135,7 +135,7 @@ class Comparison {
             if (verdict_.findings.size() < kMaxFindings) {
                 attribution_.attribute_hits(finding, front, back);
             } else {
-                finding.level = verdict_.level;  // beyond the cap only the counts matter
+                attribution_.level_hits(finding, front, back);  // beyond the cap nothing is told
             }
             add(std::move(finding), index);
             return;
@@ -234,7 +234,6 @@ class Comparison {
     Finding writer_finding(ref::SampleId id, const Writer& writer,
                            const ref::SampleExpectation& expected) {
         Finding finding = at(FindingKind::order, id);
-        finding.level = cases::Profile::vulkan;
         finding.rule = "order.primitive";
         finding.why = "another triangle than the last one that may cover the sample wrote it";
         std::string allowed;
@@ -258,6 +257,12 @@ class Comparison {
             allowed += fmt::format(", or {} others", expected.writers_count - 4);
         }
         finding.expected = allowed;
+        if (finding.rule == "order.primitive") {
+            attribution_.attribute_writer(finding,
+                                          [&](const ref::Triangle& t) { return wrote(writer, t); });
+        } else {
+            finding.level = cases::Profile::vulkan;
+        }
         finding.got = capture_.has_primitive
                           ? fmt::format("draw {} primitive {} (provoking vertex {})", writer.draw,
                                         writer.primitive, writer.provoking_vertex)

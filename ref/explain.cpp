@@ -87,9 +87,12 @@ bool is_near(const cases::Draw& draw, const Triangle& t, FixedPoint p) {
     return px >= x0 - 2 && px <= x1 + 2 && py >= y0 - 2 && py <= y1 + 2;
 }
 
-std::string reason_for(const TriangleExplanation& t, bool in_scissor) {
-    if (!in_scissor) {
+std::string reason_for(const TriangleExplanation& t) {
+    if (!t.in_scissor) {
         return "the sample lies outside the scissor rectangle";
+    }
+    if (!t.in_viewport) {
+        return "the sample lies outside the viewport";
     }
     if (t.culled) {
         return "the triangle is culled";
@@ -177,6 +180,7 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
     cases::Case window = c;
     result.in_scissor = false;
     result.in_viewport = false;
+    std::vector<bool> in_viewport;  // of each draw
     for (cases::Draw& draw : window.draws) {
         const auto x = static_cast<int64_t>(sample.x);
         const auto y = static_cast<int64_t>(sample.y);
@@ -191,9 +195,9 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
         const mpq_class py = pixels(result.position.y);
         const mpq_class vx0 = v.x, vx1 = mpq_class(v.x) + mpq_class(v.width);
         const mpq_class va = v.y, vb = mpq_class(v.y) + mpq_class(v.height);
-        result.in_viewport =
-            result.in_viewport ||
-            (px >= vx0 && px <= vx1 && py >= std::min(va, vb) && py <= std::max(va, vb));
+        in_viewport.push_back(px >= vx0 && px <= vx1 && py >= std::min(va, vb) &&
+                              py <= std::max(va, vb));
+        result.in_viewport = result.in_viewport || in_viewport.back();
     }
     const Expectation whole = expect(window, limits, profile);
     result.expectation = whole.samples[index];
@@ -254,8 +258,9 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
             }
             e.on_edge = zero && !negative;
         }
-        const bool in_scissor = single.draws[0].scissor.width != 0;
-        e.reason = reason_for(e, in_scissor);
+        e.in_scissor = single.draws[0].scissor.width != 0;
+        e.in_viewport = in_viewport[t.draw];
+        e.reason = reason_for(e);
         result.triangles.push_back(std::move(e));
     }
     return result;

@@ -183,6 +183,92 @@ TEST(Compare, WrongLastWriterIsAnOrderFinding) {
     EXPECT_EQ(only(v).level, Profile::vulkan);
 }
 
+TEST(Compare, OtherOwnerOfASharedEdgeIsATieNotAnOrder) {
+    // The sample (3,4) lies on the diagonal: one hit by either triangle is right in Vulkan.
+    Checked k(diagonal());
+    const size_t i = k.at(3, 4);
+    const uint32_t owner = k.capture.writers[i].primitive;
+    ref::ValueReference values(k.c, kLimits, Profile::direct3d);
+    write_fragment(k.capture, k.c, k.e, values, 1 - owner, {3, 4, 0});
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::order);
+    EXPECT_EQ(only(v).rule, "tie.top-left");
+    EXPECT_EQ(only(v).level, Profile::direct3d);
+    for (const Profile profile : {Profile::vulkan, Profile::practice}) {
+        EXPECT_TRUE(diff::compare(k.c, ref::expect(k.c, kLimits, profile), k.capture).ok());
+    }
+}
+
+TEST(Compare, OtherOwnerWithOppositeWindingIsATieNotAFacing) {
+    Checked k(pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}, {8, 0}, {0, 8}, {8, 8}}));
+    const size_t i = k.at(3, 4);
+    const uint32_t owner = k.capture.writers[i].primitive;
+    const glm::vec4 h = k.capture.hits[i];
+    set_hits(k.capture, i, h.y, h.x);
+    ref::ValueReference values(k.c, kLimits, Profile::direct3d);
+    write_fragment(k.capture, k.c, k.e, values, 1 - owner, {3, 4, 0});
+    EXPECT_EQ(only(k.verdict()).rule, "tie.top-left");
+    EXPECT_EQ(only(k.verdict()).level, Profile::direct3d);
+}
+
+// A square over the whole target, then a triangle that must not show, doubling a hit at (1,1).
+cases::Case over_background() {
+    cases::Case c = pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}, {8, 0}, {8, 8}, {0, 8}});
+    cases::Case front = pixel_case(8, 8, {{0, 0}, {4, 0}, {0, 4}});
+    c.draws.push_back(front.draws[0]);
+    return c;
+}
+
+std::string rule_of_double_hit(const cases::Case& c) {
+    Checked k(c);
+    const glm::vec4 h = k.capture.hits[k.at(1, 1)];
+    set_hits(k.capture, k.at(1, 1), h.x * 2, h.y * 2);
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::double_hit);
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+    return only(v).rule;
+}
+
+TEST(Compare, WhatMustNotShowOverABackgroundNamesItsRule) {
+    cases::Case c = over_background();
+    c.draws[1].scissor = {4, 4, 4, 4};
+    EXPECT_EQ(rule_of_double_hit(c), "scissor.half-open");
+    c = over_background();
+    c.draws[1].cull = cases::CullMode::front_and_back;
+    EXPECT_EQ(rule_of_double_hit(c), "face.cull");
+    c = over_background();
+    for (glm::vec4& p : c.draws[1].positions) {
+        p.z = -0.5F;
+    }
+    EXPECT_EQ(rule_of_double_hit(c), "clip.volume");
+}
+
+TEST(Compare, LevelCountsBeyondTheCap) {
+    // 1,000 findings that break direct3d alone, then one that breaks Vulkan, in sample order.
+    cases::Case c = pixel_case(64, 64, {{0, 0}, {64, 0}, {0, 64}, {64, 0}, {64, 64}, {0, 64}});
+    for (int n = 0; n < 40;
+         ++n) {  // triangles without area along rows of centres, all free in Vulkan
+        const float y = (static_cast<float>(n) + 0.5F) * 2 / 64 - 1;
+        c.draws[0].positions.emplace_back(-1.0F, y, 0.5F, 1.0F);
+        c.draws[0].positions.emplace_back(1.0F, y, 0.5F, 1.0F);
+        c.draws[0].positions.emplace_back(0.0F, y, 0.5F, 1.0F);
+    }
+    Checked k(c);
+    for (uint32_t y = 0; y < 40; ++y) {
+        for (uint32_t x = 0; x < 60; ++x) {
+            const glm::vec4 h = k.capture.hits[k.at(x, y)];
+            set_hits(k.capture, k.at(x, y), h.x, h.y + 1);
+        }
+    }
+    diff::Verdict v = k.verdict();
+    EXPECT_GT(v.counts[static_cast<size_t>(FindingKind::double_hit)], diff::kMaxFindings);
+    EXPECT_EQ(v.level, Profile::direct3d);
+    clear_sample(k.capture, k.at(50, 60));
+    v = k.verdict();
+    EXPECT_EQ(v.findings.size(), diff::kMaxFindings);
+    EXPECT_EQ(v.level, Profile::vulkan);
+}
+
 TEST(Compare, WrongProvokingVertexIsNamed) {
     Checked k(diagonal());
     k.capture.writers[k.at(1, 1)].provoking_vertex = 2;
