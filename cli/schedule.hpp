@@ -30,10 +30,10 @@ struct Batch {
 class Schedule {
   public:
     struct Options {
-        size_t batch = 16;                          // cases at most
-        uint64_t batch_bytes = uint64_t{8} << 20;   // of captures, a case alone may be larger
-        uint32_t repeat = 1;                        // renderings of each case
-        uint32_t retries = 1;                       // more renderings of an unexpected failure
+        size_t batch = 16;                         // cases at most
+        uint64_t batch_bytes = uint64_t{8} << 20;  // of captures, a case alone may be larger
+        uint32_t repeat = 1;                       // renderings of each case
+        uint32_t retries = 1;                      // more renderings of an unexpected failure
     };
 
     // `bytes[k]` is the size of case k's capture.
