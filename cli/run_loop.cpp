@@ -8,6 +8,8 @@
 #include <memory>
 #include <utility>
 
+#include "report/sentences.hpp"
+
 namespace cli {
 
 using report::CaseRecord;
@@ -288,7 +290,7 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
 
 void RunLoop::on_judged(size_t k, CaseRecord record) {
     if (!record.findings.empty()) {
-        const diff::Finding& f = record.findings.front();
+        const diff::Finding& f = report::leading_finding(record);
         record.explain =
             cases_[k].explain + " --pixel " + std::to_string(f.x) + "," + std::to_string(f.y);
         if (cases_[k].data.target.samples > 1) {

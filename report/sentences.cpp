@@ -31,19 +31,17 @@ std::string one_line(const std::string& bytes) {
     return text;
 }
 
-// The finding that a case is known by: the first of the loosest level, so that a broken Vulkan rule
-// is never hidden behind a difference in a tie. The record has at least one.
-const diff::Finding& leading_finding(const CaseRecord& record) {
-    return *std::min_element(
-        record.findings.begin(), record.findings.end(),
-        [](const diff::Finding& a, const diff::Finding& b) { return a.level < b.level; });
-}
-
 uint64_t count_of(const CaseRecord& record, diff::FindingKind kind) {
     return record.counts.at(static_cast<size_t>(kind));
 }
 
 }  // namespace
+
+const diff::Finding& leading_finding(const CaseRecord& record) {
+    return *std::min_element(
+        record.findings.begin(), record.findings.end(),
+        [](const diff::Finding& a, const diff::Finding& b) { return a.level < b.level; });
+}
 
 std::string seconds_text(double seconds) {
     if (!std::isfinite(seconds)) {

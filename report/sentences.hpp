@@ -29,6 +29,10 @@ std::string what_happened(const CaseRecord& record);
 // One line that tells why: the first finding, or the reason, or the driver's last words.
 std::string why_it_happened(const CaseRecord& record);
 
+// The finding that a case is known by: the first of the loosest level, so that a broken Vulkan rule
+// is never hidden behind a difference in a tie. The record has at least one.
+const diff::Finding& leading_finding(const CaseRecord& record);
+
 // "exit 1: unexpected results"
 std::string exit_text(int code);
 
