@@ -40,7 +40,8 @@ function openPictures(p) {
 
 function fitZoom(p) {
   const least = p.samples > 1 ? 2 * p.columns : 1;
-  return Math.max(least, Math.min(40, Math.floor(400 / Math.max(p.width, p.height))));
+  const side = Math.max(120, Math.min(400, (window.innerWidth - 130) / 3));  // the three of a case beside each other
+  return Math.max(least, Math.min(40, Math.floor(side / Math.max(p.width, p.height))));
 }
 
 function hitColor(hits) {

@@ -86,7 +86,7 @@ function findingsTable(view) {
   });
   const wrap = add(make("div", "scroll"), add(table, head, body));
   wrap.tabIndex = 0;
-  const title = make("h3", "", "Wrong samples: " + record.finding_total);
+  const title = make("h3", "", "Findings: " + record.finding_total);
   const rest = record.finding_total - record.findings.length;
   if (rest > 0) { title.append(" (the first " + record.findings.length + " here, more in results.json)"); }
   return add(make("section"), title, wrap);
