@@ -310,6 +310,9 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
     set.factor = factor_for<T>(profile);
     set.margin = T(std::ldexp(1.0, -limits.subpixel_bits));
     set.any_of_all = profile == cases::Profile::vulkan;
+    const cases::Viewport& viewport = primitive.draw->viewport;
+    set.depth_range = {static_cast<double>(std::min(viewport.min_depth, viewport.max_depth)),
+                       static_cast<double>(std::max(viewport.min_depth, viewport.max_depth))};
     const std::vector<PlaneInput<T>> inputs = plane_inputs<T>(primitive, quantities);
     const Vertices<T> ideal = ideal_vertices<T>(primitive);
     std::vector<PieceVertex<T>> polygon;

@@ -370,10 +370,7 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         const double g = static_cast<double>(got);
         const double low = hull.low.v - hull.low.e - reach * (1 + 0x1p-30);
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
-        if (!std::isfinite(got)) {
-            m.rule = "interp.hull";
-            m.level = beyond(t)[index] ? m.level : Profile::vulkan;
-        } else if (g < low || g > high) {
+        if (!std::isfinite(got) || g < low || g > high) {
             m.rule = "interp.hull";
         }
         out.mismatches.push_back(std::move(m));

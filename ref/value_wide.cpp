@@ -50,7 +50,8 @@ template <class T>
 struct Reach {
     Range<T> range;
     bool is_first = true;
-    bool is_free = false;  // nothing is claimed
+    bool is_free = false;       // nothing is claimed but a finite value
+    bool is_undefined = false;  // nothing at all
     bool is_known = true;
     // Rounded, for reports: hull of the values alone, and the budget of the one nearest to the
     // device.
@@ -72,10 +73,26 @@ struct Reach {
     bool noted = false;
 };
 
+bool is_depth(const Quantity& q) {
+    return q.attribute == -2;
+}
+
+// Whether the whole of a range lies outside of another one.
+template <class T>
+Answer is_beyond(const T& low, const T& high, const Range<double>& range) {
+    const Answer reaches_up = is_at_most(T(range.low), high);
+    const Answer reaches_down = is_at_most(low, T(range.high));
+    if (reaches_up == Answer::no || reaches_down == Answer::no) {
+        return Answer::yes;
+    }
+    return reaches_up == Answer::yes && reaches_down == Answer::yes ? Answer::no : Answer::unknown;
+}
+
 // Adds what one basis accepts for a quantity at the sites; `widest` is the largest reach.
 template <class T>
-void add_reach(const Basis<T>& basis, const Quantity& q, std::span<const Site<T>> sites,
-               const T& factor, double device, T& widest, Reach<T>& out) {
+void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
+               std::span<const Site<T>> sites, double device, T& widest, Reach<T>& out) {
+    const T& factor = set.factor;
     for (const Site<T>& site : sites) {
         const Valued<T> v =
             value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
@@ -89,7 +106,15 @@ void add_reach(const Basis<T>& basis, const Quantity& q, std::span<const Site<T>
         }
         out.note(device, nearest_double(v.value), nearest_double(v.budget));
         widest = larger(widest, v.reach);
-        widen(out.range, out.is_first, T(v.value - v.reach), T(v.value + v.reach));
+        const T low = v.value - v.reach;
+        const T high = v.value + v.reach;
+        if (is_depth(q) && set.any_of_all) {
+            // Vulkan: depth outside of the viewport's range is undefined unless it is clamped.
+            const Answer beyond = is_beyond(low, high, set.depth_range);
+            out.is_known = out.is_known && beyond != Answer::unknown;
+            out.is_undefined = out.is_undefined || beyond == Answer::yes;
+        }
+        widen(out.range, out.is_first, low, high);
     }
 }
 
@@ -100,10 +125,24 @@ void add_hull(const Range<T>& hull, const T& widest, double device, Reach<T>& ou
     widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
 }
 
+// Whether the device's depth is what every value of the range is clamped to.
 template <class T>
-Fit fit(const Reach<T>& reach, double device) {
+Answer is_clamped(const Range<T>& range, const Range<double>& clamp, double device) {
+    const auto is_device = [&](double end) { return device <= end && device >= end; };
+    const Answer above = is_device(clamp.high) ? is_at_most(T(clamp.high), range.low) : Answer::no;
+    const Answer below = is_device(clamp.low) ? is_at_most(range.high, T(clamp.low)) : Answer::no;
+    return above == Answer::no ? below : above;
+}
+
+// `clamp`: null, or what the device clamps its value to.
+template <class T>
+Fit fit(const Reach<T>& reach, double device, const Range<double>* clamp) {
+    if (reach.is_known && reach.is_undefined) {
+        return {Answer::yes, 0};
+    }
     if (!std::isfinite(device)) {
-        return {Answer::no, std::numeric_limits<double>::infinity()};
+        const bool is_settled = reach.is_known || clamp == nullptr;
+        return {is_settled ? Answer::no : Answer::unknown, std::numeric_limits<double>::infinity()};
     }
     if (!reach.is_known) {
         return {Answer::unknown, 0};
@@ -122,7 +161,9 @@ Fit fit(const Reach<T>& reach, double device) {
                          : distance > 0   ? std::numeric_limits<double>::infinity()
                                           : 0.0;
     if (low == Answer::no || high == Answer::no) {
-        return {Answer::no, ratio};
+        const Answer clamped =
+            clamp == nullptr ? Answer::no : is_clamped(reach.range, *clamp, device);
+        return {clamped, clamped == Answer::yes ? 0 : ratio};
     }
     return {low == Answer::yes && high == Answer::yes ? Answer::yes : Answer::unknown, ratio};
 }
@@ -160,7 +201,7 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
                 const std::vector<Site<T>>& sites = q.at_sample                     ? sample
                                                     : q.attribute == -1 && is_split ? frag_coord
                                                                                     : attributes;
-                add_reach(basis, q, std::span<const Site<T>>(sites), set.factor,
+                add_reach(set, basis, q, std::span<const Site<T>>(sites),
                           static_cast<double>(q.get(device)), widest[i], reaches[i]);
             }
         }
@@ -187,8 +228,9 @@ void keep_better(WideVerdict& best, WideVerdict&& next, bool is_first) {
 }
 
 template <class T>
-void judge_value(const Reach<T>& reach, size_t index, double device, WideVerdict& verdict) {
-    const Fit f = fit(reach, device);
+void judge_value(const Reach<T>& reach, size_t index, double device, const Range<double>* clamp,
+                 WideVerdict& verdict) {
+    const Fit f = fit(reach, device, clamp);
     if (f.answer == Answer::unknown) {
         verdict.is_known = false;
         return;
@@ -260,7 +302,8 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                 if (!is_judged(quantities[i], i, only)) {
                     continue;
                 }
-                judge_value(reaches[i], i, static_cast<double>(quantities[i].get(device)), verdict);
+                judge_value(reaches[i], i, static_cast<double>(quantities[i].get(device)),
+                            is_depth(quantities[i]) ? &set.depth_range : nullptr, verdict);
                 if (!verdict.is_known) {
                     return verdict;
                 }

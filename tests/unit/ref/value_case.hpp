@@ -48,6 +48,25 @@ inline glm::vec4 clip_of(double x, double y, double z, double w, uint32_t size) 
             static_cast<float>(z * w), static_cast<float>(w)};
 }
 
+// The device that rounds every exact value once.
+inline ref::FragmentValues rounded(const std::vector<ref::ExpectedValue>& all) {
+    ref::FragmentValues out;
+    for (const ref::ExpectedValue& e : all) {
+        const auto f = static_cast<float>(e.nearest);
+        const auto axis = [&] {
+            return static_cast<glm::vec4::length_type>(std::string("xyzw").find(e.quantity.back()));
+        };
+        if (e.quantity == "depth") {
+            out.depth = f;
+        } else if (e.quantity.starts_with("frag_coord")) {
+            out.frag_coord[axis()] = f;
+        } else {
+            out.attributes[static_cast<size_t>(e.quantity[10] - '0')][axis()] = f;
+        }
+    }
+    return out;
+}
+
 // What a device computes at one sample. All arithmetic in binary32.
 enum class Device : uint8_t {
     origin_plane,       // plane a0 + x dadx + y dady anchored at (0,0), unsnapped (as llvmpipe)

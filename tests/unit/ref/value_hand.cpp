@@ -19,6 +19,7 @@ using ref::ExpectedValue;
 using value_test::add_attribute;
 using value_test::clip_of;
 using value_test::make_case;
+using value_test::rounded;
 
 ref::ValueReference reference_of(const cases::Case& c, Profile profile = Profile::direct3d) {
     return {c, ref::Limits{}, profile};
@@ -31,25 +32,6 @@ const ExpectedValue& find(const std::vector<ExpectedValue>& all, const std::stri
         throw std::runtime_error("no quantity " + name);
     }
     return *it;
-}
-
-// The device that rounds every exact value once.
-ref::FragmentValues rounded(const std::vector<ExpectedValue>& all) {
-    ref::FragmentValues out;
-    for (const ExpectedValue& e : all) {
-        const auto f = static_cast<float>(e.nearest);
-        const auto axis = [&] {
-            return static_cast<glm::vec4::length_type>(std::string("xyzw").find(e.quantity.back()));
-        };
-        if (e.quantity == "depth") {
-            out.depth = f;
-        } else if (e.quantity.starts_with("frag_coord")) {
-            out.frag_coord[axis()] = f;
-        } else {
-            out.attributes[static_cast<size_t>(e.quantity[10] - '0')][axis()] = f;
-        }
-    }
-    return out;
 }
 
 // Vertices (0,0) w=1, (8,0) w=2, (0,8) w=1; attribute 0 at the first, 1 at the second, 2 at the

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where a profile asks for less than a plane's value: extrapolated depth, denominators that may be
+// zero, positions and quotients of which nothing is promised; and the level of what is wrong.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "value_case.hpp"
+
+namespace {
+
+using cases::Interpolation;
+using cases::Profile;
+using value_test::add_attribute;
+using value_test::clip_of;
+using value_test::make_case;
+using value_test::rounded;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// The verdict of both ways, which have to agree.
+bool is_ok(const cases::Case& c, Profile profile, ref::SampleId id,
+           const ref::FragmentValues& device) {
+    ref::ValueReference reference(c, ref::Limits{}, profile);
+    const ref::FragmentVerdict verdict = reference.judge(0, id, device);
+    EXPECT_EQ(verdict.ok, reference.judge_exact(0, id, device).ok);
+    return verdict.ok;
+}
+
+ref::FragmentValues exact_values(const cases::Case& c, ref::SampleId id) {
+    return rounded(ref::ValueReference(c, ref::Limits{}, Profile::direct3d).expected(0, id));
+}
+
+// Only the snapped triangle covers the sample (10.5,10.5); its plane is at 1.115 there.
+cases::Case beyond_the_far_plane() {
+    return make_case(
+        64, {clip_of(10.5270349, 10.4446434, 0, 1, 64), clip_of(10.4182075, 10.6308283, 1, 1, 64),
+             clip_of(10.5141262, 10.4759869, 1, 1, 64)});
+}
+
+TEST(ValueFreedom, DepthMayBeClampedToTheViewport) {
+    const ref::SampleId id{10, 10, 0};
+    cases::Case c = beyond_the_far_plane();
+    ref::FragmentValues v = exact_values(c, id);
+    ASSERT_GT(v.depth, 1.05F);
+    for (const Profile profile : {Profile::practice, Profile::direct3d}) {
+        ref::FragmentValues device = v;
+        EXPECT_TRUE(is_ok(c, profile, id, device));
+        device.depth = 1;
+        EXPECT_TRUE(is_ok(c, profile, id, device));
+        device.frag_coord.z = 1;
+        // Not what is written, so never clamped; at practice this sliver's planes may be any.
+        EXPECT_EQ(is_ok(c, profile, id, device), profile == Profile::practice);
+    }
+    v.depth = 0.9375F;
+    EXPECT_FALSE(is_ok(c, Profile::direct3d, id, v));
+    v.depth = 0;
+    EXPECT_FALSE(is_ok(c, Profile::direct3d, id, v));
+    // The other end, and a range that runs backwards.
+    for (auto& position : c.draws[0].positions) {
+        position.z = 1 - position.z;
+    }
+    v = exact_values(c, id);
+    ASSERT_LT(v.depth, -0.05F);
+    v.depth = 0;
+    EXPECT_TRUE(is_ok(c, Profile::direct3d, id, v));
+    c.draws[0].viewport.min_depth = 0.75F;
+    c.draws[0].viewport.max_depth = 0.25F;
+    v = exact_values(c, id);
+    ASSERT_GT(v.depth, 0.775F);
+    v.depth = 0.75F;
+    EXPECT_TRUE(is_ok(c, Profile::direct3d, id, v));
+    v.depth = 0.25F;
+    EXPECT_FALSE(is_ok(c, Profile::direct3d, id, v));
+    v.depth = 1;
+    EXPECT_FALSE(is_ok(c, Profile::direct3d, id, v));
+}
+
+TEST(ValueFreedom, DepthBeyondTheViewportIsUndefinedAtVulkan) {
+    const ref::SampleId id{10, 10, 0};
+    const cases::Case c = beyond_the_far_plane();
+    ref::FragmentValues v = exact_values(c, id);
+    for (const float depth : {0.0F, 0.5F, 1.0F, kInfinity, kNan}) {
+        v.depth = depth;
+        EXPECT_TRUE(is_ok(c, Profile::vulkan, id, v)) << depth;
+        EXPECT_EQ(is_ok(c, Profile::direct3d, id, v), depth >= 1 && depth <= 1) << depth;
+    }
+    // Inside of the range it is asked for, on its border too.
+    for (const double z : {0.0, 0.5, 1.0}) {
+        const cases::Case flat = make_case(
+            64, {clip_of(4, 4, z, 1, 64), clip_of(60, 4, z, 1, 64), clip_of(4, 60, z, 1, 64)});
+        v = exact_values(flat, id);
+        EXPECT_TRUE(is_ok(flat, Profile::vulkan, id, v));
+        v.depth = kNan;
+        EXPECT_FALSE(is_ok(flat, Profile::vulkan, id, v));
+        v.depth = 0.75F;
+        EXPECT_FALSE(is_ok(flat, Profile::vulkan, id, v));
+    }
+}
+
+}  // namespace
