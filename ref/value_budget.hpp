@@ -163,8 +163,9 @@ template <class T>
 struct Site {
     Point<T> p;
     T extent_x{}, extent_y{}, spread{};
-    T d{}, bd{}, safe{};         // 1/w, its budget, the smallest 1/w that the device may have
-    Answer exists = Answer::no;  // safe > 0
+    T d{}, bd{}, safe{};            // 1/w, its budget, the smallest 1/w that the device may have
+    Answer exists = Answer::no;     // safe > 0
+    Answer is_inside = Answer::no;  // p is in the closed triangle of the basis
 };
 
 template <class T>
@@ -174,8 +175,12 @@ Site<T> make_site(const Basis<T>& basis, const Plane<T>& inv_w, const Point<T>& 
     s.p = p;
     s.extent_x = larger(basis.extent_x, T(magnitude(p.x)));
     s.extent_y = larger(basis.extent_y, T(magnitude(p.y)));
+    s.is_inside = Answer::yes;
     for (const Form<T>& b : basis.bary) {
-        s.spread = s.spread + magnitude(b.at(p));
+        const T at = b.at(p);
+        s.spread = s.spread + magnitude(at);
+        const Answer side = is_at_most(T(0.0), at);
+        s.is_inside = s.is_inside == Answer::no || side == Answer::yes ? s.is_inside : side;
     }
     s.d = inv_w.form.at(p);
     s.bd = inv_w.budget(s.extent_x, s.extent_y, s.spread);
@@ -207,6 +212,16 @@ Valued<T> value_at(const Site<T>& s, const Plane<T>& plane, bool is_perspective,
     out.budget = planes / s.d + own;
     out.reach = factor * (planes / s.safe + own);
     return out;
+}
+
+// How far a smooth value may leave the hull of the vertex values where no denominator is safe, at a
+// point that is covered; `least` is the least 1/w there, `most` the largest |f|. To first order:
+// the budgets' own formula (docs/precision.md, "The quotient").
+template <class T>
+T hull_reach(const Site<T>& s, const Plane<T>& plane, const T& least, const T& most,
+             const T& factor) {
+    const T planes = plane.budget(s.extent_x, s.extent_y, s.spread) + most * s.bd;
+    return factor * (planes / larger(s.d, least) + T(2 * kUnitRoundoff) * most);
 }
 
 }  // namespace ref::value

@@ -310,6 +310,9 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
     set.factor = factor_for<T>(profile);
     set.margin = T(std::ldexp(1.0, -limits.subpixel_bits));
     set.any_of_all = profile == cases::Profile::vulkan;
+    // w of a visible point is a convex combination of the w_i.
+    const float most_w = std::max({primitive.clip[0].w, primitive.clip[1].w, primitive.clip[2].w});
+    set.least_inv_w = most_w > 0 ? T(T(1.0) / from_float<T>(most_w)) : T{};
     const cases::Viewport& viewport = primitive.draw->viewport;
     set.depth_range = {static_cast<double>(std::min(viewport.min_depth, viewport.max_depth)),
                        static_cast<double>(std::max(viewport.min_depth, viewport.max_depth))};

@@ -88,10 +88,35 @@ Answer is_beyond(const T& low, const T& high, const Range<double>& range) {
     return reaches_up == Answer::yes && reaches_down == Answer::yes ? Answer::no : Answer::unknown;
 }
 
+template <class T>
+void add_hull(const Range<T>& hull, const T& widest, double device, Reach<T>& out) {
+    out.note(device, nearest_double(hull.low), nearest_double(widest));
+    out.note(device, nearest_double(hull.high), nearest_double(widest));
+    widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
+}
+
+// A smooth value whose denominator binary32 cannot tell from zero. `is_covered`: a device that
+// uses this basis covers the point by the same positions, so that it is inside of its triangle.
+template <class T>
+void add_unsafe(const WideSet<T>& set, const Site<T>& site, const Plane<T>& plane, bool is_covered,
+                const Range<T>& hull, double device, Reach<T>& out) {
+    const Answer inside = is_covered ? Answer::yes : site.is_inside;
+    if (inside == Answer::unknown || is_positive(set.least_inv_w) == Answer::unknown) {
+        out.is_known = false;
+    } else if (inside == Answer::no || is_positive(set.least_inv_w) == Answer::no) {
+        out.is_free = true;
+    } else {
+        const T most = larger(T(magnitude(hull.low)), T(magnitude(hull.high)));
+        add_hull(hull, hull_reach(site, plane, set.least_inv_w, most, set.factor), device, out);
+    }
+}
+
 // Adds what one basis accepts for a quantity at the sites; `widest` is the largest reach.
+// `is_covered`: as above, of each site. `at_sample`: they are the covered sample itself.
 template <class T>
 void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
-               std::span<const Site<T>> sites, double device, T& widest, Reach<T>& out) {
+               std::span<const Site<T>> sites, const Range<T>& hull, bool at_sample,
+               bool is_covered, double device, T& widest, Reach<T>& out) {
     const T& factor = set.factor;
     for (const Site<T>& site : sites) {
         const Valued<T> v =
@@ -101,7 +126,11 @@ void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
             return;
         }
         if (v.exists == Answer::no) {
-            out.is_free = true;
+            if (at_sample) {
+                add_unsafe(set, site, basis.planes[q.plane], is_covered, hull, device, out);
+            } else {
+                out.is_free = true;
+            }
             continue;
         }
         out.note(device, nearest_double(v.value), nearest_double(v.budget));
@@ -116,13 +145,6 @@ void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
         }
         widen(out.range, out.is_first, low, high);
     }
-}
-
-template <class T>
-void add_hull(const Range<T>& hull, const T& widest, double device, Reach<T>& out) {
-    out.note(device, nearest_double(hull.low), nearest_double(widest));
-    out.note(device, nearest_double(hull.high), nearest_double(widest));
-    widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
 }
 
 // Whether the device's depth is what every value of the range is clamped to.
@@ -173,6 +195,15 @@ bool is_judged(const Quantity& q, size_t index, std::span<const size_t> only) {
            (only.empty() || std::find(only.begin(), only.end(), index) != only.end());
 }
 
+// Evaluated at the sample and nowhere else. Both are exact in binary64.
+template <class T>
+bool is_same(const std::vector<Point<T>>& points, const Point<T>& sample) {
+    const auto same = [](const T& a, const T& b) {
+        return !(std::fabs(nearest_double(a) - nearest_double(b)) > 0);
+    };
+    return points.size() == 1 && same(points[0].x, sample.x) && same(points[0].y, sample.y);
+}
+
 // Adds what a candidate accepts for every judged quantity.
 template <class T>
 void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
@@ -180,6 +211,7 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
                    const Evaluation<T>& where, std::span<const size_t> only,
                    const FragmentValues& device, std::vector<Reach<T>>& reaches) {
     std::vector<T> widest(quantities.size());
+    const bool at_sample = is_same(where.attributes, where.sample);
     const bool is_split = where.frag_coord.size() != where.attributes.size();
     std::vector<Site<T>> attributes, frag_coord, sample;
     const auto fill = [&](const Basis<T>& basis, std::span<const Point<T>> points,
@@ -201,8 +233,9 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
                 const std::vector<Site<T>>& sites = q.at_sample                     ? sample
                                                     : q.attribute == -1 && is_split ? frag_coord
                                                                                     : attributes;
-                add_reach(set, basis, q, std::span<const Site<T>>(sites),
-                          static_cast<double>(q.get(device)), widest[i], reaches[i]);
+                add_reach(set, basis, q, std::span<const Site<T>>(sites), set.hulls[i], at_sample,
+                          candidate.name == ref::Basis::snapped, static_cast<double>(q.get(device)),
+                          widest[i], reaches[i]);
             }
         }
     }

@@ -38,6 +38,7 @@ struct WideSet {
     std::vector<Range<T>> hulls;  // of the vertex values, by quantity (numeric ones only)
     T factor{};                   // K
     T margin{};                   // pixels, for pieces
+    T least_inv_w{};              // of the visible part of the triangle
     Range<double> depth_range;    // of the viewport, low <= high: devices clamp depth to it
     bool any_of_all = false;      // profile vulkan: each value alone, any candidate, their hull
 };

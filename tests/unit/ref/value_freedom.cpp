@@ -102,4 +102,37 @@ TEST(ValueFreedom, DepthBeyondTheViewportIsUndefinedAtVulkan) {
     }
 }
 
+// 8 operations of 1e-5 on coordinates of 2000 are more than 1/w itself.
+TEST(ValueFreedom, DenominatorsThatMayBeZeroLeaveTheHull) {
+    cases::Case small =
+        make_case(2048, {clip_of(2000, 2000, 0.5, 1, 2048), clip_of(2001, 2000, 0.5, 1, 2048),
+                         clip_of(2000, 2001, 0.5, 1, 2048)});
+    add_attribute(small, Interpolation::smooth, 1,
+                  {glm::vec4(1.0F), glm::vec4(2.0F), glm::vec4(3.0F)});
+    // Corners of the boxes of this sliver have planes of 1/w that are negative at the sample.
+    cases::Case sliver =
+        make_case(64, {clip_of(10.001, 10.4995, 0.5, 1, 64), clip_of(50.003, 10.5005, 0.5, 100, 64),
+                       clip_of(30.002, 10.5003, 0.5, 1, 64)});
+    add_attribute(sliver, Interpolation::smooth, 1,
+                  {glm::vec4(1.0F), glm::vec4(2.0F), glm::vec4(3.0F)});
+    struct Asked {
+        const cases::Case* c;
+        Profile profile;
+        ref::SampleId id;
+    };
+    for (const Asked& asked : {Asked{&small, Profile::vulkan, {2000, 2000, 0}},
+                               Asked{&sliver, Profile::practice, {30, 10, 0}}}) {
+        ref::FragmentValues v = exact_values(*asked.c, asked.id);
+        EXPECT_TRUE(is_ok(*asked.c, asked.profile, asked.id, v));
+        for (const float inside : {1.0F, 2.0F, 3.0F}) {
+            v.attributes[0].x = inside;
+            EXPECT_TRUE(is_ok(*asked.c, asked.profile, asked.id, v)) << inside;
+        }
+        for (const float wrong : {1e30F, -1e30F, 1e6F, kInfinity, kNan}) {
+            v.attributes[0].x = wrong;
+            EXPECT_FALSE(is_ok(*asked.c, asked.profile, asked.id, v)) << wrong;
+        }
+    }
+}
+
 }  // namespace
