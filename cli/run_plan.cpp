@@ -148,6 +148,22 @@ std::string selector_of(const RunOptions& options, const std::string& id) {
     return id;
 }
 
+// The settings that choose or change a driver, to be put before a command: "VK_DRIVER_FILES=a.json
+// ".
+std::string driver_settings() {
+    constexpr std::array<std::string_view, 6> kPrefixes = {
+        "VK_", "EDGECASE_SELF_PREFIX", "LP_", "LVP_", "MESA_", "GALLIUM_"};
+    std::string text;
+    for (const auto& [name, value] : recorded_environment()) {
+        if (std::any_of(
+                kPrefixes.begin(), kPrefixes.end(),
+                [&, &n = name](std::string_view prefix) { return n.starts_with(prefix); })) {
+            text += name + "=" + shell_quote(value) + " ";
+        }
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id) {
@@ -168,7 +184,7 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
     if (options.repeat > 1) {
         words.insert(words.end(), {"--repeat", std::to_string(options.repeat)});
     }
-    return join(words);
+    return driver_settings() + join(words);
 }
 
 std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,

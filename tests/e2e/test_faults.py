@@ -3,6 +3,7 @@
 """A broken driver harms only the case that breaks it."""
 import json
 import re
+import subprocess
 import unittest
 import xml.etree.ElementTree
 
@@ -116,6 +117,18 @@ class Start(ProgramTest):
 
 
 class Output(ProgramTest):
+    def test_rerun_line_repeats_the_failure_with_its_driver_settings(self):
+        env = self.environment(fault="flip-pixel@fam/c3")
+        env["LP_NUM_THREADS"] = "1"
+        self.edgecase("run", "--renderer=reference", "-o", self.out, env=env, check=1)
+        rerun = [case["rerun"] for case in self.results()["cases"] if case["status"] == "fail"]
+        self.assertEqual(len(rerun), 1)
+        self.assertTrue(rerun[0].startswith("LP_NUM_THREADS=1 "), rerun[0])
+        again = subprocess.run(["sh", "-c", rerun[0]], env=self.environment(fault="flip-pixel@fam/c3"),
+                               cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(again.returncode, 1, again.stdout + again.stderr)
+        self.assertIn("fam/c3", again.stdout)
+
     def test_bytes_that_break_reports(self):
         self.run_suite(fault="noise@fam/c3,segv@fam/c3", check=1)
         case = next(c for c in self.results()["cases"] if c["id"] == "fam/c3")
