@@ -65,9 +65,37 @@ struct Loaded {
     value::Primitive primitive;
     value::Filter unsnapped, snapped;
     bool has_snapped = false;  // and it differs from the unsnapped one
-    // By quantity: not asked at profile vulkan. Filled when first asked for.
-    std::optional<std::vector<bool>> beyond;
+    // By quantity: not asked at any profile, or not at profile vulkan. Filled when first asked for.
+    std::optional<std::vector<bool>> unpromised, beyond;
 };
+
+// Above it a sum of a few, or a difference of two, overflows binary32; 1/w below is a denormal w.
+constexpr double kLargest = 0x1p126;
+
+// No profile asks for a number where binary32 has none: 1/w of a vertex (w = 0 has no value at all,
+// a denormal w may be flushed to 0), z/w, f/w of a smooth value or f itself.
+bool is_unpromised(const value::Primitive& primitive, const Quantity& q) {
+    if (q.kind != Kind::linear && q.kind != Kind::perspective) {
+        return false;
+    }
+    value::Triple<float> values{1, 1, 1};
+    if (q.attribute >= 0) {
+        values =
+            value::attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+    } else if (q.plane == value::kPlaneDepth) {
+        values = {primitive.clip[0].z, primitive.clip[1].z, primitive.clip[2].z};
+    }
+    for (size_t i = 0; i < 3; ++i) {
+        const double f = std::fabs(static_cast<double>(values[i]));
+        const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
+        const bool is_quotient = q.attribute < 0 || q.kind == Kind::perspective;
+        // Products with a power of two: exact.
+        if (w * kLargest < 1 || f > kLargest || (is_quotient && f > w * kLargest)) {
+            return true;
+        }
+    }
+    return false;
+}
 
 // Vulkan guarantees magnitudes up to 2^32 only ("Floating-Point Computation").
 constexpr double kGuaranteed = 0x1p32;
@@ -190,6 +218,18 @@ struct ValueReference::Impl {
         return std::fabs(a.v - b.v) > 0 || a.e > std::fabs(a.v) * 0x1p-40;
     }
 
+    // Not asked at any profile, by quantity.
+    const std::vector<bool>& unpromised(uint32_t t) {
+        Loaded& triangle = load(t);
+        if (!triangle.unpromised) {
+            triangle.unpromised.emplace();
+            for (const Quantity& q : quantities_of(t)) {
+                triangle.unpromised->push_back(is_unpromised(triangle.primitive, q));
+            }
+        }
+        return *triangle.unpromised;
+    }
+
     // Not asked at profile vulkan, by quantity.
     const std::vector<bool>& beyond(uint32_t t) {
         Loaded& triangle = load(t);
@@ -213,9 +253,9 @@ struct ValueReference::Impl {
             out.resize(quantities_of(t).size());
             std::iota(out.begin(), out.end(), size_t{0});
         }
-        if (at == Profile::vulkan) {
-            std::erase_if(out, [&](size_t index) { return beyond(t)[index]; });
-        }
+        std::erase_if(out, [&](size_t index) {
+            return unpromised(t)[index] || (at == Profile::vulkan && beyond(t)[index]);
+        });
         return out;
     }
 

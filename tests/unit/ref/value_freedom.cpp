@@ -135,4 +135,54 @@ TEST(ValueFreedom, DenominatorsThatMayBeZeroLeaveTheHull) {
     }
 }
 
+// Every numeric value spoilt.
+ref::FragmentValues spoilt(float x, float y, float with) {
+    ref::FragmentValues v;
+    v.frag_coord = {x, y, with, with};
+    v.depth = with;
+    v.attributes[0] = glm::vec4(with);
+    return v;
+}
+
+TEST(ValueFreedom, NothingIsPromisedOfZeroOrDenormalW) {
+    const glm::vec4 left(-1, -1, 0.5F, 1), right(1, -1, 0.5F, 1);
+    for (const float w : {0.0F, 0x1p-130F, -0x1p-130F, -0.0F}) {
+        cases::Case c = make_case(64, {glm::vec4(0, 0, 0, w), left, right});
+        add_attribute(c, Interpolation::smooth, 1,
+                      {glm::vec4(1.0F), glm::vec4(2.0F), glm::vec4(3.0F)});
+        for (const Profile profile : cases::kProfiles) {
+            for (const float value : {kNan, kInfinity, 1e30F, 0.0F}) {
+                EXPECT_TRUE(is_ok(c, profile, {32, 10, 0}, spoilt(32.5F, 10.5F, value)))
+                    << w << " " << value;
+            }
+            EXPECT_FALSE(is_ok(c, profile, {32, 10, 0}, spoilt(32, 10.5F, 0)));
+        }
+    }
+}
+
+TEST(ValueFreedom, NothingIsPromisedOfQuotientsBeyondBinary32) {
+    const auto judged = [](float f, float got, Profile profile) {
+        cases::Case c =
+            make_case(64, {clip_of(4, 4, 0.5, 0x1p-20, 64), clip_of(60, 4, 0.5, 0x1p-20, 64),
+                           clip_of(4, 60, 0.5, 0x1p-20, 64)});
+        for (const Interpolation i : {Interpolation::smooth, Interpolation::noperspective}) {
+            add_attribute(c, i, 1, {glm::vec4(f), glm::vec4(f), glm::vec4(f)});
+        }
+        const ref::SampleId id{10, 10, 0};
+        ref::FragmentValues v = exact_values(c, id);
+        EXPECT_TRUE(is_ok(c, profile, id, v));
+        v.attributes[0].x = got;
+        const bool ok = is_ok(c, profile, id, v);
+        v.attributes[1].x = got;  // f itself is a number like any other
+        EXPECT_EQ(is_ok(c, profile, id, v), profile == Profile::vulkan);
+        return ok;
+    };
+    for (const float got : {kNan, kInfinity, 0.0F}) {
+        EXPECT_TRUE(judged(0x1p120F, got, Profile::practice));
+        EXPECT_TRUE(judged(-0x1p120F, got, Profile::direct3d));
+        EXPECT_TRUE(judged(0x1p120F, got, Profile::vulkan));
+        EXPECT_FALSE(judged(0x1p106F, got, Profile::practice));
+    }
+}
+
 }  // namespace
