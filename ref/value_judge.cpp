@@ -246,22 +246,18 @@ struct ValueReference::Impl {
         return *triangle.beyond;
     }
 
-    // Those of `only` (empty: of all) that the profile asks for.
-    std::vector<size_t> asked(uint32_t t, Profile at, std::span<const size_t> only) {
-        std::vector<size_t> out(only.begin(), only.end());
-        if (only.empty()) {
-            out.resize(quantities_of(t).size());
-            std::iota(out.begin(), out.end(), size_t{0});
-        }
+    // The quantities that the profile asks for.
+    std::vector<size_t> asked(uint32_t t, Profile at) {
+        std::vector<size_t> out(quantities_of(t).size());
+        std::iota(out.begin(), out.end(), size_t{0});
         std::erase_if(out, [&](size_t index) {
             return unpromised(t)[index] || (at == Profile::vulkan && beyond(t)[index]);
         });
         return out;
     }
 
-    value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at,
-                            std::span<const size_t> among = {}) {
-        const std::vector<size_t> only = asked(t, at, among);
+    value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at) {
+        const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
             return {true, true, ref::Basis::unsnapped, 0, {}, {}};
         }
@@ -286,7 +282,7 @@ struct ValueReference::Impl {
     // The oracle: rationals only, no filter.
     value::WideVerdict wide_exact(uint32_t t, SampleId id, const FragmentValues& device,
                                   Profile at) {
-        const std::vector<size_t> only = asked(t, at, {});
+        const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
             return {true, true, ref::Basis::unsnapped, 0, {}, {}};
         }
@@ -301,6 +297,8 @@ struct ValueReference::Impl {
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
                     FragmentVerdict& out) const;
     void judge_centre(const Quantity& q, SampleId id, float got, FragmentVerdict& out) const;
+    std::vector<Profile> levels_of(uint32_t t, SampleId id, const FragmentValues& device,
+                                   const std::vector<size_t>& failing);
     void describe(uint32_t t, SampleId id, const FragmentValues& device,
                   const value::WideVerdict& verdict, FragmentVerdict& out);
     FragmentVerdict judge(uint32_t t, SampleId id, const FragmentValues& device, bool exact_only);
@@ -356,22 +354,42 @@ void ValueReference::Impl::judge_centre(const Quantity& q, SampleId id, float go
     out.mismatches.push_back(std::move(m));
 }
 
+// The loosest profile at which each failing value is wrong, given that one basis has to explain all
+// values of the fragment. A looser profile may blame values that this one does not (they fit the
+// basis that explains most); if it blames none of those that are left, they share its level.
+std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, SampleId id,
+                                                     const FragmentValues& device,
+                                                     const std::vector<size_t>& failing) {
+    std::vector<Profile> levels(failing.size(), profile);
+    std::vector<size_t> blamed;  // by a looser profile
+    for (const Profile p : cases::kProfiles) {
+        if (p >= profile) {
+            break;
+        }
+        const std::vector<size_t> wrong = wide(t, id, device, p).failing;
+        const auto is_in = [](const std::vector<size_t>& set, size_t index) {
+            return std::find(set.begin(), set.end(), index) != set.end();
+        };
+        const bool is_new = std::any_of(wrong.begin(), wrong.end(),
+                                        [&](size_t index) { return !is_in(blamed, index); });
+        const bool is_shared = std::any_of(failing.begin(), failing.end(), [&](size_t index) {
+            return is_in(wrong, index) && !is_in(blamed, index);
+        });
+        for (size_t k = 0; k < failing.size() && is_new; ++k) {
+            if (!is_in(blamed, failing[k]) && (!is_shared || is_in(wrong, failing[k]))) {
+                levels[k] = std::min(levels[k], p);
+            }
+        }
+        blamed.insert(blamed.end(), wrong.begin(), wrong.end());
+    }
+    return levels;
+}
+
 void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValues& device,
                                     const value::WideVerdict& verdict, FragmentVerdict& out) {
     const value::Primitive& primitive = load(t).primitive;
     const std::vector<Quantity>& all = quantities_of(t);
-    // Loosest profile at which each is wrong.
-    std::vector<std::pair<Profile, std::vector<size_t>>> looser;
-    std::vector<size_t> rest = verdict.failing;
-    for (const Profile p : cases::kProfiles) {
-        if (p < profile && !rest.empty()) {
-            looser.emplace_back(p, wide(t, id, device, p, rest).failing);
-            const std::vector<size_t>& wrong = looser.back().second;
-            std::erase_if(rest, [&](size_t index) {
-                return std::find(wrong.begin(), wrong.end(), index) != wrong.end();
-            });
-        }
-    }
+    const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
     const auto place = value::evaluations<mpq_class>(id, c.target.samples, profile).front();
     const value::Basis<mpq_class>& basis = exact_basis(t);
     const value::WideSet<Ball>& set = balls.get(
@@ -383,15 +401,9 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         ValueMismatch m;
         m.quantity = q.name;
         m.rule = q.rule;
-        m.level = profile;
+        m.level = levels[k];
         m.got = bits_of(got);
         m.ratio = verdict.ratios[k];
-        for (const auto& [p, failing] : looser) {
-            if (std::find(failing.begin(), failing.end(), index) != failing.end()) {
-                m.level = p;
-                break;
-            }
-        }
         double reach = 0;
         if (basis.orientation != 0) {
             const auto v = exact_value(basis, q, place);

@@ -185,4 +185,48 @@ TEST(ValueFreedom, NothingIsPromisedOfQuotientsBeyondBinary32) {
     }
 }
 
+// The level of a finding is the loosest profile at which the fragment as a whole is wrong. Devices
+// that take every value from another basis, with an error or without.
+TEST(ValueFreedom, LevelIsThatOfTheWholeFragment) {
+    std::mt19937_64 rng(31);
+    std::array<int, 3> count{};
+    for (int n = 0; n < 3000; ++n) {
+        const auto s = value_test::random_case(rng, 64, value_test::Shape::sliver, 4);
+        const ref::SampleId id = s.inside.front();
+        const auto all = {
+            value_test::Simulated(s.c, value_test::Device::origin_plane, value_test::Fault::none)
+                .at(id.x, id.y),
+            value_test::Simulated(s.c, value_test::Device::relative_snapped,
+                                  value_test::Fault::none)
+                .at(id.x, id.y)};
+        ref::FragmentValues v = *all.begin();
+        const auto pick = [&](float got) {
+            return got * (rng() % 4 == 0 ? 1 + std::ldexp(1.0F, -static_cast<int>(rng() % 20)) : 1);
+        };
+        v.attributes[0].x = pick((all.begin() + rng() % 2)->attributes[0].x);
+        v.attributes[0].w = pick((all.begin() + rng() % 2)->attributes[0].w);
+        v.attributes[1].x = pick((all.begin() + rng() % 2)->attributes[1].x);
+        v.frag_coord.w = pick((all.begin() + rng() % 2)->frag_coord.w);
+        const auto verdict =
+            ref::ValueReference(s.c, ref::Limits{}, Profile::direct3d).judge(0, id, v);
+        if (verdict.ok) {
+            continue;
+        }
+        Profile loosest = Profile::direct3d;
+        for (const Profile p : {Profile::practice, Profile::vulkan}) {
+            loosest = ref::ValueReference(s.c, ref::Limits{}, p).judge(0, id, v).ok ? loosest : p;
+        }
+        Profile told = Profile::direct3d;
+        for (const auto& m : verdict.mismatches) {
+            told = std::min(told, m.level);
+        }
+        ASSERT_EQ(told, loosest) << n;
+        ++count[static_cast<size_t>(told)];
+    }
+    std::printf("levels: %d %d %d\n", count[0], count[1], count[2]);
+    for (const int k : count) {
+        EXPECT_GT(k, 0);
+    }
+}
+
 }  // namespace
