@@ -5,6 +5,7 @@
 #include <gmpxx.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace ref::exact {
@@ -56,15 +57,43 @@ bool is_inside_edge(const FixedPoint& a, const FixedPoint& b, const FixedPoint& 
     return e > 0 || (e == 0 && (is_top || is_left));
 }
 
-// All edges positive for every choice of corners, in one of the two directions.
-bool is_inside_all(std::span<const Box> boxes, const FixedPoint& p, int sign) {
-    for (size_t i = 0; i < boxes.size(); ++i) {
-        for (const FixedPoint& a : corners({&boxes[i], 1})) {
-            for (const FixedPoint& b : corners({&boxes[(i + 1) % boxes.size()], 1})) {
-                if (sgn(edge(a, b, p)) != sign) {
-                    return false;
-                }
+bool is_inside_tie(const Box& from, const Box& to, const FixedPoint& p, int sign) {
+    const FixedPoint a{from.x0, from.y0};
+    const FixedPoint b{to.x0, to.y0};
+    return sign > 0 ? is_inside_edge(a, b, p) : is_inside_edge(b, a, p);
+}
+
+// Inside one edge as its test asks (coverage_setup.cpp says why the tests suffice).
+bool is_inside(const Box& from, const Box& to, EdgeTest test, const FixedPoint& p, int sign) {
+    if (test == EdgeTest::top_left) {
+        return is_inside_tie(from, to, p, sign);
+    }
+    if (test == EdgeTest::parallel) {
+        const Vector along = between(middle_of(from), middle_of(to));
+        const std::array<Box, 2> both{from, to};
+        const auto is_farther = [&](const FixedPoint& q) {
+            return sgn(cross(along, between(q, p))) == sign;
+        };
+        const std::vector<FixedPoint> points = corners(both);
+        return std::all_of(points.begin(), points.end(), is_farther);
+    }
+    for (const FixedPoint& a : corners({&from, 1})) {
+        for (const FixedPoint& b : corners({&to, 1})) {
+            if (sgn(edge(a, b, p)) != sign) {
+                return false;
             }
+        }
+    }
+    return true;
+}
+
+// Inside all edges, in one of the two directions.
+bool is_inside_all(const Outline& o, const FixedPoint& p, int sign) {
+    const std::span<const Box> boxes = o.must_vertices();
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        const Box& next = boxes[(i + 1) % boxes.size()];
+        if (!is_inside(boxes[i], next, o.must_test[i], p, sign)) {
+            return false;
         }
     }
     return boxes.size() >= 3;
@@ -103,9 +132,14 @@ Coverage by_boxes(const Outline& o, const FixedPoint& p) {
     if (!is_in_hull(o.vertices(), p)) {
         return Coverage::must_not;
     }
-    return is_inside_all(o.must_vertices(), p, 1) || is_inside_all(o.must_vertices(), p, -1)
-               ? Coverage::must
-               : Coverage::either;
+    const std::span<const Box> boxes = o.must_vertices();
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        if (o.must_test[i] == EdgeTest::top_left &&
+            !is_inside_tie(boxes[i], boxes[(i + 1) % boxes.size()], p, o.tie_side[i])) {
+            return Coverage::must_not;
+        }
+    }
+    return is_inside_all(o, p, 1) || is_inside_all(o, p, -1) ? Coverage::must : Coverage::either;
 }
 
 bool is_on_segment(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {

@@ -37,6 +37,10 @@ constexpr int64_t kNarrowLimit = int64_t{1} << 30;
 static_assert(int64_t{cases::kMaxTargetSize} * kFixedOne <= kNarrowLimit,
               "every sample of a target is narrow");
 static_assert(3 * (Int128{1} << 61) + 1 < (Int128{1} << 63), "a narrow edge function fits int64_t");
+// An edge tested as parallel has |c| <= |a q_x + b q_y| + 1 for a corner q: with vertices within
+// 2^29, |a|, |b| <= 2^30 and |c| <= 2^60 + 1, and samples add at most 2^61.
+constexpr int64_t kNarrowParallelLimit = int64_t{1} << 29;
+static_assert((Int128{1} << 61) + (Int128{1} << 60) + 1 < (Int128{1} << 63));
 
 // A half plane along the rows of one sample number: value at column 0, steps per row and column.
 template <class T>
@@ -227,8 +231,13 @@ bool is_narrow(const TriangleSetup& setup) {
     size_t count = 0;
     const auto outlines = setup.outlines(count);
     for (size_t k = 0; k < count; ++k) {
-        for (const Box& b : outlines[k]->vertices()) {
-            if (std::min(b.x0, b.y0) < -kNarrowLimit || std::max(b.x1, b.y1) > kNarrowLimit) {
+        const Outline& o = *outlines[k];
+        const bool has_parallel =
+            std::any_of(o.must_test.begin(), o.must_test.begin() + o.must_count,
+                        [](EdgeTest test) { return test == EdgeTest::parallel; });
+        const int64_t limit = has_parallel ? kNarrowParallelLimit : kNarrowLimit;
+        for (const Box& b : o.vertices()) {
+            if (std::min(b.x0, b.y0) < -limit || std::max(b.x1, b.y1) > limit) {
                 return false;
             }
         }

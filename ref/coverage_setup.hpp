@@ -32,6 +32,14 @@ enum class OutlineMode : uint8_t {
 };
 inline constexpr int64_t kMaxCandidates = 64;
 
+// How an edge between two boxes is tested for `must` in mode boxes.
+enum class EdgeTest : uint8_t {
+    strict,    // strictly inside for every choice of its ends
+    parallel,  // strictly inside the line that runs as the edge between the middles of the boxes,
+               // and has both boxes on its outer side
+    top_left,  // between two points that every device has (profile direct3d): the top-left rule
+};
+
 struct Outline {
     OutlineMode mode = OutlineMode::empty;
     bool is_on_grid = true;                             // every corner of the boxes is a grid point
@@ -42,6 +50,9 @@ struct Outline {
     // decided by in mode boxes. Edges inside such a box cannot separate it from the rest.
     uint32_t must_count = 0;
     std::array<Box, kMaxClippedVertices> must_boxes{};
+    // Of the edge from box i to the next.
+    std::array<EdgeTest, kMaxClippedVertices> must_test{};
+    std::array<int8_t, kMaxClippedVertices> tie_side{};  // top_left: sign of E for the other boxes
 
     std::span<const Box> vertices() const { return {boxes.data(), count}; }
     std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }
@@ -112,6 +123,9 @@ Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile p
 
 TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limits& limits,
                      cases::Profile profile, VertexBoxes& boxes, const Window& window);
+
+// A position in the middle of a box, on no grid.
+FixedPoint middle_of(const Box& box);
 
 // The grid points of a box in mode snapped.
 std::vector<FixedPoint> grid_points(const Box& box, int64_t step);

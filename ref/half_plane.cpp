@@ -48,21 +48,69 @@ void add_once(std::vector<HalfPlane>& planes, const HalfPlane& plane) {
     }
 }
 
+// The edge between two points by the top-left rule, for a polygon with the orientation `sign`.
+HalfPlane tie_plane(const Box& from, const Box& to, int sign) {
+    FixedPoint a{from.x0, from.y0};
+    FixedPoint b{to.x0, to.y0};
+    if (sign < 0) {
+        std::swap(a, b);
+    }
+    return right_of(a, b, !is_top_left(a, b));
+}
+
+// Inside the line parallel to the edge between the middles that has both boxes on its outer side.
+HalfPlane parallel_plane(const Box& from, const Box& to, int sign) {
+    FixedPoint a = middle_of(from);
+    FixedPoint b = middle_of(to);
+    if (sign < 0) {
+        std::swap(a, b);
+    }
+    HalfPlane plane = right_of(a, b, true);
+    Int128 farthest = 0;  // corners: how far they reach inside
+    for (const Box& box : {from, to}) {
+        for (const FixedPoint& q : corners(box)) {
+            farthest = std::max(farthest, edge_function(a, b, q));
+        }
+    }
+    plane.c -= farthest;
+    return plane;
+}
+
+void add_edge(const Box& from, const Box& to, EdgeTest test, int sign,
+              std::vector<HalfPlane>& planes) {
+    switch (test) {
+        case EdgeTest::strict:
+            for (const FixedPoint& a : corners(from)) {
+                for (const FixedPoint& b : corners(to)) {
+                    planes.push_back(sign > 0 ? right_of(a, b, true) : right_of(b, a, true));
+                }
+            }
+            return;
+        case EdgeTest::parallel:
+            planes.push_back(parallel_plane(from, to, sign));
+            return;
+        case EdgeTest::top_left:
+            planes.push_back(tie_plane(from, to, sign));
+            return;
+    }
+}
+
 void add_boxes(const Outline& o, CoverageSets& out) {
     out.may.push_back(hull_set(o.vertices()));
     const std::span<const Box> boxes = o.must_vertices();
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        if (o.must_test[i] == EdgeTest::top_left) {
+            out.may.back().planes.push_back(
+                tie_plane(boxes[i], boxes[(i + 1) % boxes.size()], o.tie_side[i]));
+        }
+    }
     const int sign = corner_sign(boxes);
     if (boxes.size() < 3 || sign == 0) {
         out.has_must = false;
         return;
     }
     for (size_t i = 0; i < boxes.size(); ++i) {
-        const size_t next = (i + 1) % boxes.size();
-        for (const FixedPoint& a : corners(boxes[i])) {
-            for (const FixedPoint& b : corners(boxes[next])) {
-                out.must.push_back(sign > 0 ? right_of(a, b, true) : right_of(b, a, true));
-            }
-        }
+        add_edge(boxes[i], boxes[(i + 1) % boxes.size()], o.must_test[i], sign, out.must);
     }
 }
 
