@@ -21,6 +21,8 @@ namespace ref::value {
 inline constexpr double kUnitRoundoff = 0x1p-24;  // u of binary32
 // Absolute error of results that a device flushes to zero below 2^-126, a few per coordinate.
 inline constexpr double kUnderflow = 0x1p-123;
+// One rounding at profile vulkan: "about 1 part in 10^5".
+inline constexpr double kVulkanRoundoff = 1e-5;
 // Budgets that are proven to hold to first order for the evaluations of docs/precision.md.
 inline constexpr int kProvenFactor = 8;
 
@@ -61,22 +63,24 @@ struct Plane {
     std::array<T, 4> bx{}, by{};
     T constant{};
 
-    // `spread` is sum |b_i| at the point, 1 inside the triangle: errors of the vertex values and
-    // positions grow by it where the plane is extrapolated.
+    // `spread` is sum |b_i| at the point, 1 inside the triangle: errors of the vertex values,
+    // positions and the determinant grow by it where the plane is extrapolated.
     T budget(const T& extent_x, const T& extent_y, const T& spread) const {
         T worst = bx[0] * extent_x + by[0] * extent_y;
         for (size_t k = 1; k < bx.size(); ++k) {
             worst = larger(worst, T(bx[k] * extent_x + by[k] * extent_y));
         }
-        return T(2 * kUnitRoundoff) * worst + constant * spread;
+        return (T(2 * kUnitRoundoff) * worst + constant) * spread;
     }
 };
 
 template <class T>
 struct Basis {
-    Triple<Form<T>> bary;      // b_i
-    T extent_x{}, extent_y{};  // largest |x_f,i|, |y_f,i|
-    int orientation = 0;       // sign of the determinant, 2 if unknown, 0 if there is no basis
+    Triple<Form<T>> bary;  // b_i
+    // Least and largest x_f,i and y_f,i, the origin included, because a plane may be anchored
+    // there.
+    T low_x{}, high_x{}, low_y{}, high_y{};
+    int orientation = 0;  // sign of the determinant, 2 if unknown, 0 if there is no basis
     std::vector<Plane<T>> planes;
 };
 
@@ -104,8 +108,12 @@ Basis<T> make_basis(const Vertices<T>& v, const std::vector<PlaneInput<T>>& inpu
         betas[i] = {T(row[i][0] * inverse), T(row[i][1] * inverse), T(row[i][2] * inverse)};
         basis.bary[i] = {T(betas[i].x * v.w[i]), T(betas[i].y * v.w[i]), T(betas[i].c * v.w[i])};
         if (v.finite[i]) {
-            basis.extent_x = larger(basis.extent_x, T(magnitude(T(v.hx[i] / v.w[i]))));
-            basis.extent_y = larger(basis.extent_y, T(magnitude(T(v.hy[i] / v.w[i]))));
+            const T x = v.hx[i] / v.w[i];
+            const T y = v.hy[i] / v.w[i];
+            basis.low_x = smaller(basis.low_x, x);
+            basis.high_x = larger(basis.high_x, x);
+            basis.low_y = smaller(basis.low_y, y);
+            basis.high_y = larger(basis.high_y, y);
         }
     }
     basis.planes.reserve(inputs.size());
@@ -173,8 +181,8 @@ Site<T> make_site(const Basis<T>& basis, const Plane<T>& inv_w, const Point<T>& 
                   const T& factor) {
     Site<T> s;
     s.p = p;
-    s.extent_x = larger(basis.extent_x, T(magnitude(p.x)));
-    s.extent_y = larger(basis.extent_y, T(magnitude(p.y)));
+    s.extent_x = larger(basis.high_x, p.x) - smaller(basis.low_x, p.x);
+    s.extent_y = larger(basis.high_y, p.y) - smaller(basis.low_y, p.y);
     s.is_inside = Answer::yes;
     for (const Form<T>& b : basis.bary) {
         const T at = b.at(p);
@@ -218,9 +226,11 @@ Valued<T> value_at(const Site<T>& s, const Plane<T>& plane, bool is_perspective,
 // point that is covered; `least` is the least 1/w there, `most` the largest |f|. To first order:
 // the budgets' own formula (docs/precision.md, "The quotient").
 template <class T>
-T hull_reach(const Site<T>& s, const Plane<T>& plane, const T& least, const T& most,
-             const T& factor) {
-    const T planes = plane.budget(s.extent_x, s.extent_y, s.spread) + most * s.bd;
+T hull_reach(const Site<T>& s, const Plane<T>& inv_w, const Plane<T>& plane, const T& least,
+             const T& most, const T& factor) {
+    const T one(1.0);  // the positions that cover the point have it inside
+    const T planes = plane.budget(s.extent_x, s.extent_y, one) +
+                     most * inv_w.budget(s.extent_x, s.extent_y, one);
     return factor * (planes / larger(s.d, least) + T(2 * kUnitRoundoff) * most);
 }
 

@@ -104,11 +104,12 @@ struct PieceVertex {
     bool is_bounded = true;
 };
 
-// The vertices of the clipped polygon as a device re-projects them in binary32.
+// The vertices of the clipped polygon as a device re-projects them with rounding errors of
+// `roundoff`.
 template <class T>
 std::vector<PieceVertex<T>> piece_vertices(const Primitive& primitive,
                                            const std::vector<PlaneInput<T>>& inputs,
-                                           const Vertices<T>& ideal) {
+                                           const Vertices<T>& ideal, double roundoff) {
     const cases::Viewport& viewport = primitive.draw->viewport;
     const std::vector<ClippedVertex> polygon =
         clip_triangle(primitive.clip, viewport, cases::Profile::direct3d);
@@ -120,8 +121,8 @@ std::vector<PieceVertex<T>> piece_vertices(const Primitive& primitive,
             });
         cuts += is_cut ? 1 : 0;
     }
-    const T rounding = T(kClipRoundings * static_cast<double>(cuts) * kUnitRoundoff);
-    const T u(kUnitRoundoff);
+    const T u(roundoff);
+    const T rounding = T(kClipRoundings * static_cast<double>(cuts)) * u;
     std::vector<PieceVertex<T>> out;
     for (const ClippedVertex& vertex : polygon) {
         PieceVertex<T> p;
@@ -254,11 +255,12 @@ bool add_pieces(const std::vector<PlaneInput<T>>& inputs,
     return true;
 }
 
-// Hull of the vertex values of every numeric quantity, of the clipped polygon if there is one.
+// Hull of the vertex values of every numeric quantity, of the clipped polygon if there is one, as a
+// device with rounding errors of `roundoff` may have them.
 template <class T>
 std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<PlaneInput<T>>& inputs,
                                std::span<const Quantity> quantities,
-                               const std::vector<PieceVertex<T>>& polygon) {
+                               const std::vector<PieceVertex<T>>& polygon, double roundoff) {
     std::vector<Range<T>> out(quantities.size());
     for (size_t q = 0; q < quantities.size(); ++q) {
         const Quantity& quantity = quantities[q];
@@ -286,7 +288,9 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
         } else {
             for (const PieceVertex<T>& p : polygon) {
                 if (p.is_bounded) {
-                    add(T(p.h[quantity.plane] / p.w));
+                    const T g = p.h[quantity.plane] / p.w;
+                    add(T(g - p.error[quantity.plane]));
+                    add(T(g + p.error[quantity.plane]));
                 } else {
                     add(T(0.0));
                     add(T(quantity.plane == kPlaneDepth ? 1.0 : 0x1p127));
@@ -294,7 +298,7 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
             }
         }
         // The rounding of the vertex values themselves, where there is no plane to budget for.
-        const T slack = T(16 * kUnitRoundoff) * (magnitude(out[q].low) + magnitude(out[q].high));
+        const T slack = T(16 * roundoff) * (magnitude(out[q].low) + magnitude(out[q].high));
         out[q].low = out[q].low - slack;
         out[q].high = out[q].high + slack;
     }
@@ -318,11 +322,12 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
                        static_cast<double>(std::max(viewport.min_depth, viewport.max_depth))};
     const std::vector<PlaneInput<T>> inputs = plane_inputs<T>(primitive, quantities);
     const Vertices<T> ideal = ideal_vertices<T>(primitive);
+    const double roundoff = profile == cases::Profile::vulkan ? kVulkanRoundoff : kUnitRoundoff;
     std::vector<PieceVertex<T>> polygon;
     if (primitive.needs_clipping) {
-        polygon = piece_vertices(primitive, inputs, ideal);
+        polygon = piece_vertices(primitive, inputs, ideal, roundoff);
     }
-    set.hulls = hulls_of(primitive, inputs, quantities, polygon);
+    set.hulls = hulls_of(primitive, inputs, quantities, polygon, roundoff);
 
     Basis<T> unsnapped = make_basis(ideal, inputs, kBudgetFactor);
     set.is_known = unsnapped.orientation != 2;

@@ -37,8 +37,10 @@ Filter make_filter(const Basis<Ball>& basis) {
     f.usable = true;
     // The extents of the vertices alone and a spread of 1 give a budget that is never too large.
     const Ball one(1.0);
+    const Ball extent_x = basis.high_x - basis.low_x;
+    const Ball extent_y = basis.high_y - basis.low_y;
     for (const Plane<Ball>& plane : basis.planes) {
-        const Ball budget = plane.budget(basis.extent_x, basis.extent_y, one);
+        const Ball budget = plane.budget(extent_x, extent_y, one);
         FilterPlane p{plane.form.x.v,
                       plane.form.y.v,
                       plane.form.c.v,

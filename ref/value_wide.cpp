@@ -98,8 +98,9 @@ void add_hull(const Range<T>& hull, const T& widest, double device, Reach<T>& ou
 // A smooth value whose denominator binary32 cannot tell from zero. `is_covered`: a device that
 // uses this basis covers the point by the same positions, so that it is inside of its triangle.
 template <class T>
-void add_unsafe(const WideSet<T>& set, const Site<T>& site, const Plane<T>& plane, bool is_covered,
-                const Range<T>& hull, double device, Reach<T>& out) {
+void add_unsafe(const WideSet<T>& set, const Site<T>& site, const Plane<T>& inv_w,
+                const Plane<T>& plane, bool is_covered, const Range<T>& hull, double device,
+                Reach<T>& out) {
     const Answer inside = is_covered ? Answer::yes : site.is_inside;
     if (inside == Answer::unknown || is_positive(set.least_inv_w) == Answer::unknown) {
         out.is_known = false;
@@ -107,7 +108,8 @@ void add_unsafe(const WideSet<T>& set, const Site<T>& site, const Plane<T>& plan
         out.is_free = true;
     } else {
         const T most = larger(T(magnitude(hull.low)), T(magnitude(hull.high)));
-        add_hull(hull, hull_reach(site, plane, set.least_inv_w, most, set.factor), device, out);
+        add_hull(hull, hull_reach(site, inv_w, plane, set.least_inv_w, most, set.factor), device,
+                 out);
     }
 }
 
@@ -127,7 +129,8 @@ void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
         }
         if (v.exists == Answer::no) {
             if (at_sample) {
-                add_unsafe(set, site, basis.planes[q.plane], is_covered, hull, device, out);
+                add_unsafe(set, site, basis.planes[kPlaneInvW], basis.planes[q.plane], is_covered,
+                           hull, device, out);
             } else {
                 out.is_free = true;
             }
@@ -139,7 +142,8 @@ void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
         const T high = v.value + v.reach;
         if (is_depth(q) && set.any_of_all) {
             // Vulkan: depth outside of the viewport's range is undefined unless it is clamped.
-            const Answer beyond = is_beyond(low, high, set.depth_range);
+            const Answer beyond =
+                is_beyond(T(v.value - v.budget), T(v.value + v.budget), set.depth_range);
             out.is_known = out.is_known && beyond != Answer::unknown;
             out.is_undefined = out.is_undefined || beyond == Answer::yes;
         }
