@@ -120,8 +120,7 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
         }
         const uint32_t a = vertex_number(triangle.draw, triangle.vertex[e]);
         const uint32_t b = vertex_number(triangle.draw, triangle.vertex[(e + 1) % 3]);
-        sides.push_back({uint64_t{std::min(a, b)} << 32U | std::max(a, b),
-                         (a < b) == (setup.orientation > 0), member});
+        sides.push_back({edge_number(triangle, e), (a < b) == (setup.orientation > 0), member});
     }
     return has_edge[0] || has_edge[1] || has_edge[2];
 }
@@ -155,14 +154,95 @@ int Narrowing::count_of(const FixedPoint& p, std::span<const Hit> hits,
     return clipped >= 0 && clipped <= static_cast<int>(members.size()) ? clipped : -1;
 }
 
+uint64_t Narrowing::edge_number(const Triangle& triangle, uint32_t edge) {
+    const uint32_t a = vertex_number(triangle.draw, triangle.vertex[edge]);
+    const uint32_t b = vertex_number(triangle.draw, triangle.vertex[(edge + 1) % 3]);
+    return uint64_t{std::min(a, b)} << 32U | std::max(a, b);
+}
+
+const std::vector<uint32_t>& Narrowing::triangles_at(uint64_t edge) {
+    if (edge_triangles_.empty()) {
+        for (uint32_t t = 0; t < triangles_.size(); ++t) {
+            for (uint32_t e = 0; e < 3; ++e) {
+                edge_triangles_[edge_number(triangles_[t], e)].push_back(t);
+            }
+        }
+    }
+    return edge_triangles_[edge];
+}
+
 std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
                                                     std::span<const Hit> hits) {
+    std::vector<bool> is_open(hits.size());
+    for (size_t m = 0; m < hits.size(); ++m) {
+        is_open[m] = hits[m].coverage == Coverage::either;
+    }
+    std::vector<Fixed> out = closed_sets(p, hits, is_open);
+    if (profile_ == cases::Profile::direct3d) {
+        add_decided_sets(p, hits, out);
+    }
+    return out;
+}
+
+void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
+                                 std::vector<Fixed>& sets) {
+    std::vector<bool> takes_part(hits.size(), true);
+    for (const Fixed& set : sets) {
+        for (const uint32_t m : set.members) {
+            takes_part[m] = false;
+        }
+    }
+    const auto is_open = [&](size_t m) {
+        return m < hits.size() && takes_part[m] && hits[m].coverage == Coverage::either;
+    };
+    std::vector<Hit> all(hits.begin(), hits.end());
+    std::vector<Side> sides;
+    bool has_open = false;
+    for (size_t m = 0; m < all.size(); ++m) {
+        has_open = has_open || is_open(m);
+        if (!takes_part[m]) {
+            continue;
+        }
+        sides.clear();
+        add_sides(p, Hit(all[m]), static_cast<uint32_t>(m), sides);
+        for (const Side& side : sides) {
+            for (const uint32_t t : triangles_at(side.edge)) {
+                const bool is_drawn = setups_[t].kind != TriangleSetup::Kind::nothing;
+                if (is_drawn && std::none_of(all.begin(), all.end(),
+                                             [&](const Hit& h) { return h.triangle == t; })) {
+                    all.push_back({t, Coverage::must_not});
+                    takes_part.push_back(true);
+                }
+            }
+        }
+    }
+    if (!has_open) {
+        return;
+    }
+    for (const Fixed& set : closed_sets(p, all, takes_part)) {
+        Fixed open;
+        uint32_t sure = 0;
+        for (const uint32_t m : set.members) {
+            sure += all[m].coverage == Coverage::must ? 1U : 0U;
+            if (is_open(m)) {
+                open.members.push_back(m);
+            }
+        }
+        if (!open.members.empty() && set.count >= sure && set.count - sure <= open.members.size()) {
+            open.count = set.count - sure;
+            sets.push_back(std::move(open));
+        }
+    }
+}
+
+std::vector<Narrowing::Fixed> Narrowing::closed_sets(const FixedPoint& p, std::span<const Hit> hits,
+                                                     const std::vector<bool>& takes_part) {
     std::vector<Fixed> out;
     const auto n = static_cast<uint32_t>(hits.size());
     std::vector<Side> sides;
     std::vector<bool> is_free(n, true);
     for (uint32_t m = 0; m < n; ++m) {
-        if (hits[m].coverage == Coverage::either) {
+        if (takes_part[m]) {
             const size_t before = sides.size();
             is_free[m] = !add_sides(p, hits[m], m, sides);
             if (is_free[m]) {
@@ -198,7 +278,7 @@ std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
     std::vector<uint32_t> slot(n, n);
     for (uint32_t m = 0; m < n; ++m) {
         const uint32_t root = root_of(parent, m);
-        if (hits[m].coverage != Coverage::either || is_set_free[root]) {
+        if (!takes_part[m] || is_set_free[root]) {
             continue;
         }
         if (slot[root] == n) {
@@ -221,7 +301,8 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, std::span<const Hit> hit
     out.writers_begin = static_cast<uint32_t>(writers.size());
     const auto open = std::count_if(hits.begin(), hits.end(),
                                     [](const Hit& h) { return h.coverage == Coverage::either; });
-    if (open < 2) {
+    // Alone, an open triangle can only be settled by partners that are decided.
+    if (open < (profile_ == cases::Profile::direct3d ? 1 : 2)) {
         uint32_t first = 0;
         for (uint32_t m = 0; m < hits.size(); ++m) {
             const bool is_must = hits[m].coverage == Coverage::must;

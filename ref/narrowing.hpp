@@ -11,7 +11,9 @@
 // equal vertices are snapped alike, the border of the chain sum(K) stays away from p, so its
 // winding number around p, which is the number of triangles of K that cover p, is the same for
 // every snapping; on an edge itself the shared-edge rule (Vulkan specification, "Basic Polygon
-// Rasterization") keeps the number. So p is hit that often by K.
+// Rasterization") keeps the number. So p is hit that often by K. At profile
+// direct3d some triangles of K may be decided by themselves, those that do not cover p included;
+// the others share what is left of the number.
 #pragma once
 
 #include <cstdint>
@@ -66,7 +68,17 @@ class Narrowing {
         uint32_t member = 0;
     };
 
+    // Of the triangles that may cover p; sets of them alone.
     std::vector<Fixed> fixed_sets(const FixedPoint& p, std::span<const Hit> hits);
+    // As fixed_sets, for the open ones among `hits` that are in none of its sets: with triangles
+    // that are decided. Appends to `sets`.
+    void add_decided_sets(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets);
+    // Sets closed under partnership among the hits that take part.
+    std::vector<Fixed> closed_sets(const FixedPoint& p, std::span<const Hit> hits,
+                                   const std::vector<bool>& takes_part);
+    // All triangles with an edge between two vertices.
+    const std::vector<uint32_t>& triangles_at(uint64_t edge);
+    uint64_t edge_number(const Triangle& triangle, uint32_t edge);
     // Adds the edges of a hit near p; false if p lies where no rule fixes anything.
     bool add_sides(const FixedPoint& p, const Hit& hit, uint32_t member, std::vector<Side>& sides);
     // The number of the members that cover p, or -1 if it depends on the outline used.
@@ -83,6 +95,7 @@ class Narrowing {
     Predicates predicates_;
     std::unordered_map<std::string, uint32_t> numbers_;
     std::vector<std::vector<uint32_t>> vertex_numbers_;  // per draw; 0 = not yet numbered
+    std::unordered_map<uint64_t, std::vector<uint32_t>> edge_triangles_;  // when first asked for
 };
 
 }  // namespace ref
