@@ -158,14 +158,14 @@ void to_fixed(const mpz_class& low, const mpz_class& high, int bits, int64_t& x0
     x1 = high.get_si() * (int64_t{1} << (kFixedBits - bits));
 }
 
-// What profile vulkan adds on either side of a coordinate: about 1 part in 10^5 for each operation
-// (Vulkan, "Floating-Point Computation"), outward to S47.16.
-int64_t vulkan_slack(const mpq_class& ideal, const Axis& axis, bool is_fractional) {
-    mpq_class slack = mpq_class(1, 100000) * (2 * abs(ideal - axis.offset) + abs(ideal));
+// What profile vulkan adds to the error of a coordinate before it is snapped: the operations above
+// with about 1 part in 10^5 each (Vulkan, "Floating-Point Computation").
+mpq_class vulkan_slack(const mpq_class& ideal, const Axis& axis, bool is_fractional) {
+    mpq_class slack = rounding_bound(ideal - axis.offset, axis.offset, ideal, mpq_class(1, 100000));
     if (is_fractional) {
         slack += 1;  // viewportSubPixelBits may be 0: the viewport may move by less than a pixel
     }
-    return ceil_of(slack * power_of_two(kFixedBits)).get_si();
+    return slack;
 }
 
 void axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& axis, bool is_fractional,
@@ -178,13 +178,12 @@ void axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& axis, 
         to_fixed(ceil_of(v - reach), floor_of(v + reach), limits.subpixel_bits, x0, x1);
         return;
     }
-    to_fixed(floor_of((ideal - error) * scale), ceil_of((ideal + error) * scale),
-             limits.subpixel_bits, x0, x1);
+    mpq_class reach = error;
     if (profile == cases::Profile::vulkan) {
-        const int64_t units = vulkan_slack(ideal, axis, is_fractional);
-        x0 -= units;
-        x1 += units;
+        reach += vulkan_slack(ideal, axis, is_fractional);
     }
+    to_fixed(floor_of((ideal - reach) * scale), ceil_of((ideal + reach) * scale),
+             limits.subpixel_bits, x0, x1);
 }
 
 // The same for a point of an edge that a device may cut and snap elsewhere: all positions within
@@ -193,14 +192,12 @@ void axis_crossing(const mpq_class& ideal, const mpq_class& error, const Axis& a
                    bool is_fractional, const Limits& limits, cases::Profile profile, int64_t& x0,
                    int64_t& x1) {
     const mpq_class units = profile == cases::Profile::direct3d ? mpq_class(3, 5) : mpq_class(1);
-    const mpq_class reach = error + units * power_of_two(-limits.subpixel_bits);
+    mpq_class reach = error + units * power_of_two(-limits.subpixel_bits);
+    if (profile == cases::Profile::vulkan) {
+        reach += vulkan_slack(ideal, axis, is_fractional);
+    }
     x0 = floor_of((ideal - reach) * power_of_two(kFixedBits)).get_si();
     x1 = ceil_of((ideal + reach) * power_of_two(kFixedBits)).get_si();
-    if (profile == cases::Profile::vulkan) {
-        const int64_t slack = vulkan_slack(ideal, axis, is_fractional);
-        x0 -= slack;
-        x1 += slack;
-    }
 }
 
 bool is_in_range(const mpq_class& x, const mpq_class& y, const TransformError& error) {

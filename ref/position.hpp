@@ -55,7 +55,12 @@ struct Box {
 //   ideal
 //             position;
 //   practice  floor..ceil of the ideal position (widened by the transform error) on the subpixel
-//   grid; vulkan    practice, widened by 1e-5 (2 |p/2 x_d| + |x_f|), outward to 2^-16.
+//             grid;
+//   vulkan    the same, widened before it is snapped by what operations accurate to 1e-5 may be
+//             off: 1e-5 (4 |p/2 x_d| + |o| + 2 |x_f| + 1) and higher orders. A vertex on the grid
+//             has at least one grid point more on either side: nothing says which way a computed
+//             value just beside it is snapped. So samples on or within a unit of an edge that no
+//             triangle shares are open.
 // Nothing if a coordinate's magnitude exceeds 2^32 pixels, or the vertex is beyond the range that
 // the profile guarantees (is_in_guaranteed_range).
 std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& viewport,

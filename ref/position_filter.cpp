@@ -95,11 +95,21 @@ std::optional<FilteredRange> filtered_range(float c, float w, float origin, floa
     }
     const double scale = std::ldexp(1.0, limits.subpixel_bits);
     const bool is_direct3d = profile == cases::Profile::direct3d;
+    const bool is_vulkan = profile == cases::Profile::vulkan;
+    if (is_vulkan) {
+        // vulkan_slack in position.cpp, u = 1e-5: as `error`, with the rounding of u itself.
+        const bool is_fractional = std::floor(origin) < origin || std::floor(extent) < extent;
+        const double terms = 4 * std::abs(t) + std::abs(o) + 2 * std::abs(x_f) + 1;
+        const double wide = 1e-5 * terms * (1 + 8e-5) + (is_fractional ? 1 : 0);
+        position.slack += 64 * kRound * (wide + std::abs(t) + std::abs(o) + std::abs(x_f));
+        error += wide;
+    }
     // 0.6 is no binary64 number: its rounding and that of the sum count as slack.
     const double reach = error * scale + (is_direct3d ? 0.6 : 0.0);
     const double slack =
-        position.slack * scale +
-        (is_exact && !is_direct3d ? 0 : 4 * kRound * (std::abs(x_f) * scale + reach + 1));
+        position.slack * scale + (is_exact && !is_direct3d && !is_vulkan
+                                      ? 0
+                                      : 4 * kRound * (std::abs(x_f) * scale + reach + 1));
     const Known low{x_f * scale - reach, slack};
     const Known high{x_f * scale + reach, slack};
     FilteredRange out;
@@ -112,19 +122,6 @@ std::optional<FilteredRange> filtered_range(float c, float w, float origin, floa
     const int64_t unit = int64_t{1} << (kFixedBits - limits.subpixel_bits);
     out.low *= unit;
     out.high *= unit;
-    if (profile == cases::Profile::vulkan) {
-        const bool is_fractional = std::floor(origin) < origin || std::floor(extent) < extent;
-        const double wide = (1e-5 * (2 * std::abs(t) + std::abs(x_f)) + (is_fractional ? 1 : 0)) *
-                            static_cast<double>(kFixedOne);
-        const double wide_slack =
-            32 * kRound * wide + 1e-4 * static_cast<double>(kFixedOne) * position.slack + kSmall;
-        int64_t units = 0;
-        if (!certain_ceil({wide, wide_slack}, units)) {
-            return std::nullopt;
-        }
-        out.low -= units;
-        out.high += units;
-    }
     return out;
 }
 

@@ -138,9 +138,23 @@ TEST(Position, BoxesOffTheGrid) {
     EXPECT_EQ(x_at(0.375, Profile::direct3d).x1, base);
     EXPECT_EQ(x_at(0.4375, Profile::direct3d).x1, base + kUnit);
     EXPECT_EQ(x_at(0.625, Profile::direct3d).x0, base + kUnit);
-    // vulkan: 1e-5 (2 |10 - 32| + 10) = 54e-5 pixel, outward: 36 units more on either side
-    EXPECT_EQ(x_at(0, Profile::vulkan).x0, base - 36);
-    EXPECT_EQ(x_at(0, Profile::vulkan).x1, base + 36);
+    // vulkan: 1e-5 (4 |10 - 32| + 32 + 2 * 10 + 1) = 141e-5 pixel, 0.36 units
+    EXPECT_EQ(x_at(0, Profile::vulkan).x0, base - kUnit);
+    EXPECT_EQ(x_at(0, Profile::vulkan).x1, base + kUnit);
+    EXPECT_EQ(x_at(0.5, Profile::vulkan).x0, base);
+    EXPECT_EQ(x_at(0.5, Profile::vulkan).x1, base + kUnit);
+    EXPECT_EQ(x_at(0.25, Profile::vulkan).x0, base - kUnit);
+}
+
+// A device accurate to 1e-5 computes 3.4960972 for 3.49609375 and rounds it up to 3.5: a sample at
+// 3.5 then lies on an edge that nobody shares.
+TEST(Position, LiteralVulkanSnapsWhatIsComputed) {
+    const cases::Case c = pixels(8, 8, {{3.49609375, 0}, {3.49609375, 8}, {8, 4}});
+    const HitBounds open = hits_at(expect(c, {8}, Profile::vulkan), 3, 4);
+    EXPECT_EQ(open.total_min, 0U);
+    EXPECT_EQ(open.total_max, 1U);
+    EXPECT_EQ(hits_at(expect(c, {8}, Profile::vulkan), 4, 4).total_min, 1U);
+    EXPECT_EQ(hits_at(expect(c, {8}, Profile::practice), 3, 4).total_min, 1U);
 }
 
 TEST(Position, ProfilesAreNestedAndHoldTheNearestPoint) {
