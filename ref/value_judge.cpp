@@ -13,11 +13,10 @@
 #include <numeric>
 #include <optional>
 
-#include "ref/clip.hpp"
-#include "ref/position.hpp"
 #include "ref/sample.hpp"
 #include "ref/value.hpp"
 #include "ref/value_filter.hpp"
+#include "ref/value_promise.hpp"
 #include "ref/value_wide.hpp"
 
 namespace ref {
@@ -64,71 +63,9 @@ class WideCache {
 struct Loaded {
     value::Primitive primitive;
     value::Filter unsnapped, snapped;
-    bool has_snapped = false;  // and it differs from the unsnapped one
-    // By quantity: not asked at any profile, or not at profile vulkan. Filled when first asked for.
-    std::optional<std::vector<bool>> unpromised, beyond;
+    bool has_snapped = false;                             // and it differs from the unsnapped one
+    std::optional<std::vector<value::Promise>> promises;  // filled when first asked for
 };
-
-// Above it a sum of a few, or a difference of two, overflows binary32; 1/w below is a denormal w.
-constexpr double kLargest = 0x1p126;
-
-// No profile asks for a number where binary32 has none: 1/w of a vertex (w = 0 has no value at all,
-// a denormal w may be flushed to 0), z/w, f/w of a smooth value or f itself.
-bool is_unpromised(const value::Primitive& primitive, const Quantity& q) {
-    if (q.kind != Kind::linear && q.kind != Kind::perspective) {
-        return false;
-    }
-    value::Triple<float> values{1, 1, 1};
-    if (q.attribute >= 0) {
-        values =
-            value::attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
-    } else if (q.plane == value::kPlaneDepth) {
-        values = {primitive.clip[0].z, primitive.clip[1].z, primitive.clip[2].z};
-    }
-    for (size_t i = 0; i < 3; ++i) {
-        const double f = std::fabs(static_cast<double>(values[i]));
-        const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
-        const bool is_quotient = q.attribute < 0 || q.kind == Kind::perspective;
-        // Products with a power of two: exact.
-        if (w * kLargest < 1 || f > kLargest || (is_quotient && f > w * kLargest)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// Vulkan guarantees magnitudes up to 2^32 only ("Floating-Point Computation").
-constexpr double kGuaranteed = 0x1p32;
-
-// Whether 1/w or a quotient by w of a vertex that a device may use is beyond it.
-bool is_position_beyond(const value::Primitive& primitive) {
-    if (!std::all_of(primitive.clip.begin(), primitive.clip.end(), [](const glm::vec4& v) {
-            return is_in_guaranteed_range(v, Profile::vulkan);
-        })) {
-        return true;
-    }
-    if (!primitive.needs_clipping) {
-        return false;
-    }
-    const auto polygon = clip_triangle(primitive.clip, primitive.draw->viewport, Profile::vulkan);
-    return std::any_of(polygon.begin(), polygon.end(), [](const ClippedVertex& v) {
-        return v.clip[3] * mpq_class(kGuaranteed) < 1;
-    });
-}
-
-// Whether an attribute f, or f/w if the quantity is a quotient, is beyond it.
-bool is_attribute_beyond(const value::Primitive& primitive, const Quantity& q) {
-    const auto values =
-        value::attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
-    for (size_t i = 0; i < 3; ++i) {
-        const double f = std::fabs(static_cast<double>(values[i]));
-        const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
-        if (f > kGuaranteed || (q.kind == Kind::perspective && w > 0 && f > kGuaranteed * w)) {
-            return true;
-        }
-    }
-    return false;
-}
 
 std::string bits_of(float f) {
     return fmt::format("{:.9g} (0x{:08x})", f, std::bit_cast<uint32_t>(f));
@@ -218,32 +155,12 @@ struct ValueReference::Impl {
         return std::fabs(a.v - b.v) > 0 || a.e > std::fabs(a.v) * 0x1p-40;
     }
 
-    // Not asked at any profile, by quantity.
-    const std::vector<bool>& unpromised(uint32_t t) {
+    const std::vector<value::Promise>& promises(uint32_t t) {
         Loaded& triangle = load(t);
-        if (!triangle.unpromised) {
-            triangle.unpromised.emplace();
-            for (const Quantity& q : quantities_of(t)) {
-                triangle.unpromised->push_back(is_unpromised(triangle.primitive, q));
-            }
+        if (!triangle.promises) {
+            triangle.promises = value::promises_of(triangle.primitive, quantities_of(t));
         }
-        return *triangle.unpromised;
-    }
-
-    // Not asked at profile vulkan, by quantity.
-    const std::vector<bool>& beyond(uint32_t t) {
-        Loaded& triangle = load(t);
-        if (!triangle.beyond) {
-            const bool is_everything = is_position_beyond(triangle.primitive);
-            triangle.beyond.emplace();
-            for (const Quantity& q : quantities_of(t)) {
-                const bool is_quotient = q.kind == Kind::linear || q.kind == Kind::perspective;
-                triangle.beyond->push_back(
-                    is_quotient && (is_everything || (q.attribute >= 0 &&
-                                                      is_attribute_beyond(triangle.primitive, q))));
-            }
-        }
-        return *triangle.beyond;
+        return *triangle.promises;
     }
 
     // The quantities that the profile asks for.
@@ -251,7 +168,8 @@ struct ValueReference::Impl {
         std::vector<size_t> out(quantities_of(t).size());
         std::iota(out.begin(), out.end(), size_t{0});
         std::erase_if(out, [&](size_t index) {
-            return unpromised(t)[index] || (at == Profile::vulkan && beyond(t)[index]);
+            return !promises(t)[index].is_number ||
+                   (at == Profile::vulkan && !promises(t)[index].is_guaranteed);
         });
         return out;
     }
