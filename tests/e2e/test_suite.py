@@ -30,7 +30,7 @@ class Suite(ProgramTest):
                 # What is left free must stay the exception: a suite of "either" would judge nothing.
                 free = sum(case["either_samples"] for case in results["cases"])
                 samples = sum(case["compared_samples"] for case in results["cases"])
-                self.assertLess(free, samples / {"vulkan": 20, "practice": 100, "direct3d": 1000}[profile])
+                self.assertLess(free, samples / {"vulkan": 20, "practice": 100, "direct3d": 500}[profile])
                 for case in results["cases"]:
                     self.assertGreater(case["must_samples"], 0, case["id"])
 
