@@ -7,9 +7,22 @@
 
 #include <algorithm>
 #include <mutex>
+#include <ostream>
 
 #include "mutants/expected_catches.hpp"
 #include "mutants/judge.hpp"
+
+namespace mutants {
+
+// How ctest names a parameter.
+void PrintTo(const LegalDevice& device, std::ostream* out) {
+    *out << device.name;
+}
+void PrintTo(const ExpectedCatch& row, std::ostream* out) {
+    *out << to_string(row.fault);
+}
+
+}  // namespace mutants
 
 namespace mutants {
 namespace {
