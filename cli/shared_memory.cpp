@@ -42,10 +42,15 @@ std::shared_ptr<const Region> SharedMemory::take() {
     for (size_t k = 0; k < kRegions; ++k) {
         if (taken_[k].expired()) {
             const uint64_t offset = k * kRegionBytes;
-            // The deleter keeps the mapping for as long as a capture is read from it.
-            const std::shared_ptr<const Region> region(
-                new Region{offset, {data_ + offset, kRegionBytes}},
-                [memory = shared_from_this()](const Region* r) { delete r; });
+            // A capture that is read keeps the mapping. (Not a deleter: that would live as long as
+            // taken_ watches it, inside the memory that it keeps.)
+            struct Reader {
+                std::shared_ptr<const SharedMemory> memory;
+                Region region;
+            };
+            const auto reader = std::make_shared<const Reader>(
+                Reader{shared_from_this(), {offset, {data_ + offset, kRegionBytes}}});
+            const std::shared_ptr<const Region> region(reader, &reader->region);
             taken_[k] = region;
             return region;
         }
