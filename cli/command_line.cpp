@@ -69,6 +69,13 @@ Stop parse_error(const CLI::ParseError& error, const std::string& command) {
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) {
         text.pop_back();
     }
+    // "Could not convert: --shard = 0/3" says neither what is wrong nor where to look.
+    constexpr std::string_view kConversion = "Could not convert: ";
+    const size_t equals = text.find(" = ");
+    if (text.starts_with(kConversion) && equals != std::string::npos) {
+        text = text.substr(kConversion.size(), equals - kConversion.size()) + ": '" +
+               text.substr(equals + 3) + "' is not a value that it takes";
+    }
     return usage_error(text, command);
 }
 

@@ -16,6 +16,12 @@ class Usage(ProgramTest):
         self.assertIn(part, done.stderr)
         self.assertEqual(done.stdout, "")
 
+    def test_a_value_of_the_wrong_form_is_named(self):
+        for words, option, value in ((("run", "--shard", "0/3"), "--shard", "0/3"),
+                                     (("explain", "fam/c1", "--pixel", "x"), "--pixel", "x")):
+            done = self.edgecase(*words, check=2)
+            self.assertIn(f"{option}: '{value}' is not a value that it takes", done.stderr)
+
     def test_command(self):
         self.refused(["rnu"], "did you mean 'run'?")
 
