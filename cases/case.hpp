@@ -24,6 +24,46 @@ enum class Topology : uint8_t { triangle_list, triangle_strip, triangle_fan };
 enum class CullMode : uint8_t { none, front, back, front_and_back };
 enum class FrontFace : uint8_t { counter_clockwise, clockwise };
 enum class Interpolation : uint8_t { smooth, noperspective, flat };
+// Auxiliary storage qualifier of a fragment input: where in the pixel it is evaluated.
+enum class Auxiliary : uint8_t { none, centroid, sample };
+enum class ProvokingVertex : uint8_t { first, last };
+enum class CompareOp : uint8_t {  // numbered as VkCompareOp
+    never,
+    less,
+    equal,
+    less_or_equal,
+    greater,
+    not_equal,
+    greater_or_equal,
+    always
+};
+enum class DepthFormat : uint8_t { d32_float, d24_unorm, d16_unorm };
+
+// Where an attribute comes from.
+enum class Source : uint8_t {
+    vertex,           // one value a vertex
+    barycentric,      // gl_BaryCoordEXT; gl_BaryCoordNoPerspEXT if noperspective; 3 components
+    sample_mask_in,   // gl_SampleMaskIn[0] as a number; 1 component
+    sample_id,        // gl_SampleID as a number; 1 component, turns sample shading on
+    sample_position,  // gl_SamplePosition; 2 components, turns sample shading on
+};
+// What the fragment shader writes of an attribute from vertices.
+enum class Probe : uint8_t {
+    value,
+    at_centroid,  // interpolateAtCentroid
+    at_sample,    // interpolateAtSample(Attribute::probe_sample)
+    at_offset,    // interpolateAtOffset(Attribute::probe_offset)
+    dx,           // dFdx ...
+    dy,
+    dx_fine,
+    dy_fine,
+    dx_coarse,
+    dy_coarse,
+    width,  // fwidth ...
+    width_fine,
+    width_coarse,
+    lod,  // textureQueryLod of a texture of Attribute::texture_size at (x, y): 2 components
+};
 
 inline constexpr uint32_t kMaxAttributes = 4;
 inline constexpr uint32_t kMaxTargetSize = 16384;       // pixels a side
@@ -49,8 +89,108 @@ struct Rect {
 struct Attribute {
     std::string name;
     Interpolation interpolation = Interpolation::smooth;
-    uint32_t components = 1;  // 1..4
-    std::vector<glm::vec4> values;
+    uint32_t components = 1;        // 1..4
+    std::vector<glm::vec4> values;  // empty unless the source is vertex
+    Auxiliary auxiliary = Auxiliary::none;
+    Source source = Source::vertex;
+    Probe probe = Probe::value;
+    std::array<float, 2> probe_offset{};     // pixels from the centre; at_offset
+    uint32_t probe_sample = 0;               // at_sample
+    std::array<uint32_t, 2> texture_size{};  // texels, lod
+    friend bool operator==(const Attribute&, const Attribute&) = default;
+};
+
+// As vkCmdSetDepthBias. constant in units of r, slope in units of the maximum depth slope, clamp 0:
+// none.
+struct DepthBias {
+    float constant = 0, clamp = 0, slope = 0;
+    friend bool operator==(const DepthBias&, const DepthBias&) = default;
+};
+
+// Depth state of a draw. The defaults are what the capture of single-draw cases needs: every
+// fragment passes and writes.
+struct DepthState {
+    CompareOp compare = CompareOp::always;
+    bool write = true;
+    std::optional<DepthBias> bias = {};  // depthBiasEnable
+    bool clamp = false;                  // depthClampEnable
+    std::optional<bool> clip = {};       // VK_EXT_depth_clip_enable; nothing: !clamp
+    bool negative_one_to_one = false;    // VK_EXT_depth_clip_control
+    friend bool operator==(const DepthState&, const DepthState&) = default;
+};
+
+// User clip and cull distances: component k of clip[v] is gl_ClipDistance[k] of vertex v.
+struct ClipDistances {
+    uint32_t clip_count = 0, cull_count = 0;      // 0..4 each
+    std::vector<glm::vec4> clip = {}, cull = {};  // one a vertex, or empty if the count is 0
+    friend bool operator==(const ClipDistances&, const ClipDistances&) = default;
+};
+
+// Multisample state of a draw.
+struct Multisample {
+    uint32_t sample_mask = 0xffffffffU;            // pSampleMask
+    std::optional<uint32_t> shader_mask = {};      // written to gl_SampleMask
+    std::optional<float> min_sample_shading = {};  // sampleShadingEnable, minSampleShading, 0..1
+    friend bool operator==(const Multisample&, const Multisample&) = default;
+};
+
+// Blending of the colour target.
+enum class BlendFactor : uint8_t {  // numbered as VkBlendFactor
+    zero,
+    one,
+    src_color,
+    one_minus_src_color,
+    dst_color,
+    one_minus_dst_color,
+    src_alpha,
+    one_minus_src_alpha,
+    dst_alpha,
+    one_minus_dst_alpha,
+    constant_color,
+    one_minus_constant_color,
+    constant_alpha,
+    one_minus_constant_alpha,
+    src_alpha_saturate
+};
+enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };  // as VkBlendOp
+struct BlendEquation {
+    BlendFactor source = BlendFactor::one, destination = BlendFactor::zero;
+    BlendOp op = BlendOp::add;
+    friend bool operator==(const BlendEquation&, const BlendEquation&) = default;
+};
+struct Blend {
+    BlendEquation color, alpha;
+    glm::vec4 constants{};
+    friend bool operator==(const Blend&, const Blend&) = default;
+};
+
+// What a draw writes to the colour target (Target::color).
+struct ColorOutput {
+    glm::vec4 value{};       // the same for every fragment, unless
+    int32_t attribute = -1;  // index of the attribute that is written instead
+    std::optional<Blend> blend = {};
+    uint8_t write_mask = 0xf;  // bit 0: red ... bit 3: alpha
+    friend bool operator==(const ColorOutput&, const ColorOutput&) = default;
+};
+enum class ColorFormat : uint8_t {
+    rgba8_unorm,
+    bgra8_unorm,
+    rgba8_srgb,
+    rgb10a2_unorm,
+    r5g6b5_unorm,
+    rgba16_unorm,
+    rgba16_float,
+    rgba32_float,
+    r32_float,
+    r32_uint,
+    rgba8_uint
+};
+inline constexpr ColorFormat kLastColorFormat = ColorFormat::rgba8_uint;
+// One more colour attachment, judged by its stored bits.
+struct ColorTarget {
+    ColorFormat format = ColorFormat::rgba8_unorm;
+    glm::vec4 clear{};  // as the clear colour; whole numbers for integer formats
+    friend bool operator==(const ColorTarget&, const ColorTarget&) = default;
 };
 
 // One draw command and the state it needs.
@@ -64,12 +204,28 @@ struct Draw {
     Rect scissor;  // the whole target unless the file says otherwise
     CullMode cull = CullMode::none;
     FrontFace front_face = FrontFace::counter_clockwise;
+    ProvokingVertex provoking = ProvokingVertex::first;
+    DepthState depth;
+    ClipDistances distances;
+    Multisample multisample;
+    ColorOutput color;   // if the target has a colour target
+    uint32_t layer = 0;  // of a target with several layers
+    uint32_t viewport_index = 0;
     SourceLocation where;
 };
 
 struct Target {
     uint32_t width = 0, height = 0;  // pixels
     uint32_t samples = 1;
+    uint32_t layers = 1;
+    DepthFormat depth_format = DepthFormat::d32_float;
+    // Custom sample locations in 1/16 pixel, one a sample; empty: the standard ones.
+    std::vector<std::array<uint8_t, 2>> sample_locations = {};
+    std::optional<ColorTarget> color = {};
+    // False: only the colour target (and depth if has_depth) is attached, nothing that counts hits.
+    // Drivers take other paths then.
+    bool has_instruments = true;
+    bool has_depth = true;
     friend bool operator==(const Target&, const Target&) = default;
 };
 

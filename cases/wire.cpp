@@ -10,7 +10,7 @@ namespace cases {
 
 namespace {
 
-constexpr uint32_t kMagic = 0x45434731;  // "ECG1"
+constexpr uint32_t kMagic = 0x45434732;  // "ECG2"
 
 class Writer {
   public:
@@ -26,13 +26,17 @@ class Writer {
         number(static_cast<uint64_t>(value.size()));
         bytes_ += value;
     }
+    void real(float value) { number(std::bit_cast<uint32_t>(value)); }
+    void vector(const glm::vec4& v) {
+        real(v.x);
+        real(v.y);
+        real(v.z);
+        real(v.w);
+    }
     void vectors(const std::vector<glm::vec4>& values) {
         number(static_cast<uint64_t>(values.size()));
         for (const glm::vec4& v : values) {
-            number(std::bit_cast<uint32_t>(v.x));
-            number(std::bit_cast<uint32_t>(v.y));
-            number(std::bit_cast<uint32_t>(v.z));
-            number(std::bit_cast<uint32_t>(v.w));
+            vector(v);
         }
     }
     std::string take() { return std::move(bytes_); }
@@ -88,13 +92,19 @@ class Reader {
         rest_ = rest_.subspan(size);
         return value;
     }
+    float real() { return std::bit_cast<float>(number<uint32_t>()); }
+    glm::vec4 vector() {
+        glm::vec4 v;
+        v.x = real();
+        v.y = real();
+        v.z = real();
+        v.w = real();
+        return v;
+    }
     std::vector<glm::vec4> vectors() {
         std::vector<glm::vec4> values(count(4 * sizeof(uint32_t)));
         for (glm::vec4& v : values) {
-            v.x = std::bit_cast<float>(number<uint32_t>());
-            v.y = std::bit_cast<float>(number<uint32_t>());
-            v.z = std::bit_cast<float>(number<uint32_t>());
-            v.w = std::bit_cast<float>(number<uint32_t>());
+            v = vector();
         }
         return values;
     }
@@ -110,6 +120,155 @@ class Reader {
     bool good_ = true;
 };
 
+void write(Writer& w, const Attribute& attribute) {
+    w.text(attribute.name);
+    w.number(attribute.interpolation);
+    w.number(attribute.components);
+    w.vectors(attribute.values);
+    w.number(attribute.auxiliary);
+    w.number(attribute.source);
+    w.number(attribute.probe);
+    w.real(attribute.probe_offset[0]);
+    w.real(attribute.probe_offset[1]);
+    w.number(attribute.probe_sample);
+    w.number(attribute.texture_size[0]);
+    w.number(attribute.texture_size[1]);
+}
+
+Attribute read_attribute(Reader& r) {
+    Attribute a;
+    a.name = r.text();
+    a.interpolation = r.enumerator(Interpolation::flat);
+    a.components = r.number<uint32_t>();
+    a.values = r.vectors();
+    a.auxiliary = r.enumerator(Auxiliary::sample);
+    a.source = r.enumerator(Source::sample_position);
+    a.probe = r.enumerator(Probe::lod);
+    a.probe_offset[0] = r.real();
+    a.probe_offset[1] = r.real();
+    a.probe_sample = r.number<uint32_t>();
+    a.texture_size[0] = r.number<uint32_t>();
+    a.texture_size[1] = r.number<uint32_t>();
+    return a;
+}
+
+void write(Writer& w, const DepthState& depth) {
+    w.number(depth.compare);
+    w.flag(depth.write);
+    w.flag(depth.bias.has_value());
+    if (depth.bias) {
+        w.real(depth.bias->constant);
+        w.real(depth.bias->clamp);
+        w.real(depth.bias->slope);
+    }
+    w.flag(depth.clamp);
+    w.flag(depth.clip.has_value());
+    w.flag(depth.clip.value_or(false));
+    w.flag(depth.negative_one_to_one);
+}
+
+DepthState read_depth(Reader& r) {
+    DepthState depth;
+    depth.compare = r.enumerator(CompareOp::always);
+    depth.write = r.flag();
+    if (r.flag()) {
+        depth.bias.emplace();
+        depth.bias->constant = r.real();
+        depth.bias->clamp = r.real();
+        depth.bias->slope = r.real();
+    }
+    depth.clamp = r.flag();
+    const bool has_clip = r.flag();
+    const bool clip = r.flag();
+    if (has_clip) {
+        depth.clip = clip;
+    }
+    depth.negative_one_to_one = r.flag();
+    return depth;
+}
+
+void write(Writer& w, const BlendEquation& equation) {
+    w.number(equation.source);
+    w.number(equation.destination);
+    w.number(equation.op);
+}
+
+BlendEquation read_equation(Reader& r) {
+    BlendEquation equation;
+    equation.source = r.enumerator(BlendFactor::src_alpha_saturate);
+    equation.destination = r.enumerator(BlendFactor::src_alpha_saturate);
+    equation.op = r.enumerator(BlendOp::max);
+    return equation;
+}
+
+void write(Writer& w, const ColorOutput& color) {
+    w.vector(color.value);
+    w.number(color.attribute);
+    w.flag(color.blend.has_value());
+    if (color.blend) {
+        write(w, color.blend->color);
+        write(w, color.blend->alpha);
+        w.vector(color.blend->constants);
+    }
+    w.number(color.write_mask);
+}
+
+ColorOutput read_color(Reader& r) {
+    ColorOutput color;
+    color.value = r.vector();
+    color.attribute = r.number<int32_t>();
+    if (r.flag()) {
+        color.blend.emplace();
+        color.blend->color = read_equation(r);
+        color.blend->alpha = read_equation(r);
+        color.blend->constants = r.vector();
+    }
+    color.write_mask = r.number<uint8_t>();
+    return color;
+}
+
+void write(Writer& w, const Target& target) {
+    w.number(target.width);
+    w.number(target.height);
+    w.number(target.samples);
+    w.number(target.layers);
+    w.number(target.depth_format);
+    w.number(static_cast<uint64_t>(target.sample_locations.size()));
+    for (const std::array<uint8_t, 2>& location : target.sample_locations) {
+        w.number(location[0]);
+        w.number(location[1]);
+    }
+    w.flag(target.color.has_value());
+    if (target.color) {
+        w.number(target.color->format);
+        w.vector(target.color->clear);
+    }
+    w.flag(target.has_instruments);
+    w.flag(target.has_depth);
+}
+
+Target read_target(Reader& r) {
+    Target target;
+    target.width = r.number<uint32_t>();
+    target.height = r.number<uint32_t>();
+    target.samples = r.number<uint32_t>();
+    target.layers = r.number<uint32_t>();
+    target.depth_format = r.enumerator(DepthFormat::d16_unorm);
+    target.sample_locations.resize(r.count(2));
+    for (std::array<uint8_t, 2>& location : target.sample_locations) {
+        location[0] = r.number<uint8_t>();
+        location[1] = r.number<uint8_t>();
+    }
+    if (r.flag()) {
+        target.color.emplace();
+        target.color->format = r.enumerator(kLastColorFormat);
+        target.color->clear = r.vector();
+    }
+    target.has_instruments = r.flag();
+    target.has_depth = r.flag();
+    return target;
+}
+
 void write(Writer& w, const Draw& draw) {
     w.number(draw.topology);
     w.vectors(draw.positions);
@@ -123,10 +282,7 @@ void write(Writer& w, const Draw& draw) {
     w.flag(draw.primitive_restart);
     w.number(static_cast<uint64_t>(draw.attributes.size()));
     for (const Attribute& attribute : draw.attributes) {
-        w.text(attribute.name);
-        w.number(attribute.interpolation);
-        w.number(attribute.components);
-        w.vectors(attribute.values);
+        write(w, attribute);
     }
     for (const float f : {draw.viewport.x, draw.viewport.y, draw.viewport.width,
                           draw.viewport.height, draw.viewport.min_depth, draw.viewport.max_depth}) {
@@ -138,6 +294,20 @@ void write(Writer& w, const Draw& draw) {
     w.number(draw.scissor.height);
     w.number(draw.cull);
     w.number(draw.front_face);
+    w.number(draw.provoking);
+    write(w, draw.depth);
+    w.number(draw.distances.clip_count);
+    w.number(draw.distances.cull_count);
+    w.vectors(draw.distances.clip);
+    w.vectors(draw.distances.cull);
+    w.number(draw.multisample.sample_mask);
+    w.flag(draw.multisample.shader_mask.has_value());
+    w.number(draw.multisample.shader_mask.value_or(0));
+    w.flag(draw.multisample.min_sample_shading.has_value());
+    w.real(draw.multisample.min_sample_shading.value_or(0));
+    write(w, draw.color);
+    w.number(draw.layer);
+    w.number(draw.viewport_index);
 }
 
 Draw read_draw(Reader& r) {
@@ -153,10 +323,7 @@ Draw read_draw(Reader& r) {
     draw.primitive_restart = r.flag();
     draw.attributes.resize(r.count(1));
     for (Attribute& attribute : draw.attributes) {
-        attribute.name = r.text();
-        attribute.interpolation = r.enumerator(Interpolation::flat);
-        attribute.components = r.number<uint32_t>();
-        attribute.values = r.vectors();
+        attribute = read_attribute(r);
         if (!r.good()) {
             break;
         }
@@ -171,6 +338,26 @@ Draw read_draw(Reader& r) {
     draw.scissor.height = r.number<uint32_t>();
     draw.cull = r.enumerator(CullMode::front_and_back);
     draw.front_face = r.enumerator(FrontFace::clockwise);
+    draw.provoking = r.enumerator(ProvokingVertex::last);
+    draw.depth = read_depth(r);
+    draw.distances.clip_count = r.number<uint32_t>();
+    draw.distances.cull_count = r.number<uint32_t>();
+    draw.distances.clip = r.vectors();
+    draw.distances.cull = r.vectors();
+    draw.multisample.sample_mask = r.number<uint32_t>();
+    const bool has_shader_mask = r.flag();
+    const auto shader_mask = r.number<uint32_t>();
+    if (has_shader_mask) {
+        draw.multisample.shader_mask = shader_mask;
+    }
+    const bool has_sample_shading = r.flag();
+    const float min_sample_shading = r.real();
+    if (has_sample_shading) {
+        draw.multisample.min_sample_shading = min_sample_shading;
+    }
+    draw.color = read_color(r);
+    draw.layer = r.number<uint32_t>();
+    draw.viewport_index = r.number<uint32_t>();
     return draw;
 }
 
@@ -180,9 +367,7 @@ std::string to_bytes(const Case& c) {
     Writer w;
     w.number(kMagic);
     w.text(c.id);
-    w.number(c.target.width);
-    w.number(c.target.height);
-    w.number(c.target.samples);
+    write(w, c.target);
     w.number(static_cast<uint64_t>(c.draws.size()));
     for (const Draw& draw : c.draws) {
         write(w, draw);
@@ -197,9 +382,7 @@ Expected<Case> from_bytes(std::span<const char> bytes) {
     }
     Case c;
     c.id = r.text();
-    c.target.width = r.number<uint32_t>();
-    c.target.height = r.number<uint32_t>();
-    c.target.samples = r.number<uint32_t>();
+    c.target = read_target(r);
     const size_t draws = r.count(1);
     for (size_t i = 0; i < draws && r.good(); ++i) {
         c.draws.push_back(read_draw(r));
@@ -211,6 +394,21 @@ Expected<Case> from_bytes(std::span<const char> bytes) {
         return tl::unexpected(Error{{}, "more bytes follow than the case has"});
     }
     return c;
+}
+
+std::string target_to_bytes(const Target& target) {
+    Writer w;
+    write(w, target);
+    return w.take();
+}
+
+Expected<Target> target_from_bytes(std::span<const char> bytes) {
+    Reader r(bytes);
+    Target target = read_target(r);
+    if (!r.good() || !r.at_end()) {
+        return tl::unexpected(Error{{}, "these bytes are not a target of this program"});
+    }
+    return target;
 }
 
 }  // namespace cases

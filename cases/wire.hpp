@@ -16,4 +16,8 @@ namespace cases {
 std::string to_bytes(const Case& c);
 Expected<Case> from_bytes(std::span<const char> bytes);
 
+// A target alone; the same form as inside a case.
+std::string target_to_bytes(const Target& target);
+Expected<Target> target_from_bytes(std::span<const char> bytes);
+
 }  // namespace cases

@@ -176,7 +176,7 @@ std::string encode_result(const CaseResult& result) {
     out.value(static_cast<uint32_t>(r.status));
     out.text(r.reason);
     out.texts(r.messages);
-    out.value(c.target);
+    out.text(cases::target_to_bytes(c.target));
     out.value(uint8_t{c.has_primitive});
     out.value(c.attribute_count);
     out.value(uint8_t{result.is_shared});
@@ -207,7 +207,8 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
     in.value(status);
     in.text(r.reason);
     in.texts(r.messages);
-    in.value(c.target);
+    std::string target;
+    in.text(target);
     in.value(has_primitive);
     in.value(c.attribute_count);
     in.value(is_shared);
@@ -227,6 +228,11 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
         c.attribute_count > cases::kMaxAttributes) {
         return std::nullopt;
     }
+    cases::Expected<cases::Target> decoded = cases::target_from_bytes(target);
+    if (!decoded) {
+        return std::nullopt;
+    }
+    c.target = std::move(*decoded);
     r.status = static_cast<Rendered::Status>(status);
     c.has_primitive = has_primitive != 0;
     result.is_shared = is_shared != 0;

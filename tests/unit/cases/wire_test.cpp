@@ -27,6 +27,40 @@ Case sample() {
     draw.scissor = {1, 2, 3, 4};
     draw.cull = CullMode::back;
     draw.front_face = FrontFace::clockwise;
+    draw.attributes[0].auxiliary = Auxiliary::sample;
+    draw.attributes[1].probe = Probe::at_offset;
+    draw.attributes[1].probe_offset = {-0.5F, 0.4375F};
+    draw.attributes[1].probe_sample = 3;
+    draw.attributes[1].texture_size = {64, 32};
+    Attribute weights;
+    weights.name = "weights";
+    weights.components = 3;
+    weights.source = Source::barycentric;
+    draw.attributes.push_back(weights);
+    draw.provoking = ProvokingVertex::last;
+    draw.depth.compare = CompareOp::less_or_equal;
+    draw.depth.write = false;
+    draw.depth.bias = DepthBias{2, -0.25F, 1.5F};
+    draw.depth.clamp = true;
+    draw.depth.clip = true;
+    draw.depth.negative_one_to_one = true;
+    draw.distances = {2, 1, {{1, 2, 0, 0}, {3, 4, 0, 0}, {}}, {{-1, 0, 0, 0}, {}, {}}};
+    draw.multisample = {0x5, 0x6, 0.5F};
+    draw.color.value = {0.25F, 0.5F, 0.75F, 1};
+    draw.color.attribute = 1;
+    draw.color.blend = Blend{{BlendFactor::src_alpha, BlendFactor::one, BlendOp::max},
+                             {BlendFactor::zero, BlendFactor::src_alpha_saturate, BlendOp::min},
+                             {0.1F, 0.2F, 0.3F, 0.4F}};
+    draw.color.write_mask = 0x5;
+    draw.layer = 2;
+    draw.viewport_index = 1;
+    c.target.samples = 2;
+    c.target.layers = 3;
+    c.target.depth_format = DepthFormat::d16_unorm;
+    c.target.sample_locations = {{1, 15}, {8, 0}};
+    c.target.color = ColorTarget{ColorFormat::rgba16_float, {1, 2, 3, 4}};
+    c.target.has_instruments = false;
+    c.target.has_depth = false;
     c.draws = {draw, Draw{}};
     return c;
 }
@@ -73,7 +107,20 @@ TEST(Wire, RoundTripKeepsEveryBit) {
             EXPECT_EQ(a.attributes[i].interpolation, b.attributes[i].interpolation);
             EXPECT_EQ(a.attributes[i].components, b.attributes[i].components);
             expect_same(a.attributes[i].values, b.attributes[i].values);
+            EXPECT_EQ(a.attributes[i].auxiliary, b.attributes[i].auxiliary);
+            EXPECT_EQ(a.attributes[i].source, b.attributes[i].source);
+            EXPECT_EQ(a.attributes[i].probe, b.attributes[i].probe);
+            EXPECT_EQ(a.attributes[i].probe_offset, b.attributes[i].probe_offset);
+            EXPECT_EQ(a.attributes[i].probe_sample, b.attributes[i].probe_sample);
+            EXPECT_EQ(a.attributes[i].texture_size, b.attributes[i].texture_size);
         }
+        EXPECT_EQ(a.provoking, b.provoking);
+        EXPECT_EQ(a.depth, b.depth);
+        EXPECT_EQ(a.distances, b.distances);
+        EXPECT_EQ(a.multisample, b.multisample);
+        EXPECT_EQ(a.color, b.color);
+        EXPECT_EQ(a.layer, b.layer);
+        EXPECT_EQ(a.viewport_index, b.viewport_index);
     }
     EXPECT_EQ(to_bytes(*back), to_bytes(c));
 }
