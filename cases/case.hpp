@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cases/error.hpp"
+#include "cases/relation.hpp"
 
 namespace cases {
 
@@ -229,6 +230,28 @@ struct Target {
     friend bool operator==(const Target&, const Target&) = default;
 };
 
+// vkCmdBlitImage instead of draws. The destination is the colour target, Target::color, cleared
+// first; the source is an image of its own, filled with a pattern (blit_source.hpp).
+enum class BlitFilter : uint8_t { nearest, linear };
+enum class BlitPattern : uint8_t {
+    unique,  // every texel has other bits
+    ramp,    // values grow to the right and downwards
+};
+// Two corners of a region in texels, in either order: x1 < x0 mirrors.
+struct Corners {
+    int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    friend bool operator==(const Corners&, const Corners&) = default;
+};
+struct Blit {
+    ColorFormat source_format = ColorFormat::rgba8_unorm;
+    uint32_t source_width = 0, source_height = 0;  // texels
+    BlitPattern pattern = BlitPattern::unique;
+    uint32_t seed = 1;
+    BlitFilter filter = BlitFilter::nearest;
+    Corners source, destination;  // each inside its image
+    friend bool operator==(const Blit&, const Blit&) = default;
+};
+
 // A picture drawn by hand that the REFERENCE must agree with, checked before any device is asked.
 // rows[j][i] is pixel (i,j): '.' no hit, '1'..'9' that many hits, '?' the reference must say that
 // more than one number of hits is allowed. Judged at profile direct3d with 8 subpixel bits.
@@ -247,6 +270,9 @@ struct Case {
     std::vector<std::pair<std::string, std::string>> parameters;  // matrix leaf, in file order
     Target target;
     std::vector<Draw> draws;
+    std::optional<Blit> blit = {};         // then there are no draws
+    std::vector<Relation> relations = {};  // renderings that must have the same bits
+    Variation variation = {};  // of such a rendering, derive.hpp; neither in files nor on the wire
     std::optional<ExpectedHits> expected_hits;
     std::vector<std::string> notes;  // conversions that rounded, one sentence each
 };

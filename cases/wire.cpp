@@ -3,122 +3,17 @@
 #include "cases/wire.hpp"
 
 #include <bit>
-#include <cstring>
-#include <type_traits>
+
+#include "cases/wire_bytes.hpp"
 
 namespace cases {
 
 namespace {
 
-constexpr uint32_t kMagic = 0x45434732;  // "ECG2"
+constexpr uint32_t kMagic = 0x45434733;  // "ECG3"
 
-class Writer {
-  public:
-    template <class T>
-    void number(T value) {
-        static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-        char raw[sizeof(T)];
-        std::memcpy(raw, &value, sizeof(T));
-        bytes_.append(raw, sizeof(T));
-    }
-    void flag(bool value) { number(static_cast<uint8_t>(value ? 1 : 0)); }
-    void text(const std::string& value) {
-        number(static_cast<uint64_t>(value.size()));
-        bytes_ += value;
-    }
-    void real(float value) { number(std::bit_cast<uint32_t>(value)); }
-    void vector(const glm::vec4& v) {
-        real(v.x);
-        real(v.y);
-        real(v.z);
-        real(v.w);
-    }
-    void vectors(const std::vector<glm::vec4>& values) {
-        number(static_cast<uint64_t>(values.size()));
-        for (const glm::vec4& v : values) {
-            vector(v);
-        }
-    }
-    std::string take() { return std::move(bytes_); }
-
-  private:
-    std::string bytes_;
-};
-
-// After the first failure every further read yields zero; good() tells.
-class Reader {
-  public:
-    explicit Reader(std::span<const char> bytes) : rest_(bytes) {}
-
-    template <class T>
-    T number() {
-        T value{};
-        if (rest_.size() < sizeof(T)) {
-            fail();
-            return value;
-        }
-        std::memcpy(&value, rest_.data(), sizeof(T));
-        rest_ = rest_.subspan(sizeof(T));
-        return value;
-    }
-    bool flag() {
-        const auto value = number<uint8_t>();
-        if (value > 1) {
-            fail();
-        }
-        return value == 1;
-    }
-    template <class Enum>
-    Enum enumerator(Enum last) {
-        const auto value = number<std::underlying_type_t<Enum>>();
-        if (value > static_cast<std::underlying_type_t<Enum>>(last)) {
-            fail();
-            return Enum{};
-        }
-        return static_cast<Enum>(value);
-    }
-    // A number of elements of at least `element_size` bytes each; checked before memory is taken.
-    size_t count(size_t element_size) {
-        const auto n = number<uint64_t>();
-        if (n > rest_.size() / element_size) {
-            fail();
-            return 0;
-        }
-        return static_cast<size_t>(n);
-    }
-    std::string text() {
-        const size_t size = count(1);
-        std::string value(rest_.data(), size);
-        rest_ = rest_.subspan(size);
-        return value;
-    }
-    float real() { return std::bit_cast<float>(number<uint32_t>()); }
-    glm::vec4 vector() {
-        glm::vec4 v;
-        v.x = real();
-        v.y = real();
-        v.z = real();
-        v.w = real();
-        return v;
-    }
-    std::vector<glm::vec4> vectors() {
-        std::vector<glm::vec4> values(count(4 * sizeof(uint32_t)));
-        for (glm::vec4& v : values) {
-            v = vector();
-        }
-        return values;
-    }
-    void fail() {
-        good_ = false;
-        rest_ = {};
-    }
-    bool good() const { return good_; }
-    bool at_end() const { return rest_.empty(); }
-
-  private:
-    std::span<const char> rest_;
-    bool good_ = true;
-};
+using wire::Reader;
+using wire::Writer;
 
 void write(Writer& w, const Attribute& attribute) {
     w.text(attribute.name);
@@ -225,6 +120,39 @@ ColorOutput read_color(Reader& r) {
     }
     color.write_mask = r.number<uint8_t>();
     return color;
+}
+
+void write(Writer& w, const Blit& blit) {
+    w.number(blit.source_format);
+    w.number(blit.source_width);
+    w.number(blit.source_height);
+    w.number(blit.pattern);
+    w.number(blit.seed);
+    w.number(blit.filter);
+    for (const Corners& corners : {blit.source, blit.destination}) {
+        for (const int32_t coordinate : {corners.x0, corners.y0, corners.x1, corners.y1}) {
+            w.number(coordinate);
+        }
+    }
+}
+
+Blit read_blit(Reader& r) {
+    Blit blit;
+    blit.source_format = r.enumerator(kLastColorFormat);
+    blit.source_width = r.number<uint32_t>();
+    blit.source_height = r.number<uint32_t>();
+    if (blit.source_width > kMaxTargetSize || blit.source_height > kMaxTargetSize) {
+        r.fail();
+    }
+    blit.pattern = r.enumerator(BlitPattern::ramp);
+    blit.seed = r.number<uint32_t>();
+    blit.filter = r.enumerator(BlitFilter::linear);
+    for (Corners* corners : {&blit.source, &blit.destination}) {
+        for (int32_t* coordinate : {&corners->x0, &corners->y0, &corners->x1, &corners->y1}) {
+            *coordinate = r.number<int32_t>();
+        }
+    }
+    return blit;
 }
 
 void write(Writer& w, const Target& target) {
@@ -372,6 +300,16 @@ std::string to_bytes(const Case& c) {
     for (const Draw& draw : c.draws) {
         write(w, draw);
     }
+    w.number(static_cast<uint64_t>(c.relations.size()));
+    for (const Relation& relation : c.relations) {
+        w.number(relation.kind);
+        w.number(relation.tile[0]);
+        w.number(relation.tile[1]);
+    }
+    w.flag(c.blit.has_value());
+    if (c.blit) {
+        write(w, *c.blit);
+    }
     return w.take();
 }
 
@@ -386,6 +324,17 @@ Expected<Case> from_bytes(std::span<const char> bytes) {
     const size_t draws = r.count(1);
     for (size_t i = 0; i < draws && r.good(); ++i) {
         c.draws.push_back(read_draw(r));
+    }
+    c.relations.resize(r.count(1 + 2 * sizeof(uint32_t)));
+    for (Relation& relation : c.relations) {
+        relation.kind = r.enumerator(kLastRelationKind);
+        relation.tile = {r.number<uint32_t>(), r.number<uint32_t>()};
+        if (relation.tile[0] > kMaxTargetSize || relation.tile[1] > kMaxTargetSize) {
+            r.fail();
+        }
+    }
+    if (r.flag()) {
+        c.blit = read_blit(r);
     }
     if (!r.good()) {
         return tl::unexpected(Error{{}, "the bytes of a case are cut short or damaged"});

@@ -62,6 +62,15 @@ Case sample() {
     c.target.has_instruments = false;
     c.target.has_depth = false;
     c.draws = {draw, Draw{}};
+    c.relations = {{RelationKind::scissor_tiles, {7, 3}}, {RelationKind::more_attributes, {}}};
+    c.blit = Blit{ColorFormat::rgb10a2_unorm,
+                  5,
+                  9,
+                  BlitPattern::ramp,
+                  77,
+                  BlitFilter::linear,
+                  {4, 3, 0, 1},
+                  {-1, 2, 8, 6}};
     return c;
 }
 
@@ -86,6 +95,8 @@ TEST(Wire, RoundTripKeepsEveryBit) {
     ASSERT_TRUE(back);
     EXPECT_EQ(back->id, c.id);
     EXPECT_EQ(back->target, c.target);
+    EXPECT_EQ(back->relations, c.relations);
+    EXPECT_EQ(back->blit, c.blit);
     ASSERT_EQ(back->draws.size(), 2U);
     for (size_t d = 0; d < 2; ++d) {
         const Draw& a = c.draws[d];

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Self-consistency: which other renderings of a case must agree with it bit for bit, whatever the
+// device's freedom. [Vulkan, appendix Invariance: Rules 1, 2 and 4, Corollaries 1 and 2]
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace cases {
+
+enum class RelationKind : uint8_t {
+    same_twice,        // drawn again, in the same submission and in another
+    scissor_tiles,     // every draw repeated under each scissor of a tiling of the target
+    other_clears,      // attachments cleared to other values
+    write_masks,       // one half of the attachments is not written, then the other half
+    fewer_attributes,  // without the attributes, so with fewer colour attachments
+    more_attributes,   // with copies of the attributes, so with more colour attachments
+};
+inline constexpr RelationKind kLastRelationKind = RelationKind::more_attributes;
+
+struct Relation {
+    RelationKind kind = RelationKind::same_twice;
+    std::array<uint32_t, 2> tile{};  // scissor_tiles: width and height in pixels
+    friend bool operator==(const Relation&, const Relation&) = default;
+};
+
+// How a rendering differs from that of the case as it stands.
+struct Variation {
+    std::array<uint32_t, 2> tile{};  // not 0: every draw is repeated under each tile's scissor
+    bool other_clears = false;       // all attachments but the colour target
+    uint32_t masked = 0;             // bit k: colour attachment k is not written
+    bool masks_depth = false;        // depth is not written
+    bool later = false;              // in a later submission than the case
+    friend bool operator==(const Variation&, const Variation&) = default;
+};
+
+}  // namespace cases
