@@ -2,57 +2,194 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Writes what a capture holds (diff/capture.hpp). No store, no atomic: additional invocations for the
-// same fragment, which Vulkan allows, must not be seen. Defined by the build: ATTRIBUTES (0..4), MODE0..MODE3
-// (smooth, noperspective or flat), PRIMITIVE_ID (0: the device has no gl_PrimitiveID).
+// same fragment, which Vulkan allows, must not be seen.
+//
+// Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
+// PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
+// SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), COLOR (0 none, 1 float, 2 uint),
+// INSTRUMENTS (0: the colour output alone). What an attribute holds is chosen by specialization
+// constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
+// added to the compiled module (vk_harness/spirv_variant.hpp), where the input at location 7 may also
+// become gl_PrimitiveID.
 #version 450
+#if BARYCENTRICS
+#extension GL_EXT_fragment_shader_barycentric : require
+#endif
 
 layout(push_constant) uniform Draw {
-    uint index;
+    layout(offset = 0) uint index;
+    layout(offset = 16) uvec4 color;  // bits
 }
 draw;
 
 layout(location = 0) flat in uint in_vertex;
+layout(location = 7) flat in uint in_primitive;
+
+// Constants 4k .. 4k+3 belong to attribute k.
 #if ATTRIBUTES > 0
-layout(location = 1) MODE0 in vec4 in_attribute0;
-layout(location = 3) out vec4 out_attribute0;
+layout(constant_id = 0) const uint kChoice0 = 0u;
+layout(constant_id = 1) const float kOffsetX0 = 0.0;
+layout(constant_id = 2) const float kOffsetY0 = 0.0;
+layout(constant_id = 3) const int kSample0 = 0;
+layout(location = 1) in vec4 in_attribute0;
 #endif
 #if ATTRIBUTES > 1
-layout(location = 2) MODE1 in vec4 in_attribute1;
-layout(location = 4) out vec4 out_attribute1;
+layout(constant_id = 4) const uint kChoice1 = 0u;
+layout(constant_id = 5) const float kOffsetX1 = 0.0;
+layout(constant_id = 6) const float kOffsetY1 = 0.0;
+layout(constant_id = 7) const int kSample1 = 0;
+layout(location = 2) in vec4 in_attribute1;
 #endif
 #if ATTRIBUTES > 2
-layout(location = 3) MODE2 in vec4 in_attribute2;
-layout(location = 5) out vec4 out_attribute2;
+layout(constant_id = 8) const uint kChoice2 = 0u;
+layout(constant_id = 9) const float kOffsetX2 = 0.0;
+layout(constant_id = 10) const float kOffsetY2 = 0.0;
+layout(constant_id = 11) const int kSample2 = 0;
+layout(location = 3) in vec4 in_attribute2;
 #endif
 #if ATTRIBUTES > 3
-layout(location = 4) MODE3 in vec4 in_attribute3;
-layout(location = 6) out vec4 out_attribute3;
+layout(constant_id = 12) const uint kChoice3 = 0u;
+layout(constant_id = 13) const float kOffsetX3 = 0.0;
+layout(constant_id = 14) const float kOffsetY3 = 0.0;
+layout(constant_id = 15) const int kSample3 = 0;
+layout(location = 4) in vec4 in_attribute3;
+#endif
+#if MASK_OUT
+layout(constant_id = 16) const uint kShaderMask = 0xffffffffu;
+#endif
+#if COLOR
+layout(constant_id = 17) const int kColorAttribute = -1;
+#endif
+#if LOD
+layout(set = 0, binding = 0) uniform sampler2D lod_texture;
 #endif
 
+#if INSTRUMENTS
 layout(location = 0) out vec4 out_hits;  // blended with ONE, ONE
 // Ids as binary32, exact below 2^24: integer attachments need not support more than one sample
 // (framebufferIntegerColorSampleCounts), and small integers as float bits would be denormals.
 layout(location = 1) out vec4 out_writer;
 layout(location = 2) out vec4 out_frag_coord;
-
-void main() {
-    out_hits = gl_FrontFacing ? vec4(1.0, 0.0, 0.0, 1.0) : vec4(0.0, 1.0, 0.0, 1.0);
-#if PRIMITIVE_ID
-    out_writer = vec4(float(draw.index), float(gl_PrimitiveID), float(in_vertex), -1.0);
-#else
-    out_writer = vec4(float(draw.index), -2.0, float(in_vertex), -1.0);
-#endif
-    out_frag_coord = gl_FragCoord;
 #if ATTRIBUTES > 0
-    out_attribute0 = in_attribute0;
+layout(location = 3) out vec4 out_attribute0;
 #endif
 #if ATTRIBUTES > 1
-    out_attribute1 = in_attribute1;
+layout(location = 4) out vec4 out_attribute1;
 #endif
 #if ATTRIBUTES > 2
-    out_attribute2 = in_attribute2;
+layout(location = 5) out vec4 out_attribute2;
 #endif
 #if ATTRIBUTES > 3
-    out_attribute3 = in_attribute3;
+layout(location = 6) out vec4 out_attribute3;
+#endif
+#define COLOR_LOCATION 3 + ATTRIBUTES
+#else
+#define COLOR_LOCATION 0
+#endif
+#if COLOR == 1
+layout(location = COLOR_LOCATION) out vec4 out_color;
+#elif COLOR == 2
+layout(location = COLOR_LOCATION) out uvec4 out_color;
+#endif
+
+// Choices are numbered as shaders::Choice.
+#if PROBES
+#define PROBE_CASES(value, choice, offset_x, offset_y, sample_number, result) \
+    case 1u: result = interpolateAtCentroid(value); break;                    \
+    case 2u: result = interpolateAtSample(value, sample_number); break;       \
+    case 3u: result = interpolateAtOffset(value, vec2(offset_x, offset_y)); break; \
+    case 4u: result = dFdx(value); break;                                     \
+    case 5u: result = dFdy(value); break;                                     \
+    case 6u: result = dFdxFine(value); break;                                 \
+    case 7u: result = dFdyFine(value); break;                                 \
+    case 8u: result = dFdxCoarse(value); break;                               \
+    case 9u: result = dFdyCoarse(value); break;                               \
+    case 10u: result = fwidth(value); break;                                  \
+    case 11u: result = fwidthFine(value); break;                              \
+    case 12u: result = fwidthCoarse(value); break;
+#else
+#define PROBE_CASES(value, choice, offset_x, offset_y, sample_number, result)
+#endif
+#if LOD
+#define LOD_CASES(value, result) \
+    case 13u: result = vec4(textureQueryLod(lod_texture, value.xy), 0.0, 0.0); break;
+#else
+#define LOD_CASES(value, result)
+#endif
+#if BARYCENTRICS
+#define BARYCENTRIC_CASES(result)                               \
+    case 16u: result = vec4(gl_BaryCoordNoPerspEXT, 0.0); break; \
+    case 17u: result = vec4(gl_BaryCoordEXT, 0.0); break;
+#else
+#define BARYCENTRIC_CASES(result)
+#endif
+#if MASK_IN
+#define MASK_CASES(result) \
+    case 18u: result = vec4(float(uint(gl_SampleMaskIn[0])), 0.0, 0.0, 0.0); break;
+#else
+#define MASK_CASES(result)
+#endif
+#if SAMPLE
+#define SAMPLE_CASES(result)                                         \
+    case 19u: result = vec4(float(gl_SampleID), 0.0, 0.0, 0.0); break; \
+    case 20u: result = vec4(gl_SamplePosition, 0.0, 0.0); break;
+#else
+#define SAMPLE_CASES(result)
+#endif
+#if PROBES || LOD || BARYCENTRICS || MASK_IN || SAMPLE
+#define CHOOSE(value, choice, offset_x, offset_y, sample_number, result)       \
+    switch (choice) {                                                          \
+        PROBE_CASES(value, choice, offset_x, offset_y, sample_number, result)  \
+        LOD_CASES(value, result)                                               \
+        BARYCENTRIC_CASES(result)                                              \
+        MASK_CASES(result)                                                     \
+        SAMPLE_CASES(result)                                                   \
+        default: result = value; break;                                        \
+    }
+#else
+#define CHOOSE(value, choice, offset_x, offset_y, sample_number, result) result = value;
+#endif
+
+void main() {
+#if INSTRUMENTS
+    out_hits = gl_FrontFacing ? vec4(1.0, 0.0, 0.0, 1.0) : vec4(0.0, 1.0, 0.0, 1.0);
+    // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
+    out_writer = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex), -1.0);
+    out_frag_coord = gl_FragCoord;
+#if ATTRIBUTES > 0
+    CHOOSE(in_attribute0, kChoice0, kOffsetX0, kOffsetY0, kSample0, out_attribute0)
+#endif
+#if ATTRIBUTES > 1
+    CHOOSE(in_attribute1, kChoice1, kOffsetX1, kOffsetY1, kSample1, out_attribute1)
+#endif
+#if ATTRIBUTES > 2
+    CHOOSE(in_attribute2, kChoice2, kOffsetX2, kOffsetY2, kSample2, out_attribute2)
+#endif
+#if ATTRIBUTES > 3
+    CHOOSE(in_attribute3, kChoice3, kOffsetX3, kOffsetY3, kSample3, out_attribute3)
+#endif
+#endif
+#if COLOR
+    vec4 color = uintBitsToFloat(draw.color);
+#if ATTRIBUTES > 0
+    color = kColorAttribute == 0 ? in_attribute0 : color;
+#endif
+#if ATTRIBUTES > 1
+    color = kColorAttribute == 1 ? in_attribute1 : color;
+#endif
+#if ATTRIBUTES > 2
+    color = kColorAttribute == 2 ? in_attribute2 : color;
+#endif
+#if ATTRIBUTES > 3
+    color = kColorAttribute == 3 ? in_attribute3 : color;
+#endif
+#if COLOR == 1
+    out_color = color;
+#else
+    out_color = kColorAttribute < 0 ? draw.color : uvec4(color);
+#endif
+#endif
+#if MASK_OUT
+    gl_SampleMask[0] = int(kShaderMask);
 #endif
 }

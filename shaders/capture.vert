@@ -1,14 +1,38 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Passes clip-space positions through, bits unchanged. ATTRIBUTES (0..4) is defined by the build.
-// Interpolation is decided by the fragment stage's qualifiers alone (Vulkan, "Interface Matching").
+// Passes clip-space positions through, bits unchanged. Defined by the build: ATTRIBUTES (0..4), CLIP and
+// CULL (0..4: sizes of gl_ClipDistance and gl_CullDistance), LAYER and VIEWPORT (0 or 1: gl_Layer,
+// gl_ViewportIndex). Interpolation is decided by the fragment stage's qualifiers alone (Vulkan,
+// "Interface Matching").
 #version 450
+#if LAYER || VIEWPORT
+#extension GL_ARB_shader_viewport_layer_array : require
+#endif
 
-invariant gl_Position;
+// Only what is written: the number of clip and cull planes is the size of the declared arrays.
+out gl_PerVertex {
+    invariant vec4 gl_Position;
+#if CLIP
+    float gl_ClipDistance[CLIP];
+#endif
+#if CULL
+    float gl_CullDistance[CULL];
+#endif
+};
+
+#if LAYER || VIEWPORT
+layout(push_constant) uniform Draw {
+    layout(offset = 4) uint layer;
+    layout(offset = 8) uint viewport_index;
+}
+draw;
+#endif
 
 layout(location = 0) in vec4 in_position;
 layout(location = 0) flat out uint out_vertex;
+// Takes the place of gl_PrimitiveID on devices that have none.
+layout(location = 7) flat out uint out_no_primitive;
 
 #if ATTRIBUTES > 0
 layout(location = 1) in vec4 in_attribute0;
@@ -26,10 +50,17 @@ layout(location = 3) out vec4 out_attribute2;
 layout(location = 4) in vec4 in_attribute3;
 layout(location = 4) out vec4 out_attribute3;
 #endif
+#if CLIP
+layout(location = 5) in vec4 in_clip;
+#endif
+#if CULL
+layout(location = 6) in vec4 in_cull;
+#endif
 
 void main() {
     gl_Position = in_position;
     out_vertex = uint(gl_VertexIndex);
+    out_no_primitive = 0xfffffffeU;
 #if ATTRIBUTES > 0
     out_attribute0 = in_attribute0;
 #endif
@@ -41,5 +72,35 @@ void main() {
 #endif
 #if ATTRIBUTES > 3
     out_attribute3 = in_attribute3;
+#endif
+#if CLIP > 0
+    gl_ClipDistance[0] = in_clip.x;
+#endif
+#if CLIP > 1
+    gl_ClipDistance[1] = in_clip.y;
+#endif
+#if CLIP > 2
+    gl_ClipDistance[2] = in_clip.z;
+#endif
+#if CLIP > 3
+    gl_ClipDistance[3] = in_clip.w;
+#endif
+#if CULL > 0
+    gl_CullDistance[0] = in_cull.x;
+#endif
+#if CULL > 1
+    gl_CullDistance[1] = in_cull.y;
+#endif
+#if CULL > 2
+    gl_CullDistance[2] = in_cull.z;
+#endif
+#if CULL > 3
+    gl_CullDistance[3] = in_cull.w;
+#endif
+#if LAYER
+    gl_Layer = int(draw.layer);
+#endif
+#if VIEWPORT
+    gl_ViewportIndex = int(draw.viewport_index);
 #endif
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/shaders.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 
@@ -9,35 +10,46 @@ namespace shaders {
 
 namespace {
 
+template <class Variant>
+struct Module {
+    Variant variant;
+    std::span<const uint32_t> code;
+};
+
 #include "modules.inc"
 
-// 1 + 3 + 9 + 27 + 81 combinations of modes.
-constexpr size_t kCombinations = 121;
-static_assert(std::size(kVertex) == kMaxAttributes + 1);
-static_assert(std::size(kFragment) == 2 * kCombinations);
+template <class Variant, size_t kCount>
+std::span<const uint32_t> find(const Module<Variant> (&modules)[kCount], const Variant& variant) {
+    const auto found =
+        std::find_if(std::begin(modules), std::end(modules),
+                     [&](const Module<Variant>& module) { return module.variant == variant; });
+    return found == std::end(modules) ? std::span<const uint32_t>() : found->code;
+}
 
 }  // namespace
 
-std::span<const uint32_t> capture_vertex(uint32_t attribute_count) {
-    return kVertex[attribute_count];
+std::span<const uint32_t> capture_vertex(const VertexVariant& variant) {
+    return find(kVertex, variant);
 }
 
-std::span<const uint32_t> capture_fragment(uint32_t attribute_count,
-                                           const std::array<Mode, kMaxAttributes>& modes,
-                                           bool primitive_id) {
-    size_t first = 0;  // (3^count - 1) / 2 combinations have fewer attributes
-    size_t code = 0;   // sum of mode_k 3^k
-    size_t power = 1;  // 3^k
-    for (uint32_t k = 0; k < attribute_count; ++k) {
-        first += power;
-        code += static_cast<size_t>(modes[k]) * power;
-        power *= 3;
-    }
-    return kFragment[(primitive_id ? kCombinations : 0) + first + code];
+std::span<const uint32_t> capture_fragment(const FragmentVariant& variant) {
+    return find(kFragment, variant);
 }
 
 std::span<const uint32_t> copy_samples(bool depth) {
     return depth ? std::span<const uint32_t>(copy_depth) : std::span<const uint32_t>(copy_color);
+}
+
+std::span<const uint32_t> any_module(size_t i) {
+    if (i < std::size(kVertex)) {
+        return kVertex[i].code;
+    }
+    i -= std::size(kVertex);
+    if (i < std::size(kFragment)) {
+        return kFragment[i].code;
+    }
+    i -= std::size(kFragment);
+    return i < 2 ? copy_samples(i == 1) : std::span<const uint32_t>();
 }
 
 }  // namespace shaders

@@ -4,7 +4,7 @@
 // The SPIR-V modules that the build compiled from the GLSL beside this file.
 #pragma once
 
-#include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 
@@ -12,19 +12,72 @@ namespace shaders {
 
 inline constexpr uint32_t kMaxAttributes = 4;
 
-// Interpolation of one attribute, numbered as cases::Interpolation.
-enum class Mode : uint8_t { smooth, noperspective, flat };
+// What capture.vert was compiled for. Vertex inputs: location 0 positions, 1 + k attribute k, 5
+// clip distances, 6 cull distances, all vec4.
+struct VertexVariant {
+    uint32_t attributes = 0;                  // 0..4
+    uint32_t clip_count = 0, cull_count = 0;  // 0..4, sizes of gl_ClipDistance and gl_CullDistance
+    bool layer = false;                       // writes gl_Layer
+    bool viewport_index = false;              // writes gl_ViewportIndex
+    friend auto operator<=>(const VertexVariant&, const VertexVariant&) = default;
+};
 
-// capture.vert for `attribute_count` (0..4) attributes.
-std::span<const uint32_t> capture_vertex(uint32_t attribute_count);
+// Components of the colour output.
+enum class ColorKind : uint8_t { none, number, integer };
 
-// capture.frag for the first `attribute_count` modes, with or without gl_PrimitiveID (which needs
-// the device feature geometryShader).
-std::span<const uint32_t> capture_fragment(uint32_t attribute_count,
-                                           const std::array<Mode, kMaxAttributes>& modes,
-                                           bool primitive_id);
+// What capture.frag was compiled for: everything that needs a capability of the device or that has
+// an effect by its mere presence.
+struct FragmentVariant {
+    uint32_t attributes = 0;  // 0..4
+    bool probes = false;      // interpolateAt*, derivatives
+    bool lod = false;         // textureQueryLod: set 0, binding 0
+    bool barycentrics = false;
+    bool mask_in = false;
+    bool sample = false;  // gl_SampleID, gl_SamplePosition: turn sample shading on
+    bool mask_out = false;
+    ColorKind color = ColorKind::none;
+    bool instruments = true;  // false: the colour output alone, at location 0
+    friend auto operator<=>(const FragmentVariant&, const FragmentVariant&) = default;
+};
+
+// Values of the specialization constants kChoiceK of capture.frag: 0..13 are numbered as
+// cases::Probe.
+enum class Choice : uint32_t {
+    value = 0,
+    last_probe = 13,
+    barycentric_linear = 16,
+    barycentric = 17,
+    sample_mask_in = 18,
+    sample_id = 19,
+    sample_position = 20,
+};
+// Ids of the specialization constants of capture.frag: 4k choice (uint), 4k+1 and 4k+2 offset
+// (float), 4k+3 sample (int) of attribute k; the mask that is written; the attribute that is the
+// colour (-1: the push constant).
+inline constexpr uint32_t kConstantsPerAttribute = 4;
+inline constexpr uint32_t kMaskConstant = 16;
+inline constexpr uint32_t kColorAttributeConstant = 17;
+
+// The input of capture.frag that stands for gl_PrimitiveID.
+inline constexpr uint32_t kPrimitiveLocation = 7;
+
+// As push constants in both stages.
+struct DrawConstants {
+    uint32_t index = 0;
+    uint32_t layer = 0, viewport_index = 0;
+    uint32_t unused = 0;
+    uint32_t color[4] = {};  // bits of the colour that is written
+};
+static_assert(sizeof(DrawConstants) == 32);
+
+// The module of a variant; empty if the build made none of that combination.
+std::span<const uint32_t> capture_vertex(const VertexVariant& variant);
+std::span<const uint32_t> capture_fragment(const FragmentVariant& variant);
 
 // copy_samples.comp for colour or depth attachments.
 std::span<const uint32_t> copy_samples(bool depth);
+
+// Number i of all modules, for tests; empty beyond the last.
+std::span<const uint32_t> any_module(size_t i);
 
 }  // namespace shaders

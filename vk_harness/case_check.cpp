@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vk_harness/pipeline_key.hpp"
 #include "vk_harness/target.hpp"
 
 namespace vk_harness {
@@ -107,7 +108,7 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     }
     const size_t vertices = draw.positions.size();
     for (const cases::Attribute& attribute : draw.attributes) {
-        if (attribute.values.size() != vertices) {
+        if (attribute.source == cases::Source::vertex && attribute.values.size() != vertices) {
             return invalid(fmt::format("attribute '{}' has {} values for {} vertices",
                                        attribute.name, attribute.values.size(), vertices));
         }
@@ -144,6 +145,15 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
     if (c.draws.size() >= kMaxId) {
         return unsupported(fmt::format("the case has {} draws, the harness tells {} apart",
                                        c.draws.size(), kMaxId - 1));
+    }
+    for (const cases::Draw& draw : c.draws) {
+        const PipelineKey key = pipeline_key(c, draw);
+        if (shaders::capture_vertex(vertex_variant(key)).empty() ||
+            shaders::capture_fragment(fragment_variant(key)).empty()) {
+            return invalid(
+                "a draw asks for a combination of shader features that no shader was built for; "
+                "put them into different draws");
+        }
     }
     return check_target(capabilities, c);
 }

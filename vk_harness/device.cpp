@@ -149,6 +149,9 @@ void query_features(Capabilities& c) {
         if (features13.synchronization2 != VK_TRUE) {
             missing.emplace_back("the device lacks the feature synchronization2");
         }
+        if (features13.maintenance4 != VK_TRUE) {
+            missing.emplace_back("the device lacks the feature maintenance4");
+        }
         if (features.features.independentBlend != VK_TRUE) {
             missing.emplace_back("the device lacks the feature independentBlend");
         }
@@ -300,6 +303,7 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     features13.dynamicRendering = VK_TRUE;
     features13.synchronization2 = VK_TRUE;
+    features13.maintenance4 = VK_TRUE;  // outputs that the next stage does not read
     std::vector<const char*> extensions;
     if (capabilities.portability_subset) {
         features13.pNext = &portability;

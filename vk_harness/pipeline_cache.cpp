@@ -7,22 +7,12 @@
 #include <vector>
 
 #include "shaders/shaders.hpp"
+#include "vk_harness/pipeline_state.hpp"
+#include "vk_harness/shader_stage.hpp"
 
 namespace vk_harness {
 
 namespace {
-
-shaders::Mode to_mode(cases::Interpolation interpolation) {
-    switch (interpolation) {
-        case cases::Interpolation::smooth:
-            return shaders::Mode::smooth;
-        case cases::Interpolation::noperspective:
-            return shaders::Mode::noperspective;
-        case cases::Interpolation::flat:
-            break;
-    }
-    return shaders::Mode::flat;
-}
 
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
     VkPipelineShaderStageCreateInfo info{};
@@ -34,11 +24,11 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
 }
 
 Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStageFlags stage,
-                                             uint32_t words, VkDescriptorSetLayout set) {
-    const VkPushConstantRange range{stage, 0, words * 4};
+                                             uint32_t bytes, VkDescriptorSetLayout set) {
+    const VkPushConstantRange range{stage, 0, bytes};
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = set != VK_NULL_HANDLE ? 1 : 0;
+    info.setLayoutCount = 1;
     info.pSetLayouts = &set;
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &range;
@@ -51,6 +41,22 @@ Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStage
     return Handle<VkPipelineLayout>(device.get(), layout, device.vk().vkDestroyPipelineLayout);
 }
 
+Result<Handle<VkDescriptorSetLayout>> make_set_layout(
+    const Device& device, std::span<const VkDescriptorSetLayoutBinding> bindings) {
+    VkDescriptorSetLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    info.bindingCount = static_cast<uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    const VkResult result =
+        device.vk().vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::pipeline, result, "vkCreateDescriptorSetLayout"));
+    }
+    return Handle<VkDescriptorSetLayout>(device.get(), layout,
+                                         device.vk().vkDestroyDescriptorSetLayout);
+}
+
 }  // namespace
 
 Result<PipelineCache> PipelineCache::create(const Device& device) {
@@ -60,33 +66,36 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
     VkPipelineCacheCreateInfo cache_info{};
     cache_info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
     VkPipelineCache handle = VK_NULL_HANDLE;
-    VkResult result = vk.vkCreatePipelineCache(device.get(), &cache_info, nullptr, &handle);
+    const VkResult result = vk.vkCreatePipelineCache(device.get(), &cache_info, nullptr, &handle);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::pipeline, result, "vkCreatePipelineCache"));
     }
     cache.cache_ = Handle<VkPipelineCache>(device.get(), handle, vk.vkDestroyPipelineCache);
 
-    auto layout = make_layout(device, VK_SHADER_STAGE_FRAGMENT_BIT, kDrawConstants, VK_NULL_HANDLE);
+    const std::array<VkDescriptorSetLayoutBinding, 1> texture = {
+        {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+    auto texture_set = make_set_layout(device, texture);
+    if (!texture_set) {
+        return fail(texture_set.error());
+    }
+    cache.texture_set_layout_ = std::move(*texture_set);
+    auto layout = make_layout(device, kDrawStages, sizeof(shaders::DrawConstants),
+                              cache.texture_set_layout_.get());
     if (!layout) {
         return fail(layout.error());
     }
     cache.layout_ = std::move(*layout);
 
-    std::array<VkDescriptorSetLayoutBinding, 2> bindings{};
-    bindings[0] = {0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
-    bindings[1] = {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
-    VkDescriptorSetLayoutCreateInfo set_info{};
-    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set_info.bindingCount = static_cast<uint32_t>(bindings.size());
-    set_info.pBindings = bindings.data();
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    result = vk.vkCreateDescriptorSetLayout(device.get(), &set_info, nullptr, &set_layout);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::pipeline, result, "vkCreateDescriptorSetLayout"));
+    const std::array<VkDescriptorSetLayoutBinding, 2> copies = {
+        {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}}};
+    auto copy_set = make_set_layout(device, copies);
+    if (!copy_set) {
+        return fail(copy_set.error());
     }
-    cache.copy_set_layout_ =
-        Handle<VkDescriptorSetLayout>(device.get(), set_layout, vk.vkDestroyDescriptorSetLayout);
-    auto copy_layout = make_layout(device, VK_SHADER_STAGE_COMPUTE_BIT, kCopyConstants, set_layout);
+    cache.copy_set_layout_ = std::move(*copy_set);
+    auto copy_layout = make_layout(device, VK_SHADER_STAGE_COMPUTE_BIT,
+                                   kCopyConstants * sizeof(uint32_t), cache.copy_set_layout_.get());
     if (!copy_layout) {
         return fail(copy_layout.error());
     }
@@ -94,23 +103,32 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
     return cache;
 }
 
-Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code) {
-    const auto found = modules_.find(code.data());
+Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
+                                                    std::vector<InputChange> changes) {
+    std::pair key(code.data(), std::move(changes));
+    const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
     }
+    auto changed = change_inputs(code, key.second);
+    if (!changed) {
+        Failure failure;
+        failure.stage = Stage::shader;
+        failure.message = changed.error();
+        return fail(std::move(failure));
+    }
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    info.codeSize = code.size_bytes();
-    info.pCode = code.data();
+    info.codeSize = changed->size() * sizeof(uint32_t);
+    info.pCode = changed->data();
     VkShaderModule handle = VK_NULL_HANDLE;
     const VkResult result =
         device_->vk().vkCreateShaderModule(device_->get(), &info, nullptr, &handle);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::shader, result, "vkCreateShaderModule"));
     }
-    modules_.emplace(code.data(), Handle<VkShaderModule>(device_->get(), handle,
-                                                         device_->vk().vkDestroyShaderModule));
+    modules_.emplace(std::move(key), Handle<VkShaderModule>(device_->get(), handle,
+                                                            device_->vk().vkDestroyShaderModule));
     return handle;
 }
 
@@ -150,34 +168,24 @@ Result<VkPipeline> PipelineCache::get_copy(bool depth) {
 }
 
 Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) {
-    std::array<shaders::Mode, shaders::kMaxAttributes> modes{};
-    std::transform(key.modes.begin(), key.modes.end(), modes.begin(), to_mode);
-    auto vertex = shader_module(shaders::capture_vertex(key.attribute_count));
+    auto vertex = shader_module(shaders::capture_vertex(vertex_variant(key)));
     if (!vertex) {
         return fail(vertex.error());
     }
-    auto fragment = shader_module(shaders::capture_fragment(
-        key.attribute_count, modes, device_->capabilities().info.has_primitive_id));
+    auto fragment =
+        shader_module(shaders::capture_fragment(fragment_variant(key)),
+                      input_changes(key, device_->capabilities().info.has_primitive_id));
     if (!fragment) {
         return fail(fragment.error());
     }
-    const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
         stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex),
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment)};
-
-    // Binding and location 0: positions; 1..: attributes. Each is an array of its own.
-    std::vector<VkVertexInputBindingDescription> bindings;
-    std::vector<VkVertexInputAttributeDescription> inputs;
-    for (uint32_t binding = 0; binding <= key.attribute_count; ++binding) {
-        bindings.push_back({binding, 16, VK_VERTEX_INPUT_RATE_VERTEX});
-        inputs.push_back({binding, binding, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
-    }
-    VkPipelineVertexInputStateCreateInfo vertex_input{};
-    vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-    vertex_input.vertexBindingDescriptionCount = static_cast<uint32_t>(bindings.size());
-    vertex_input.pVertexBindingDescriptions = bindings.data();
-    vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(inputs.size());
-    vertex_input.pVertexAttributeDescriptions = inputs.data();
+    Specialization specialization;
+    specialize(key, specialization);
+    stages[1].pSpecializationInfo = &specialization.info;
+    VertexInputState vertex_input;
+    vertex_input_state(key, vertex_input);
 
     VkPipelineInputAssemblyStateCreateInfo assembly{};
     assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
@@ -188,38 +196,13 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     viewport.viewportCount = 1;
     viewport.scissorCount = 1;
 
-    VkPipelineRasterizationStateCreateInfo rasterization{};
-    rasterization.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    rasterization.polygonMode = VK_POLYGON_MODE_FILL;
-    rasterization.lineWidth = 1.0F;
-
-    VkPipelineMultisampleStateCreateInfo multisample{};
-    multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(key.samples);
-
-    VkPipelineDepthStencilStateCreateInfo depth{};
-    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = VK_TRUE;  // without the test there is no depth write
-    depth.depthWriteEnable = VK_TRUE;
-    depth.depthCompareOp = VK_COMPARE_OP_ALWAYS;
-
-    const uint32_t color_count = kFixedAttachments + key.attribute_count;
-    VkPipelineColorBlendAttachmentState plain{};
-    plain.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    std::vector<VkPipelineColorBlendAttachmentState> blends(color_count, plain);
-    VkPipelineColorBlendAttachmentState& hits = blends.front();
-    hits.blendEnable = VK_TRUE;
-    hits.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    hits.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    hits.colorBlendOp = VK_BLEND_OP_ADD;
-    hits.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    hits.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    hits.alphaBlendOp = VK_BLEND_OP_ADD;
-    VkPipelineColorBlendStateCreateInfo blend{};
-    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    blend.attachmentCount = color_count;
-    blend.pAttachments = blends.data();
+    RasterizationState rasterization;
+    rasterization_state(key, rasterization);
+    MultisampleState multisample;
+    multisample_state(key, multisample);
+    const VkPipelineDepthStencilStateCreateInfo depth = depth_state(key);
+    ColorState color;
+    color_state(key, color);
 
     const std::array<VkDynamicState, 6> dynamic_states = {
         VK_DYNAMIC_STATE_VIEWPORT,           VK_DYNAMIC_STATE_SCISSOR,
@@ -230,11 +213,10 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     dynamic.dynamicStateCount = static_cast<uint32_t>(dynamic_states.size());
     dynamic.pDynamicStates = dynamic_states.data();
 
-    const std::vector<VkFormat> formats(color_count, kColorFormat);
     VkPipelineRenderingCreateInfo rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
-    rendering.colorAttachmentCount = color_count;
-    rendering.pColorAttachmentFormats = formats.data();
+    rendering.colorAttachmentCount = static_cast<uint32_t>(color.formats.size());
+    rendering.pColorAttachmentFormats = color.formats.data();
     rendering.depthAttachmentFormat = kDepthFormat;
 
     VkGraphicsPipelineCreateInfo info{};
@@ -242,13 +224,13 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     info.pNext = &rendering;
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();
-    info.pVertexInputState = &vertex_input;
+    info.pVertexInputState = &vertex_input.info;
     info.pInputAssemblyState = &assembly;
     info.pViewportState = &viewport;
-    info.pRasterizationState = &rasterization;
-    info.pMultisampleState = &multisample;
+    info.pRasterizationState = &rasterization.info;
+    info.pMultisampleState = &multisample.info;
     info.pDepthStencilState = &depth;
-    info.pColorBlendState = &blend;
+    info.pColorBlendState = &color.info;
     info.pDynamicState = &dynamic;
     info.layout = layout_.get();
     VkPipeline pipeline = VK_NULL_HANDLE;

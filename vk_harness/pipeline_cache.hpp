@@ -6,19 +6,14 @@
 
 #include <map>
 #include <span>
+#include <utility>
+#include <vector>
 
-#include "cases/case.hpp"
 #include "vk_harness/device.hpp"
+#include "vk_harness/pipeline_key.hpp"
+#include "vk_harness/spirv_variant.hpp"
 
 namespace vk_harness {
-
-// What distinguishes two pipelines. Topology, culling, facing, viewport and scissor are dynamic.
-struct PipelineKey {
-    uint32_t attribute_count = 0;
-    std::array<cases::Interpolation, cases::kMaxAttributes> modes{};  // unused ones: smooth
-    uint32_t samples = 1;
-    friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
-};
 
 class PipelineCache {
   public:
@@ -30,26 +25,33 @@ class PipelineCache {
     Result<VkPipeline> get_copy(bool depth);
 
     VkPipelineLayout layout() const { return layout_.get(); }
+    // Set 0 of a draw: binding 0, the texture whose level of detail is asked for.
+    VkDescriptorSetLayout texture_set_layout() const { return texture_set_layout_.get(); }
     VkPipelineLayout copy_layout() const { return copy_layout_.get(); }
     VkDescriptorSetLayout copy_set_layout() const { return copy_set_layout_.get(); }
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
-    Result<VkShaderModule> shader_module(std::span<const uint32_t> code);
+    // The module `code`, embedded in the program, with changes to its inputs.
+    Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
+                                         std::vector<InputChange> changes = {});
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
 
     const Device* device_;
     Handle<VkPipelineCache> cache_;
+    Handle<VkDescriptorSetLayout> texture_set_layout_;
     Handle<VkPipelineLayout> layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
-    std::map<const uint32_t*, Handle<VkShaderModule>> modules_;  // by the embedded code's address
+    // By the embedded code's address and the changes.
+    std::map<std::pair<const uint32_t*, std::vector<InputChange>>, Handle<VkShaderModule>> modules_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
     std::map<bool, Handle<VkPipeline>> copies_;
 };
 
-// Words of push constants: the index of the draw (fragment stage).
-inline constexpr uint32_t kDrawConstants = 1;
+// Stages that see shaders::DrawConstants.
+inline constexpr VkShaderStageFlags kDrawStages =
+    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 // Words of push constants: width, height, samples (compute stage).
 inline constexpr uint32_t kCopyConstants = 3;
 inline constexpr uint32_t kCopyGroupSize = 8;  // local size of copy_samples.comp

@@ -154,8 +154,12 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     vk.vkCmdSetFrontFace(commands, to_vulkan(draw.front_face));
     vk.vkCmdSetPrimitiveTopology(commands, to_vulkan(draw.topology));
     vk.vkCmdSetPrimitiveRestartEnable(commands, draw.primitive_restart ? VK_TRUE : VK_FALSE);
-    vk.vkCmdPushConstants(commands, pipelines.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                          sizeof(draw_index), &draw_index);
+    shaders::DrawConstants constants;
+    constants.index = draw_index;
+    constants.layer = draw.layer;
+    constants.viewport_index = draw.viewport_index;
+    vk.vkCmdPushConstants(commands, pipelines.layout(), kDrawStages, 0, sizeof constants,
+                          &constants);
     std::array<VkBuffer, 1 + cases::kMaxAttributes> buffers{};
     buffers.fill(vertices);
     vk.vkCmdBindVertexBuffers(commands, 0, binding_count, buffers.data(), plan.vertices.data());
@@ -168,20 +172,6 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
 }
 
 }  // namespace
-
-PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
-    PipelineKey key;
-    for (const cases::Draw& other : c.draws) {
-        key.attribute_count =
-            std::max(key.attribute_count, static_cast<uint32_t>(other.attributes.size()));
-    }
-    key.samples = c.target.samples;
-    for (size_t k = 0; k < key.attribute_count; ++k) {
-        key.modes[k] = k < draw.attributes.size() ? draw.attributes[k].interpolation
-                                                  : cases::Interpolation::flat;
-    }
-    return key;
-}
 
 VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin) {
     VkDeviceSize offset = begin;
@@ -211,11 +201,12 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
         const size_t array = draw.positions.size() * sizeof(glm::vec4);
         write(item.vertices[0], draw.positions.data(), array);
         for (uint32_t k = 0; k < plan.attribute_count; ++k) {
-            if (k < draw.attributes.size()) {
+            const bool is_given = k < draw.attributes.size();
+            if (is_given && draw.attributes[k].source == cases::Source::vertex) {
                 write(item.vertices[1 + k], draw.attributes[k].values.data(), array);
             } else {
                 const std::vector<glm::vec4> none(draw.positions.size(),
-                                                  glm::vec4(diff::kClearValue));
+                                                  glm::vec4(is_given ? 0.0F : diff::kClearValue));
                 write(item.vertices[1 + k], none.data(), array);
             }
         }

@@ -30,10 +30,6 @@ struct CasePlan {
     ReadbackLayout readback;
 };
 
-// The key of a draw's pipeline. A draw with fewer attributes than its case gets flat ones that are
-// constantly diff::kClearValue: what its fragments leave in those attachments.
-PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw);
-
 // Assigns the places of all vertices and indices from byte `begin` on; returns the end.
 VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin);
 // Writes them there, bits unchanged.

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/spirv_variant.hpp"
+
+#include <gmock/gmock.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "shaders/shaders.hpp"
+#include "vk_harness/pipeline_key.hpp"
+#include "vk_harness/shader_stage.hpp"
+
+namespace vk_harness {
+namespace {
+
+using Words = std::vector<uint32_t>;
+
+// A module of instructions, each without its first word.
+class Assembler {
+  public:
+    Assembler& add(uint32_t op, const Words& operands) {
+        words_.push_back(static_cast<uint32_t>(operands.size() + 1) << 16U | op);
+        words_.insert(words_.end(), operands.begin(), operands.end());
+        return *this;
+    }
+    const Words& words() const { return words_; }
+
+  private:
+    Words words_ = {0x07230203, 0x00010300, 0, 10, 0};
+};
+
+constexpr uint32_t kCapability = 17, kVariable = 59, kDecorate = 71, kGroup = 73;
+constexpr uint32_t kInput = 1, kOutput = 3;
+
+// Input 5 and output 6 at location 2.
+Assembler small_module() {
+    Assembler a;
+    a.add(kCapability, {1}).add(kDecorate, {5, 30, 2}).add(kDecorate, {6, 30, 2});
+    return a.add(kVariable, {1, 5, kInput}).add(kVariable, {1, 6, kOutput});
+}
+
+InputChange at_location(uint32_t location) {
+    InputChange change;
+    change.number = location;
+    return change;
+}
+
+std::string error_of(const Words& module, const std::vector<InputChange>& changes) {
+    const auto made = change_inputs(module, changes);
+    return made ? "" : made.error();
+}
+
+TEST(SpirvVariant, DecoratesTheInputAndNotTheOutput) {
+    InputChange change = at_location(2);
+    change.no_perspective = true;
+    const auto made = change_inputs(small_module().words(), {{change}});
+    ASSERT_TRUE(made) << made.error();
+    Assembler want;
+    want.add(kCapability, {1}).add(kDecorate, {5, 30, 2}).add(kDecorate, {5, 13});
+    want.add(kDecorate, {6, 30, 2}).add(kVariable, {1, 5, kInput}).add(kVariable, {1, 6, kOutput});
+    EXPECT_EQ(*made, want.words());
+}
+
+TEST(SpirvVariant, NoChangesGiveTheModuleItself) {
+    const auto made = change_inputs(small_module().words(), {});
+    ASSERT_TRUE(made);
+    EXPECT_EQ(*made, small_module().words());
+}
+
+TEST(SpirvVariant, SampleBringsItsCapabilityOnce) {
+    InputChange change = at_location(2);
+    change.sample = true;
+    const auto made = change_inputs(small_module().words(), {{change}});
+    ASSERT_TRUE(made);
+    EXPECT_THAT(Words(made->begin() + 5, made->begin() + 9),
+                ::testing::ElementsAre(2U << 16U | kCapability, 35, 2U << 16U | kCapability, 1));
+    Assembler has_it;
+    has_it.add(kCapability, {35}).add(kDecorate, {5, 30, 2}).add(kVariable, {1, 5, kInput});
+    const auto again = change_inputs(has_it.words(), {{change}});
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->size(), has_it.words().size() + 3);  // the decoration alone
+}
+
+TEST(SpirvVariant, PrimitiveIdTakesThePlaceOfTheLocation) {
+    InputChange change = at_location(2);
+    change.becomes_primitive_id = true;
+    const auto made = change_inputs(small_module().words(), {{change}});
+    ASSERT_TRUE(made);
+    Assembler want;
+    want.add(kCapability, {2}).add(kCapability, {1}).add(kDecorate, {5, 11, 7});
+    want.add(kDecorate, {6, 30, 2}).add(kVariable, {1, 5, kInput}).add(kVariable, {1, 6, kOutput});
+    EXPECT_EQ(*made, want.words());
+}
+
+TEST(SpirvVariant, WhatItRefuses) {
+    const InputChange change = at_location(2);
+    const Words good = small_module().words();
+    EXPECT_EQ(error_of({}, {}), "the module does not begin as SPIR-V of this machine's byte order");
+    Words bad = good;
+    bad[0] = 0x03022307;
+    EXPECT_EQ(error_of(bad, {}), "the module does not begin as SPIR-V of this machine's byte order");
+    bad = good;
+    bad[1] = 0x00010700;
+    EXPECT_EQ(error_of(bad, {}), "the module's version 0x00010700 is not 1.0 to 1.6");
+    bad = good;
+    bad[4] = 1;
+    EXPECT_EQ(error_of(bad, {}), "the module's schema is not 0");
+    bad = good;
+    bad[5] = 17;  // length 0
+    EXPECT_EQ(error_of(bad, {}), "the instruction at word 5 runs over the module's end");
+    bad = good;
+    bad.pop_back();
+    EXPECT_EQ(error_of(bad, {}),
+              "the instruction at word " + std::to_string(good.size() - 4) +
+                  " runs over the module's end");
+    bad = good;
+    bad.insert(bad.end(), {2U << 16U | kDecorate, 5});
+    EXPECT_EQ(error_of(bad, {}),
+              "the instruction at word " + std::to_string(good.size()) + " is too short");
+    EXPECT_EQ(error_of(Assembler(small_module()).add(kGroup, {9}).words(), {}),
+              "the module has decoration groups");
+    EXPECT_EQ(error_of(good, {at_location(3)}), "no input of the module has location 3");
+    Assembler two = small_module();
+    two.add(kDecorate, {7, 30, 2}).add(kVariable, {1, 7, kInput});
+    EXPECT_EQ(error_of(two.words(), {change}), "two inputs of the module have location 2");
+    EXPECT_EQ(error_of(good, {change, change}), "input 2 is changed twice");
+    InputChange built_in;
+    built_in.by = InputBy::built_in;
+    built_in.number = kBuiltInBaryCoord;
+    EXPECT_EQ(error_of(good, {built_in}), "no input of the module has built-in 5286");
+}
+
+TEST(SpirvVariant, ContradictionsAreRefused) {
+    InputChange change = at_location(2);
+    change.flat = true;
+    change.centroid = true;
+    EXPECT_EQ(error_of(small_module().words(), {change}),
+              "the decorations of input 2 contradict each other");
+    change.flat = false;
+    change.sample = true;
+    EXPECT_EQ(error_of(small_module().words(), {change}),
+              "the decorations of input 2 contradict each other");
+    Assembler flat = small_module();
+    flat.add(kDecorate, {5, 14});
+    change = at_location(2);
+    change.no_perspective = true;
+    EXPECT_EQ(error_of(flat.words(), {change}), "the decorations of input 2 contradict each other");
+    change.no_perspective = false;
+    change.flat = true;
+    EXPECT_EQ(error_of(flat.words(), {change}), "input 2 has decoration 14 already");
+}
+
+// What spirv-val says to a module; empty if it is content.
+std::string validator_says(std::span<const uint32_t> module) {
+    const auto file = std::filesystem::temp_directory_path() /
+                      ("edgecase-spirv-" + std::to_string(::getpid()) + ".spv");
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(module.data()),
+               static_cast<std::streamsize>(module.size_bytes()));
+    std::FILE* pipe =
+        ::popen(("spirv-val --target-env vulkan1.3 " + file.string() + " 2>&1").c_str(), "r");
+    std::string said;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
+        said += static_cast<char>(c);
+    }
+    const int status = ::pclose(pipe);
+    std::filesystem::remove(file);
+    return status == 0 && said.empty() ? "" : "spirv-val: " + said;
+}
+
+TEST(SpirvVariant, TheValidatorSpeaksOfABrokenModule) {
+    EXPECT_THAT(validator_says(small_module().words()), ::testing::HasSubstr("spirv-val: error"));
+}
+
+TEST(SpirvVariant, EveryEmbeddedModuleIsValid) {
+    size_t count = 0;
+    for (; !shaders::any_module(count).empty(); ++count) {
+        EXPECT_EQ(validator_says(shaders::any_module(count)), "") << "module " << count;
+    }
+    EXPECT_GE(count, 200U);
+}
+
+// Every interpolation with every auxiliary qualifier, on devices with and without primitive ids.
+TEST(SpirvVariant, EveryChangedModuleIsValid) {
+    using cases::Auxiliary;
+    using cases::Interpolation;
+    for (const bool primitive_id : {false, true}) {
+        for (const cases::Source source : {cases::Source::vertex, cases::Source::barycentric}) {
+            for (const auto interpolation :
+                 {Interpolation::smooth, Interpolation::noperspective, Interpolation::flat}) {
+                for (const auto auxiliary :
+                     {Auxiliary::none, Auxiliary::centroid, Auxiliary::sample}) {
+                    if (interpolation == Interpolation::flat &&
+                        (auxiliary != Auxiliary::none || source != cases::Source::vertex)) {
+                        continue;
+                    }
+                    PipelineKey key;
+                    key.attribute_count = 2;
+                    key.attributes[1].interpolation = interpolation;
+                    key.attributes[1].auxiliary = auxiliary;
+                    key.attributes[1].source = source;
+                    const auto code = shaders::capture_fragment(fragment_variant(key));
+                    ASSERT_FALSE(code.empty());
+                    const auto changed = change_inputs(code, input_changes(key, primitive_id));
+                    ASSERT_TRUE(changed) << changed.error();
+                    EXPECT_EQ(validator_says(*changed), "");
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace vk_harness

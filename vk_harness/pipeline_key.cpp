@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline_key.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace vk_harness {
+
+namespace {
+
+AttributeKey attribute_key(const cases::Attribute& attribute) {
+    AttributeKey key;
+    key.interpolation = attribute.interpolation;
+    key.auxiliary = attribute.auxiliary;
+    key.source = attribute.source;
+    key.probe = attribute.probe;
+    if (attribute.probe == cases::Probe::at_offset) {
+        key.offset_bits = {std::bit_cast<uint32_t>(attribute.probe_offset[0]),
+                           std::bit_cast<uint32_t>(attribute.probe_offset[1])};
+    }
+    if (attribute.probe == cases::Probe::at_sample) {
+        key.sample = attribute.probe_sample;
+    }
+    return key;
+}
+
+}  // namespace
+
+PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
+    PipelineKey key;
+    for (const cases::Draw& other : c.draws) {
+        key.attribute_count =
+            std::max(key.attribute_count, static_cast<uint32_t>(other.attributes.size()));
+    }
+    key.samples = c.target.samples;
+    for (size_t k = 0; k < key.attribute_count; ++k) {
+        if (k < draw.attributes.size()) {
+            key.attributes[k] = attribute_key(draw.attributes[k]);
+        } else {
+            key.attributes[k].interpolation = cases::Interpolation::flat;
+        }
+    }
+    key.shader_mask = draw.multisample.shader_mask;
+    return key;
+}
+
+shaders::VertexVariant vertex_variant(const PipelineKey& key) {
+    return {key.attribute_count, key.clip_count, key.cull_count, key.layer, key.viewport_index};
+}
+
+shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
+    shaders::FragmentVariant v;
+    v.attributes = key.attribute_count;
+    v.mask_out = key.shader_mask.has_value();
+    v.color = key.color;
+    v.instruments = key.instruments;
+    for (const AttributeKey& attribute : key.attributes) {
+        switch (attribute.source) {
+            case cases::Source::vertex:
+                break;
+            case cases::Source::barycentric:
+                v.barycentrics = true;
+                break;
+            case cases::Source::sample_mask_in:
+                v.mask_in = true;
+                break;
+            case cases::Source::sample_id:
+            case cases::Source::sample_position:
+                v.sample = true;
+                break;
+        }
+        v.lod = v.lod || attribute.probe == cases::Probe::lod;
+        v.probes = v.probes || (attribute.probe != cases::Probe::value &&
+                                attribute.probe != cases::Probe::lod);
+    }
+    // The build compiles lod with the probes, and the sample built-ins with the mask (which changes
+    // nothing once there is sample shading).
+    v.probes = v.probes || v.lod;
+    v.mask_in = v.mask_in || v.sample;
+    return v;
+}
+
+}  // namespace vk_harness

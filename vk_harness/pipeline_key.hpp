@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What distinguishes two pipelines. Topology, culling, facing, viewport and scissor are dynamic.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <optional>
+
+#include "cases/case.hpp"
+#include "shaders/shaders.hpp"
+
+namespace vk_harness {
+
+// A fragment input and what is written of it; cases::Attribute without its values.
+struct AttributeKey {
+    cases::Interpolation interpolation = cases::Interpolation::smooth;
+    cases::Auxiliary auxiliary = cases::Auxiliary::none;
+    cases::Source source = cases::Source::vertex;
+    cases::Probe probe = cases::Probe::value;
+    std::array<uint32_t, 2> offset_bits{};  // of Attribute::probe_offset, if the probe uses it
+    uint32_t sample = 0;                    // Attribute::probe_sample, likewise
+    friend auto operator<=>(const AttributeKey&, const AttributeKey&) = default;
+};
+
+struct PipelineKey {
+    uint32_t attribute_count = 0;
+    std::array<AttributeKey, cases::kMaxAttributes> attributes{};  // unused ones: as constructed
+    uint32_t samples = 1;
+    // Vertex stage.
+    uint32_t clip_count = 0, cull_count = 0;
+    bool layer = false, viewport_index = false;
+    // Multisampling.
+    std::optional<uint32_t> shader_mask = {};
+    // Colour output.
+    shaders::ColorKind color = shaders::ColorKind::none;
+    int32_t color_attribute = -1;
+    bool instruments = true;
+    friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
+};
+
+// The key of a draw's pipeline. A draw with fewer attributes than its case gets flat ones that are
+// constantly diff::kClearValue: what its fragments leave in those attachments.
+PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw);
+
+// What the shaders have to be compiled for.
+shaders::VertexVariant vertex_variant(const PipelineKey& key);
+shaders::FragmentVariant fragment_variant(const PipelineKey& key);
+
+}  // namespace vk_harness

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The fixed state of a graphics pipeline, one function a concept. Where a structure points to
+// others, it is kept together with them in one object, which must not be moved once it is filled.
+#pragma once
+
+#include <vector>
+
+#include "vk_harness/device.hpp"
+#include "vk_harness/pipeline_key.hpp"
+
+namespace vk_harness {
+
+struct VertexInputState {
+    std::vector<VkVertexInputBindingDescription> bindings;
+    std::vector<VkVertexInputAttributeDescription> inputs;
+    VkPipelineVertexInputStateCreateInfo info{};
+};
+void vertex_input_state(const PipelineKey& key, VertexInputState& state);
+
+struct RasterizationState {
+    VkPipelineRasterizationStateCreateInfo info{};
+};
+void rasterization_state(const PipelineKey& key, RasterizationState& state);
+
+struct MultisampleState {
+    VkPipelineMultisampleStateCreateInfo info{};
+};
+void multisample_state(const PipelineKey& key, MultisampleState& state);
+
+VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key);
+
+// Colour attachments of a draw, in order, and how each is blended.
+struct ColorState {
+    std::vector<VkFormat> formats;
+    std::vector<VkPipelineColorBlendAttachmentState> blends;
+    VkPipelineColorBlendStateCreateInfo info{};
+};
+void color_state(const PipelineKey& key, ColorState& state);
+
+}  // namespace vk_harness

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Changes the decorations of a compiled fragment shader's inputs. Interpolation and auxiliary
+// qualifiers are decorations in SPIR-V and nothing else, so one module serves all combinations of
+// them. Source: SPIR-V specification 1.3, sections 2.3 "Physical Layout", 2.4 "Logical Layout",
+// 3.20 "Decoration", 3.21 "BuiltIn", 3.31 "Capability".
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace vk_harness {
+
+// How one Input variable is found: by its Location or by its BuiltIn.
+enum class InputBy : uint8_t { location, built_in };
+
+// The decorations that one Input variable shall get.
+struct InputChange {
+    InputBy by = InputBy::location;
+    uint32_t number = 0;  // the Location or the BuiltIn
+    bool flat = false, no_perspective = false, centroid = false, sample = false;
+    bool becomes_primitive_id = false;  // BuiltIn PrimitiveId takes the place of its Location
+    friend auto operator<=>(const InputChange&, const InputChange&) = default;
+};
+
+inline constexpr uint32_t kBuiltInBaryCoord = 5286, kBuiltInBaryCoordNoPersp = 5287;
+
+// The module with these changes, and with the capabilities that they need: Sample needs
+// SampleRateShading, PrimitiveId needs Geometry. Errors, one sentence each: not a SPIR-V module of
+// version 1.0 to 1.6 in this machine's byte order, instructions that run over its end, decoration
+// groups (which hide who is decorated), no Input variable or several with that number, a decoration
+// that is there already or contradicts another.
+tl::expected<std::vector<uint32_t>, std::string> change_inputs(
+    std::span<const uint32_t> module, std::span<const InputChange> changes);
+
+}  // namespace vk_harness
