@@ -53,9 +53,10 @@ void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t
     move(c.depth);
 }
 
+// Draws without a driver: with an algorithm, or as the reference expects it.
 class ReferenceBackend : public Backend {
   public:
-    ReferenceBackend() {
+    explicit ReferenceBackend(const ref::algorithms::Device* algorithm) : algorithm_(algorithm) {
         device_.name = "Edgecase reference";
         device_.driver_name = "reference";
         device_.driver_info = "version 1.0.0";
@@ -67,6 +68,10 @@ class ReferenceBackend : public Backend {
         device_.max_color_attachments = 8;
         device_.max_target_size = cases::kMaxTargetSize;
         device_.has_primitive_id = true;
+        if (algorithm_ != nullptr) {
+            device_.name = "Edgecase algorithm " + std::string(algorithm_->name);
+            device_.driver_name = algorithm_->name;
+        }
     }
     const DeviceInfo& device() const override { return device_; }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
@@ -75,8 +80,16 @@ class ReferenceBackend : public Backend {
         step("submit");
         std::vector<Rendered> results(batch.size());
         for (size_t k = 0; k < batch.size(); ++k) {
+            if (algorithm_ != nullptr) {
+                results[k].reason = ref::algorithms::unsupported_reason(batch[k]);
+            }
+            if (!results[k].reason.empty()) {
+                results[k].status = Rendered::Status::unsupported;
+                continue;
+            }
             results[k].status = Rendered::Status::drawn;
-            results[k].capture = draw_by_reference(batch[k]);
+            results[k].capture = algorithm_ != nullptr ? draw_by_algorithm(batch[k], *algorithm_)
+                                                       : draw_by_reference(batch[k]);
             move_planes(results[k], store, k);
         }
         step("readback");
@@ -84,6 +97,7 @@ class ReferenceBackend : public Backend {
     }
 
   private:
+    const ref::algorithms::Device* algorithm_;
     DeviceInfo device_;
 };
 
@@ -179,8 +193,8 @@ diff::Capture draw_by_reference(const cases::Case& c) {
 }
 
 vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options) {
-    if (options.reference) {
-        return std::make_unique<ReferenceBackend>();
+    if (!options.renderer.empty()) {
+        return std::make_unique<ReferenceBackend>(ref::algorithms::find_device(options.renderer));
     }
     vk_harness::Result<vk_harness::Renderer> renderer =
         vk_harness::Renderer::create(options.vulkan);

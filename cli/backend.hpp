@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/message.hpp"
+#include "ref/algorithms/device.hpp"
 #include "vk_harness/harness.hpp"
 
 namespace cli {
@@ -28,5 +29,8 @@ vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& o
 // Draws a case as the reference expects it: of several allowed answers the first, values rounded to
 // binary32. No driver is involved; a perfect device of 8 subpixel bits.
 diff::Capture draw_by_reference(const cases::Case& c);
+
+// Draws a case as an algorithm does; only without a ref::algorithms::unsupported_reason().
+diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Device& device);
 
 }  // namespace cli

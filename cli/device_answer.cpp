@@ -18,7 +18,7 @@ WorkerOptions worker_options(const DeviceOptions& options) {
     worker.vulkan.device = options.device;
     worker.vulkan.icd_file = options.icd;
     worker.vulkan.validation = options.validation;
-    worker.reference = options.reference;
+    worker.renderer = options.renderer;
     return worker;
 }
 

@@ -16,7 +16,7 @@ std::string encode_options(const WorkerOptions& options) {
     out.text(options.vulkan.device);
     out.text(options.vulkan.icd_file);
     out.value(options.vulkan.validation);
-    out.value(options.reference);
+    out.text(options.renderer);
     return out.take();
 }
 
@@ -24,13 +24,11 @@ std::optional<WorkerOptions> decode_options(std::string_view bytes) {
     ByteReader in(bytes);
     WorkerOptions options;
     uint8_t validation = 0;
-    uint8_t reference = 0;
     in.text(options.vulkan.device);
     in.text(options.vulkan.icd_file);
     in.value(validation);
-    in.value(reference);
+    in.text(options.renderer);
     options.vulkan.validation = validation != 0;
-    options.reference = reference != 0;
     return in.finished() ? std::optional(options) : std::nullopt;
 }
 

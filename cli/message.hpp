@@ -19,7 +19,9 @@ namespace cli {
 // How a worker is to render.
 struct WorkerOptions {
     vk_harness::Options vulkan;
-    bool reference = false;  // no driver: draw what the reference expects (tests of the runner)
+    // No driver if not empty: "reference" draws what the reference expects (tests of the runner),
+    // other names are devices of ref/algorithms.
+    std::string renderer;
 };
 std::string encode_options(const WorkerOptions& options);
 std::optional<WorkerOptions> decode_options(std::string_view bytes);

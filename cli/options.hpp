@@ -28,8 +28,8 @@ struct DeviceOptions {
     std::string device;
     std::string icd;
     bool validation = false;
-    bool reference = false;  // hidden: --renderer=reference
-    double timeout = 30;     // seconds without a sign of life
+    std::string renderer;  // "": a driver; "reference"; a device of ref/algorithms
+    double timeout = 30;   // seconds without a sign of life
 };
 
 struct Shard {

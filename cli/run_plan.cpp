@@ -178,8 +178,8 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
     if (options.device.validation) {
         words.emplace_back("--validation");
     }
-    if (options.device.reference) {
-        words.insert(words.end(), {"--renderer", "reference"});
+    if (!options.device.renderer.empty()) {
+        words.insert(words.end(), {"--renderer", options.device.renderer});
     }
     if (options.repeat > 1) {
         words.insert(words.end(), {"--repeat", std::to_string(options.repeat)});

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "cli/backend.hpp"
+
+namespace cli {
+
+diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Device& device) {
+    const std::vector<ref::algorithms::DrawnSample> drawn = ref::algorithms::draw(c, device);
+    diff::Capture capture;
+    capture.target = c.target;
+    capture.has_primitive = true;
+    for (const cases::Draw& draw : c.draws) {
+        capture.attribute_count =
+            std::max(capture.attribute_count, static_cast<uint32_t>(draw.attributes.size()));
+    }
+    const size_t n = capture.sample_count();
+    const glm::vec4 clear(diff::kClearValue);
+    capture.hits.assign(n, glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
+    capture.writers.assign(n, diff::Writer{});
+    capture.frag_coord.assign(n, clear);
+    capture.depth.assign(n, diff::kClearDepth);
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        capture.attributes[a].assign(n, clear);
+    }
+    for (size_t index = 0; index < n; ++index) {
+        const ref::algorithms::DrawnSample& sample = drawn[index];
+        const uint32_t hits = sample.front + sample.back;
+        if (hits == 0) {
+            continue;
+        }
+        capture.hits[index] = {static_cast<float>(sample.front), static_cast<float>(sample.back),
+                               diff::kHitGuard, diff::kHitGuard + static_cast<float>(hits)};
+        capture.writers[index] = {sample.last.draw, sample.last.primitive, sample.last.provoking,
+                                  diff::kClearId};
+        capture.frag_coord[index] = sample.values.frag_coord;
+        capture.depth[index] = sample.values.depth;
+        for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+            const bool is_written = a < c.draws[sample.last.draw].attributes.size();
+            capture.attributes[a][index] = is_written ? sample.values.attributes[a] : clear;
+        }
+    }
+    return capture;
+}
+
+}  // namespace cli
