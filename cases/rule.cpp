@@ -69,6 +69,14 @@ constexpr std::array kRules = {
     Rule{"scissor.half-open", Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",
          "fragops-scissor", "15.14", "ref/expectation.hpp"},
+    Rule{"sample.locations", Profile::vulkan, "Samples lie exactly at their locations",
+         "The standard locations, or those that the pipeline asks for, in the order of their "
+         "indices; they are points, never areas, and are not snapped.",
+         "primsrast-multisampling", "19.2.4.1", "ref/sample.hpp"},
+    Rule{"sample.mask", Profile::vulkan, "The sample mask removes samples",
+         "Bit s of pSampleMask, and bit s of what the shader writes to gl_SampleMask, let sample s "
+         "be written: coverage is their AND.",
+         "fragops-samplemask", "17.17", "ref/sample.hpp"},
     Rule{"order.primitive", Profile::vulkan, "Primitives write in drawing order",
          "Of the triangles that hit a sample, the last one drawn is the one that stays.",
          "primsrast-order", "", "ref/expectation.hpp"},

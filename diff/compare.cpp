@@ -353,18 +353,23 @@ std::string check_expected_hits(const cases::Case& c) {
         return {};
     }
     const ref::Expectation e = ref::expect(c, ref::Limits{8}, cases::Profile::direct3d);
-    for (uint32_t y = 0; y < c.target.height; ++y) {
-        for (uint32_t x = 0; x < c.target.width; ++x) {
-            const ref::HitBounds& b = e.samples[size_t{y} * c.target.width + x].hits;
-            const char drawn = c.expected_hits->rows[y][x];
+    // Row s * height + y is row y of sample s.
+    const std::vector<std::string>& rows = c.expected_hits->rows;
+    for (size_t row = 0; row < rows.size(); ++row) {
+        const size_t s = row / c.target.height;
+        const size_t y = row % c.target.height;
+        for (size_t x = 0; x < c.target.width; ++x) {
+            const ref::HitBounds& b =
+                e.samples[(y * c.target.width + x) * c.target.samples + s].hits;
+            const char drawn = rows[row][x];
             const char reference = b.total_min != b.total_max ? '?'
                                    : b.total_min == 0         ? '.'
                                    : b.total_min <= 9         ? static_cast<char>('0' + b.total_min)
                                                               : '#';
             if (drawn != reference) {
                 return fmt::format(
-                    "the picture has '{}' at pixel ({}, {}), the reference says {} hit(s)", drawn,
-                    x, y, to_text(b));
+                    "the picture has '{}' at pixel ({}, {}){}, the reference says {} hit(s)", drawn,
+                    x, y, c.target.samples > 1 ? fmt::format(", sample {}", s) : "", to_text(b));
             }
         }
     }

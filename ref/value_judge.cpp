@@ -186,7 +186,7 @@ struct ValueReference::Impl {
         if (set.is_known) {
             value::WideVerdict verdict =
                 judge_wide(set, std::span<const Quantity>(q), primitive.is_projectable,
-                           value::evaluations<Ball>(id, c.target.samples, at), device, only);
+                           value::evaluations<Ball>(id, c.target, at), device, only);
             if (verdict.is_known) {
                 return verdict;
             }
@@ -194,7 +194,7 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(id, c.target.samples, at), device, only);
+                          value::evaluations<mpq_class>(id, c.target, at), device, only);
     }
 
     // The oracle: rationals only, no filter.
@@ -209,7 +209,7 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(id, c.target.samples, at), device, only);
+                          value::evaluations<mpq_class>(id, c.target, at), device, only);
     }
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
@@ -308,7 +308,7 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
     const value::Primitive& primitive = load(t).primitive;
     const std::vector<Quantity>& all = quantities_of(t);
     const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
-    const auto place = value::evaluations<mpq_class>(id, c.target.samples, profile).front();
+    const auto place = value::evaluations<mpq_class>(id, c.target, profile).front();
     const value::Basis<mpq_class>& basis = exact_basis(t);
     const value::WideSet<Ball>& set = balls.get(
         t, profile, [&] { return value::make_wide_set<Ball>(primitive, all, limits, profile); });
@@ -364,7 +364,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
     }
     bool is_decided = false;
     if (!exact_only) {
-        const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target.samples);
+        const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
         const value::Places places{{id.x + 0.5, id.y + 0.5},
                                    {static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
                                     static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)}};
@@ -422,7 +422,7 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
     }
     const std::vector<Quantity>& all = impl_->quantities_of(t);
     const auto place =
-        value::evaluations<mpq_class>(sample, impl_->c.target.samples, impl_->profile).front();
+        value::evaluations<mpq_class>(sample, impl_->c.target, impl_->profile).front();
     const value::Basis<mpq_class>& basis = impl_->exact_basis(t);
     for (const Quantity& q : all) {
         ExpectedValue e;

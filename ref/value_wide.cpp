@@ -282,14 +282,15 @@ void judge_value(const Reach<T>& reach, size_t index, double device, const Range
 }  // namespace
 
 template <class T>
-std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Profile profile) {
+std::vector<Evaluation<T>> evaluations(SampleId id, const cases::Target& target,
+                                       cases::Profile profile) {
     const double x = id.x;
     const double y = id.y;
-    const FixedPoint fixed = sample_position(id.x, id.y, id.sample, samples);
+    const FixedPoint fixed = sample_position(id.x, id.y, id.sample, target);
     const Point<T> sample{T(static_cast<double>(fixed.x) / static_cast<double>(kFixedOne)),
                           T(static_cast<double>(fixed.y) / static_cast<double>(kFixedOne))};
     const Point<T> centre{T(x + 0.5), T(y + 0.5)};
-    if (samples == 1) {
+    if (target.samples == 1) {
         return {{{centre}, {centre}, sample}};
     }
     std::vector<Evaluation<T>> all;
@@ -356,8 +357,9 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
     return best;
 }
 
-template std::vector<Evaluation<Ball>> evaluations<Ball>(SampleId, uint32_t, cases::Profile);
-template std::vector<Evaluation<mpq_class>> evaluations<mpq_class>(SampleId, uint32_t,
+template std::vector<Evaluation<Ball>> evaluations<Ball>(SampleId, const cases::Target&,
+                                                         cases::Profile);
+template std::vector<Evaluation<mpq_class>> evaluations<mpq_class>(SampleId, const cases::Target&,
                                                                    cases::Profile);
 template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
                                       const std::vector<Evaluation<Ball>>&, const FragmentValues&,

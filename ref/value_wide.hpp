@@ -56,7 +56,8 @@ struct Evaluation {
     Point<T> sample;                   // depth
 };
 template <class T>
-std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Profile profile);
+std::vector<Evaluation<T>> evaluations(SampleId id, const cases::Target& target,
+                                       cases::Profile profile);
 
 struct WideVerdict {
     bool is_known = true;
