@@ -253,9 +253,8 @@ struct Blit {
 };
 
 // A picture drawn by hand that the REFERENCE must agree with, checked before any device is asked.
-// rows[s * height + j][i] is sample s of pixel (i,j): '.' no hit, '1'..'9' that many hits, '?' the
-// reference must say that more than one number of hits is allowed. Judged at profile direct3d with
-// 8 subpixel bits.
+// rows[j][i] is pixel (i,j): '.' no hit, '1'..'9' that many hits, '?' the reference must say that
+// more than one number of hits is allowed. Judged at profile direct3d with 8 subpixel bits.
 struct ExpectedHits {
     std::vector<std::string> rows;
     SourceLocation where;
