@@ -86,16 +86,16 @@ constexpr std::array kRules = {
          "They turn on an invocation a sample; the number is that of a sample, the position its "
          "location. That it is the sample written is profile practice.",
          "interfaces-builtin-variables", "", "ref/sample_values.hpp"},
-    Rule{"sample.shading", Profile::vulkan,
-         "Sample shading runs the shader for enough samples",
+    Rule{"sample.shading", Profile::vulkan, "Sample shading runs the shader for enough samples",
          "At least max(ceil(minSampleShading x samples), 1) invocations a fragment; more are "
          "allowed.",
          "primsrast-sampleshading", "", "diff/pixel_check.cpp"},
-    Rule{"interp.centroid", Profile::practice, "centroid inputs are evaluated inside the primitive",
-         "Somewhere in the pixel and in the triangle (Vulkan); one place for all centroid inputs of "
-         "a fragment (practice); the centre if all samples are covered, else the first covered "
-         "sample (Direct3D).",
-         "shaders-interpolation-decorations", "3.5.5", "ref/value_places.hpp"},
+    Rule{
+        "interp.centroid", Profile::practice, "centroid inputs are evaluated inside the primitive",
+        "Somewhere in the pixel and in the triangle (Vulkan); one place for all centroid inputs of "
+        "a fragment (practice); the centre if all samples are covered, else the first covered "
+        "sample (Direct3D).",
+        "shaders-interpolation-decorations", "3.5.5", "ref/value_places.hpp"},
     Rule{"interp.sample", Profile::practice, "sample inputs are evaluated at the sample",
          "Exactly at the location of the sample that is written; binary32 budget.",
          "shaders-interpolation-decorations", "16.4", "ref/value_places.hpp"},

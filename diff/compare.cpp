@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "diff/attribution.hpp"
+#include "diff/pixel_check.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {
@@ -20,7 +21,8 @@ class Comparison {
           expectation_(expectation),
           capture_(capture),
           attribution_(c, expectation),
-          values_(c, expectation.limits, expectation.profile) {
+          values_(c, expectation.limits, expectation.profile),
+          has_pixel_rules_(has_pixel_rules(c)) {
         verdict_.profile = expectation.profile;
         verdict_.level = expectation.profile;
         verdict_.must_samples = expectation.must_samples;
@@ -44,6 +46,12 @@ class Comparison {
                     judge_sample(index, {x, y, s});
                     if (!verdict_.error.empty()) {
                         return std::move(verdict_);
+                    }
+                }
+                if (has_pixel_rules_) {
+                    for (Finding& finding : check_pixel(case_, expectation_, capture_, x, y)) {
+                        const size_t at = index - target.samples + finding.sample;
+                        add(std::move(finding), at);
                     }
                 }
             }
@@ -322,6 +330,7 @@ class Comparison {
     const CaptureView& capture_;
     Attribution attribution_;
     ref::ValueReference values_;
+    bool has_pixel_rules_ = false;
     Verdict verdict_;
 };
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the fragment of a triangle in a pixel may be: the samples that it covers, and the part of the
-// pixel that lies in the primitive. Centroid interpolation and gl_SampleMaskIn depend on it.
+// What the fragment of a triangle in a pixel may be: the samples that it covers, and the part of
+// the pixel that lies in the primitive. Centroid interpolation and gl_SampleMaskIn depend on it.
 #pragma once
 
-#include <cstdint>
 #include <gmpxx.h>
+
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -26,8 +27,9 @@ struct PixelCoverage {
     bool is_one_fragment = true;
 };
 
-// Corners of the intersection of pixel (x,y) with the convex hull of the positions that a device may
-// use, in pixels, exact. The whole pixel where the positions have no bounds (w <= 0). May be empty.
+// Corners of the intersection of pixel (x,y) with the convex hull of the positions that a device
+// may use, in pixels, exact. The whole pixel where the positions have no bounds (w <= 0). May be
+// empty.
 std::vector<value::Point<mpq_class>> pixel_region(const TriangleSetup& setup, uint32_t x,
                                                   uint32_t y);
 

@@ -156,10 +156,10 @@ float nominal_number(const Fragment& f, const Quantity& q) {
         case Kind::sample_id:
             return static_cast<float>(f.id.sample);
         case Kind::sample_mask:
-            return static_cast<float>(
-                rate == ShadingRate::sample
-                    ? 1U << f.id.sample
-                    : f.coverage.may & f.draw->multisample.sample_mask & 0xffffU);
+            return static_cast<float>(rate == ShadingRate::sample
+                                          ? 1U << f.id.sample
+                                          : f.coverage.may & f.draw->multisample.sample_mask &
+                                                0xffffU);
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:

@@ -83,9 +83,7 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
             continue;
         }
         // |v - n/d| <= K ((b_n + f b_d)/d + 2u f), times d: |v d - n| <= K (b_n + f b_d + 2u |n|).
-        const Evaluated& d = q.at_sample     ? d_sample
-                             : q.at_centroid ? d_centroid
-                                             : d_centre;
+        const Evaluated& d = q.at_sample ? d_sample : q.at_centroid ? d_centroid : d_centre;
         if (!((d.v - d.e) * kDown > 0)) {
             return false;
         }

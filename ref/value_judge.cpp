@@ -102,7 +102,8 @@ struct ValueReference::Impl {
     std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
     WideCache<Ball> balls{64};
     WideCache<mpq_class> rationals{4};
-    std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)> coverage;  // by profile
+    std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)>
+        coverage;  // by profile
     uint32_t text_triangle = 0;
     std::optional<value::Basis<mpq_class>> text_basis;
 
@@ -244,7 +245,8 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(fragment(t, id, at, true), at), device, only);
+                          value::evaluations<mpq_class>(fragment(t, id, at, true), at), device,
+                          only);
     }
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
@@ -479,8 +481,7 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
     }
     const std::vector<Quantity>& all = impl_->quantities_of(t);
     const value::Fragment fragment = impl_->fragment(t, sample, impl_->profile);
-    const auto place =
-        value::evaluations<mpq_class>(fragment, impl_->profile).front();
+    const auto place = value::evaluations<mpq_class>(fragment, impl_->profile).front();
     const value::Basis<mpq_class>& basis = impl_->exact_basis(t);
     for (const Quantity& q : all) {
         ExpectedValue e;

@@ -71,8 +71,8 @@ Point<T> point_of(const Spot& spot) {
 }  // namespace
 
 uint32_t least_invocations(const cases::Draw& draw, uint32_t samples) {
-    const bool uses_sample = std::any_of(
-        draw.attributes.begin(), draw.attributes.end(), [](const cases::Attribute& a) {
+    const bool uses_sample =
+        std::any_of(draw.attributes.begin(), draw.attributes.end(), [](const cases::Attribute& a) {
             return a.source == cases::Source::sample_id ||
                    a.source == cases::Source::sample_position;
         });

@@ -4,8 +4,8 @@
 // Where in its pixel a fragment's inputs may be evaluated.
 //
 // Vulkan specification, "Interpolation Decorations": "an implementation-defined position within the
-// fragment area"; Centroid: one that must "also fall within the bounds of the primitive"; Sample: at
-// the sample; with one sample a pixel: at the centre, or at the sample where its location can be
+// fragment area"; Centroid: one that must "also fall within the bounds of the primitive"; Sample:
+// at the sample; with one sample a pixel: at the centre, or at the sample where its location can be
 // chosen. Direct3D 11.3, 3.5.5 and 16.3-16.5: the centre; centroid: the centre if all samples are
 // covered, else the first covered one in the order of indices, after the sample mask.
 #pragma once

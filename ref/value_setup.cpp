@@ -156,9 +156,7 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
             if (multisampled && q.kind != Kind::flat) {
                 q.at_sample = attribute.auxiliary == cases::Auxiliary::sample;
                 q.at_centroid = attribute.auxiliary == cases::Auxiliary::centroid;
-                q.rule = q.at_sample     ? "interp.sample"
-                         : q.at_centroid ? "interp.centroid"
-                                         : q.rule;
+                q.rule = q.at_sample ? "interp.sample" : q.at_centroid ? "interp.centroid" : q.rule;
             }
             all.push_back(std::move(q));
         }

@@ -267,8 +267,7 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
                                                     : q.at_centroid                 ? centroid
                                                     : q.attribute == -1 && is_split ? frag_coord
                                                                                     : attributes;
-                const bool is_own =
-                    q.at_sample || (q.at_centroid ? centroid_at_sample : at_sample);
+                const bool is_own = q.at_sample || (q.at_centroid ? centroid_at_sample : at_sample);
                 add_reach(set, basis, q, std::span<const Site<T>>(sites), set.hulls[i], is_own,
                           candidate.name == ref::Basis::snapped, static_cast<double>(q.get(device)),
                           widest[i], reaches[i]);
@@ -305,8 +304,8 @@ std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<co
 Answer has_one_point(const WideSet<Ball>&, const Candidate<Ball>&, std::span<const Quantity> all,
                      const Evaluation<Ball>&, const FragmentValues&, std::span<const size_t> only,
                      size_t&) {
-    const bool is_single = inputs_at(all, only, false).size() < 2 &&
-                           inputs_at(all, only, true).size() < 2;
+    const bool is_single =
+        inputs_at(all, only, false).size() < 2 && inputs_at(all, only, true).size() < 2;
     return is_single ? Answer::yes : Answer::unknown;  // polygons are cut in rationals
 }
 

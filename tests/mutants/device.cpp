@@ -542,8 +542,8 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
     const float y = invocation.centre.y + corner;
     const float corner_xy = fault == Fault::frag_coord_corner ? -0.5F : 0.0F;
     const float inverse_w = planes.inverse_w(x, y);
-    out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy,
-                           invocation.frag_coord.y + corner_xy, planes.depth(x, y),
+    out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy, invocation.frag_coord.y + corner_xy,
+                           planes.depth(x, y),
                            fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
     const bool is_depth_at_sample =
         fault != Fault::values_at_corner && fault != Fault::depth_at_centre;

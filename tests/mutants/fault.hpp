@@ -84,13 +84,13 @@ enum class Fault : uint8_t {
     mask_shifted,   // by one sample
     mask_reversed,  // bit 0 is the last sample
     shader_mask_ignored,
-    shader_mask_replaces,  // the shader's mask takes the place of the sample mask
-    mask_in_full,          // gl_SampleMaskIn has all bits
-    centroid_at_centre,    // also where the centre is outside of the triangle
-    centroid_of_uncovered,  // the first sample that is not covered
-    sample_at_centre,       // inputs decorated with Sample are evaluated at the centre
-    one_over_w_cached,      // 1/w of the first input serves those at other places, too
-    shading_once,           // sample shading is ignored
+    shader_mask_replaces,      // the shader's mask takes the place of the sample mask
+    mask_in_full,              // gl_SampleMaskIn has all bits
+    centroid_at_centre,        // also where the centre is outside of the triangle
+    centroid_of_uncovered,     // the first sample that is not covered
+    sample_at_centre,          // inputs decorated with Sample are evaluated at the centre
+    one_over_w_cached,         // 1/w of the first input serves those at other places, too
+    shading_once,              // sample shading is ignored
     frag_coord_always_centre,  // also with sample shading
     depth_at_centre,           // of every sample
     // scissor

@@ -74,8 +74,7 @@ Invocation invoke(const cases::Draw& draw, const Device& device,
     out.sample_position = in_pixel(out.sample_id);
     const Place centre = at({0.5F, 0.5F});
     out.sample = at(in_pixel(s));
-    out.frag_coord =
-        per_sample && fault != Fault::frag_coord_always_centre ? out.sample : centre;
+    out.frag_coord = per_sample && fault != Fault::frag_coord_always_centre ? out.sample : centre;
     out.centre = per_sample && device.inputs_follow_samples ? out.sample : centre;
     out.centroid = out.centre;
     const bool is_partial = (covered & all) != all;
