@@ -9,6 +9,7 @@
 
 #include "cases/field_reader.hpp"
 #include "cases/load_draw.hpp"
+#include "cases/load_target.hpp"
 #include "cases/loader.hpp"
 #include "cases/matrix.hpp"
 #include "cases/rule.hpp"
@@ -22,7 +23,6 @@ namespace {
 using Kind = TomlValue::Kind;
 
 constexpr size_t kMaxDraws = 256;
-constexpr uint64_t kMaxPixels = uint64_t{1} << 26U;
 
 class CaseLoader {
   public:
@@ -132,36 +132,7 @@ class CaseLoader {
         if (target == nullptr || !context_.table(*target, "target")) {
             return;
         }
-        context_.known_keys(*target, "[target]", {"size", "samples"});
-        if (const TomlValue* samples = target->find("samples")) {
-            const std::optional<Number> n = context_.number(*samples, "samples");
-            if (n && n->value != 1) {
-                context_.error(samples->where,
-                               "samples is not 1; multisampled targets are not supported");
-            }
-        }
-        const TomlValue* size = target->find("size");
-        if (size == nullptr) {
-            context_.error(target->where, "[target] has no size; write size = [width, height]");
-            return;
-        }
-        if (!context_.array(*size, "size")) {
-            return;
-        }
-        if (size->array.size() != 2) {
-            context_.error(size->where, fmt::format("size has {} numbers; write [width, height]",
-                                                    size->array.size()));
-            return;
-        }
-        const auto side = [&](size_t i, const char* what) {
-            return static_cast<uint32_t>(
-                context_.integer(size->array[i], what, 1, kMaxTargetSize).value_or(0));
-        };
-        c_.target.width = side(0, "the target's width");
-        c_.target.height = side(1, "the target's height");
-        if (uint64_t{c_.target.width} * c_.target.height > kMaxPixels) {
-            context_.error(size->where, "the target has more than 2^26 pixels; make it smaller");
-        }
+        c_.target = load_target(context_, *target);
     }
 
     void read_draws() {
@@ -192,6 +163,49 @@ class CaseLoader {
     Case c_;
 };
 
+// One picture of the target; appends its rows. False: told what is wrong with it.
+bool read_picture(LeafContext& context, const TomlValue& value, const std::string& name,
+                  const Target& target, std::vector<std::string>& rows) {
+    const std::optional<std::string> text = context.text(value, name);
+    if (!text) {
+        return false;
+    }
+    const size_t first = rows.size();
+    for (size_t start = 0; start < text->size();) {
+        const size_t end = std::min(text->find('\n', start), text->size());
+        std::string row = text->substr(start, end - start);
+        if (!row.empty() && row.back() == '\r') {
+            row.pop_back();
+        }
+        rows.push_back(std::move(row));
+        start = end + 1;
+    }
+    const size_t count = rows.size() - first;
+    if (count != target.height) {
+        context.error(value.where, fmt::format("{} has {} rows, but the target is {} pixels high",
+                                               name, count, target.height));
+        return false;
+    }
+    for (size_t j = 0; j < count; ++j) {
+        const std::string& row = rows[first + j];
+        if (row.size() != target.width) {
+            context.error(value.where,
+                          fmt::format("row {} of {} has {} characters, but the target is {} "
+                                      "pixels wide",
+                                      j, name, row.size(), target.width));
+            return false;
+        }
+        const size_t odd = row.find_first_not_of(".123456789?");
+        if (odd != std::string::npos) {
+            context.error(value.where, fmt::format("column {} of row {} of {} is not ., 1 to 9 "
+                                                   "or ?",
+                                                   odd, j, name));
+            return false;
+        }
+    }
+    return true;
+}
+
 std::optional<ExpectedHits> read_hits(LeafContext& context, const TomlValue& table,
                                       const std::string& what, const Target& target) {
     context.known_keys(table, what, {"hits"});
@@ -200,39 +214,21 @@ std::optional<ExpectedHits> read_hits(LeafContext& context, const TomlValue& tab
         context.error(table.where, what + " has no hits; draw one row a pixel row");
         return std::nullopt;
     }
-    const std::optional<std::string> text = context.text(*hits, "hits");
-    if (!text) {
-        return std::nullopt;
-    }
     ExpectedHits expected{{}, hits->where};
-    for (size_t start = 0; start < text->size();) {
-        const size_t end = std::min(text->find('\n', start), text->size());
-        std::string row = text->substr(start, end - start);
-        if (!row.empty() && row.back() == '\r') {
-            row.pop_back();
-        }
-        expected.rows.push_back(std::move(row));
-        start = end + 1;
+    if (target.samples == 1) {
+        return read_picture(context, *hits, "hits", target, expected.rows)
+                   ? std::optional(std::move(expected))
+                   : std::nullopt;
     }
-    if (expected.rows.size() != target.height) {
-        context.error(hits->where, fmt::format("hits has {} rows, but the target is {} pixels high",
-                                               expected.rows.size(), target.height));
+    if (!hits->is(Kind::array) || hits->array.size() != target.samples) {
+        context.error(hits->where, fmt::format("the target has {} samples a pixel, so hits is an "
+                                               "array of {} pictures, sample 0 first",
+                                               target.samples, target.samples));
         return std::nullopt;
     }
-    for (size_t j = 0; j < expected.rows.size(); ++j) {
-        const std::string& row = expected.rows[j];
-        if (row.size() != target.width) {
-            context.error(hits->where,
-                          fmt::format("row {} of hits has {} characters, but the target is {} "
-                                      "pixels wide",
-                                      j, row.size(), target.width));
-            return std::nullopt;
-        }
-        const size_t odd = row.find_first_not_of(".123456789?");
-        if (odd != std::string::npos) {
-            context.error(hits->where, fmt::format("column {} of row {} of hits is not ., 1 to 9 "
-                                                   "or ?",
-                                                   odd, j));
+    for (size_t s = 0; s < hits->array.size(); ++s) {
+        if (!read_picture(context, hits->array[s], fmt::format("picture {} of hits", s), target,
+                          expected.rows)) {
             return std::nullopt;
         }
     }

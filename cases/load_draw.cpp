@@ -11,6 +11,7 @@
 
 #include "cases/attributes.hpp"
 #include "cases/generate.hpp"
+#include "cases/load_target.hpp"
 #include "cases/transform.hpp"
 #include "cases/vertices.hpp"
 
@@ -37,12 +38,14 @@ class DrawLoader {
         context_.known_keys(
             table_, "[[draw]]",
             {"topology", "space", "vertices", "generate", "indices", "viewport", "scissor", "cull",
-             "front_face", "attribute", "mirror", "rotate", "offset", "winding", "first", "order"});
+             "front_face", "attribute", "mirror", "rotate", "offset", "winding", "first", "order",
+             "sample_mask", "shader_mask", "min_sample_shading"});
         draw_.where = table_.where;
         draw_.topology = enumerated("topology", kTopology, Topology::triangle_list);
         draw_.cull = enumerated("cull", kCull, CullMode::none);
         draw_.front_face = enumerated("front_face", kFrontFace, FrontFace::counter_clockwise);
         space_ = enumerated("space", kSpace, Space::pixels);
+        draw_.multisample = load_multisample(context_, table_);
         read_viewport();
         read_scissor();
         if (!context_.errors().empty() || !read_shape()) {

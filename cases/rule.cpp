@@ -69,6 +69,40 @@ constexpr std::array kRules = {
     Rule{"scissor.half-open", Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",
          "fragops-scissor", "15.14", "ref/expectation.hpp"},
+    Rule{"sample.locations", Profile::vulkan, "Samples lie exactly at their locations",
+         "The standard locations, or those that the pipeline asks for, in the order of their "
+         "indices; they are points, never areas, and are not snapped.",
+         "primsrast-multisampling", "19.2.4.1", "ref/sample.hpp"},
+    Rule{"sample.mask", Profile::vulkan, "The sample mask removes samples",
+         "Bit s of pSampleMask, and bit s of what the shader writes to gl_SampleMask, let sample s "
+         "be written: coverage is their AND.",
+         "fragops-samplemask", "17.17", "ref/sample.hpp"},
+    Rule{"sample.mask-in", Profile::vulkan, "gl_SampleMaskIn holds the samples of the invocation",
+         "Without sample shading the covered samples after the sample mask; with it a subset that "
+         "holds the sample itself, which is that sample alone where every sample has an invocation "
+         "(profile practice).",
+         "interfaces-builtin-variables", "", "ref/sample_values.hpp"},
+    Rule{"sample.id", Profile::vulkan, "gl_SampleID and gl_SamplePosition name the sample",
+         "They turn on an invocation a sample; the number is that of a sample, the position its "
+         "location. That it is the sample written is profile practice.",
+         "interfaces-builtin-variables", "", "ref/sample_values.hpp"},
+    Rule{"sample.shading", Profile::vulkan, "Sample shading runs the shader for enough samples",
+         "At least max(ceil(minSampleShading x samples), 1) invocations a fragment; more are "
+         "allowed.",
+         "primsrast-sampleshading", "", "diff/pixel_check.cpp"},
+    Rule{
+        "interp.centroid", Profile::practice, "centroid inputs are evaluated inside the primitive",
+        "Somewhere in the pixel and in the triangle (Vulkan); one place for all centroid inputs of "
+        "a fragment (practice); the centre if all samples are covered, else the first covered "
+        "sample (Direct3D).",
+        "shaders-interpolation-decorations", "3.5.5", "ref/value_places.hpp"},
+    Rule{"interp.sample", Profile::practice, "sample inputs are evaluated at the sample",
+         "Exactly at the location of the sample that is written; binary32 budget.",
+         "shaders-interpolation-decorations", "16.4", "ref/value_places.hpp"},
+    Rule{"fragcoord.sample", Profile::vulkan, "FragCoord.xy is a sample of the invocation",
+         "With sample shading one of its samples, exactly; the sample itself where every sample "
+         "has an invocation (practice).",
+         "interfaces-builtin-variables-fragcoord", "", "ref/sample_values.hpp"},
     Rule{"order.primitive", Profile::vulkan, "Primitives write in drawing order",
          "Of the triangles that hit a sample, the last one drawn is the one that stays.",
          "primsrast-order", "", "ref/expectation.hpp"},

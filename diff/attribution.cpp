@@ -80,6 +80,10 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
                 "scissor.half-open",
                 fmt::format("{}: the sample lies outside its scissor rectangle", name_of(t))};
         }
+        if (!t.in_mask) {
+            return Cause{"sample.mask",
+                         fmt::format("{}: its sample mask leaves the sample out", name_of(t))};
+        }
         if (!t.in_viewport) {
             return Cause{"clip.viewport",
                          fmt::format("{}: the sample lies outside its viewport", name_of(t))};
@@ -104,7 +108,7 @@ Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
     }
     if (level == cases::Profile::direct3d) {
         for (const ref::TriangleExplanation& t : s.triangles) {
-            if (t.on_edge && t.in_scissor && !t.culled) {
+            if (t.on_edge && t.in_scissor && t.in_mask && !t.culled) {
                 return {t.has_area ? "tie.top-left" : "cover.degenerate",
                         fmt::format("{}: {}", name_of(t), t.reason)};
             }

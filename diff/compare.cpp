@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "diff/attribution.hpp"
+#include "diff/pixel_check.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {
@@ -20,7 +21,8 @@ class Comparison {
           expectation_(expectation),
           capture_(capture),
           attribution_(c, expectation),
-          values_(c, expectation.limits, expectation.profile) {
+          values_(c, expectation.limits, expectation.profile),
+          has_pixel_rules_(has_pixel_rules(c)) {
         verdict_.profile = expectation.profile;
         verdict_.level = expectation.profile;
         verdict_.must_samples = expectation.must_samples;
@@ -44,6 +46,12 @@ class Comparison {
                     judge_sample(index, {x, y, s});
                     if (!verdict_.error.empty()) {
                         return std::move(verdict_);
+                    }
+                }
+                if (has_pixel_rules_) {
+                    for (Finding& finding : check_pixel(case_, expectation_, capture_, x, y)) {
+                        const size_t at = index - target.samples + finding.sample;
+                        add(std::move(finding), at);
                     }
                 }
             }
@@ -322,6 +330,7 @@ class Comparison {
     const CaptureView& capture_;
     Attribution attribution_;
     ref::ValueReference values_;
+    bool has_pixel_rules_ = false;
     Verdict verdict_;
 };
 
@@ -353,18 +362,23 @@ std::string check_expected_hits(const cases::Case& c) {
         return {};
     }
     const ref::Expectation e = ref::expect(c, ref::Limits{8}, cases::Profile::direct3d);
-    for (uint32_t y = 0; y < c.target.height; ++y) {
-        for (uint32_t x = 0; x < c.target.width; ++x) {
-            const ref::HitBounds& b = e.samples[size_t{y} * c.target.width + x].hits;
-            const char drawn = c.expected_hits->rows[y][x];
+    // Row s * height + y is row y of sample s.
+    const std::vector<std::string>& rows = c.expected_hits->rows;
+    for (size_t row = 0; row < rows.size(); ++row) {
+        const size_t s = row / c.target.height;
+        const size_t y = row % c.target.height;
+        for (size_t x = 0; x < c.target.width; ++x) {
+            const ref::HitBounds& b =
+                e.samples[(y * c.target.width + x) * c.target.samples + s].hits;
+            const char drawn = rows[row][x];
             const char reference = b.total_min != b.total_max ? '?'
                                    : b.total_min == 0         ? '.'
                                    : b.total_min <= 9         ? static_cast<char>('0' + b.total_min)
                                                               : '#';
             if (drawn != reference) {
                 return fmt::format(
-                    "the picture has '{}' at pixel ({}, {}), the reference says {} hit(s)", drawn,
-                    x, y, to_text(b));
+                    "the picture has '{}' at pixel ({}, {}){}, the reference says {} hit(s)", drawn,
+                    x, y, c.target.samples > 1 ? fmt::format(", sample {}", s) : "", to_text(b));
             }
         }
     }

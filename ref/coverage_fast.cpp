@@ -104,10 +104,10 @@ int64_t last_at(int64_t high, int64_t offset) {
     return floor_pixel(high - offset);
 }
 
-Grid grid_of(const Window& w, uint32_t sample, uint32_t samples) {
+Grid grid_of(const Window& w, uint32_t sample, const cases::Target& target) {
     Grid g;
     g.sample = sample;
-    g.offset = sample_position(0, 0, sample, samples);
+    g.offset = sample_position(0, 0, sample, target);
     g.may_columns = {w.pixel_x0, w.pixel_x1 - 1};
     g.may_row_low = w.pixel_y0;
     g.may_row_high = w.pixel_y1 - 1;
@@ -286,7 +286,10 @@ void scan(const TriangleSetup& setup, uint32_t triangle, const cases::Target& ta
         sets.may.push_back({{}, {-kFar, -kFar, kFar, kFar}});
     }
     for (uint32_t s = 0; s < target.samples; ++s) {
-        const Grid g = grid_of(setup.window, s, target.samples);
+        if (!setup.window.may_write(s)) {
+            continue;
+        }
+        const Grid g = grid_of(setup.window, s, target);
         Span base;
         base.sample = s;
         base.triangle = triangle;

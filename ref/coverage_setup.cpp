@@ -360,6 +360,8 @@ Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile p
     w.pixel_y1 = std::min<int64_t>(c.target.height, int64_t{r.y} + r.height);
     axis_window(draw.viewport.x, draw.viewport.width, profile, w.zone_x, w.core_x);
     axis_window(draw.viewport.y, draw.viewport.height, profile, w.zone_y, w.core_y);
+    const cases::Multisample& m = draw.multisample;
+    w.sample_mask = m.sample_mask & m.shader_mask.value_or(0xffffffffU);
     return w;
 }
 

@@ -72,8 +72,10 @@ struct Window {
     // Nothing is drawn outside `zone`; nothing has to be drawn outside `core`. They differ along a
     // fractional viewport only, by the pixel on either side that rules.md leaves open there.
     Range zone_x, zone_y, core_x, core_y;
-    bool is_viewport_ignored = false;  // undefined positions: only scissor and framebuffer hold
+    bool is_viewport_ignored = false;    // undefined positions: only scissor and framebuffer hold
+    uint32_t sample_mask = 0xffffffffU;  // bit s: sample s passes the sample masks
 
+    bool may_write(uint32_t sample) const { return ((sample_mask >> sample) & 1U) != 0; }
     bool may_touch(const FixedPoint& p) const;
     bool must_touch(const FixedPoint& p) const;
 };

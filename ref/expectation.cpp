@@ -133,8 +133,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                     sample.writers_begin = static_cast<uint32_t>(out.writers.size());
                     continue;
                 }
-                sample =
-                    narrowing.judge(sample_position(i, j, s, c.target.samples), hits, out.writers);
+                sample = narrowing.judge(sample_position(i, j, s, c.target), s, hits, out.writers);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
             }

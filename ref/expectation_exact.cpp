@@ -23,15 +23,18 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     for (uint32_t j = 0; j < c.target.height; ++j) {
         for (uint32_t i = 0; i < c.target.width; ++i) {
             for (uint32_t s = 0; s < c.target.samples; ++s) {
-                const FixedPoint p = sample_position(i, j, s, c.target.samples);
+                const FixedPoint p = sample_position(i, j, s, c.target);
                 std::vector<Hit> hits;
                 for (uint32_t t = 0; t < setups.size(); ++t) {
+                    if (!is_in_mask(c.draws[out.triangles[t].draw].multisample, s)) {
+                        continue;
+                    }
                     const Coverage coverage = classify(setups[t], p).coverage;
                     if (coverage != Coverage::must_not) {
                         hits.push_back({t, coverage});
                     }
                 }
-                const SampleExpectation sample = narrowing.judge(p, hits, out.writers);
+                const SampleExpectation sample = narrowing.judge(p, s, hits, out.writers);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
                 out.samples.push_back(sample);

@@ -21,6 +21,7 @@ cases::Case alone(const cases::Case& c, const Triangle& t, SampleId sample) {
     single.viewport = draw.viewport;
     single.cull = draw.cull;
     single.front_face = draw.front_face;
+    single.multisample = draw.multisample;
     const auto x = static_cast<int64_t>(sample.x);
     const auto y = static_cast<int64_t>(sample.y);
     const bool inside = x >= draw.scissor.x && x < draw.scissor.x + int64_t{draw.scissor.width} &&
@@ -88,6 +89,9 @@ bool is_near(const cases::Draw& draw, const Triangle& t, FixedPoint p) {
 }
 
 std::string reason_for(const TriangleExplanation& t) {
+    if (!t.in_mask) {
+        return "the sample mask of the draw leaves the sample out";
+    }
     if (!t.in_scissor) {
         return "the sample lies outside the scissor rectangle";
     }
@@ -173,7 +177,7 @@ std::string to_text(int64_t fixed) {
 SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cases::Profile profile,
                                  SampleId sample) {
     SampleExplanation result;
-    result.position = sample_position(sample.x, sample.y, sample.sample, c.target.samples);
+    result.position = sample_position(sample.x, sample.y, sample.sample, c.target);
     const size_t index = index_of(c.target, sample);
 
     // The whole case, seen through this pixel's scissor.
@@ -260,6 +264,7 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
         }
         e.in_scissor = single.draws[0].scissor.width != 0;
         e.in_viewport = in_viewport[t.draw];
+        e.in_mask = is_in_mask(draw.multisample, sample.sample);
         e.reason = reason_for(e);
         result.triangles.push_back(std::move(e));
     }

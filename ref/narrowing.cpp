@@ -87,7 +87,7 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
     const TriangleSetup& setup = setups_[hit.triangle];
     const Triangle& triangle = triangles_[hit.triangle];
     if (setup.kind != TriangleSetup::Kind::outlines || setup.orientation == 0 ||
-        setup.may_be_culled || !setup.window.must_touch(p)) {
+        setup.may_be_culled || !setup.window.may_write(sample_) || !setup.window.must_touch(p)) {
         return false;
     }
     const bool is_literal = profile_ == cases::Profile::vulkan;
@@ -295,9 +295,10 @@ std::vector<Narrowing::Fixed> Narrowing::closed_sets(const FixedPoint& p, std::s
     return out;
 }
 
-SampleExpectation Narrowing::judge(const FixedPoint& p, std::span<const Hit> hits,
+SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
                                    std::vector<uint32_t>& writers) {
     SampleExpectation out;
+    sample_ = s;
     out.writers_begin = static_cast<uint32_t>(writers.size());
     const auto open = std::count_if(hits.begin(), hits.end(),
                                     [](const Hit& h) { return h.coverage == Coverage::either; });

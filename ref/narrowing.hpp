@@ -50,9 +50,9 @@ class Narrowing {
     Narrowing(const cases::Case& c, cases::Profile profile, const std::vector<Triangle>& triangles,
               const std::vector<TriangleSetup>& setups, Predicates predicates);
 
-    // Bounds for a sample from the triangles that must or may cover it, in drawing order; appends
-    // the triangles that may have written last.
-    SampleExpectation judge(const FixedPoint& p, std::span<const Hit> hits,
+    // Bounds for sample `s` of a pixel, at p, from the triangles that must or may cover it, in
+    // drawing order; appends the triangles that may have written last.
+    SampleExpectation judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
                             std::vector<uint32_t>& writers);
 
   private:
@@ -93,6 +93,7 @@ class Narrowing {
     const std::vector<Triangle>& triangles_;
     const std::vector<TriangleSetup>& setups_;
     Predicates predicates_;
+    uint32_t sample_ = 0;  // of the pixel, the one at hand
     std::unordered_map<std::string, uint32_t> numbers_;
     std::vector<std::vector<uint32_t>> vertex_numbers_;  // per draw; 0 = not yet numbered
     std::unordered_map<uint64_t, std::vector<uint32_t>> edge_triangles_;  // when first asked for

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <span>
 
+#include "cases/case.hpp"
+
 namespace ref {
 
 inline constexpr int kFixedBits = 16;
@@ -23,7 +25,15 @@ struct FixedPoint {
 // "Standard sample locations". `samples` is 1, 2, 4, 8 or 16.
 std::span<const std::array<uint8_t, 2>> standard_sample_locations(uint32_t samples);
 
-// Where sample s of pixel (i,j) lies.
-FixedPoint sample_position(uint32_t i, uint32_t j, uint32_t s, uint32_t samples);
+// The locations of a target: its own (VK_EXT_sample_locations) or else the standard ones.
+std::span<const std::array<uint8_t, 2>> sample_locations(const cases::Target& target);
+
+// Where sample s of pixel (i,j) lies. "These locations are exact positions" (Vulkan specification,
+// "Multisampling"): they are never snapped.
+FixedPoint sample_position(uint32_t i, uint32_t j, uint32_t s, const cases::Target& target);
+
+// Whether the sample mask lets sample s be written (Vulkan specification, "Sample Mask Test": bit s
+// of word 0). The shader's mask is the same for every fragment here, so that it is one more AND.
+bool is_in_mask(const cases::Multisample& state, uint32_t s);
 
 }  // namespace ref

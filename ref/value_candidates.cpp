@@ -264,7 +264,7 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
     std::vector<Range<T>> out(quantities.size());
     for (size_t q = 0; q < quantities.size(); ++q) {
         const Quantity& quantity = quantities[q];
-        if (quantity.kind == Kind::flat || quantity.kind == Kind::pixel_centre) {
+        if (quantity.kind != Kind::linear && quantity.kind != Kind::perspective) {
             continue;
         }
         bool is_first = true;

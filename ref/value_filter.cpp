@@ -61,8 +61,9 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
         return false;
     }
     const FilterPlane& inv_w = filter.planes[kPlaneInvW];
-    const Evaluated d = evaluate(inv_w, places.centre);
-    const double d_low = (d.v - d.e) * kDown;
+    const Evaluated d_centre = evaluate(inv_w, places.centre);
+    const Evaluated d_sample = evaluate(inv_w, places.sample);
+    const Evaluated d_centroid = evaluate(inv_w, places.centroid);
     double worst = 0;
     for (const Quantity& q : quantities) {
         if (q.kind != Kind::linear && q.kind != Kind::perspective) {
@@ -70,7 +71,9 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
         }
         const FilterPlane& plane = filter.planes[q.plane];
         const double v = static_cast<double>(q.get(device));
-        const Evaluated n = evaluate(plane, q.at_sample ? places.sample : places.centre);
+        const Evaluated n = evaluate(plane, q.at_sample     ? places.sample
+                                            : q.at_centroid ? places.centroid
+                                                            : places.centre);
         if (q.kind == Kind::linear) {
             const double error = std::fabs(v - n.v);
             if (!((error + n.e) * kUp <= factor * plane.budget)) {
@@ -80,7 +83,8 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
             continue;
         }
         // |v - n/d| <= K ((b_n + f b_d)/d + 2u f), times d: |v d - n| <= K (b_n + f b_d + 2u |n|).
-        if (!(d_low > 0)) {
+        const Evaluated& d = q.at_sample ? d_sample : q.at_centroid ? d_centroid : d_centre;
+        if (!((d.v - d.e) * kDown > 0)) {
             return false;
         }
         const double n_low = std::max(0.0, std::fabs(n.v) - n.e) * kDown;

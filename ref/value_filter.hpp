@@ -27,9 +27,10 @@ struct Filter {
 
 Filter make_filter(const Basis<Ball>& basis);
 
-// Pixel centre and sample, exact in binary64 (multiples of 1/16).
+// Where the inputs are evaluated, exact in binary64 (multiples of 1/16): without decoration (and
+// FragCoord.z and w), the sample, centroid.
 struct Places {
-    Point<double> centre, sample;
+    Point<double> centre, sample, centroid;
 };
 
 // True if every numeric value (linear or perspective) is proven to be within `factor` budgets.

@@ -13,9 +13,12 @@
 #include <numeric>
 #include <optional>
 
+#include "ref/fragment_coverage.hpp"
 #include "ref/sample.hpp"
+#include "ref/sample_values.hpp"
 #include "ref/value.hpp"
 #include "ref/value_filter.hpp"
+#include "ref/value_places.hpp"
 #include "ref/value_promise.hpp"
 #include "ref/value_wide.hpp"
 
@@ -75,7 +78,10 @@ value::Valued<mpq_class> exact_value(const value::Basis<mpq_class>& basis, const
                                      const value::Evaluation<mpq_class>& place) {
     const mpq_class factor(kBudgetFactor);
     const auto site = make_site(basis, basis.planes[value::kPlaneInvW],
-                                q.at_sample ? place.sample : place.attributes.front(), factor);
+                                q.at_sample     ? place.sample
+                                : q.at_centroid ? place.centroid.front()
+                                                : place.attributes.front(),
+                                factor);
     return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
 }
 
@@ -96,13 +102,15 @@ struct ValueReference::Impl {
     std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
     WideCache<Ball> balls{64};
     WideCache<mpq_class> rationals{4};
+    std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)>
+        coverage;  // by profile
     uint32_t text_triangle = 0;
     std::optional<value::Basis<mpq_class>> text_basis;
 
     Impl(const cases::Case& the_case, const Limits& the_limits, Profile the_profile)
         : c(the_case), limits(the_limits), profile(the_profile), triangles(assemble(the_case)) {
         for (const cases::Draw& draw : c.draws) {
-            quantities.push_back(value::quantities(draw, c.target.samples));
+            quantities.push_back(value::quantities(draw, c.target));
         }
         loaded.resize(triangles.size());
     }
@@ -137,6 +145,34 @@ struct ValueReference::Impl {
             }
         }
         return *slot;
+    }
+
+    FragmentCoverage& coverage_at(Profile at) {
+        auto& slot = coverage.at(static_cast<size_t>(at));
+        if (!slot) {
+            slot = std::make_unique<FragmentCoverage>(c, limits, at, triangles);
+        }
+        return *slot;
+    }
+
+    // Where the fragment is, and what a profile says of its coverage if anything depends on it.
+    value::Fragment fragment(uint32_t t, SampleId id, Profile at, bool is_exact = false) {
+        value::Fragment f;
+        f.id = id;
+        f.target = &c.target;
+        f.draw = &c.draws[triangles[t].draw];
+        const bool has_mask =
+            std::any_of(quantities_of(t).begin(), quantities_of(t).end(),
+                        [](const Quantity& q) { return q.kind == Kind::sample_mask; });
+        const bool has_centroid = c.target.samples > 1 && value::has_centroid(*f.draw);
+        if (has_mask || has_centroid) {
+            FragmentCoverage& cover = coverage_at(at);
+            f.coverage = is_exact ? cover.exact(t, id.x, id.y) : cover.of(t, id.x, id.y);
+        }
+        if (has_centroid && at != Profile::direct3d) {
+            f.region = pixel_region(coverage_at(at).setup(t), id.x, id.y);
+        }
+        return f;
     }
 
     // The unsnapped basis in rationals, for texts; the last one is kept.
@@ -186,7 +222,7 @@ struct ValueReference::Impl {
         if (set.is_known) {
             value::WideVerdict verdict =
                 judge_wide(set, std::span<const Quantity>(q), primitive.is_projectable,
-                           value::evaluations<Ball>(id, c.target.samples, at), device, only);
+                           value::evaluations<Ball>(fragment(t, id, at), at), device, only);
             if (verdict.is_known) {
                 return verdict;
             }
@@ -194,7 +230,7 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(id, c.target.samples, at), device, only);
+                          value::evaluations<mpq_class>(fragment(t, id, at), at), device, only);
     }
 
     // The oracle: rationals only, no filter.
@@ -209,12 +245,14 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(id, c.target.samples, at), device, only);
+                          value::evaluations<mpq_class>(fragment(t, id, at, true), at), device,
+                          only);
     }
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
                     FragmentVerdict& out) const;
-    void judge_centre(const Quantity& q, SampleId id, float got, FragmentVerdict& out) const;
+    void judge_samples(uint32_t t, SampleId id, const FragmentValues& device, bool exact_only,
+                       FragmentVerdict& out);
     std::vector<Profile> levels_of(uint32_t t, SampleId id, const FragmentValues& device,
                                    const std::vector<size_t>& failing);
     void describe(uint32_t t, SampleId id, const FragmentValues& device,
@@ -255,21 +293,33 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
     out.mismatches.push_back(std::move(m));
 }
 
-void ValueReference::Impl::judge_centre(const Quantity& q, SampleId id, float got,
-                                        FragmentVerdict& out) const {
-    // i + 1/2 is exact in binary32 below 2^23.
-    const float want = static_cast<float>(q.component == 0 ? id.x : id.y) + 0.5F;
-    if (std::bit_cast<uint32_t>(got) == std::bit_cast<uint32_t>(want)) {
-        return;
+void ValueReference::Impl::judge_samples(uint32_t t, SampleId id, const FragmentValues& device,
+                                         bool exact_only, FragmentVerdict& out) {
+    std::array<std::optional<value::Fragment>, std::size(cases::kProfiles)> fragments;
+    for (const Quantity& q : quantities_of(t)) {
+        if (!value::is_sample_kind(q.kind)) {
+            continue;
+        }
+        // The loosest profile that forbids it.
+        for (const Profile at : cases::kProfiles) {
+            auto& f = fragments.at(static_cast<size_t>(at));
+            if (!f) {
+                f = fragment(t, id, at, exact_only);
+            }
+            if (at > profile || may_be(*f, q, device, at)) {
+                continue;
+            }
+            ValueMismatch m;
+            m.quantity = q.name;
+            m.rule = q.rule;
+            m.level = at;
+            m.expected = allowed_text(*f, q);
+            m.got = bits_of(q.get(device));
+            m.ratio = std::numeric_limits<double>::infinity();
+            out.mismatches.push_back(std::move(m));
+            break;
+        }
     }
-    ValueMismatch m;
-    m.quantity = q.name;
-    m.rule = q.rule;
-    m.level = Profile::vulkan;
-    m.expected = fmt::format("{} exactly, the pixel centre", want);
-    m.got = bits_of(got);
-    m.ratio = std::numeric_limits<double>::infinity();
-    out.mismatches.push_back(std::move(m));
 }
 
 // The loosest profile at which each failing value is wrong, given that one basis has to explain all
@@ -308,7 +358,7 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
     const value::Primitive& primitive = load(t).primitive;
     const std::vector<Quantity>& all = quantities_of(t);
     const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
-    const auto place = value::evaluations<mpq_class>(id, c.target.samples, profile).front();
+    const auto place = value::evaluations<mpq_class>(fragment(t, id, profile), profile).front();
     const value::Basis<mpq_class>& basis = exact_basis(t);
     const value::WideSet<Ball>& set = balls.get(
         t, profile, [&] { return value::make_wide_set<Ball>(primitive, all, limits, profile); });
@@ -356,18 +406,27 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
     }
     const std::vector<Quantity>& all = quantities_of(t);
     for (const Quantity& q : all) {
-        if (q.kind == Kind::pixel_centre) {
-            judge_centre(q, id, q.get(device), out);
-        } else if (q.kind == Kind::flat) {
+        if (q.kind == Kind::flat) {
             judge_flat(triangle.primitive, q, q.get(device), out);
         }
     }
+    judge_samples(t, id, device, exact_only, out);
     bool is_decided = false;
     if (!exact_only) {
-        const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target.samples);
-        const value::Places places{{id.x + 0.5, id.y + 0.5},
-                                   {static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
-                                    static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)}};
+        const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
+        const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
+        const value::Point<double> sample{
+            static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
+            static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)};
+        value::Places places{centre, sample, centre};
+        if (c.target.samples > 1) {
+            // The likeliest alternative; the others are left to the next stage.
+            const auto nominal =
+                value::evaluations<Ball>(fragment(t, id, profile), profile).front();
+            places = {{nominal.attributes[0].x.v, nominal.attributes[0].y.v},
+                      sample,
+                      {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
+        }
         double ratio = 0;
         const std::span<const Quantity> span(all);
         is_decided = filter_accepts(triangle.unsnapped, span, places, device, kBudgetFactor, ratio);
@@ -421,15 +480,15 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
         return out;
     }
     const std::vector<Quantity>& all = impl_->quantities_of(t);
-    const auto place =
-        value::evaluations<mpq_class>(sample, impl_->c.target.samples, impl_->profile).front();
+    const value::Fragment fragment = impl_->fragment(t, sample, impl_->profile);
+    const auto place = value::evaluations<mpq_class>(fragment, impl_->profile).front();
     const value::Basis<mpq_class>& basis = impl_->exact_basis(t);
     for (const Quantity& q : all) {
         ExpectedValue e;
         e.quantity = q.name;
-        if (q.kind == Kind::pixel_centre || q.kind == Kind::flat) {
+        if (value::is_sample_kind(q.kind) || q.kind == Kind::flat) {
             e.is_flat = true;
-            float f = static_cast<float>(q.component == 0 ? sample.x : sample.y) + 0.5F;
+            float f = nominal_number(fragment, q);
             if (q.kind == Kind::flat) {
                 f = primitive.draw->attributes[static_cast<size_t>(q.attribute)]
                         .values[primitive.triangle.provoking]

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ref/sample.hpp"
+#include "ref/value_places.hpp"
 
 namespace ref::value {
 
@@ -78,6 +79,28 @@ std::optional<int64_t> snap_fast(float c, float w, float origin, float extent, i
     return nearest * (int64_t{1} << (kFixedBits - bits));
 }
 
+// The quantity of an attribute whose source is a sample built-in.
+bool set_sample_source(cases::Source source, Quantity& q) {
+    switch (source) {
+        case cases::Source::sample_mask_in:
+            q.kind = Kind::sample_mask;
+            q.rule = "sample.mask-in";
+            return true;
+        case cases::Source::sample_id:
+            q.kind = Kind::sample_id;
+            q.rule = "sample.id";
+            return true;
+        case cases::Source::sample_position:
+            q.kind = Kind::sample_position;
+            q.rule = "sample.id";
+            return true;
+        case cases::Source::vertex:
+        case cases::Source::barycentric:
+            break;
+    }
+    return false;
+}
+
 }  // namespace
 
 float Quantity::get(const FragmentValues& device) const {
@@ -91,11 +114,14 @@ float Quantity::get(const FragmentValues& device) const {
     return device.attributes[static_cast<size_t>(attribute)][c];
 }
 
-std::vector<Quantity> quantities(const cases::Draw& draw, uint32_t samples) {
-    const bool multisampled = samples > 1;
+std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target) {
+    // With one sample in the centre the sample is where everything is evaluated.
+    const bool multisampled = target.samples > 1 || !target.sample_locations.empty();
+    const bool is_shaded = shading_rate(draw, target.samples) != ShadingRate::fragment;
+    const std::string_view xy = is_shaded ? "fragcoord.sample" : "fragcoord.xy";
     std::vector<Quantity> all;
-    all.push_back({Kind::pixel_centre, false, 0, -1, 0, "frag_coord.x", "fragcoord.xy"});
-    all.push_back({Kind::pixel_centre, false, 0, -1, 1, "frag_coord.y", "fragcoord.xy"});
+    all.push_back({Kind::pixel_centre, false, 0, -1, 0, "frag_coord.x", xy});
+    all.push_back({Kind::pixel_centre, false, 0, -1, 1, "frag_coord.y", xy});
     all.push_back({Kind::linear, false, kPlaneDepth, -1, 2, "frag_coord.z", "depth.linear"});
     all.push_back({Kind::linear, false, kPlaneInvW, -1, 3, "frag_coord.w", "fragcoord.w"});
     all.push_back({Kind::linear, multisampled, kPlaneDepth, -2, 0, "depth", "depth.linear"});
@@ -107,6 +133,10 @@ std::vector<Quantity> quantities(const cases::Draw& draw, uint32_t samples) {
             q.attribute = static_cast<int32_t>(a);
             q.component = c;
             q.name = "attribute " + std::to_string(a) + "." + kComponentNames[c];
+            if (set_sample_source(attribute.source, q)) {
+                all.push_back(std::move(q));
+                continue;
+            }
             switch (attribute.interpolation) {
                 case cases::Interpolation::smooth:
                     q.kind = Kind::perspective;
@@ -122,6 +152,11 @@ std::vector<Quantity> quantities(const cases::Draw& draw, uint32_t samples) {
                     q.kind = Kind::flat;
                     q.rule = "interp.flat";
                     break;
+            }
+            if (multisampled && q.kind != Kind::flat) {
+                q.at_sample = attribute.auxiliary == cases::Auxiliary::sample;
+                q.at_centroid = attribute.auxiliary == cases::Auxiliary::centroid;
+                q.rule = q.at_sample ? "interp.sample" : q.at_centroid ? "interp.centroid" : q.rule;
             }
             all.push_back(std::move(q));
         }
@@ -210,7 +245,7 @@ std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
         }
     }
     for (const Quantity& q : quantities) {
-        if (q.attribute < 0 || q.kind == Kind::flat) {
+        if (q.attribute < 0 || (q.kind != Kind::linear && q.kind != Kind::perspective)) {
             continue;
         }
         const Triple<float> f =

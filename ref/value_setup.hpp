@@ -25,22 +25,32 @@ namespace ref::value {
 inline constexpr uint32_t kPlaneInvW = 0;
 inline constexpr uint32_t kPlaneDepth = 1;
 
-enum class Kind : uint8_t { linear, perspective, flat, pixel_centre };
+enum class Kind : uint8_t {
+    linear,
+    perspective,
+    flat,
+    // One of a few exact numbers (sample_values.hpp).
+    pixel_centre,  // FragCoord.xy
+    sample_mask,   // gl_SampleMaskIn
+    sample_id,
+    sample_position,
+};
 
 // One scalar of a fragment.
 struct Quantity {
     Kind kind = Kind::linear;
-    bool at_sample = false;  // evaluated at the sample; otherwise at the pixel centre
+    bool at_sample = false;  // evaluated at the sample; otherwise where the fragment's inputs are
     uint32_t plane = 0;      // linear and perspective
     int32_t attribute = -1;  // index into Draw::attributes; -1 frag_coord, -2 depth
     uint32_t component = 0;
     std::string name;       // "attribute 1.x", "depth", "frag_coord.w"
     std::string_view rule;  // of a mismatch that stays inside the hull
+    bool at_centroid = false;
     float get(const FragmentValues& device) const;
 };
 
 // All quantities of a draw, in the order in which mismatches are told.
-std::vector<Quantity> quantities(const cases::Draw& draw, uint32_t samples);
+std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target);
 
 // One triangle, everything that is exact in binary32 or cheap to have.
 struct Primitive {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ref/sample.hpp"
+#include "ref/one_point.hpp"
 
 namespace ref::value {
 
@@ -208,6 +208,28 @@ bool is_same(const std::vector<Point<T>>& points, const Point<T>& sample) {
     return points.size() == 1 && same(points[0].x, sample.x) && same(points[0].y, sample.y);
 }
 
+// The budget of a value between several sites: each term as large as at any of them.
+template <class T>
+void spread_budgets(const Plane<T>& inv_w, const T& factor, std::vector<Site<T>>& sites) {
+    if (sites.size() < 2) {
+        return;
+    }
+    Site<T> most;
+    for (const Site<T>& s : sites) {
+        most.extent_x = larger(most.extent_x, s.extent_x);
+        most.extent_y = larger(most.extent_y, s.extent_y);
+        most.spread = larger(most.spread, s.spread);
+    }
+    for (Site<T>& s : sites) {
+        s.extent_x = most.extent_x;
+        s.extent_y = most.extent_y;
+        s.spread = most.spread;
+        s.bd = inv_w.budget(s.extent_x, s.extent_y, s.spread);
+        s.safe = s.d - factor * s.bd;
+        s.exists = is_positive(s.safe);
+    }
+}
+
 // Adds what a candidate accepts for every judged quantity.
 template <class T>
 void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
@@ -216,14 +238,18 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
                    const FragmentValues& device, std::vector<Reach<T>>& reaches) {
     std::vector<T> widest(quantities.size());
     const bool at_sample = is_same(where.attributes, where.sample);
+    const bool centroid_at_sample = is_same(where.centroid, where.sample);
     const bool is_split = where.frag_coord.size() != where.attributes.size();
-    std::vector<Site<T>> attributes, frag_coord, sample;
+    const bool has_centroid = std::any_of(quantities.begin(), quantities.end(),
+                                          [](const Quantity& q) { return q.at_centroid; });
+    std::vector<Site<T>> attributes, frag_coord, sample, centroid;
     const auto fill = [&](const Basis<T>& basis, std::span<const Point<T>> points,
                           std::vector<Site<T>>& sites) {
         sites.clear();
         for (const Point<T>& p : points) {
             sites.push_back(make_site(basis, basis.planes[kPlaneInvW], p, set.factor));
         }
+        spread_budgets(basis.planes[kPlaneInvW], set.factor, sites);
     };
     for (const Basis<T>& basis : candidate.bases) {
         fill(basis, where.attributes, attributes);
@@ -231,13 +257,18 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
         if (is_split) {
             fill(basis, where.frag_coord, frag_coord);
         }
+        if (has_centroid) {
+            fill(basis, where.centroid, centroid);
+        }
         for (size_t i = 0; i < quantities.size(); ++i) {
             const Quantity& q = quantities[i];
             if (is_judged(q, i, only) && reaches[i].is_known) {
                 const std::vector<Site<T>>& sites = q.at_sample                     ? sample
+                                                    : q.at_centroid                 ? centroid
                                                     : q.attribute == -1 && is_split ? frag_coord
                                                                                     : attributes;
-                add_reach(set, basis, q, std::span<const Site<T>>(sites), set.hulls[i], at_sample,
+                const bool is_own = q.at_sample || (q.at_centroid ? centroid_at_sample : at_sample);
+                add_reach(set, basis, q, std::span<const Site<T>>(sites), set.hulls[i], is_own,
                           candidate.name == ref::Basis::snapped, static_cast<double>(q.get(device)),
                           widest[i], reaches[i]);
             }
@@ -252,6 +283,52 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
             add_hull(set.hulls[i], widest[i], static_cast<double>(q.get(device)), reaches[i]);
         }
     }
+}
+
+// The numeric inputs that are evaluated at one place with each other.
+std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<const size_t> only,
+                              bool at_centroid) {
+    std::vector<size_t> out;
+    for (size_t i = 0; i < quantities.size(); ++i) {
+        const Quantity& q = quantities[i];
+        if (is_judged(q, i, only) && q.attribute >= 0 && !q.at_sample &&
+            q.at_centroid == at_centroid) {
+            out.push_back(i);
+        }
+    }
+    return out;
+}
+
+// Whether one place explains all inputs that are decorated alike. Each of them alone has been
+// found to fit somewhere; with a single one that is enough.
+Answer has_one_point(const WideSet<Ball>&, const Candidate<Ball>&, std::span<const Quantity> all,
+                     const Evaluation<Ball>&, const FragmentValues&, std::span<const size_t> only,
+                     size_t&) {
+    const bool is_single =
+        inputs_at(all, only, false).size() < 2 && inputs_at(all, only, true).size() < 2;
+    return is_single ? Answer::yes : Answer::unknown;  // polygons are cut in rationals
+}
+
+Answer has_one_point(const WideSet<mpq_class>& set, const Candidate<mpq_class>& candidate,
+                     std::span<const Quantity> all, const Evaluation<mpq_class>& where,
+                     const FragmentValues& device, std::span<const size_t> only, size_t& blamed) {
+    if (candidate.bases.size() != 1 || candidate.is_unbounded) {
+        return Answer::yes;  // anywhere between several planes: each value alone
+    }
+    for (const bool at_centroid : {false, true}) {
+        const std::vector<size_t> which = inputs_at(all, only, at_centroid);
+        if (which.size() < 2) {
+            continue;
+        }
+        const auto wrong =
+            first_unexplained(candidate.bases.front(), set.factor,
+                              at_centroid ? where.centroid : where.attributes, all, which, device);
+        if (wrong) {
+            blamed = *wrong;
+            return Answer::no;
+        }
+    }
+    return Answer::yes;
 }
 
 // Keeps the verdict with fewer failing values, then with the smaller ratio.
@@ -280,32 +357,6 @@ void judge_value(const Reach<T>& reach, size_t index, double device, const Range
 }
 
 }  // namespace
-
-template <class T>
-std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Profile profile) {
-    const double x = id.x;
-    const double y = id.y;
-    const FixedPoint fixed = sample_position(id.x, id.y, id.sample, samples);
-    const Point<T> sample{T(static_cast<double>(fixed.x) / static_cast<double>(kFixedOne)),
-                          T(static_cast<double>(fixed.y) / static_cast<double>(kFixedOne))};
-    const Point<T> centre{T(x + 0.5), T(y + 0.5)};
-    if (samples == 1) {
-        return {{{centre}, {centre}, sample}};
-    }
-    std::vector<Evaluation<T>> all;
-    all.push_back({{centre}, {centre, sample}, sample});
-    if (profile == cases::Profile::direct3d) {
-        // Sample-rate shading evaluates at the sample.
-        all.push_back({{sample}, {centre, sample}, sample});
-    } else {
-        // "An implementation-defined position within the fragment area": a linear function, and a
-        // quotient of two where the denominator stays positive, is largest at a corner.
-        const std::vector<Point<T>> corners = {
-            {T(x), T(y)}, {T(x + 1), T(y)}, {T(x), T(y + 1)}, {T(x + 1), T(y + 1)}};
-        all.push_back({corners, corners, sample});
-    }
-    return all;
-}
 
 template <class T>
 WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
@@ -346,6 +397,22 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                 }
             }
             verdict.ok = verdict.failing.empty();
+            if (verdict.ok && where.is_one_point) {
+                size_t blamed = 0;
+                switch (has_one_point(set, set.candidates[c], quantities, where, device, only,
+                                      blamed)) {
+                    case Answer::unknown:
+                        return {false, false, verdict.basis, 0, {}, {}};
+                    case Answer::no:
+                        verdict.ok = false;
+                        verdict.failing.push_back(blamed);
+                        verdict.ratios.push_back(std::numeric_limits<double>::infinity());
+                        verdict.worst_ratio = std::numeric_limits<double>::infinity();
+                        break;
+                    case Answer::yes:
+                        break;
+                }
+            }
             if (verdict.ok && verdict.worst_ratio <= 1) {
                 return verdict;
             }
@@ -356,9 +423,6 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
     return best;
 }
 
-template std::vector<Evaluation<Ball>> evaluations<Ball>(SampleId, uint32_t, cases::Profile);
-template std::vector<Evaluation<mpq_class>> evaluations<mpq_class>(SampleId, uint32_t,
-                                                                   cases::Profile);
 template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
                                       const std::vector<Evaluation<Ball>>&, const FragmentValues&,
                                       std::span<const size_t>);

@@ -48,15 +48,17 @@ template <class T>
 WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> quantities,
                          const Limits& limits, cases::Profile profile);
 
-// Where the values may be evaluated: at one of several points, or anywhere between them (the hull).
+// Where the values may be evaluated: anywhere in the hull of the points.
 template <class T>
 struct Evaluation {
-    std::vector<Point<T>> attributes;
+    std::vector<Point<T>> attributes;  // without decoration
     std::vector<Point<T>> frag_coord;  // z and w: the specification does not say where
-    Point<T> sample;                   // depth
+    Point<T> sample;                   // depth, and inputs decorated with Sample
+    std::vector<Point<T>> centroid;
+    // One point of `attributes` explains all inputs that are evaluated there, one of `centroid`
+    // all of those. Otherwise each value may have its own.
+    bool is_one_point = false;
 };
-template <class T>
-std::vector<Evaluation<T>> evaluations(SampleId id, uint32_t samples, cases::Profile profile);
 
 struct WideVerdict {
     bool is_known = true;

@@ -22,6 +22,37 @@ Rejection invalid(std::string reason) {
     return {Rendered::Status::error, std::move(reason)};
 }
 
+// Where the device puts the samples has to be known.
+std::optional<Rejection> check_locations(const Capabilities& c, const cases::Target& t) {
+    if (t.sample_locations.empty()) {
+        if (t.samples > 1 && !c.has_standard_locations) {
+            return unsupported("the device does not promise the standard sample locations");
+        }
+        return std::nullopt;
+    }
+    if (t.sample_locations.size() != t.samples) {
+        return invalid(fmt::format("the target has {} sample locations for {} samples",
+                                   t.sample_locations.size(), t.samples));
+    }
+    if ((c.location_counts & t.samples) == 0) {
+        return unsupported(fmt::format(
+            "the device does not take sample locations for {} sample(s) (VK_EXT_sample_locations)",
+            t.samples));
+    }
+    for (const std::array<uint8_t, 2>& location : t.sample_locations) {
+        for (const uint8_t sixteenths : location) {
+            const float at = static_cast<float>(sixteenths) / 16.0F;
+            if (at < c.location_range[0] || at > c.location_range[1]) {
+                return unsupported(
+                    fmt::format("the sample location {}/16 is outside the device's range of {} to "
+                                "{} pixels",
+                                sixteenths, c.location_range[0], c.location_range[1]));
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& test) {
     const cases::Target& t = test.target;
     if (t.width == 0 || t.height == 0) {
@@ -36,6 +67,9 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
     }
     if ((c.sample_counts & t.samples) == 0) {
         return unsupported(fmt::format("the device does not draw {} samples a pixel", t.samples));
+    }
+    if (auto rejection = check_locations(c, t)) {
+        return rejection;
     }
     const uint32_t colors = kFixedAttachments + attribute_count(test);
     if (colors > c.info.max_color_attachments) {
@@ -101,6 +135,13 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     }
     if (draw.topology == cases::Topology::triangle_fan && !c.triangle_fans) {
         return unsupported("the device lacks the feature triangleFans");
+    }
+    const std::optional<float> shading = draw.multisample.min_sample_shading;
+    if (shading && (!(*shading >= 0.0F) || *shading > 1.0F)) {
+        return invalid("the fraction of samples that is shaded at least must lie in [0, 1]");
+    }
+    if (shading && !c.has_sample_shading) {
+        return unsupported("the device lacks the feature sampleRateShading");
     }
     if (draw.attributes.size() > cases::kMaxAttributes) {
         return invalid(fmt::format("a draw has {} attributes, at most {} are allowed",

@@ -122,6 +122,26 @@ void query_properties(Capabilities& c, uint32_t index) {
     }
 }
 
+// Sample locations in sixteenths of a pixel, one grid cell a pixel.
+void query_sample_locations(Capabilities& c) {
+    c.has_standard_locations = c.limits.standardSampleLocations == VK_TRUE;
+    if (!has_device_extension(c.physical, VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME)) {
+        return;
+    }
+    VkPhysicalDeviceSampleLocationsPropertiesEXT locations{};
+    locations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLE_LOCATIONS_PROPERTIES_EXT;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &locations;
+    vkGetPhysicalDeviceProperties2(c.physical, &properties);
+    constexpr uint32_t kSixteenthBits = 4;
+    if (locations.sampleLocationSubPixelBits >= kSixteenthBits) {
+        c.location_counts = locations.sampleLocationSampleCounts;
+        c.location_range[0] = locations.sampleLocationCoordinateRange[0];
+        c.location_range[1] = locations.sampleLocationCoordinateRange[1];
+    }
+}
+
 void query_features(Capabilities& c) {
     std::vector<std::string>& missing = c.info.missing;
     if (c.info.api_version < VK_API_VERSION_1_3) {
@@ -143,6 +163,8 @@ void query_features(Capabilities& c) {
         vkGetPhysicalDeviceFeatures2(c.physical, &features);
         c.triangle_fans = !c.portability_subset || portability.triangleFans == VK_TRUE;
         c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
+        c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
+        query_sample_locations(c);
         if (features13.dynamicRendering != VK_TRUE) {
             missing.emplace_back("the device lacks the feature dynamicRendering");
         }
@@ -211,6 +233,7 @@ void query_targets(Capabilities& c) {
                       (color_samples.samples & depth_samples.samples &
                        l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts &
                        l.sampledImageIntegerSampleCounts & l.sampledImageDepthSampleCounts);
+    c.location_counts &= c.sample_counts;
 }
 
 // Whether options.device means this device.
@@ -309,11 +332,15 @@ Result<Device> Device::create(const Capabilities& capabilities) {
         features13.pNext = &portability;
         extensions.push_back(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
     }
+    if (capabilities.location_counts != 0) {
+        extensions.push_back(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);
+    }
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &features13;
     features.features.independentBlend = VK_TRUE;
     features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
+    features.features.sampleRateShading = capabilities.has_sample_shading ? VK_TRUE : VK_FALSE;
 
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;

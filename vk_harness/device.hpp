@@ -21,6 +21,11 @@ struct Capabilities {
     uint32_t max_width = 0, max_height = 0;             // of a target
     VkDeviceSize max_allocation = 0, total_memory = 0;  // bytes
     VkSampleCountFlags sample_counts = 0;  // all attachments, drawn and read sample by sample
+    // VK_EXT_sample_locations; none of its counts without the extension.
+    VkSampleCountFlags location_counts = 0;
+    float location_range[2] = {0, 0};     // pixels
+    bool has_standard_locations = false;  // standardSampleLocations
+    bool has_sample_shading = false;      // sampleRateShading
     bool triangle_fans = true;
     bool portability_subset = false;
 };

@@ -153,7 +153,7 @@ Result<void> Buffer::invalidate() const {
 }
 
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
-                            uint32_t samples) {
+                            uint32_t samples, VkImageCreateFlags flags) {
     const VolkDeviceTable& vk = device.vk();
     const bool depth = format == kDepthFormat;
     const bool multisampled = samples > 1;
@@ -172,8 +172,9 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
         attachment | (multisampled ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    info.flags = flags;
     if (multisampled && !depth) {
-        info.flags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
+        info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     }
     VkImage handle = VK_NULL_HANDLE;
     VkResult result = vk.vkCreateImage(device.get(), &info, nullptr, &handle);

@@ -42,9 +42,9 @@ class Image {
   public:
     Image() = default;
     // samples == 1: can be copied to a buffer. samples > 1: can be read sample by sample in a
-    // shader.
+    // shader. `flags`: besides those that this needs.
     static Result<Image> create(const Device& device, VkFormat format, VkExtent2D extent,
-                                uint32_t samples);
+                                uint32_t samples, VkImageCreateFlags flags = 0);
 
     VkImage get() const { return image_.get(); }
     VkImageView view() const { return view_.get(); }

@@ -42,6 +42,11 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
         }
     }
     key.shader_mask = draw.multisample.shader_mask;
+    key.sample_mask = draw.multisample.sample_mask;
+    if (draw.multisample.min_sample_shading) {
+        key.min_shading_bits = std::bit_cast<uint32_t>(*draw.multisample.min_sample_shading);
+    }
+    key.sample_locations = c.target.sample_locations;
     return key;
 }
 
@@ -71,8 +76,8 @@ shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
                 break;
         }
         v.lod = v.lod || attribute.probe == cases::Probe::lod;
-        v.probes = v.probes || (attribute.probe != cases::Probe::value &&
-                                attribute.probe != cases::Probe::lod);
+        v.probes = v.probes ||
+                   (attribute.probe != cases::Probe::value && attribute.probe != cases::Probe::lod);
     }
     // The build compiles lod with the probes, and the sample built-ins with the mask (which changes
     // nothing once there is sample shading).

@@ -8,6 +8,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "cases/case.hpp"
 #include "shaders/shaders.hpp"
@@ -34,6 +35,9 @@ struct PipelineKey {
     bool layer = false, viewport_index = false;
     // Multisampling.
     std::optional<uint32_t> shader_mask = {};
+    uint32_t sample_mask = 0xffffffffU;
+    std::optional<uint32_t> min_shading_bits = {};  // of Multisample::min_sample_shading
+    std::vector<std::array<uint8_t, 2>> sample_locations = {};  // 1/16 pixel; empty: standard
     // Colour output.
     shaders::ColorKind color = shaders::ColorKind::none;
     int32_t color_attribute = -1;

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vk_harness/pipeline_state.hpp"
 
+#include <bit>
+
+#include "vk_harness/sample_locations.hpp"
+
 namespace vk_harness {
 
 void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
@@ -26,6 +30,17 @@ void rasterization_state(const PipelineKey&, RasterizationState& state) {
 void multisample_state(const PipelineKey& key, MultisampleState& state) {
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
     state.info.rasterizationSamples = static_cast<VkSampleCountFlagBits>(key.samples);
+    state.sample_mask = key.sample_mask;
+    state.info.pSampleMask = &state.sample_mask;
+    state.info.sampleShadingEnable = key.min_shading_bits ? VK_TRUE : VK_FALSE;
+    state.info.minSampleShading = std::bit_cast<float>(key.min_shading_bits.value_or(0U));
+    state.places = sample_places(key.sample_locations);
+    state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
+    state.locations.sampleLocationsEnable = VK_TRUE;
+    state.locations.sampleLocationsInfo = sample_locations_info(state.places);
+    if (!state.places.empty()) {
+        state.info.pNext = &state.locations;
+    }
 }
 
 VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey&) {

@@ -25,6 +25,9 @@ struct RasterizationState {
 void rasterization_state(const PipelineKey& key, RasterizationState& state);
 
 struct MultisampleState {
+    uint32_t sample_mask = 0;
+    std::vector<VkSampleLocationEXT> places;
+    VkPipelineSampleLocationsStateCreateInfoEXT locations{};
     VkPipelineMultisampleStateCreateInfo info{};
 };
 void multisample_state(const PipelineKey& key, MultisampleState& state);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "vk_harness/sample_locations.hpp"
+
 namespace vk_harness {
 
 namespace {
@@ -84,6 +86,10 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
              const Access& color_before, const Access& color_after, const Access& depth_before,
              const Access& depth_after) {
     const uint32_t color_count = kFixedAttachments + plan.attribute_count;
+    // A depth image made for sample locations is told them whenever its layout changes.
+    const std::vector<VkSampleLocationEXT> places =
+        sample_places(plan.target->key.sample_locations);
+    const VkSampleLocationsInfoEXT locations = sample_locations_info(places);
     std::vector<VkImageMemoryBarrier2> barriers;
     const auto add = [&](const Image& image, const Access& before, const Access& after) {
         VkImageMemoryBarrier2 b{};
@@ -97,6 +103,9 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
         b.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
         b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
         b.image = image.get();
+        if (!places.empty() && image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT) {
+            b.pNext = &locations;
+        }
         b.subresourceRange = {image.aspect(), 0, 1, 0, 1};
         barriers.push_back(b);
     };

@@ -25,7 +25,12 @@ Result<Target*> TargetCache::get(const cases::Target& key, uint32_t color_count)
     if (found == targets_.end()) {
         auto target = std::make_unique<Target>();
         target->key = key;
-        auto depth = Image::create(*device_, kDepthFormat, {key.width, key.height}, key.samples);
+        const VkImageCreateFlags flags =
+            key.sample_locations.empty()
+                ? VkImageCreateFlags{0}
+                : VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT};
+        auto depth =
+            Image::create(*device_, kDepthFormat, {key.width, key.height}, key.samples, flags);
         if (!depth) {
             return fail(depth.error());
         }

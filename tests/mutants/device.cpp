@@ -6,11 +6,14 @@
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include "mutants/assembly.hpp"
 #include "mutants/clipper.hpp"
+#include "mutants/multisample.hpp"
 #include "mutants/planes.hpp"
 #include "mutants/tiles.hpp"
 
@@ -116,7 +119,7 @@ class DrawCommand {
           device_(device),
           out_(out),
           rect_(draw_rect(draw_, c.target, device)),
-          samples_(sample_offsets(c.target.samples, device)) {}
+          samples_(sample_offsets(c.target, device)) {}
 
     void run() {
         for (const Primitive& primitive : assemble_primitives(draw_, device_.fault)) {
@@ -139,8 +142,13 @@ class DrawCommand {
     bool is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const;
     bool is_culled(bool front) const;
     bool inside_viewport(int64_t i, int64_t j, uint32_t s) const;
-    void shade(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
+    // Sample s of pixel (i,j) is covered: with several samples the fragment waits until all of its
+    // samples are known.
+    void cover(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
                bool front, int64_t i, int64_t j, uint32_t s);
+    void shade_covered(const Primitive& primitive, const WindowVertex& first, bool front);
+    void shade(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
+               bool front, int64_t i, int64_t j, uint32_t s, uint32_t covered);
 
     const cases::Draw draw_;
     uint32_t number_;
@@ -148,6 +156,8 @@ class DrawCommand {
     diff::Capture& out_;
     PixelRect rect_;
     std::vector<SampleOffset> samples_;
+    // Samples of the fragments of the triangle at hand: by pixel (row first) and planes.
+    std::map<std::tuple<int64_t, int64_t, const TrianglePlanes*>, uint32_t> covered_;
     std::unique_ptr<TrianglePlanes> cached_planes_;
     WindowVertex cached_first_;
     uint32_t culled_ = 0;  // triangles so far
@@ -274,7 +284,9 @@ void DrawCommand::rasterize(const Primitive& primitive) {
             const bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat &&
                               device_.fault != Fault::flat_smooth &&
                               device_.fault != Fault::clip_flat_piece;
-            triangle[k].values[a] = draw_.attributes[a].values[flat ? primitive.provoking : v];
+            if (draw_.attributes[a].source == cases::Source::vertex) {
+                triangle[k].values[a] = draw_.attributes[a].values[flat ? primitive.provoking : v];
+            }
         }
     }
     const ClippedPolygon polygon = clip_triangle(triangle, draw_, device_);
@@ -311,7 +323,8 @@ void DrawCommand::rasterize_line(const Primitive& primitive, std::vector<WindowV
     }
     const TrianglePlanes planes(wide, true, draw_, device_);
     scan({{v[0], v[1], v[2]}, {}, false}, rect_, samples_, inclusive,
-         [&](int64_t i, int64_t j, uint32_t s) { shade(primitive, planes, v[0], front, i, j, s); });
+         [&](int64_t i, int64_t j, uint32_t s) { cover(primitive, planes, v[0], front, i, j, s); });
+    shade_covered(primitive, v[0], front);
 }
 
 // The planes of the largest piece inside the viewport; nothing if none is left there.
@@ -419,10 +432,11 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
             const ScanTriangle t = piece(k);
             if (twice_area(t.v) > 0) {
                 scan(t, rect_, samples_, device_, [&](int64_t i, int64_t j, uint32_t s) {
-                    shade(primitive, planes_of(k), first, front, i, j, s);
+                    cover(primitive, planes_of(k), first, front, i, j, s);
                 });
             }
         }
+        shade_covered(primitive, first, front);
         return;
     }
     // Snapping can bend a clipped polygon, so that pieces fold over. The winding number counts each
@@ -473,20 +487,47 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
         for (int64_t i = box.x0; i < box.x1; ++i) {
             for (uint32_t s = 0; s < samples_.size(); ++s, ++at) {
                 if (cells[at].winding > 0) {
-                    shade(primitive, planes_of(static_cast<size_t>(cells[at].piece)), first, front,
+                    cover(primitive, planes_of(static_cast<size_t>(cells[at].piece)), first, front,
                           i, j, s);
                 }
             }
         }
     }
+    shade_covered(primitive, first, front);
 }
 
-void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes,
+void DrawCommand::cover(const Primitive& primitive, const TrianglePlanes& planes,
                         const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s) {
     if (!inside_viewport(i, j, s)) {
         return;
     }
+    if (samples_.size() == 1) {
+        shade(primitive, planes, first, front, i, j, s, 1U);
+    } else {
+        covered_[{j, i, &planes}] |= 1U << s;
+    }
+}
+
+void DrawCommand::shade_covered(const Primitive& primitive, const WindowVertex& first, bool front) {
+    for (const auto& [where, covered] : covered_) {
+        const auto& [j, i, planes] = where;
+        for (uint32_t s = 0; s < samples_.size(); ++s) {
+            if (((covered >> s) & 1U) != 0) {
+                shade(primitive, *planes, first, front, i, j, s, covered);
+            }
+        }
+    }
+    covered_.clear();
+}
+
+void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes,
+                        const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
+                        uint32_t covered) {
     const Fault fault = device_.fault;
+    const Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
+    if (!invocation.is_written) {
+        return;
+    }
     const size_t at = (static_cast<size_t>(j) * out_.target.width + static_cast<size_t>(i)) *
                           out_.target.samples +
                       s;
@@ -496,19 +537,20 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
         fault == Fault::primitive_id_skips_culled ? primitive.id - culled_ : primitive.id;
     out_.writers[at] = {number_, id, of_piece ? first.source : primitive.provoking, diff::kClearId};
 
-    const float corner = fault == Fault::values_at_corner ? 0.0F : 0.5F;
-    const float x = static_cast<float>(i) + corner;
-    const float y = static_cast<float>(j) + corner;
-    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
-    const float sample_x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
-    const float sample_y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
-    const bool corner_xy = fault == Fault::frag_coord_corner;
+    const float corner = fault == Fault::values_at_corner ? -0.5F : 0.0F;
+    const float x = invocation.centre.x + corner;
+    const float y = invocation.centre.y + corner;
+    const float corner_xy = fault == Fault::frag_coord_corner ? -0.5F : 0.0F;
     const float inverse_w = planes.inverse_w(x, y);
-    out_.frag_coord[at] = {static_cast<float>(i) + (corner_xy ? 0.0F : 0.5F),
-                           static_cast<float>(j) + (corner_xy ? 0.0F : 0.5F), planes.depth(x, y),
+    out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy, invocation.frag_coord.y + corner_xy,
+                           planes.depth(x, y),
                            fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
-    out_.depth[at] =
-        fault == Fault::values_at_corner ? planes.depth(x, y) : planes.depth(sample_x, sample_y);
+    const bool is_depth_at_sample =
+        fault != Fault::values_at_corner && fault != Fault::depth_at_centre;
+    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
+    const Place own{static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit,
+                    static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit};
+    out_.depth[at] = is_depth_at_sample ? planes.depth(own.x, own.y) : planes.depth(x, y);
 
     for (size_t a = 0; a < draw_.attributes.size(); ++a) {
         bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat;
@@ -519,7 +561,31 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
             draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
             flat = true;
         }
-        glm::vec4 value = flat ? first.values[a] : planes.attribute(a, x, y);
+        const bool is_sample = draw_.attributes[a].auxiliary == cases::Auxiliary::sample;
+        const bool is_centroid = draw_.attributes[a].auxiliary == cases::Auxiliary::centroid;
+        Place place{x, y};
+        if (samples_.size() > 1 && (is_sample || is_centroid)) {
+            place = is_sample ? invocation.sample : invocation.centroid;
+        }
+        glm::vec4 value = flat ? first.values[a] : planes.attribute(a, place.x, place.y);
+        if (fault == Fault::one_over_w_cached && !flat &&
+            draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
+            value *= planes.inverse_w(place.x, place.y) / inverse_w;
+        }
+        switch (draw_.attributes[a].source) {
+            case cases::Source::sample_mask_in:
+                value = glm::vec4(static_cast<float>(invocation.mask_in), 0, 0, 0);
+                break;
+            case cases::Source::sample_id:
+                value = glm::vec4(static_cast<float>(invocation.sample_id), 0, 0, 0);
+                break;
+            case cases::Source::sample_position:
+                value = {invocation.sample_position.x, invocation.sample_position.y, 0, 0};
+                break;
+            case cases::Source::vertex:
+            case cases::Source::barycentric:
+                break;
+        }
         if (fault == Fault::values_clamped) {
             value = glm::clamp(value, 0.0F, 1.0F);
         }

@@ -36,6 +36,9 @@ enum class ClipMethod : uint8_t {
     guard_band,  // near, far and a wide band; the viewport's rectangle is a scissor
 };
 
+// Where an input decorated with Centroid is evaluated in a pixel that is covered in part.
+enum class Centroid : uint8_t { first_sample, mean };  // Direct3D's; the mean of what is covered
+
 // What a device is free to choose. The default is llvmpipe's way.
 struct Device {
     int subpixel_bits = 8;  // 4..12
@@ -47,6 +50,8 @@ struct Device {
     bool piece_planes = true;  // clipped triangles: planes of each piece, not of the whole triangle
     bool fused = false;        // a * b + c rounded once
     bool reciprocal_w = false;  // x * (1/w) instead of x / w
+    Centroid centroid = Centroid::first_sample;
+    bool inputs_follow_samples = true;  // with sample shading inputs are evaluated at the sample
     Fault fault = Fault::none;
 };
 

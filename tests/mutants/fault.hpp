@@ -74,6 +74,25 @@ enum class Fault : uint8_t {
     box_last_column,    // bounding box: last column lost
     box_first_row,      // bounding box: first row lost
     clip_diagonal_double,  // the inner diagonals of a clipped polygon are drawn by both pieces
+    // multisampling
+    samples_exchanged,         // samples 0 and 1 have changed places
+    samples_transposed,        // x and y of the locations are exchanged
+    samples_upside_down,       // y of the locations counts from below
+    samples_standard_only,     // locations of the pipeline are ignored
+    samples_in_pixel_centres,  // coverage is decided at the pixel centre, for all samples
+    mask_ignored,
+    mask_shifted,   // by one sample
+    mask_reversed,  // bit 0 is the last sample
+    shader_mask_ignored,
+    shader_mask_replaces,      // the shader's mask takes the place of the sample mask
+    mask_in_full,              // gl_SampleMaskIn has all bits
+    centroid_at_centre,        // also where the centre is outside of the triangle
+    centroid_of_uncovered,     // the first sample that is not covered
+    sample_at_centre,          // inputs decorated with Sample are evaluated at the centre
+    one_over_w_cached,         // 1/w of the first input serves those at other places, too
+    shading_once,              // sample shading is ignored
+    frag_coord_always_centre,  // also with sample shading
+    depth_at_centre,           // of every sample
     // scissor
     scissor_closed,      // right and bottom edge inclusive
     scissor_off_by_one,  // starts one pixel late

@@ -153,10 +153,10 @@ bool is_narrow(const ScanTriangle& triangle, const Device& device) {
 
 }  // namespace
 
-std::vector<SampleOffset> sample_offsets(uint32_t samples, const Device& device) {
+std::vector<SampleOffset> sample_offsets(const cases::Target& target, const Device& device) {
     using Location = std::array<int64_t, 2>;  // 1/16 pixel
     std::vector<Location> locations;
-    switch (samples) {
+    switch (target.samples) {
         case 2:
             locations = {{12, 12}, {4, 4}};
             break;
@@ -174,12 +174,27 @@ std::vector<SampleOffset> sample_offsets(uint32_t samples, const Device& device)
             locations = {{8, 8}};
             break;
     }
+    if (!target.sample_locations.empty() && device.fault != Fault::samples_standard_only) {
+        locations.clear();
+        for (const auto& own : target.sample_locations) {
+            locations.push_back({own[0], own[1]});
+        }
+    }
+    if (device.fault == Fault::samples_exchanged && locations.size() > 1) {
+        std::swap(locations[0], locations[1]);
+    }
     const int shift = device.subpixel_bits - 4;
     std::vector<SampleOffset> offsets;
     for (const Location& at : locations) {
         Location place = at;
         if (device.fault == Fault::sample_corner) {
             place = {at[0] - 8, at[1] - 8};
+        } else if (device.fault == Fault::samples_transposed) {
+            place = {at[1], at[0]};
+        } else if (device.fault == Fault::samples_upside_down && locations.size() > 1) {
+            place = {at[0], 16 - at[1]};
+        } else if (device.fault == Fault::samples_in_pixel_centres) {
+            place = {8, 8};
         }
         offsets.push_back({place[0] * (int64_t{1} << shift), place[1] * (int64_t{1} << shift)});
     }

@@ -24,8 +24,9 @@ struct SampleOffset {
     int64_t x = 0, y = 0;
 };
 
-// Standard locations (Vulkan, "Standard sample locations"), as the device places them.
-std::vector<SampleOffset> sample_offsets(uint32_t samples, const Device& device);
+// The target's own locations or the standard ones (Vulkan, "Standard sample locations"), as the
+// device places them.
+std::vector<SampleOffset> sample_offsets(const cases::Target& target, const Device& device);
 
 // Which triangle to scan; vertices clockwise on screen unless a fault says otherwise.
 struct ScanTriangle {

@@ -150,8 +150,8 @@ TEST(Interpolation, PerspectiveByHand) {
     EXPECT_EQ(three_multiplies(middle, {0, 8, 100}), 4.0F);
 }
 
-// alpha = (1-t) s, beta = s t, gamma = 1 - s are the barycentric coordinates, and U, the point on AB,
-// and P are where they should be: exactly, from integer areas.
+// alpha = (1-t) s, beta = s t, gamma = 1 - s are the barycentric coordinates, and U, the point on
+// AB, and P are where they should be: exactly, from integer areas.
 TEST(Interpolation, NestedLinesAreBarycentric) {
     RandomInterpolations random(8);
     int checked = 0;

@@ -120,6 +120,24 @@ TEST(LoadCase, TakesBomAndCrLf) {
     EXPECT_EQ(all[0].expected_hits->rows, std::vector<std::string>{"1."});
 }
 
+TEST(LoadCase, ReadsMultisampleState) {
+    const std::vector<Case> all =
+        load(kHead +
+             "[target]\nsize = [2, 1]\nsamples = 2\nsample_locations = [[0, 15], [8, \"2^3\"]]\n"
+             "[[draw]]\n" +
+             kTriangle +
+             "sample_mask = 0b10\nshader_mask = 0xfffffffe\nmin_sample_shading = 0.5\n[[draw]]\n" +
+             kTriangle + "[expect]\nhits = [\"1.\", \"?2\"]\n");
+    ASSERT_EQ(all.size(), 1U);
+    const Case& c = all[0];
+    EXPECT_EQ(c.target.samples, 2U);
+    EXPECT_EQ(c.target.sample_locations, (std::vector<std::array<uint8_t, 2>>{{0, 15}, {8, 8}}));
+    EXPECT_EQ(c.draws[0].multisample, (Multisample{2U, 0xfffffffeU, 0.5F}));
+    EXPECT_EQ(c.draws[1].multisample, Multisample{});
+    ASSERT_TRUE(c.expected_hits);
+    EXPECT_EQ(c.expected_hits->rows, (std::vector<std::string>{"1.", "?2"}));
+}
+
 TEST(LoadCase, KeepsBitsInClipSpace) {
     const Draw d = load_draw(
         "space = \"clip\"\nvertices = [[-0.0,\"-0\",\"0x1p-149\",\"2^127\"],[0,0,0,0],"

@@ -230,8 +230,29 @@ vertices = [[0,0],[8,0],[0,8]]
     {target(R"~(size = [16384, 16384])~"),
      R"~(f:5:8: error: the target has more than 2^26 pixels; make it smaller)~"},
     {target(R"~(size = [8, 8]
-samples = 4)~"),
-     R"~(f:6:11: error: samples is not 1; multisampled targets are not supported)~"},
+samples = 6)~"),
+     R"~(f:6:11: error: 6 samples have no standard locations; write 1, 2, 4, 8 or 16)~"},
+    {target(R"~(size = [8, 8]
+samples = 32)~"),
+     R"~(f:6:11: error: samples is not an integer from 1 to 16)~"},
+    {target(R"~(size = [8192, 8192]
+samples = 2)~"),
+     R"~(f:5:8: error: the target has more than 2^26 samples; make it smaller)~"},
+    {target(R"~(size = [8, 8]
+samples = 2
+sample_locations = [[1, 2]])~"),
+     R"~(f:7:20: error: sample_locations has 1 entries for 2 sample(s); write one [x, y] a sample)~"},
+    {target(R"~(size = [8, 8]
+samples = 2
+sample_locations = [[1, 2], [3]])~"),
+     R"~(f:7:29: error: a sample location has 1 numbers; write [x, y] in sixteenths of a pixel)~"},
+    {target(R"~(size = [8, 8]
+samples = 2
+sample_locations = [[1, 2], [16, 0]])~"),
+     R"~(f:7:30: error: a sample location is not an integer from 0 to 15)~"},
+    {target(R"~(size = [8, 8]
+sample_locations = 3)~"),
+     R"~(f:6:20: error: sample_locations is the number 3; write an array)~"},
     {target(R"~(size = [8, 8]
 sample = 1)~"),
      R"~(f:6:1: error: [target] has no key "sample"; did you mean "samples"?)~"},
@@ -597,6 +618,61 @@ f:8:1: error: [expect] has no hits; draw one row a pixel row)~"},
     {triangle(R"~([expect]
 hits = 1)~"),
      R"~(f:9:8: error: hits is the number 1; write a string)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[expect]
+hits = "11"
+)~"),
+     R"~(f:10:8: error: the target has 2 samples a pixel, so hits is an array of 2 pictures, sample 0 first)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[expect]
+hits = ["11", "111"]
+)~"),
+     R"~(f:10:15: error: row 0 of picture 1 of hits has 3 characters, but the target is 2 pixels wide)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+sample_mask = -1
+)~"),
+     R"~(f:9:15: error: sample_mask is not an integer from 0 to 4294967295)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+shader_mask = 0.5
+)~"),
+     R"~(f:8:15: error: shader_mask is not an integer from 0 to 4294967295)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+min_sample_shading = 1.5
+)~"),
+     R"~(f:8:22: error: min_sample_shading is outside 0..1; write the fraction of the samples that is shaded at least)~"},
     {whole(R"~(expect = 1
 format = 1
 description = "d"

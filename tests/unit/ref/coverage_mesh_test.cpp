@@ -30,7 +30,7 @@ std::vector<Hits> draw(const cases::Case& c, const std::vector<Triangle>& triang
         for (uint32_t i = 0; i < c.target.width; ++i) {
             for (uint32_t s = 0; s < c.target.samples; ++s) {
                 Hits h;
-                const FixedPoint p = sample_position(i, j, s, c.target.samples);
+                const FixedPoint p = sample_position(i, j, s, c.target);
                 for (uint32_t t = 0; t < triangles.size(); ++t) {
                     const cases::Draw& d = c.draws[triangles[t].draw];
                     const auto& v = where[triangles[t].draw];
@@ -409,7 +409,8 @@ TEST(CoverageMesh, ClippingDeviceIsAllowed) {
                     uint32_t front = 0;
                     uint32_t back = 0;
                     for (const auto& polygon : polygons) {
-                        const int turns = fast::winding(polygon, sample_position(i, j, 0, 1));
+                        const int turns =
+                            fast::winding(polygon, sample_position(i, j, 0, c.target));
                         front += turns < 0 ? 1U : 0U;
                         back += turns > 0 ? 1U : 0U;
                     }

@@ -56,7 +56,7 @@ TEST(CoverageClippedEdge, SampleOnTheBorderStaysOpen) {
     uint32_t on_border = 0;
     const Expectation e = expect(c, {8}, Profile::practice);
     for (uint32_t s = 0; s < 16; ++s) {
-        if (sample_position(0, 3, s, 16).x == 0) {
+        if (sample_position(0, 3, s, c.target).x == 0) {
             EXPECT_EQ(hits_at(e, 0, 3, s).total_min, 0U);
             EXPECT_EQ(hits_at(e, 0, 3, s).total_max, 1U);
             ++on_border;

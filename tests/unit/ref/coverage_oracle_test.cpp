@@ -84,7 +84,7 @@ TEST(CoverageOracle, ClassifyAgreesWithScan) {
                 set_up(c, t, s.limits, s.profile, boxes, window_of(c, c.draws[t.draw], s.profile));
             for (uint32_t j = 0; j < c.target.height; ++j) {
                 for (uint32_t i = 0; i < c.target.width; ++i) {
-                    const FixedPoint p = sample_position(i, j, 0, c.target.samples);
+                    const FixedPoint p = sample_position(i, j, 0, c.target);
                     const Classification fast = fast::classify(setup, p);
                     const Classification slow = exact::classify(setup, p);
                     ASSERT_EQ(fast.coverage, slow.coverage) << "seed " << seed;

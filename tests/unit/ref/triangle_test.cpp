@@ -69,9 +69,24 @@ TEST(Samples, StandardLocationsAreDistinctAndOnTheFourBitGrid) {
         EXPECT_NEAR(sum_x / static_cast<double>(samples), 8, 0.51);
     }
     // Sample 1 of 4 lies at (0.875, 0.375).
-    EXPECT_EQ(sample_position(2, 3, 1, 4),
+    EXPECT_EQ(sample_position(2, 3, 1, {8, 8, 4}),
               (FixedPoint{2 * kFixedOne + 57344, 3 * kFixedOne + 24576}));
-    EXPECT_EQ(sample_position(0, 0, 0, 1), (FixedPoint{32768, 32768}));
+    EXPECT_EQ(sample_position(0, 0, 0, {8, 8, 1}), (FixedPoint{32768, 32768}));
+}
+
+TEST(Samples, TheTargetsOwnLocationsTakeTheStandardOnesPlace) {
+    cases::Target target{8, 8, 2};
+    target.sample_locations = {{1, 15}, {0, 7}};
+    EXPECT_EQ(sample_position(1, 0, 0, target), (FixedPoint{kFixedOne + 4096, 61440}));
+    EXPECT_EQ(sample_position(1, 2, 1, target), (FixedPoint{kFixedOne, 2 * kFixedOne + 28672}));
+}
+
+TEST(Samples, BothMasksLetASampleThrough) {
+    EXPECT_TRUE(is_in_mask({}, 15));
+    EXPECT_FALSE(is_in_mask({5U, {}, {}}, 1));
+    EXPECT_TRUE(is_in_mask({5U, {}, {}}, 2));
+    EXPECT_FALSE(is_in_mask({5U, 3U, {}}, 2));
+    EXPECT_TRUE(is_in_mask({5U, 3U, {}}, 0));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(ValueBudget, HullOfAClippedPolygonHasTheErrorsOfTheProfile) {
     const auto triangles = ref::assemble(c);
     const auto primitive = ref::value::make_primitive(c, triangles[0]);
     ASSERT_TRUE(primitive.needs_clipping);
-    const auto quantities = ref::value::quantities(c.draws[0], 1);
+    const auto quantities = ref::value::quantities(c.draws[0], c.target);
     const auto slack = [&](Profile profile) {
         const auto set = ref::value::make_wide_set<mpq_class>(
             primitive, std::span<const ref::value::Quantity>(quantities), ref::Limits{}, profile);

@@ -19,6 +19,7 @@ Capabilities made_up() {
     c.max_width = 4096;
     c.max_height = 2048;
     c.sample_counts = VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT;
+    c.has_standard_locations = true;
     c.max_allocation = VkDeviceSize{1} << 26;
     c.total_memory = VkDeviceSize{1} << 28;
     c.limits.maxStorageBufferRange = 1U << 20;
@@ -55,6 +56,40 @@ TEST(CaseCheck, GoodCasesPass) {
     c.draws[0].attributes = {attribute(3)};
     c.draws[0].indices = {{2, 1, 0}};
     EXPECT_FALSE(check_case(made_up(), c).has_value());
+}
+
+TEST(CaseCheck, SampleLocations) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    c.target = {64, 64, 4};
+    m.has_standard_locations = false;
+    expect_rejected(m, c, unsupported, "the device does not promise the standard sample locations");
+    c.target.sample_locations = {{0, 0}, {15, 0}, {0, 15}};
+    expect_rejected(m, c, error, "the target has 3 sample locations for 4 samples");
+    c.target.sample_locations.push_back({8, 8});
+    expect_rejected(m, c, unsupported,
+                    "the device does not take sample locations for 4 sample(s) "
+                    "(VK_EXT_sample_locations)");
+    m.location_counts = VK_SAMPLE_COUNT_4_BIT;
+    m.location_range[1] = 0.9375F;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    m.location_range[1] = 0.875F;
+    expect_rejected(m, c, unsupported,
+                    "the sample location 15/16 is outside the device's range of 0 to 0.875 pixels");
+}
+
+TEST(CaseCheck, SampleShading) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    c.draws[0].multisample.min_sample_shading = 0.0F;
+    expect_rejected(m, c, unsupported, "the device lacks the feature sampleRateShading");
+    m.has_sample_shading = true;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws[0].multisample.min_sample_shading = 2.0F;
+    expect_rejected(m, c, error,
+                    "the fraction of samples that is shaded at least must lie in [0, 1]");
 }
 
 TEST(CaseCheck, Target) {

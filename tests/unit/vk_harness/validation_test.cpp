@@ -51,6 +51,8 @@ std::vector<cases::Case> all_states() {
             c.draws.push_back(strip);
             c.draws.push_back(fan);
             batch.push_back(c);
+            c.draws[0].multisample = {5U, {}, 0.0F};
+            c.draws[1].multisample.min_sample_shading = 1.0F;
             batch.push_back(c);
         }
     }

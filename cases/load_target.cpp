@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/load_target.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cases {
+
+namespace {
+
+constexpr uint64_t kMaxPixels = uint64_t{1} << 26;
+constexpr uint32_t kMaxSamples = 16;
+constexpr int64_t kSixteenths = 16;  // the standard grid of sample locations, a pixel
+
+void read_samples(LeafContext& context, const TomlValue& table, Target& target) {
+    const TomlValue* samples = table.find("samples");
+    if (samples == nullptr) {
+        return;
+    }
+    const std::optional<int64_t> n = context.integer(*samples, "samples", 1, kMaxSamples);
+    if (!n) {
+        return;
+    }
+    target.samples = static_cast<uint32_t>(*n);
+    if ((target.samples & (target.samples - 1)) != 0) {
+        context.error(samples->where,
+                      fmt::format("{} samples have no standard locations; write 1, 2, 4, 8 or 16",
+                                  target.samples));
+    }
+}
+
+void read_locations(LeafContext& context, const TomlValue& table, Target& target) {
+    const TomlValue* locations = table.find("sample_locations");
+    if (locations == nullptr || !context.array(*locations, "sample_locations")) {
+        return;
+    }
+    if (locations->array.size() != target.samples) {
+        context.error(locations->where,
+                      fmt::format("sample_locations has {} entries for {} sample(s); write one "
+                                  "[x, y] a sample",
+                                  locations->array.size(), target.samples));
+        return;
+    }
+    for (const TomlValue& pair : locations->array) {
+        if (!context.array(pair, "a sample location")) {
+            return;
+        }
+        if (pair.array.size() != 2) {
+            context.error(pair.where, fmt::format("a sample location has {} numbers; write [x, y] "
+                                                  "in sixteenths of a pixel",
+                                                  pair.array.size()));
+            return;
+        }
+        std::array<uint8_t, 2> location{};
+        for (size_t k = 0; k < 2; ++k) {
+            location.at(k) = static_cast<uint8_t>(
+                context.integer(pair.array[k], "a sample location", 0, kSixteenths - 1)
+                    .value_or(0));
+        }
+        target.sample_locations.push_back(location);
+    }
+}
+
+}  // namespace
+
+Target load_target(LeafContext& context, const TomlValue& table) {
+    Target target;
+    context.known_keys(table, "[target]", {"size", "samples", "sample_locations"});
+    read_samples(context, table, target);
+    read_locations(context, table, target);
+    const TomlValue* size = table.find("size");
+    if (size == nullptr) {
+        context.error(table.where, "[target] has no size; write size = [width, height]");
+        return target;
+    }
+    if (!context.array(*size, "size")) {
+        return target;
+    }
+    if (size->array.size() != 2) {
+        context.error(size->where, fmt::format("size has {} numbers; write [width, height]",
+                                               size->array.size()));
+        return target;
+    }
+    const auto side = [&](size_t i, const char* what) {
+        return static_cast<uint32_t>(
+            context.integer(size->array[i], what, 1, kMaxTargetSize).value_or(0));
+    };
+    target.width = side(0, "the target's width");
+    target.height = side(1, "the target's height");
+    if (uint64_t{target.width} * target.height * target.samples > kMaxPixels) {
+        context.error(size->where, target.samples == 1
+                                       ? "the target has more than 2^26 pixels; make it smaller"
+                                       : "the target has more than 2^26 samples; make it smaller");
+    }
+    return target;
+}
+
+Multisample load_multisample(LeafContext& context, const TomlValue& draw) {
+    Multisample state;
+    const auto mask = [&](const char* key) -> std::optional<uint32_t> {
+        const TomlValue* value = draw.find(key);
+        if (value == nullptr) {
+            return std::nullopt;
+        }
+        const std::optional<int64_t> bits = context.integer(*value, key, 0, UINT32_MAX);
+        return bits ? std::optional(static_cast<uint32_t>(*bits)) : std::nullopt;
+    };
+    state.sample_mask = mask("sample_mask").value_or(state.sample_mask);
+    state.shader_mask = mask("shader_mask");
+    if (const TomlValue* value = draw.find("min_sample_shading")) {
+        const std::optional<Number> number = context.number(*value, "min_sample_shading");
+        if (number && (number->value < 0 || number->value > 1)) {
+            context.error(value->where,
+                          "min_sample_shading is outside 0..1; write the fraction of the samples "
+                          "that is shaded at least");
+        } else if (number) {
+            state.min_sample_shading = round_to_binary32(*number).value;
+        }
+    }
+    return state;
+}
+
+}  // namespace cases

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/pixel_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "ref/sample.hpp"
+#include "ref/value_places.hpp"
+#include "ref/value_setup.hpp"
+
+namespace diff {
+
+namespace {
+
+// The samples of a pixel that one triangle wrote last.
+struct Fragment {
+    const ref::Triangle* triangle = nullptr;
+    std::vector<uint32_t> samples;
+};
+
+const ref::Triangle* triangle_of(const ref::Expectation& e, const CaptureView& capture,
+                                 const ref::SampleExpectation& expected, const Writer& writer) {
+    for (uint32_t k = 0; k < expected.writers_count; ++k) {
+        const ref::Triangle& t = e.triangles[e.writers[expected.writers_begin + k]];
+        if (writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
+            (!capture.has_primitive || writer.primitive == t.primitive)) {
+            return &t;
+        }
+    }
+    return nullptr;
+}
+
+// Only where each sample of it was hit by this triangle alone can invocations be counted.
+std::vector<Fragment> fragments_of(const ref::Expectation& e, const CaptureView& capture,
+                                   size_t first) {
+    std::vector<Fragment> out;
+    for (uint32_t s = 0; s < capture.target.samples; ++s) {
+        const size_t index = first + s;
+        if (sample_state(capture, index) != SampleState::drawn) {
+            continue;
+        }
+        const ref::Triangle* t =
+            triangle_of(e, capture, e.samples[index], capture.writers[index]);
+        if (t == nullptr) {
+            continue;
+        }
+        const auto same = std::find_if(out.begin(), out.end(),
+                                       [t](const Fragment& f) { return f.triangle == t; });
+        if (same == out.end()) {
+            out.push_back({t, {s}});
+        } else {
+            same->samples.push_back(s);
+        }
+    }
+    return out;
+}
+
+Finding finding_at(uint32_t x, uint32_t y, uint32_t s, const ref::Triangle& t) {
+    Finding finding;
+    finding.kind = FindingKind::value;
+    finding.level = cases::Profile::vulkan;
+    finding.x = x;
+    finding.y = y;
+    finding.sample = s;
+    finding.why = fmt::format("triangle {} of draw {}: ", t.primitive, t.draw);
+    return finding;
+}
+
+bool has_distinct_locations(const cases::Target& target) {
+    const auto locations = ref::sample_locations(target);
+    return std::set<std::array<uint8_t, 2>>(locations.begin(), locations.end()).size() ==
+           locations.size();
+}
+
+std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureView& capture,
+                                         const Fragment& f, size_t first, uint32_t x, uint32_t y) {
+    const uint32_t least = ref::value::least_invocations(draw, capture.target.samples);
+    const auto rate = ref::value::shading_rate(draw, capture.target.samples);
+    const bool is_on = rate == ref::value::ShadingRate::some ||
+                       rate == ref::value::ShadingRate::sample;
+    // A sample that the fragment does not cover may have had an invocation of its own.
+    if (!is_on || f.samples.size() != capture.target.samples ||
+        !has_distinct_locations(capture.target)) {
+        return std::nullopt;
+    }
+    std::set<std::pair<float, float>> places;
+    for (const uint32_t s : f.samples) {
+        const glm::vec4& at = capture.frag_coord[first + s];
+        places.insert({at.x, at.y});
+    }
+    if (places.size() >= least) {
+        return std::nullopt;
+    }
+    Finding finding = finding_at(x, y, f.samples.front(), *f.triangle);
+    finding.rule = "sample.shading";
+    finding.quantity = "invocations";
+    finding.expected = fmt::format("at least {} places of FragCoord.xy in the pixel", least);
+    finding.got = fmt::format("{}", places.size());
+    finding.why += "too few invocations of the fragment shader";
+    return finding;
+}
+
+// gl_SampleMaskIn of two samples: of one invocation, or without a common sample.
+std::optional<Finding> check_masks(const cases::Draw& draw, const CaptureView& capture,
+                                   const Fragment& f, size_t first, uint32_t attribute, uint32_t x,
+                                   uint32_t y) {
+    const bool is_one = ref::value::shading_rate(draw, capture.target.samples) ==
+                        ref::value::ShadingRate::fragment;
+    const auto mask_of = [&](uint32_t s) -> uint32_t {
+        const float v = capture.attributes[attribute][first + s].x;
+        return v >= 0.0F && v < 0x1p16F ? static_cast<uint32_t>(v) : 0U;
+    };
+    for (const uint32_t s : f.samples) {
+        const uint32_t other = mask_of(f.samples.front());
+        const uint32_t mask = mask_of(s);
+        if (mask == other || (!is_one && (mask & other) == 0)) {
+            continue;
+        }
+        Finding finding = finding_at(x, y, s, *f.triangle);
+        finding.rule = "sample.mask-in";
+        finding.quantity = fmt::format("attribute {}.x", attribute);
+        finding.expected = fmt::format("{:#b} as at sample {}{}", other, f.samples.front(),
+                                       is_one ? "" : ", or no sample of it");
+        finding.got = fmt::format("{:#b}", mask);
+        finding.why += "each covered sample is set in exactly one invocation";
+        return finding;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool has_pixel_rules(const cases::Case& c) {
+    return c.target.samples > 1 &&
+           std::any_of(c.draws.begin(), c.draws.end(), [&](const cases::Draw& draw) {
+               return ref::value::least_invocations(draw, c.target.samples) > 1 ||
+                      std::any_of(draw.attributes.begin(), draw.attributes.end(), [](const auto& a) {
+                          return a.source == cases::Source::sample_mask_in;
+                      });
+           });
+}
+
+std::vector<Finding> check_pixel(const cases::Case& c, const ref::Expectation& expectation,
+                                 const CaptureView& capture, uint32_t x, uint32_t y) {
+    std::vector<Finding> out;
+    const size_t first = (size_t{y} * c.target.width + x) * c.target.samples;
+    for (const Fragment& f : fragments_of(expectation, capture, first)) {
+        const cases::Draw& draw = c.draws[f.triangle->draw];
+        // Devices may make several fragments of the pieces of a clipped triangle.
+        if (ref::value::make_primitive(c, *f.triangle).needs_clipping) {
+            continue;
+        }
+        if (auto finding = check_invocations(draw, capture, f, first, x, y)) {
+            out.push_back(std::move(*finding));
+        }
+        for (uint32_t a = 0; a < draw.attributes.size(); ++a) {
+            if (draw.attributes[a].source != cases::Source::sample_mask_in) {
+                continue;
+            }
+            if (auto finding = check_masks(draw, capture, f, first, a, x, y)) {
+                out.push_back(std::move(*finding));
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace diff

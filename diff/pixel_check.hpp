@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the samples of one pixel have to agree on: how many invocations a fragment had, and which
+// samples each of them stands for.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "diff/capture.hpp"
+#include "diff/verdict.hpp"
+#include "ref/expectation.hpp"
+
+namespace diff {
+
+// Whether any draw has something to agree on.
+bool has_pixel_rules(const cases::Case& c);
+
+// Findings of pixel (x,y) that no sample shows alone; each names the sample that shows it first.
+// Source: Vulkan specification, "Sample Shading" (at least ceil(minSampleShading x samples)
+// invocations a fragment; FragCoord.xy is a sample of its invocation) and "Built-In Variables"
+// (SampleMask: each covered sample is set in exactly one invocation).
+std::vector<Finding> check_pixel(const cases::Case& c, const ref::Expectation& expectation,
+                                 const CaptureView& capture, uint32_t x, uint32_t y);
+
+}  // namespace diff
