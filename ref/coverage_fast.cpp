@@ -232,6 +232,9 @@ bool is_narrow(const TriangleSetup& setup) {
     const auto outlines = setup.outlines(count);
     for (size_t k = 0; k < count; ++k) {
         const Outline& o = *outlines[k];
+        if (!o.cuts.empty()) {
+            return false;
+        }
         const bool has_parallel =
             std::any_of(o.must_test.begin(), o.must_test.begin() + o.must_count,
                         [](EdgeTest test) { return test == EdgeTest::parallel; });

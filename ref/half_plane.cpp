@@ -214,6 +214,7 @@ CoverageSets coverage_sets(const TriangleSetup& setup) {
     out.has_must = count > 0;
     for (size_t k = 0; k < count; ++k) {
         const Outline& o = *outlines[k];
+        const size_t first = out.may.size();
         switch (o.mode) {
             case OutlineMode::empty:
                 out.has_must = false;
@@ -224,6 +225,12 @@ CoverageSets coverage_sets(const TriangleSetup& setup) {
             case OutlineMode::boxes:
                 add_boxes(o, out);
                 break;
+        }
+        for (const DistanceCut& cut : o.cuts) {
+            for (size_t i = first; i < out.may.size(); ++i) {
+                out.may[i].planes.push_back(cut.may);
+            }
+            out.must.push_back(cut.must);
         }
     }
     return out;

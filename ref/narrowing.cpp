@@ -76,6 +76,13 @@ uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
         const float bits[] = {p.x, p.y, p.z, p.w, v.x, v.y, v.width, v.height};
         std::string key(sizeof bits, '\0');
         std::memcpy(key.data(), bits, sizeof bits);
+        if (d.distances.clip_count > 0) {
+            // An edge that is cut elsewhere is another edge.
+            const glm::vec4& c = d.distances.clip[vertex];
+            const float distances[] = {c.x, c.y, c.z, c.w};
+            key.append(reinterpret_cast<const char*>(distances),
+                       d.distances.clip_count * sizeof(float));
+        }
         const auto next = static_cast<uint32_t>(numbers_.size() + 1);
         numbers[vertex] = numbers_.try_emplace(std::move(key), next).first->second;
     }
@@ -99,6 +106,10 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
     const auto outlines = setup.outlines(count);
     for (size_t k = 0; k < count; ++k) {
         const Outline& o = *outlines[k];
+        if (std::any_of(o.cuts.begin(), o.cuts.end(),
+                        [&](const DistanceCut& cut) { return cut.must.at(p) < 0; })) {
+            return false;  // a clip distance decides
+        }
         for (uint32_t i = 0; i < o.count; ++i) {
             const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
             // The pairwise rule contradicts itself where many triangles meet in a vertex.
@@ -138,20 +149,30 @@ int Narrowing::winding_of(const FixedPoint& p, const TriangleSetup& setup,
 
 int Narrowing::count_of(const FixedPoint& p, std::span<const Hit> hits,
                         const std::vector<uint32_t>& members) const {
-    int unclipped = 0;
-    int clipped = 0;
+    // Cut by the depth planes or by all, by the clip distances or not: every member in the same way.
+    std::array<int, 4> count{};
     bool has_unclipped = true;
     for (const uint32_t m : members) {
         const TriangleSetup& setup = setups_[hits[m].triangle];
         const int open = setup.has_outline ? winding_of(p, setup, setup.unclipped) : 0;
+        const int cut = setup.is_clipped ? winding_of(p, setup, setup.clipped) : open;
+        const auto tested = [&](int8_t index, int otherwise) {
+            return index < 0 ? otherwise
+                             : winding_of(p, setup, setup.tested[static_cast<size_t>(index)]);
+        };
+        const int tested_open = tested(setup.tested_unclipped, open);
         has_unclipped = has_unclipped && setup.has_outline;
-        unclipped += open;
-        clipped += setup.is_clipped ? winding_of(p, setup, setup.clipped) : open;
+        count[0] += cut;
+        count[1] += tested(setup.tested_clipped, cut);
+        count[2] += open;
+        count[3] += tested_open;
     }
-    if (has_unclipped && unclipped != clipped) {
+    const size_t models = has_unclipped ? 4 : 2;
+    if (std::any_of(count.begin(), count.begin() + models,
+                    [&](int c) { return c != count[0]; })) {
         return -1;
     }
-    return clipped >= 0 && clipped <= static_cast<int>(members.size()) ? clipped : -1;
+    return count[0] >= 0 && count[0] <= static_cast<int>(members.size()) ? count[0] : -1;
 }
 
 uint64_t Narrowing::edge_number(const Triangle& triangle, uint32_t edge) {

@@ -85,7 +85,7 @@ class Narrowing {
     int count_of(const FixedPoint& p, std::span<const Hit> hits,
                  const std::vector<uint32_t>& members) const;
     int winding_of(const FixedPoint& p, const TriangleSetup& setup, const Outline& outline) const;
-    // Equal for vertices with bitwise-equal position and viewport.
+    // Equal for vertices with bitwise-equal position, viewport and clip distances.
     uint32_t vertex_number(uint32_t draw, uint32_t vertex);
 
     const cases::Case& case_;
