@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ref/value.hpp"
 #include "ref/value_budget.hpp"
 
 namespace ref {
@@ -258,8 +259,10 @@ std::vector<Linear> homogeneous_planes(const CutSource& s, std::span<const Clipp
     const mpq_class ideal_spread = spread_of(ideal, polygon);
     for (size_t k = 0; k < inputs.size(); ++k) {
         const auto& plane = ideal.planes[k];
-        out[k] = {plane.form.x, plane.form.y, plane.form.c,
-                  factor * basis_budget(ideal, plane, region, ideal_spread)};
+        out[k].x = plane.form.x;
+        out[k].y = plane.form.y;
+        out[k].c = plane.form.c;
+        out[k].error = factor * basis_budget(ideal, plane, region, ideal_spread);
     }
     if (!s.vertex[0] || !s.vertex[1] || !s.vertex[2]) {
         return out;  // no device has positions for all of them to set planes up from

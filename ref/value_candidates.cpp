@@ -117,10 +117,9 @@ std::vector<PieceVertex<T>> piece_vertices(const Primitive& primitive,
         clip_triangle(input, viewport, cases::Profile::direct3d, planes);
     size_t cuts = 0;
     for (const ClipPlane& plane : planes) {
-        cuts += is_inside(input, 0, {&plane, 1}) && is_inside(input, 1, {&plane, 1}) &&
-                        is_inside(input, 2, {&plane, 1})
-                    ? 0
-                    : 1;
+        const bool is_passed = is_inside(input, 0, {&plane, 1}) &&
+                               is_inside(input, 1, {&plane, 1}) && is_inside(input, 2, {&plane, 1});
+        cuts += is_passed ? 0U : 1U;
     }
     const T u(roundoff);
     const T rounding = T(kClipRoundings * static_cast<double>(cuts)) * u;

@@ -143,6 +143,7 @@ void query_features(Capabilities& c) {
         vkGetPhysicalDeviceFeatures2(c.physical, &features);
         c.triangle_fans = !c.portability_subset || portability.triangleFans == VK_TRUE;
         c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
+        c.clip = query_clip_support(c.physical, has_device_extension);
         if (features13.dynamicRendering != VK_TRUE) {
             missing.emplace_back("the device lacks the feature dynamicRendering");
         }
@@ -314,6 +315,9 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features.pNext = &features13;
     features.features.independentBlend = VK_TRUE;
     features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
+
+    ClipFeatures clip;
+    enable_clip_features(capabilities.clip, features, extensions, clip);
 
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;

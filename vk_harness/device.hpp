@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "vk_harness/clip_support.hpp"
 #include "vk_harness/instance.hpp"
 
 namespace vk_harness {
@@ -22,6 +23,7 @@ struct Capabilities {
     VkDeviceSize max_allocation = 0, total_memory = 0;  // bytes
     VkSampleCountFlags sample_counts = 0;  // all attachments, drawn and read sample by sample
     bool triangle_fans = true;
+    ClipSupport clip;
     bool portability_subset = false;
 };
 
