@@ -214,6 +214,13 @@ int winding(std::span<const FixedPoint> polygon, const FixedPoint& p) {
     return turns;
 }
 
+bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p) {
+    if (outline.mode == OutlineMode::snapped) {
+        return by_snapping(outline, setup.grid_step, p) == Coverage::must;
+    }
+    return outline.mode == OutlineMode::boxes && by_boxes(outline, p) == Coverage::must;
+}
+
 Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
     Classification out;
     if (setup.kind == TriangleSetup::Kind::nothing || !setup.window.may_touch(p)) {

@@ -334,6 +334,15 @@ bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p) {
     return contains(hull_set(boxes), p);
 }
 
+bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p) {
+    CoverageSets sets = coverage_set(outline, setup.grid_step);
+    return sets.has_must &&
+           std::any_of(sets.may.begin(), sets.may.end(),
+                       [&](const ConvexSet& s) { return contains(s, p); }) &&
+           std::all_of(sets.must.begin(), sets.must.end(),
+                       [&](const HalfPlane& h) { return h.at(p) >= 0; });
+}
+
 int winding(std::span<const FixedPoint> polygon, const FixedPoint& p) {
     int turns = 0;
     for (size_t i = 0; i < polygon.size(); ++i) {

@@ -37,6 +37,9 @@ std::vector<FixedPoint> convex_hull(std::vector<FixedPoint> points);
 // The closed convex hull of the boxes.
 ConvexSet hull_set(std::span<const Box> boxes);
 
+// Of one outline without its cuts.
+CoverageSets coverage_set(const Outline& outline, int64_t grid_step);
+
 CoverageSets coverage_sets(const TriangleSetup& setup);
 
 }  // namespace ref::fast
