@@ -11,6 +11,7 @@
 
 #include "cases/attributes.hpp"
 #include "cases/generate.hpp"
+#include "cases/load_clip.hpp"
 #include "cases/load_target.hpp"
 #include "cases/transform.hpp"
 #include "cases/vertices.hpp"
@@ -26,6 +27,8 @@ constexpr std::array<std::string_view, 3> kTopology = {"triangle-list", "triangl
 constexpr std::array<std::string_view, 3> kSpace = {"pixels", "ndc", "clip"};
 constexpr std::array<std::string_view, 4> kCull = {"none", "front", "back", "front-and-back"};
 constexpr std::array<std::string_view, 2> kFrontFace = {"counter-clockwise", "clockwise"};
+constexpr std::array<std::string_view, 2> kProvoking = {"first", "last"};
+constexpr std::array<std::string_view, 2> kDepthVolume = {"zero-to-one", "negative-one-to-one"};
 constexpr float kViewportLow = -32768;  // pixels; what common devices take
 constexpr float kViewportHigh = 32767;
 
@@ -35,11 +38,30 @@ class DrawLoader {
         : context_(context), table_(table), target_(target) {}
 
     Draw load(const std::string& name, std::vector<std::string>& notes) {
-        context_.known_keys(
-            table_, "[[draw]]",
-            {"topology", "space", "vertices", "generate", "indices", "viewport", "scissor", "cull",
-             "front_face", "attribute", "mirror", "rotate", "offset", "winding", "first", "order",
-             "sample_mask", "shader_mask", "min_sample_shading"});
+        context_.known_keys(table_, "[[draw]]",
+                            {"topology",
+                             "space",
+                             "vertices",
+                             "generate",
+                             "indices",
+                             "viewport",
+                             "scissor",
+                             "cull",
+                             "front_face",
+                             "provoking",
+                             "depth_volume",
+                             "clip_distance",
+                             "cull_distance",
+                             "attribute",
+                             "mirror",
+                             "rotate",
+                             "offset",
+                             "winding",
+                             "first",
+                             "order",
+                             "sample_mask",
+                             "shader_mask",
+                             "min_sample_shading"});
         draw_.where = table_.where;
         draw_.topology = enumerated("topology", kTopology, Topology::triangle_list);
         draw_.cull = enumerated("cull", kCull, CullMode::none);
@@ -55,10 +77,10 @@ class DrawLoader {
         move_vertices(context_, table_, space_, target_, vertices_);
         const std::optional<std::vector<uint32_t>> order = vertex_order(
             context_, table_, draw_.topology, draw_.indices.has_value(), vertices_.size());
+        const AttributeSource source{vertices_, space_, draw_.viewport, draw_.topology,
+                                     draw_.indices.has_value()};
         if (const TomlValue* value = table_.find("attribute")) {
-            draw_.attributes = read_attributes(
-                context_, *value,
-                {vertices_, space_, draw_.viewport, draw_.topology, draw_.indices.has_value()});
+            draw_.attributes = read_attributes(context_, *value, source);
         }
         if (!context_.errors().empty()) {
             return draw_;
@@ -68,6 +90,7 @@ class DrawLoader {
         if (!positions || !order) {
             return draw_;
         }
+        read_clipping(source, *positions, *order);
         draw_.positions = ordered(*positions, *order);
         for (Attribute& attribute : draw_.attributes) {
             attribute.values = ordered(attribute.values, *order);
@@ -94,6 +117,20 @@ class DrawLoader {
             result.push_back(values[i]);
         }
         return result;
+    }
+
+    // What a draw says of clipping and of its provoking vertices.
+    void read_clipping(const AttributeSource& source, const std::vector<glm::vec4>& positions,
+                       const std::vector<uint32_t>& order) {
+        draw_.provoking = enumerated("provoking", kProvoking, ProvokingVertex::first);
+        draw_.depth.negative_one_to_one = enumerated("depth_volume", kDepthVolume, size_t{0}) != 0;
+        draw_.distances = read_distances(context_, table_, source, positions);
+        if (!draw_.distances.clip.empty()) {
+            draw_.distances.clip = ordered(draw_.distances.clip, order);
+        }
+        if (!draw_.distances.cull.empty()) {
+            draw_.distances.cull = ordered(draw_.distances.cull, order);
+        }
     }
 
     void read_viewport() {

@@ -66,6 +66,25 @@ constexpr std::array kRules = {
          "Polygons are clipped to the view volume, so no sample outside the viewport's rectangle "
          "is covered.",
          "vertexpostproc-clipping", "15.6", "ref/clip.hpp"},
+    Rule{"clip.depth", Profile::vulkan, "The depth planes clip as the state says",
+         "z_m <= z <= w with z_m = 0, or -w with negativeOneToOne; with depth clipping disabled "
+         "neither plane cuts, and the borders of the viewport still keep w from being negative.",
+         "vertexpostproc-clipping", "15.4", "ref/clip.hpp"},
+    Rule{"clip.distance", Profile::vulkan, "Nothing is drawn where a clip distance is negative",
+         "The half-space is c_k(P) >= 0 with the distances of the vertices interpolated in "
+         "perspective. "
+         "Along the plane, within the precision of that arithmetic, both answers are right.",
+         "vertexpostproc-clipping-shader-outputs", "15.4.1", "ref/distance_cut.cpp"},
+    Rule{"clip.complement", Profile::vulkan,
+         "A clip distance and its negative share out a triangle",
+         "Drawn with d and again with -d, otherwise alike, a triangle that the plane cuts has each "
+         "of its samples hit exactly once along the cut, samples on the plane included.",
+         "vertexpostproc-clipping", "", "ref/narrowing.cpp"},
+    Rule{"cull.distance", Profile::vulkan,
+         "A triangle whose cull distances are all negative is not drawn",
+         "It is discarded if one of the cull distances is negative at all three vertices, and drawn "
+         "whole otherwise.",
+         "vertexpostproc-clipping", "15.4.2", "ref/coverage_setup.cpp"},
     Rule{"scissor.half-open", Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",
          "fragops-scissor", "15.14", "ref/expectation.hpp"},
@@ -110,6 +129,11 @@ constexpr std::array kRules = {
          "The provoking vertex is 3i in a list, i in a strip, i+1 in a fan; values are copied "
          "before clipping.",
          "drawing-primitive-topologies", "8.14", "ref/triangle.hpp"},
+    Rule{"provoking.last", Profile::vulkan,
+         "Flat values come from the last vertex, if the state says so",
+         "VK_EXT_provoking_vertex: 3i+2 in a list, i+2 in a strip and in a fan. The order of the "
+         "vertices, and with it facing, stays.",
+         "drawing-primitive-topologies", "", "ref/triangle.hpp"},
     Rule{"interp.linear", Profile::practice, "noperspective values are linear in framebuffer space",
          "a f_a + b f_b + c f_c with barycentric coordinates at the sample; binary32 budget of "
          "docs/design.md.",

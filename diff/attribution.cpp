@@ -91,6 +91,15 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
         if (t.culled) {
             return Cause{"face.cull", fmt::format("{} is culled", name_of(t))};
         }
+        if (t.culled_by_distance) {
+            return Cause{"cull.distance",
+                         fmt::format("a cull distance of {} is negative at all vertices",
+                                     name_of(t))};
+        }
+        if (t.clipped_by_distance && !t.on_edge) {
+            return Cause{"clip.distance",
+                         fmt::format("a clip distance of {} is negative here", name_of(t))};
+        }
         if (t.needs_clipping && !t.on_edge) {
             return Cause{"clip.volume", fmt::format("{} is clipped away here", name_of(t))};
         }
@@ -143,6 +152,12 @@ Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint
     }
     if (total >= must && total <= may) {
         // Each triangle alone would allow it: what is broken is that shared edges close exactly.
+        if (std::any_of(s.triangles.begin(), s.triangles.end(),
+                        [](const auto& t) { return t.near_distance; })) {
+            return {"clip.complement",
+                    "a clip distance and its negative are 0 here within their error: exactly one "
+                    "side draws the sample"};
+        }
         const std::string who = fmt::format("{} triangles meet here", may);
         if (level == cases::Profile::practice && ties.clipped > 0) {
             return {"cover.clipped-edge", who + " along edges they share, clipped"};
@@ -154,7 +169,9 @@ Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint
     }
     if (total < must) {
         const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
-        return {"cover.inside", fmt::format("{}: {}", name_of(*t), t->reason)};
+        return {t->has_distances ? "clip.distance" : "cover.inside",
+                fmt::format("{}: {}{}", name_of(*t), t->reason,
+                            t->has_distances ? ", and no clip distance is negative" : "")};
     }
     if (const std::optional<Cause> cause = cause_of_suppressed(s)) {
         return *cause;

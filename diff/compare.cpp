@@ -253,12 +253,12 @@ class Comparison {
             const bool same_primitive =
                 writer.draw == t.draw && capture_.has_primitive && writer.primitive == t.primitive;
             if (same_primitive && writer.provoking_vertex != t.provoking) {
-                finding.rule = "provoking.first";
+                finding.rule = provoking_rule(writer.draw);
                 finding.why = "the right triangle, but its flat inputs come from another vertex";
             }
         }
         if (!capture_.has_primitive && finding.rule == "order.primitive" && !is_provoking(writer)) {
-            finding.rule = "provoking.first";
+            finding.rule = provoking_rule(writer.draw);
             finding.why = "no triangle of that draw has this provoking vertex";
         }
         if (expected.writers_count > 4) {
@@ -277,6 +277,12 @@ class Comparison {
                           : fmt::format("draw {} (provoking vertex {})", writer.draw,
                                         writer.provoking_vertex);
         return finding;
+    }
+
+    const char* provoking_rule(uint32_t draw) const {
+        const bool is_last = draw < case_.draws.size() && case_.draws[draw].provoking ==
+                                                              cases::ProvokingVertex::last;
+        return is_last ? "provoking.last" : "provoking.first";
     }
 
     bool is_provoking(const Writer& writer) const {

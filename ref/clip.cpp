@@ -19,8 +19,9 @@
 //
 // where 1 + 16u covers the products of the at most seven roundings of a chain. The end points'
 // errors enter as weights (1-t) and t, which are off by |dt| times e1 + e2. Several planes: the
-// bound is carried from cut to cut. Devices cut in different orders; the larger bound of two orders
-// (x y z and z x y) is taken. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times |p/2|, plus the
+// bound is carried from cut to cut. Devices cut in different orders; the larger bound of the orders
+// x y z, z x y and, with clip distances, those first and last is taken. A clip distance is exact at
+// the triangle's vertices and cut like a coordinate. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times |p/2|, plus the
 // rounding of divide and transform (position.cpp). Bounds are symmetric in the two end points, so
 // that two triangles which share the edge get the same box for the same point.
 #include "ref/clip.hpp"
@@ -54,26 +55,44 @@ mpq_class round_up(const mpq_class& q) {
 struct Work {
     ClippedVertex v;
     std::array<mpq_class, 4> error;  // of the clip coordinates
+    // Clip distances are clipped like a fifth coordinate.
+    std::vector<mpq_class> distance, distance_error;
 };
 
-// The component that the plane bounds; the distance is w + c (low), w - c (high), z (z_low).
-size_t component_of(ClipPlane plane) {
-    return static_cast<size_t>(plane) / 2;
+bool is_user(ClipPlane plane) {
+    return plane >= ClipPlane::user_0;
+}
+size_t user_index(ClipPlane plane) {
+    return static_cast<size_t>(plane) - static_cast<size_t>(ClipPlane::user_0);
 }
 
-mpq_class distance(const std::array<mpq_class, 4>& p, ClipPlane plane) {
+// The component that a plane of the view volume bounds; the distance is w + c (low), w - c (high),
+// z (z_low).
+size_t component_of(ClipPlane plane) {
+    return plane == ClipPlane::z_low_symmetric ? kZ : static_cast<size_t>(plane) / 2;
+}
+
+mpq_class distance(const Work& p, ClipPlane plane) {
+    if (is_user(plane)) {
+        return p.distance[user_index(plane)];
+    }
+    const std::array<mpq_class, 4>& clip = p.v.clip;
     switch (plane) {
         case ClipPlane::x_low:
         case ClipPlane::y_low:
-            return p[kW] + p[component_of(plane)];
+        case ClipPlane::z_low_symmetric:
+            return clip[kW] + clip[component_of(plane)];
         case ClipPlane::z_low:
-            return p[kZ];
+            return clip[kZ];
         default:
-            return p[kW] - p[component_of(plane)];
+            return clip[kW] - clip[component_of(plane)];
     }
 }
 
 mpq_class distance_error(const Work& p, const mpq_class& d, ClipPlane plane, const mpq_class& u) {
+    if (is_user(plane)) {
+        return p.distance_error[user_index(plane)];
+    }
     if (plane == ClipPlane::z_low) {
         return p.error[kZ];
     }
@@ -98,16 +117,24 @@ Work cut(const Work& p1, const Work& p2, const mpq_class& d1, const mpq_class& d
     if (out.v.is_bounded) {
         dt = std::min<mpq_class>(dt, (rest * eta1 + t * eta2) / sure + 4 * u * larger);
     }
-    for (size_t c = 0; c < 4; ++c) {
-        const mpq_class& a = p1.v.clip[c];
-        const mpq_class& b = p2.v.clip[c];
-        out.v.clip[c] = rest * a + t * b;
+    const auto interpolate = [&](const mpq_class& a, const mpq_class& b, const mpq_class& ea,
+                                 const mpq_class& eb, mpq_class& value, mpq_class& error) {
+        value = rest * a + t * b;
         const mpq_class difference = abs(b - a);
         const mpq_class rounding =
             2 * u * std::max<mpq_class>(larger * difference, rest * abs(a) + t * abs(b));
-        const mpq_class own =
-            dt * (difference + p1.error[c] + p2.error[c]) + rounding + u * abs(out.v.clip[c]);
-        out.error[c] = round_up(std::max(p1.error[c], p2.error[c]) + own * (1 + 16 * u));
+        const mpq_class own = dt * (difference + ea + eb) + rounding + u * abs(value);
+        error = round_up(std::max(ea, eb) + own * (1 + 16 * u));
+    };
+    for (size_t c = 0; c < 4; ++c) {
+        interpolate(p1.v.clip[c], p2.v.clip[c], p1.error[c], p2.error[c], out.v.clip[c],
+                    out.error[c]);
+    }
+    out.distance.resize(p1.distance.size());
+    out.distance_error.resize(p1.distance.size());
+    for (size_t k = 0; k < p1.distance.size(); ++k) {
+        interpolate(p1.distance[k], p2.distance[k], p1.distance_error[k], p2.distance_error[k],
+                    out.distance[k], out.distance_error[k]);
     }
     return out;
 }
@@ -120,8 +147,8 @@ std::vector<Work> clip_by(const std::vector<Work>& polygon, ClipPlane plane, con
     for (size_t i = 0; i < n; ++i) {
         const Work& a = polygon[i];
         const Work& b = polygon[(i + 1) % n];
-        const mpq_class da = distance(a.v.clip, plane);
-        const mpq_class db = distance(b.v.clip, plane);
+        const mpq_class da = distance(a, plane);
+        const mpq_class db = distance(b, plane);
         if (da >= 0) {
             out.push_back(a);
             if (db < 0) {
@@ -151,7 +178,7 @@ std::vector<Work> clip_in_order(const std::vector<Work>& triangle, std::span<con
         }
         // Most planes cut nothing off, and rationals are costly to copy.
         if (std::any_of(polygon.begin(), polygon.end(),
-                        [&](const Work& p) { return distance(p.v.clip, plane) < 0; })) {
+                        [&](const Work& p) { return distance(p, plane) < 0; })) {
             polygon = clip_by(polygon, plane, u);
         }
     }
@@ -172,6 +199,9 @@ void widen_by(std::vector<Work>& polygon, const std::vector<Work>& other) {
             p.v.is_bounded = p.v.is_bounded && other[k].v.is_bounded;
             for (size_t c = 0; c < 4; ++c) {
                 p.error[c] = std::max(p.error[c], other[k].error[c]);
+            }
+            for (size_t c = 0; c < p.distance_error.size(); ++c) {
+                p.distance_error[c] = std::max(p.distance_error[c], other[k].distance_error[c]);
             }
         }
     }
@@ -201,6 +231,10 @@ void project(Work& p, const cases::Viewport& viewport, const mpq_class& u) {
     out.y = half_y * v.clip[kY] * out.inv_w + exact(viewport.y) + half_y;
     const mpq_class range = exact(viewport.max_depth) - exact(viewport.min_depth);
     out.z = range * v.clip[kZ] * out.inv_w + exact(viewport.min_depth);
+    v.ratio_error.resize(p.distance.size());
+    for (const mpq_class& d : p.distance) {
+        v.ratio.emplace_back(d * out.inv_w);
+    }
     if (v.original >= 0) {
         return;
     }
@@ -210,11 +244,51 @@ void project(Work& p, const cases::Viewport& viewport, const mpq_class& u) {
     }
     v.error.x = axis_error(p, kX, viewport.width, viewport.x, u);
     v.error.y = axis_error(p, kY, viewport.height, viewport.y, u);
+    for (size_t k = 0; k < p.distance.size(); ++k) {
+        v.ratio_error[k] = round_up((p.distance_error[k] + abs(v.ratio[k]) * p.error[kW]) /
+                                    (v.clip[kW] - p.error[kW]));
+    }
 }
 
 }  // namespace
 
+ClipVolume clip_volume_of(const cases::Draw& draw) {
+    ClipVolume v;
+    const auto add = [&v](ClipPlane plane) { v.planes[v.count++] = plane; };
+    add(ClipPlane::x_low);
+    add(ClipPlane::x_high);
+    add(ClipPlane::y_low);
+    add(ClipPlane::y_high);
+    // "depthClipEnable ... otherwise the inverse of depthClampEnable".
+    if (draw.depth.clip.value_or(!draw.depth.clamp)) {
+        add(draw.depth.negative_one_to_one ? ClipPlane::z_low_symmetric : ClipPlane::z_low);
+        add(ClipPlane::z_high);
+    }
+    v.view_count = v.count;
+    for (uint32_t k = 0; k < draw.distances.clip_count; ++k) {
+        add(static_cast<ClipPlane>(static_cast<uint32_t>(ClipPlane::user_0) + k));
+    }
+    return v;
+}
+
+ClipInput::ClipInput(const cases::Draw& draw, const std::array<uint32_t, 3>& vertex)
+    : distance_count(draw.distances.clip_count) {
+    for (size_t i = 0; i < 3; ++i) {
+        clip[i] = draw.positions[vertex[i]];
+        if (distance_count > 0) {
+            distance[i] = draw.distances.clip[vertex[i]];
+        }
+    }
+}
+
 bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes) {
+    ClipInput input;
+    input.clip[0] = clip;
+    return is_inside(input, 0, planes);
+}
+
+bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> planes) {
+    const glm::vec4& clip = triangle.clip[i];
     if (!std::isfinite(clip.x) || !std::isfinite(clip.y) || !std::isfinite(clip.z) ||
         !std::isfinite(clip.w)) {
         return false;
@@ -234,37 +308,51 @@ bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes) {
                 return clip.z >= 0;
             case ClipPlane::z_high:
                 return clip.z <= clip.w;
+            case ClipPlane::z_low_symmetric:
+                return clip.z >= -clip.w;
+            default:
+                return triangle.distance[i][static_cast<glm::vec4::length_type>(
+                           user_index(plane))] >= 0;
         }
-        return false;
     });
 }
 
-bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle) {
-    return std::any_of(std::begin(kViewVolume), std::end(kViewVolume), [&](ClipPlane plane) {
-        return std::none_of(triangle.begin(), triangle.end(), [&](const glm::vec4& v) {
-            return is_inside(v, {&plane, 1});
-        });
+bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,
+                          std::span<const ClipPlane> planes) {
+    return std::any_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
+        return !is_user(plane) &&
+               std::none_of(triangle.begin(), triangle.end(),
+                            [&](const glm::vec4& v) { return is_inside(v, {&plane, 1}); });
     });
 }
 
-std::vector<ClippedVertex> clip_triangle(const std::array<glm::vec4, 3>& triangle,
+std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle,
                                          const cases::Viewport& viewport, cases::Profile profile,
                                          std::span<const ClipPlane> planes) {
     const mpq_class u =
         profile == cases::Profile::vulkan ? mpq_class(1, 100000) : mpq_class(1, int64_t{1} << 24);
     std::vector<Work> start(3);
     for (size_t i = 0; i < 3; ++i) {
-        const glm::vec4& p = triangle[i];
+        const glm::vec4& p = triangle.clip[i];
         start[i].v.clip = {exact(p.x), exact(p.y), exact(p.z), exact(p.w)};
         start[i].v.weights[i] = 1;
         start[i].v.original = static_cast<int>(i);
         start[i].v.edge = static_cast<EdgeLabel>(i);
+        for (uint32_t k = 0; k < triangle.distance_count; ++k) {
+            start[i].distance.push_back(
+                exact(triangle.distance[i][static_cast<glm::vec4::length_type>(k)]));
+        }
+        start[i].distance_error.resize(triangle.distance_count);
     }
+    std::vector<Work> polygon = clip_in_order(start, planes, u);
     std::vector<ClipPlane> other_order(planes.begin(), planes.end());
     std::stable_partition(other_order.begin(), other_order.end(),
-                          [](ClipPlane p) { return component_of(p) == kZ; });
-    std::vector<Work> polygon = clip_in_order(start, planes, u);
+                          [](ClipPlane p) { return !is_user(p) && component_of(p) == kZ; });
     widen_by(polygon, clip_in_order(start, other_order, u));
+    if (std::any_of(planes.begin(), planes.end(), is_user)) {
+        std::stable_partition(other_order.begin(), other_order.end(), is_user);
+        widen_by(polygon, clip_in_order(start, other_order, u));
+    }
     std::vector<ClippedVertex> out;
     for (Work& p : polygon) {
         project(p, viewport, u);

@@ -142,6 +142,31 @@ Coverage by_boxes(const Outline& o, const FixedPoint& p) {
     return is_inside_all(o, p, 1) || is_inside_all(o, p, -1) ? Coverage::must : Coverage::either;
 }
 
+mpz_class to_mpz(Int128 v) {
+    const bool is_negative = v < 0;
+    const Int128 size = is_negative ? -v : v;
+    mpz_class out = static_cast<int64_t>(size >> 62);
+    out = (out << 62) + static_cast<int64_t>(size & ((Int128{1} << 62) - 1));
+    return is_negative ? mpz_class(-out) : out;
+}
+
+bool is_inside(const HalfPlane& h, const FixedPoint& p) {
+    return to_mpz(h.a) * p.x + to_mpz(h.b) * p.y + to_mpz(h.c) >= 0;
+}
+
+// What the clip distances that are tested at the sample leave of the outline's coverage.
+Coverage after_cuts(Coverage c, const Outline& o, const FixedPoint& p) {
+    for (const DistanceCut& cut : o.cuts) {
+        if (!is_inside(cut.may, p)) {
+            return Coverage::must_not;
+        }
+        if (c == Coverage::must && !is_inside(cut.must, p)) {
+            c = Coverage::either;
+        }
+    }
+    return c;
+}
+
 bool is_on_segment(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
     return edge(a, b, p) == 0 && dot(between(p, a), between(p, b)) <= 0;
 }
@@ -189,6 +214,13 @@ int winding(std::span<const FixedPoint> polygon, const FixedPoint& p) {
     return turns;
 }
 
+bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p) {
+    if (outline.mode == OutlineMode::snapped) {
+        return by_snapping(outline, setup.grid_step, p) == Coverage::must;
+    }
+    return outline.mode == OutlineMode::boxes && by_boxes(outline, p) == Coverage::must;
+}
+
 Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
     Classification out;
     if (setup.kind == TriangleSetup::Kind::nothing || !setup.window.may_touch(p)) {
@@ -210,6 +242,7 @@ Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
         } else if (o.mode == OutlineMode::boxes) {
             c = by_boxes(o, p);
         }
+        c = after_cuts(c, o, p);
         is_in_all = is_in_all && c == Coverage::must;
         is_in_some = is_in_some || c != Coverage::must_not;
         for (uint32_t i = 0; i < o.count; ++i) {

@@ -26,4 +26,7 @@ int winding(std::span<const FixedPoint> polygon, const FixedPoint& p);
 // Whether the triangle covers p under the top-left rule; vertices in either order.
 bool covers(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c, const FixedPoint& p);
 
+// True if the outline covers p but for its cuts, whatever positions the device uses.
+bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
+
 }  // namespace ref::exact

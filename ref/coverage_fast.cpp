@@ -232,6 +232,9 @@ bool is_narrow(const TriangleSetup& setup) {
     const auto outlines = setup.outlines(count);
     for (size_t k = 0; k < count; ++k) {
         const Outline& o = *outlines[k];
+        if (!o.cuts.empty()) {
+            return false;
+        }
         const bool has_parallel =
             std::any_of(o.must_test.begin(), o.must_test.begin() + o.must_count,
                         [](EdgeTest test) { return test == EdgeTest::parallel; });
@@ -332,6 +335,15 @@ bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p) {
         return false;
     }
     return contains(hull_set(boxes), p);
+}
+
+bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p) {
+    CoverageSets sets = coverage_set(outline, setup.grid_step);
+    return sets.has_must &&
+           std::any_of(sets.may.begin(), sets.may.end(),
+                       [&](const ConvexSet& s) { return contains(s, p); }) &&
+           std::all_of(sets.must.begin(), sets.must.end(),
+                       [&](const HalfPlane& h) { return h.at(p) >= 0; });
 }
 
 int winding(std::span<const FixedPoint> polygon, const FixedPoint& p) {

@@ -36,6 +36,9 @@ Classification classify(const TriangleSetup& setup, const FixedPoint& p);
 // True if p lies in the closed convex hull of the boxes.
 bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p);
 
+// True if the outline covers p but for its cuts, whatever positions the device uses.
+bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
+
 // How often the closed polygon runs around p, clockwise on screen positive; a p on its border
 // counts as the top-left rule has it.
 int winding(std::span<const FixedPoint> polygon, const FixedPoint& p);

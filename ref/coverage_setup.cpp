@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ref/distance_cut.hpp"
 #include "ref/facing.hpp"
 #include "ref/position_detail.hpp"
 #include "ref/wide.hpp"
@@ -210,7 +211,9 @@ struct Source {
     const Limits& limits;
     cases::Profile profile;
     VertexBoxes& boxes;
-    std::array<glm::vec4, 3> clip;
+    const Window& window;
+    ClipInput input;
+    ClipVolume volume;
 };
 
 // As for a vertex of the triangle (ref/position.hpp). x, y and z of a vertex of the view volume are
@@ -255,7 +258,7 @@ bool outline_of(const std::vector<ClippedVertex>& polygon, const Source& s, Outl
             box = s.boxes.of(s.triangle.draw, s.triangle.vertex[static_cast<size_t>(v.original)]);
         } else if (!v.is_bounded || !is_in_guaranteed_range(v, s.profile)) {
             return false;
-        } else if (is_crossing(s.clip, in, v.edge)) {
+        } else if (is_crossing(s.input.clip, in, v.edge)) {
             box = box_around_crossing(v.position.x, v.position.y, v.error, s.draw.viewport,
                                       s.limits, s.profile);
             out.is_on_grid = false;
@@ -273,10 +276,12 @@ bool outline_of(const std::vector<ClippedVertex>& polygon, const Source& s, Outl
     return true;
 }
 
-bool unclipped_outline(const Source& s, Outline& out) {
+// The outline cut by `planes`, which holds no border of the viewport or all of them.
+bool outline_by(const Source& s, std::span<const ClipPlane> planes, Outline& out) {
     out.count = 0;
-    if (std::all_of(s.clip.begin(), s.clip.end(),
-                    [](const glm::vec4& v) { return is_inside(v, kDepthPlanes); })) {
+    const std::array<size_t, 3> all{0, 1, 2};
+    if (std::all_of(all.begin(), all.end(),
+                    [&](size_t i) { return is_inside(s.input, i, planes); })) {
         for (uint32_t i = 0; i < 3; ++i) {
             const std::optional<Box>& box = s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
             if (!box) {
@@ -288,7 +293,70 @@ bool unclipped_outline(const Source& s, Outline& out) {
         out.count = 3;
         return true;
     }
-    return outline_of(clip_triangle(s.clip, s.draw.viewport, s.profile, kDepthPlanes), s, out);
+    return outline_of(clip_triangle(s.input, s.draw.viewport, s.profile, planes), s, out);
+}
+
+// The outline cut by the planes of the view volume, the clip distances tested at each sample. False
+// if some vertex has no box.
+bool tested_outline(const Source& s, std::span<const ClipPlane> planes, Outline& out,
+                    bool& is_bounded) {
+    const std::vector<ClippedVertex> polygon =
+        clip_triangle(s.input, s.draw.viewport, s.profile, planes);
+    if (!outline_of(polygon, s, out)) {
+        return false;
+    }
+    CutSource source{s.input, s.draw.viewport, s.profile, {}, s.window};
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& v = s.input.clip[i];
+        source.vertex[i] = v.w < 0
+                               ? position_box(-v, s.draw.viewport, s.limits, s.profile)
+                               : s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
+    }
+    const auto cuts = distance_cuts(source, polygon, out.vertices());
+    is_bounded = cuts.has_value();
+    out.cuts = cuts.value_or(std::vector<DistanceCut>{});
+    return true;
+}
+
+// What does not follow from the vertices: an outline that may be drawn or not.
+constexpr DistanceCut kOpenCut = {{0, 0, 1}, {0, 0, -1}};
+
+// Adds the outlines of a device that tests the distances; false if some vertex has no box.
+bool add_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
+    std::array<std::span<const ClipPlane>, 2> volumes{s.volume.depth(), s.volume.view()};
+    const std::array<size_t, 3> all{0, 1, 2};
+    const bool leaves_view = !std::all_of(all.begin(), all.end(), [&](size_t i) {
+        return is_inside(s.input, i, s.volume.view());
+    });
+    bool is_defined = true;
+    for (const bool is_view : {false, true}) {
+        if (is_view ? !leaves_view : !t.has_outline) {
+            continue;
+        }
+        Outline o;
+        bool is_bounded = true;
+        if (!tested_outline(s, volumes[is_view ? 1 : 0], o, is_bounded)) {
+            is_defined = is_defined && !is_view;
+            continue;
+        }
+        if (!is_bounded) {
+            o.cuts = {kOpenCut};
+        }
+        const bool is_cut = std::any_of(all.begin(), all.end(), [&](size_t i) {
+            return !is_inside(s.input, i, s.volume.all().subspan(s.volume.view_count));
+        });
+        if (o.cuts.empty() && !is_cut) {
+            continue;  // the same as the outline that is cut by the distances
+        }
+        choose_mode(o, t.grid_step, s.profile);
+        signs |= signs_of(o, t.grid_step);
+        (is_view ? t.tested_clipped : t.tested_unclipped) = static_cast<int8_t>(t.tested.size());
+        t.tested.push_back(std::move(o));
+    }
+    if (!leaves_view) {
+        t.tested_clipped = t.tested_unclipped;
+    }
+    return is_defined;
 }
 
 void apply_facing(TriangleSetup& t, const AreaSigns& signs, const cases::Draw& draw) {
@@ -309,6 +377,18 @@ void apply_facing(TriangleSetup& t, const AreaSigns& signs, const cases::Draw& d
     }
 }
 
+// "discarded if ... negative for all of the vertices".
+bool is_culled_by_distance(const cases::Draw& draw, const Triangle& triangle) {
+    for (uint32_t k = 0; k < draw.distances.cull_count; ++k) {
+        if (std::all_of(triangle.vertex.begin(), triangle.vertex.end(), [&](uint32_t v) {
+                return draw.distances.cull[v][static_cast<glm::vec4::length_type>(k)] < 0;
+            })) {
+            return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 bool Window::may_touch(const FixedPoint& p) const {
@@ -322,14 +402,17 @@ bool Window::must_touch(const FixedPoint& p) const {
     return may_touch(p) && core_x.contains(p.x) && core_y.contains(p.y);
 }
 
-std::array<const Outline*, 2> TriangleSetup::outlines(size_t& count) const {
-    std::array<const Outline*, 2> out{};
+std::array<const Outline*, 4> TriangleSetup::outlines(size_t& count) const {
+    std::array<const Outline*, 4> out{};
     count = 0;
     if (has_outline) {
         out[count++] = &unclipped;
     }
     if (is_clipped) {
         out[count++] = &clipped;
+    }
+    for (const Outline& o : tested) {
+        out[count++] = &o;
     }
     return out;
 }
@@ -371,16 +454,13 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
     TriangleSetup t;
     t.window = window;
     t.grid_step = int64_t{1} << (kFixedBits - limits.subpixel_bits);
-    const auto& position = draw.positions;
-    Source s{
-        draw,
-        triangle,
-        limits,
-        profile,
-        boxes,
-        {position[triangle.vertex[0]], position[triangle.vertex[1]], position[triangle.vertex[2]]}};
+    const Source s{draw,           triangle,
+                   limits,         profile,
+                   boxes,          window,
+                   {draw, triangle.vertex}, clip_volume_of(draw)};
+    const std::array<glm::vec4, 3>& clip = s.input.clip;
     AreaSigns signs;
-    const bool is_finite = std::all_of(s.clip.begin(), s.clip.end(), [](const glm::vec4& v) {
+    const bool is_finite = std::all_of(clip.begin(), clip.end(), [](const glm::vec4& v) {
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
     });
     if (!is_finite) {
@@ -390,24 +470,26 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
         apply_facing(t, {true, true, true}, draw);
         return t;
     }
-    if (is_trivially_outside(s.clip)) {
+    if (is_trivially_outside(clip, s.volume.view()) || is_culled_by_distance(draw, triangle)) {
         return t;
     }
     t.kind = TriangleSetup::Kind::outlines;
-    t.is_clipped =
-        !std::all_of(s.clip.begin(), s.clip.end(), [](const glm::vec4& v) { return is_inside(v); });
-    t.has_outline = unclipped_outline(s, t.unclipped);
+    const std::array<size_t, 3> all{0, 1, 2};
+    t.is_clipped = !std::all_of(all.begin(), all.end(), [&](size_t i) {
+        return is_inside(s.input, i, s.volume.all());
+    });
+    t.has_outline = outline_by(s, s.volume.without_borders(), t.unclipped);
     if (t.has_outline) {
         choose_mode(t.unclipped, t.grid_step, profile);
         signs |= signs_of(t.unclipped, t.grid_step);
     }
     // A vertex beyond the range takes what is cut from its edges with it.
-    const bool is_in_range = std::all_of(s.clip.begin(), s.clip.end(), [&](const glm::vec4& v) {
+    const bool is_in_range = std::all_of(clip.begin(), clip.end(), [&](const glm::vec4& v) {
         return is_in_guaranteed_range(v, profile);
     });
     bool is_defined = is_in_range && (t.has_outline || t.is_clipped);
     if (t.is_clipped && is_in_range) {
-        is_defined = outline_of(clip_triangle(s.clip, draw.viewport, profile), s, t.clipped);
+        is_defined = outline_by(s, s.volume.all(), t.clipped);
         const bool is_fractional = t.window.zone_x.low != t.window.core_x.low ||
                                    t.window.zone_y.low != t.window.core_y.low;
         if (is_fractional && !t.has_outline) {
@@ -418,8 +500,11 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
             signs |= signs_of(t.clipped, t.grid_step);
         }
     }
+    if (is_defined && s.volume.has_user_planes()) {
+        is_defined = add_tested(s, t, signs);
+    }
     const bool crosses_eye =
-        std::any_of(s.clip.begin(), s.clip.end(), [](const glm::vec4& v) { return !(v.w > 0); });
+        std::any_of(clip.begin(), clip.end(), [](const glm::vec4& v) { return !(v.w > 0); });
     if (!is_defined) {
         t.kind = TriangleSetup::Kind::anywhere;
         signs = {true, true, true};

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What of a triangle does not depend on the sample. A device may draw a triangle from one of up to
-// two outlines: the triangle as it is (cut by the depth planes only, if it has to be: a guard band
+// four outlines: the triangle as it is (cut by the depth planes only, if it has to be: a guard band
 // with an exact viewport scissor), and, if it leaves the view volume, the polygon clipped against
-// all planes. Each vertex of an outline is a box of positions.
+// all planes; either of them cut by the clip distances, or not cut by them and the distances tested
+// at each sample. Each vertex of an outline is a box of positions.
 #pragma once
 
 #include <array>
@@ -21,6 +22,7 @@
 #include "ref/position.hpp"
 #include "ref/sample.hpp"
 #include "ref/triangle.hpp"
+#include "ref/wide.hpp"
 
 namespace ref {
 
@@ -40,6 +42,12 @@ enum class EdgeTest : uint8_t {
     top_left,  // between two points that every device has (profile direct3d): the top-left rule
 };
 
+// A clip distance that is tested at each sample (ref/distance_cut.hpp): inside `may` it may pass,
+// inside `must` it passes whatever the device's freedom.
+struct DistanceCut {
+    HalfPlane may, must;
+};
+
 struct Outline {
     OutlineMode mode = OutlineMode::empty;
     bool is_on_grid = true;                             // every corner of the boxes is a grid point
@@ -53,6 +61,7 @@ struct Outline {
     // Of the edge from box i to the next.
     std::array<EdgeTest, kMaxClippedVertices> must_test{};
     std::array<int8_t, kMaxClippedVertices> tie_side{};  // top_left: sign of E for the other boxes
+    std::vector<DistanceCut> cuts;
 
     std::span<const Box> vertices() const { return {boxes.data(), count}; }
     std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }
@@ -87,10 +96,14 @@ struct TriangleSetup {
         anywhere,  // undefined position: any sample of the window, or none
     };
     Kind kind = Kind::nothing;
-    bool is_clipped = false;   // a vertex lies outside the view volume
+    bool is_clipped = false;   // a vertex lies outside the clip volume
     bool has_outline = false;  // `unclipped` is meaningful
-    Outline unclipped;         // cut by the depth planes only
+    Outline unclipped;         // cut by the depth planes and clip distances only
     Outline clipped;           // by all planes; meaningful if is_clipped
+    // Not cut by the clip distances, which are tested at each sample; empty where no distance
+    // matters.
+    std::vector<Outline> tested;
+    int8_t tested_unclipped = -1, tested_clipped = -1;  // into `tested`; -1: as if cut
     int64_t grid_step = 1;     // S47.16 units of one subpixel
     int orientation = 0;       // sign of the area for every choice of positions; 0 if it depends
     Facing facing = Facing::depends;  // before culling
@@ -99,8 +112,8 @@ struct TriangleSetup {
     bool may_be_culled = false;
     Window window;
 
-    // The outlines that a device may use, one or two.
-    std::array<const Outline*, 2> outlines(size_t& count) const;
+    // The outlines that a device may use, one to four.
+    std::array<const Outline*, 4> outlines(size_t& count) const;
 };
 
 // The boxes of a draw's vertices, computed when first asked for.

@@ -118,7 +118,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
         fast::scan(setups.back(), t, c.target, spans);
     }
     HitTable table(c.target, spans);
-    Narrowing narrowing(c, profile, out.triangles, setups, {fast::is_in_hull, fast::winding});
+    Narrowing narrowing(c, profile, out.triangles, setups, {fast::is_in_hull, fast::winding, fast::is_inside_whole});
     out.samples.resize(size_t{c.target.width} * c.target.height * c.target.samples);
     out.writers.reserve(table.size());
     size_t at = 0;

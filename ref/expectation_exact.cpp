@@ -19,7 +19,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
         const cases::Draw& draw = c.draws[t.draw];
         setups.push_back(set_up(c, t, limits, profile, boxes, window_of(c, draw, profile)));
     }
-    Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding});
+    Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding, is_inside_whole});
     for (uint32_t j = 0; j < c.target.height; ++j) {
         for (uint32_t i = 0; i < c.target.width; ++i) {
             for (uint32_t s = 0; s < c.target.samples; ++s) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ref/clip.hpp"
+
 namespace ref {
 
 namespace {
@@ -22,6 +24,17 @@ cases::Case alone(const cases::Case& c, const Triangle& t, SampleId sample) {
     single.cull = draw.cull;
     single.front_face = draw.front_face;
     single.multisample = draw.multisample;
+    single.depth = draw.depth;
+    single.distances.clip_count = draw.distances.clip_count;
+    single.distances.cull_count = draw.distances.cull_count;
+    for (const uint32_t v : t.vertex) {
+        if (draw.distances.clip_count > 0) {
+            single.distances.clip.push_back(draw.distances.clip[v]);
+        }
+        if (draw.distances.cull_count > 0) {
+            single.distances.cull.push_back(draw.distances.cull[v]);
+        }
+    }
     const auto x = static_cast<int64_t>(sample.x);
     const auto y = static_cast<int64_t>(sample.y);
     const bool inside = x >= draw.scissor.x && x < draw.scissor.x + int64_t{draw.scissor.width} &&
@@ -60,8 +73,38 @@ EdgeKind kind_of(FixedPoint a, FixedPoint b) {
     return b.y < a.y ? EdgeKind::left : EdgeKind::right;
 }
 
-bool inside_view_volume(const glm::vec4& v) {
-    return v.w > 0 && std::abs(v.x) <= v.w && std::abs(v.y) <= v.w && v.z >= 0 && v.z <= v.w;
+Coverage coverage_of(const HitBounds& bounds) {
+    return bounds.total_min > 0   ? Coverage::must
+           : bounds.total_max > 0 ? Coverage::either
+                                  : Coverage::must_not;
+}
+
+// What the distances of a triangle alone change.
+void explain_distances(const cases::Case& single, const Limits& limits, cases::Profile profile,
+                       size_t index, TriangleExplanation& e) {
+    const cases::ClipDistances& distances = single.draws[0].distances;
+    const auto without = [&](bool clip, bool cull) {
+        cases::Case other = single;
+        cases::ClipDistances& d = other.draws[0].distances;
+        if (clip) {
+            d.clip_count = 0;
+            d.clip.clear();
+        }
+        if (cull) {
+            d.cull_count = 0;
+            d.cull.clear();
+        }
+        return coverage_of(expect(other, limits, profile).samples[index].hits);
+    };
+    e.has_distances = distances.clip_count > 0;
+    if (distances.cull_count > 0 && e.coverage == Coverage::must_not) {
+        e.culled_by_distance = without(false, true) != Coverage::must_not;
+    }
+    if (distances.clip_count > 0 && e.coverage != Coverage::must) {
+        const Coverage whole = without(true, false);
+        e.clipped_by_distance = e.coverage == Coverage::must_not && whole != Coverage::must_not;
+        e.near_distance = e.coverage == Coverage::either && whole == Coverage::must;
+    }
 }
 
 // Rough screen distance test that decides which triangles an explanation mentions at all.
@@ -100,6 +143,15 @@ std::string reason_for(const TriangleExplanation& t) {
     }
     if (t.culled) {
         return "the triangle is culled";
+    }
+    if (t.culled_by_distance) {
+        return "a cull distance is negative at all three vertices";
+    }
+    if (t.clipped_by_distance) {
+        return "a clip distance is negative at the sample";
+    }
+    if (t.near_distance) {
+        return "inside the triangle, but a clip distance is 0 within its error at the sample";
     }
     if (t.edges.empty()) {
         return "a vertex lies behind the eye or beyond 2^32 pixels; the clipped polygon decides";
@@ -217,10 +269,8 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
         e.index = i;
         e.triangle = t;
         const cases::Case single = alone(c, t, sample);
-        const HitBounds bounds = expect(single, limits, profile).samples[index].hits;
-        e.coverage = bounds.total_min > 0   ? Coverage::must
-                     : bounds.total_max > 0 ? Coverage::either
-                                            : Coverage::must_not;
+        e.coverage = coverage_of(expect(single, limits, profile).samples[index].hits);
+        explain_distances(single, limits, profile, index, e);
         if (draw.cull != cases::CullMode::none && e.coverage == Coverage::must_not) {
             cases::Case unculled = single;
             unculled.draws[0].cull = cases::CullMode::none;
@@ -230,7 +280,7 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
         e.on_grid = true;
         for (size_t k = 0; k < 3; ++k) {
             const glm::vec4& clip = draw.positions[t.vertex[k]];
-            e.needs_clipping = e.needs_clipping || !inside_view_volume(clip);
+            e.needs_clipping = e.needs_clipping || !is_inside(clip, clip_volume_of(draw).view());
             if (is_projectable(clip)) {
                 snapped[k] = snap_nearest(clip, draw.viewport, limits);
             }

@@ -44,6 +44,10 @@ struct TriangleExplanation {
     bool in_viewport = true;             // of its draw
     bool in_mask = true;                 // of its draw
     bool needs_clipping = false;         // a vertex lies outside the view volume
+    bool has_distances = false;          // of clipping
+    bool culled_by_distance = false;     // it could cover the sample but for its cull distances
+    bool clipped_by_distance = false;    // or but for its clip distances
+    bool near_distance = false;          // only its clip distances leave the sample open
     bool has_area = true;                // with nearest snapping
     bool on_edge = false;                // some E is 0 and no E is negative, with nearest snapping
     bool on_vertex = false;              // the sample equals a snapped vertex

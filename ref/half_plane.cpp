@@ -162,6 +162,20 @@ void add_snapped(const Outline& o, int64_t step, CoverageSets& out) {
     }
 }
 
+void add_outline(const Outline& o, int64_t step, CoverageSets& out) {
+    switch (o.mode) {
+        case OutlineMode::empty:
+            out.has_must = false;
+            break;
+        case OutlineMode::snapped:
+            add_snapped(o, step, out);
+            break;
+        case OutlineMode::boxes:
+            add_boxes(o, out);
+            break;
+    }
+}
+
 }  // namespace
 
 std::vector<FixedPoint> convex_hull(std::vector<FixedPoint> points) {
@@ -207,6 +221,12 @@ ConvexSet hull_set(std::span<const Box> boxes) {
     return set;
 }
 
+CoverageSets coverage_set(const Outline& outline, int64_t grid_step) {
+    CoverageSets out;
+    add_outline(outline, grid_step, out);
+    return out;
+}
+
 CoverageSets coverage_sets(const TriangleSetup& setup) {
     CoverageSets out;
     size_t count = 0;
@@ -214,16 +234,13 @@ CoverageSets coverage_sets(const TriangleSetup& setup) {
     out.has_must = count > 0;
     for (size_t k = 0; k < count; ++k) {
         const Outline& o = *outlines[k];
-        switch (o.mode) {
-            case OutlineMode::empty:
-                out.has_must = false;
-                break;
-            case OutlineMode::snapped:
-                add_snapped(o, setup.grid_step, out);
-                break;
-            case OutlineMode::boxes:
-                add_boxes(o, out);
-                break;
+        const size_t first = out.may.size();
+        add_outline(o, setup.grid_step, out);
+        for (const DistanceCut& cut : o.cuts) {
+            for (size_t i = first; i < out.may.size(); ++i) {
+                out.may[i].planes.push_back(cut.may);
+            }
+            out.must.push_back(cut.must);
         }
     }
     return out;

@@ -12,13 +12,6 @@
 
 namespace ref::fast {
 
-// Inside where a x + b y + c >= 0. With positions below 2^50: |a|, |b| < 2^51, |c| < 2^102.
-struct HalfPlane {
-    Int128 a = 0, b = 0, c = 0;
-    Int128 at(const FixedPoint& p) const { return a * p.x + b * p.y + c; }
-    friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
-};
-
 // E_ab(p) >= 0 or, strictly, E_ab(p) > 0: over the integers E - 1 >= 0.
 inline HalfPlane right_of(const FixedPoint& a, const FixedPoint& b, bool is_strict) {
     return {Int128{a.y} - b.y, Int128{b.x} - a.x,
@@ -43,6 +36,9 @@ std::vector<FixedPoint> convex_hull(std::vector<FixedPoint> points);
 
 // The closed convex hull of the boxes.
 ConvexSet hull_set(std::span<const Box> boxes);
+
+// Of one outline without its cuts.
+CoverageSets coverage_set(const Outline& outline, int64_t grid_step);
 
 CoverageSets coverage_sets(const TriangleSetup& setup);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -40,18 +41,23 @@ void add_single(HitBounds& b, const TriangleSetup& t, bool is_must) {
     }
 }
 
-// `count` of `front` + `back` triangles.
-void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t count) {
-    const uint32_t front_min = count > back ? count - back : 0;
-    const uint32_t front_max = std::min(front, count);
-    b.total_min += count;
-    b.total_max += count;
+// From `least` to `most` of `front` + `back` triangles.
+void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t least, uint32_t most) {
+    const auto beyond = [](uint32_t n, uint32_t others) { return n > others ? n - others : 0; };
+    const uint32_t front_max = std::min(front, most);
+    const uint32_t back_max = std::min(back, most);
+    const uint32_t front_min = beyond(least, back);
+    const uint32_t back_min = beyond(least, front);
+    b.total_min += least;
+    b.total_max += most;
     b.front_min += front_min;
     b.front_max += front_max;
-    b.back_min += count - front_max;
-    b.back_max += count - front_min;
-    b.signed_min += static_cast<int32_t>(2 * front_min) - static_cast<int32_t>(count);
-    b.signed_max += static_cast<int32_t>(2 * front_max) - static_cast<int32_t>(count);
+    b.back_min += back_min;
+    b.back_max += back_max;
+    // The most of one kind, and of the other what is then missing from the least.
+    b.signed_min += static_cast<int32_t>(beyond(least, back_max)) - static_cast<int32_t>(back_max);
+    b.signed_max +=
+        static_cast<int32_t>(front_max) - static_cast<int32_t>(beyond(least, front_max));
 }
 
 }  // namespace
@@ -64,6 +70,7 @@ Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
       triangles_(triangles),
       setups_(setups),
       predicates_(predicates),
+      complements_(complements_of(c, triangles)),
       vertex_numbers_(c.draws.size()) {}
 
 uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
@@ -76,6 +83,13 @@ uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
         const float bits[] = {p.x, p.y, p.z, p.w, v.x, v.y, v.width, v.height};
         std::string key(sizeof bits, '\0');
         std::memcpy(key.data(), bits, sizeof bits);
+        if (d.distances.clip_count > 0) {
+            // An edge that is cut elsewhere is another edge.
+            const glm::vec4& c = d.distances.clip[vertex];
+            const float distances[] = {c.x, c.y, c.z, c.w};
+            key.append(reinterpret_cast<const char*>(distances),
+                       d.distances.clip_count * sizeof(float));
+        }
         const auto next = static_cast<uint32_t>(numbers_.size() + 1);
         numbers[vertex] = numbers_.try_emplace(std::move(key), next).first->second;
     }
@@ -99,6 +113,10 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
     const auto outlines = setup.outlines(count);
     for (size_t k = 0; k < count; ++k) {
         const Outline& o = *outlines[k];
+        if (std::any_of(o.cuts.begin(), o.cuts.end(),
+                        [&](const DistanceCut& cut) { return cut.must.at(p) < 0; })) {
+            return false;  // a clip distance decides
+        }
         for (uint32_t i = 0; i < o.count; ++i) {
             const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
             // The pairwise rule contradicts itself where many triangles meet in a vertex.
@@ -138,20 +156,30 @@ int Narrowing::winding_of(const FixedPoint& p, const TriangleSetup& setup,
 
 int Narrowing::count_of(const FixedPoint& p, std::span<const Hit> hits,
                         const std::vector<uint32_t>& members) const {
-    int unclipped = 0;
-    int clipped = 0;
+    // Cut by the depth planes or by all, by the clip distances or not: every member in the same way.
+    std::array<int, 4> count{};
     bool has_unclipped = true;
     for (const uint32_t m : members) {
         const TriangleSetup& setup = setups_[hits[m].triangle];
         const int open = setup.has_outline ? winding_of(p, setup, setup.unclipped) : 0;
+        const int cut = setup.is_clipped ? winding_of(p, setup, setup.clipped) : open;
+        const auto tested = [&](int8_t index, int otherwise) {
+            return index < 0 ? otherwise
+                             : winding_of(p, setup, setup.tested[static_cast<size_t>(index)]);
+        };
+        const int tested_open = tested(setup.tested_unclipped, open);
         has_unclipped = has_unclipped && setup.has_outline;
-        unclipped += open;
-        clipped += setup.is_clipped ? winding_of(p, setup, setup.clipped) : open;
+        count[0] += cut;
+        count[1] += tested(setup.tested_clipped, cut);
+        count[2] += open;
+        count[3] += tested_open;
     }
-    if (has_unclipped && unclipped != clipped) {
+    const size_t models = has_unclipped ? 4 : 2;
+    if (std::any_of(count.begin(), count.begin() + models,
+                    [&](int c) { return c != count[0]; })) {
         return -1;
     }
-    return clipped >= 0 && clipped <= static_cast<int>(members.size()) ? clipped : -1;
+    return count[0] >= 0 && count[0] <= static_cast<int>(members.size()) ? count[0] : -1;
 }
 
 uint64_t Narrowing::edge_number(const Triangle& triangle, uint32_t edge) {
@@ -171,13 +199,65 @@ const std::vector<uint32_t>& Narrowing::triangles_at(uint64_t edge) {
     return edge_triangles_[edge];
 }
 
+bool Narrowing::is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const {
+    if (setup.kind != TriangleSetup::Kind::outlines || setup.may_be_culled ||
+        setup.tested.empty() || !setup.window.must_touch(p)) {
+        return false;
+    }
+    constexpr EdgeLabel kFirstUserEdge =
+        kFirstClipEdge + static_cast<EdgeLabel>(ClipPlane::user_0);
+    size_t count = 0;
+    const auto outlines = setup.outlines(count);
+    for (size_t k = 0; k < count; ++k) {
+        const Outline& o = *outlines[k];
+        for (uint32_t i = 0; i < o.count; ++i) {
+            const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
+            if (o.edge[i] < kFirstUserEdge && predicates_.is_in_hull(ends, p)) {
+                return false;
+            }
+        }
+    }
+    return std::all_of(setup.tested.begin(), setup.tested.end(), [&](const Outline& o) {
+        return predicates_.is_inside_whole(setup, o, p);
+    });
+}
+
+std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p,
+                                                             std::span<const Hit> hits,
+                                                             std::vector<bool>& is_paired) const {
+    std::vector<Fixed> out;
+    if (complements_.empty()) {
+        return out;
+    }
+    for (uint32_t m = 0; m < hits.size(); ++m) {
+        const Complement& c = complements_[hits[m].triangle];
+        for (uint32_t n = m + 1; n < hits.size() && c.partner != kNoPartner; ++n) {
+            if (hits[n].triangle != c.partner) {
+                continue;
+            }
+            const auto is_must = [&](uint32_t k) { return hits[k].coverage == Coverage::must; };
+            const bool is_hit =
+                is_must(m) || is_must(n) ||
+                (c.fills && is_inside_whole(p, setups_[hits[m].triangle]) &&
+                 is_inside_whole(p, setups_[hits[n].triangle]));
+            out.push_back({{m, n}, 1, is_hit ? 1U : 0U});
+            is_paired[m] = is_paired[n] = true;
+        }
+    }
+    return out;
+}
+
 std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
                                                     std::span<const Hit> hits) {
+    std::vector<bool> is_paired(hits.size(), false);
+    std::vector<Fixed> out = complementary_pairs(p, hits, is_paired);
     std::vector<bool> is_open(hits.size());
     for (size_t m = 0; m < hits.size(); ++m) {
-        is_open[m] = hits[m].coverage == Coverage::either;
+        is_open[m] = hits[m].coverage == Coverage::either && !is_paired[m];
     }
-    std::vector<Fixed> out = closed_sets(p, hits, is_open);
+    std::vector<Fixed> closed = closed_sets(p, hits, is_open);
+    out.insert(out.end(), std::make_move_iterator(closed.begin()),
+               std::make_move_iterator(closed.end()));
     if (profile_ == cases::Profile::direct3d) {
         add_decided_sets(p, hits, out);
     }
@@ -229,7 +309,7 @@ void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
             }
         }
         if (!open.members.empty() && set.count >= sure && set.count - sure <= open.members.size()) {
-            open.count = set.count - sure;
+            open.count = open.least = set.count - sure;
             sets.push_back(std::move(open));
         }
     }
@@ -289,7 +369,7 @@ std::vector<Narrowing::Fixed> Narrowing::closed_sets(const FixedPoint& p, std::s
     }
     std::erase_if(out, [&](Fixed& set) {
         const int count = count_of(p, hits, set.members);
-        set.count = static_cast<uint32_t>(std::max(count, 0));
+        set.count = set.least = static_cast<uint32_t>(std::max(count, 0));
         return count < 0;
     });
     return out;
@@ -303,7 +383,8 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
     const auto open = std::count_if(hits.begin(), hits.end(),
                                     [](const Hit& h) { return h.coverage == Coverage::either; });
     // Alone, an open triangle can only be settled by partners that are decided.
-    if (open < (profile_ == cases::Profile::direct3d ? 1 : 2)) {
+    const auto least = profile_ == cases::Profile::direct3d || !complements_.empty() ? 1 : 2;
+    if (open < least) {
         uint32_t first = 0;
         for (uint32_t m = 0; m < hits.size(); ++m) {
             const bool is_must = hits[m].coverage == Coverage::must;
@@ -327,12 +408,14 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
         for (const uint32_t m : set.members) {
             is_counted[m] = true;
             front += setups_[hits[m].triangle].can_be_front ? 1U : 0U;
-            coverage[m] = set.count == 0 ? Coverage::must_not : Coverage::either;
+            if (set.count == 0) {
+                coverage[m] = Coverage::must_not;
+            }
         }
         const auto size = static_cast<uint32_t>(set.members.size());
-        add_set(out.hits, front, size - front, set.count);
-        if (set.count > 0) {
-            first = std::max(first, set.members[set.count - 1]);
+        add_set(out.hits, front, size - front, set.least, set.count);
+        if (set.least > 0) {
+            first = std::max(first, set.members[set.least - 1]);
         }
     }
     for (uint32_t m = 0; m < hits.size(); ++m) {

@@ -14,6 +14,10 @@
 // Rasterization") keeps the number. So p is hit that often by K. At profile
 // direct3d some triangles of K may be decided by themselves, those that do not cover p included;
 // the others share what is left of the number.
+//
+// Complementary clip distances (ref/complement.hpp). Of a triangle and the same one with negated
+// distances never both cover p; with a single distance one of them does, if p lies so deep in the
+// triangle that only the distance leaves it open.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +28,7 @@
 
 #include "cases/case.hpp"
 #include "cases/profile.hpp"
+#include "ref/complement.hpp"
 #include "ref/coverage_setup.hpp"
 #include "ref/expectation.hpp"
 #include "ref/triangle.hpp"
@@ -43,6 +48,8 @@ struct Predicates {
     // How often the polygon runs around p, clockwise positive, with the top-left rule on its
     // border.
     int (*winding)(std::span<const FixedPoint>, const FixedPoint&);
+    // An outline covers p but for its cuts, whatever positions the device uses.
+    bool (*is_inside_whole)(const TriangleSetup&, const Outline&, const FixedPoint&);
 };
 
 class Narrowing {
@@ -56,10 +63,11 @@ class Narrowing {
                             std::vector<uint32_t>& writers);
 
   private:
-    // Triangles of which exactly `count` cover the sample.
+    // Triangles of which exactly `count` cover the sample, or from `least` to `count`.
     struct Fixed {
         std::vector<uint32_t> members;  // positions in the list of hits, ascending
         uint32_t count = 0;
+        uint32_t least = 0;
     };
     // One edge of a member whose band contains the sample.
     struct Side {
@@ -68,6 +76,12 @@ class Narrowing {
         uint32_t member = 0;
     };
 
+    // Pairs of triangles with complementary clip distances; their members are marked.
+    std::vector<Fixed> complementary_pairs(const FixedPoint& p, std::span<const Hit> hits,
+                                           std::vector<bool>& is_paired) const;
+    // Whether a triangle covers p but for its clip distances, whatever the device's freedom, and no
+    // edge of the triangle or border of the viewport is near.
+    bool is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const;
     // Of the triangles that may cover p; sets of them alone.
     std::vector<Fixed> fixed_sets(const FixedPoint& p, std::span<const Hit> hits);
     // As fixed_sets, for the open ones among `hits` that are in none of its sets: with triangles
@@ -85,7 +99,7 @@ class Narrowing {
     int count_of(const FixedPoint& p, std::span<const Hit> hits,
                  const std::vector<uint32_t>& members) const;
     int winding_of(const FixedPoint& p, const TriangleSetup& setup, const Outline& outline) const;
-    // Equal for vertices with bitwise-equal position and viewport.
+    // Equal for vertices with bitwise-equal position, viewport and clip distances.
     uint32_t vertex_number(uint32_t draw, uint32_t vertex);
 
     const cases::Case& case_;
@@ -94,6 +108,7 @@ class Narrowing {
     const std::vector<TriangleSetup>& setups_;
     Predicates predicates_;
     uint32_t sample_ = 0;  // of the pixel, the one at hand
+    std::vector<Complement> complements_;  // by triangle, or empty
     std::unordered_map<std::string, uint32_t> numbers_;
     std::vector<std::vector<uint32_t>> vertex_numbers_;  // per draw; 0 = not yet numbered
     std::unordered_map<uint64_t, std::vector<uint32_t>> edge_triangles_;  // when first asked for

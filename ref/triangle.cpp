@@ -10,11 +10,12 @@ namespace {
 // primitives.
 void assemble_run(const cases::Draw& draw, uint32_t draw_index, const std::vector<uint32_t>& run,
                   uint32_t& primitive, std::vector<Triangle>& out) {
-    const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+    const bool is_last = draw.provoking == cases::ProvokingVertex::last;
+    const auto add = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t last) {
         const auto size = draw.positions.size();
         // A vertex number out of range has no position; the loader refuses it.
         if (a < size && b < size && c < size) {
-            out.push_back({draw_index, primitive, {a, b, c}, a});
+            out.push_back({draw_index, primitive, {a, b, c}, is_last ? last : a});
         }
         ++primitive;
     };
@@ -22,17 +23,17 @@ void assemble_run(const cases::Draw& draw, uint32_t draw_index, const std::vecto
     switch (draw.topology) {
         case cases::Topology::triangle_list:
             for (size_t i = 0; i + 2 < n; i += 3) {
-                add(run[i], run[i + 1], run[i + 2]);
+                add(run[i], run[i + 1], run[i + 2], run[i + 2]);
             }
             break;
         case cases::Topology::triangle_strip:
             for (size_t i = 0; i + 2 < n; ++i) {
-                add(run[i], run[i + 1 + i % 2], run[i + 2 - i % 2]);
+                add(run[i], run[i + 1 + i % 2], run[i + 2 - i % 2], run[i + 2]);
             }
             break;
         case cases::Topology::triangle_fan:
             for (size_t i = 0; i + 2 < n; ++i) {
-                add(run[i + 1], run[i + 2], run[0]);
+                add(run[i + 1], run[i + 2], run[0], run[i + 2]);
             }
             break;
     }

@@ -104,22 +104,22 @@ struct PieceVertex {
     bool is_bounded = true;
 };
 
-// The vertices of the clipped polygon as a device re-projects them with rounding errors of
-// `roundoff`.
+// The vertices of the polygon clipped by `planes` as a device re-projects them with rounding errors
+// of `roundoff`.
 template <class T>
 std::vector<PieceVertex<T>> piece_vertices(const Primitive& primitive,
                                            const std::vector<PlaneInput<T>>& inputs,
-                                           const Vertices<T>& ideal, double roundoff) {
+                                           const Vertices<T>& ideal, double roundoff,
+                                           std::span<const ClipPlane> planes) {
     const cases::Viewport& viewport = primitive.draw->viewport;
+    const ClipInput input(*primitive.draw, primitive.triangle.vertex);
     const std::vector<ClippedVertex> polygon =
-        clip_triangle(primitive.clip, viewport, cases::Profile::direct3d);
+        clip_triangle(input, viewport, cases::Profile::direct3d, planes);
     size_t cuts = 0;
-    for (const ClipPlane plane : kViewVolume) {
-        const bool is_cut =
-            std::any_of(primitive.clip.begin(), primitive.clip.end(), [&](const glm::vec4& v) {
-                return !is_inside(v, {&plane, 1});
-            });
-        cuts += is_cut ? 1 : 0;
+    for (const ClipPlane& plane : planes) {
+        const bool is_passed = is_inside(input, 0, {&plane, 1}) &&
+                               is_inside(input, 1, {&plane, 1}) && is_inside(input, 2, {&plane, 1});
+        cuts += is_passed ? 0U : 1U;
     }
     const T u(roundoff);
     const T rounding = T(kClipRoundings * static_cast<double>(cuts)) * u;
@@ -324,10 +324,24 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
     const Vertices<T> ideal = ideal_vertices<T>(primitive);
     const double roundoff = profile == cases::Profile::vulkan ? kVulkanRoundoff : kUnitRoundoff;
     std::vector<PieceVertex<T>> polygon;
+    const ClipVolume volume = clip_volume_of(*primitive.draw);
     if (primitive.needs_clipping) {
-        polygon = piece_vertices(primitive, inputs, ideal, roundoff);
+        polygon = piece_vertices(primitive, inputs, ideal, roundoff, volume.all());
     }
-    set.hulls = hulls_of(primitive, inputs, quantities, polygon, roundoff);
+    if (primitive.needs_clipping && volume.has_user_planes()) {
+        // A clip distance may pass a sample that lies a little beyond the polygon it cuts.
+        const ClipInput input(*primitive.draw, primitive.triangle.vertex);
+        const bool leaves_view = !is_inside(input, 0, volume.view()) ||
+                                 !is_inside(input, 1, volume.view()) ||
+                                 !is_inside(input, 2, volume.view());
+        set.hulls = hulls_of(
+            primitive, inputs, quantities,
+            leaves_view ? piece_vertices(primitive, inputs, ideal, roundoff, volume.view())
+                        : std::vector<PieceVertex<T>>{},
+            roundoff);
+    } else {
+        set.hulls = hulls_of(primitive, inputs, quantities, polygon, roundoff);
+    }
 
     Basis<T> unsnapped = make_basis(ideal, inputs, kBudgetFactor);
     set.is_known = unsnapped.orientation != 2;

@@ -283,7 +283,9 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
     m.level = Profile::vulkan;
     for (const uint32_t v : primitive.triangle.vertex) {
         if (v != primitive.triangle.provoking && bits(values[v][component]) == bits(got)) {
-            m.rule = "provoking.first";
+            m.rule = primitive.draw->provoking == cases::ProvokingVertex::first
+                         ? "provoking.first"
+                         : "provoking.last";
         }
     }
     m.expected =

@@ -53,7 +53,8 @@ bool is_position_beyond(const Primitive& primitive) {
         return false;
     }
     const auto polygon =
-        clip_triangle(primitive.clip, primitive.draw->viewport, cases::Profile::vulkan);
+        clip_triangle({*primitive.draw, primitive.triangle.vertex}, primitive.draw->viewport,
+                      cases::Profile::vulkan, clip_volume_of(*primitive.draw).all());
     return std::any_of(polygon.begin(), polygon.end(), [](const ClippedVertex& v) {
         return v.clip[3] * mpq_class(kGuaranteed) < 1;
     });

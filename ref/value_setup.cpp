@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "ref/clip.hpp"
 #include "ref/sample.hpp"
 #include "ref/value_places.hpp"
 
@@ -20,7 +21,8 @@ struct Transform {
 };
 
 template <class T>
-Transform<T> transform_of(const cases::Viewport& v) {
+Transform<T> transform_of(const cases::Draw& draw) {
+    const cases::Viewport& v = draw.viewport;
     const T x(static_cast<double>(v.x));
     const T y(static_cast<double>(v.y));
     const T near(static_cast<double>(v.min_depth));
@@ -32,6 +34,11 @@ Transform<T> transform_of(const cases::Viewport& v) {
     t.offset_x = x + t.scale_x;
     t.offset_y = y + t.scale_y;
     t.offset_z = near;
+    if (draw.depth.negative_one_to_one) {
+        // VK_EXT_depth_clip_control: p_z = (max - min)/2, o_z = (max + min)/2
+        t.scale_z = t.scale_z * T(0.5);
+        t.offset_z = (far + near) * T(0.5);
+    }
     return t;
 }
 
@@ -170,6 +177,8 @@ Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
     p.triangle = triangle;
     p.is_finite = true;
     p.is_projectable = true;
+    const ClipVolume volume = clip_volume_of(*p.draw);
+    const ClipInput input(*p.draw, triangle.vertex);
     for (size_t i = 0; i < 3; ++i) {
         const glm::vec4 v = p.draw->positions[triangle.vertex[i]];
         p.clip[i] = v;
@@ -177,9 +186,7 @@ Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
             std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
         p.is_finite = p.is_finite && finite;
         p.is_projectable = p.is_projectable && finite && v.w > 0;
-        const bool inside =
-            std::fabs(v.x) <= v.w && std::fabs(v.y) <= v.w && v.z >= 0 && v.z <= v.w;
-        p.needs_clipping = p.needs_clipping || !inside;
+        p.needs_clipping = p.needs_clipping || !is_inside(input, i, volume.all());
     }
     return p;
 }
@@ -196,7 +203,7 @@ Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, u
 
 template <class T>
 Vertices<T> ideal_vertices(const Primitive& primitive) {
-    const auto t = transform_of<T>(primitive.draw->viewport);
+    const auto t = transform_of<T>(*primitive.draw);
     Vertices<T> v;
     for (size_t i = 0; i < 3; ++i) {
         const glm::vec4& c = primitive.clip[i];
@@ -229,7 +236,7 @@ Vertices<T> moved_vertices(const Primitive& primitive, const std::array<FixedPoi
 template <class T>
 std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
                                         std::span<const Quantity> quantities) {
-    const auto t = transform_of<T>(primitive.draw->viewport);
+    const auto t = transform_of<T>(*primitive.draw);
     std::vector<PlaneInput<T>> in(2);
     for (size_t i = 0; i < 3; ++i) {
         const glm::vec4& c = primitive.clip[i];
@@ -240,7 +247,10 @@ std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
         if (c.w > 0 || c.w < 0) {
             // z_d = z/w: u, or 2u as z * (1/w); p_z rounded: u; the product: u; the sum: u |z_f|.
             const T z = magnitude(T(in[kPlaneDepth].h[i] / w));
-            const T e = T(kUnitRoundoff) * (T(4.0) * magnitude(T(scaled / w)) + z);
+            T e = T(kUnitRoundoff) * (T(4.0) * magnitude(T(scaled / w)) + z);
+            if (primitive.draw->depth.negative_one_to_one) {
+                e = e + T(kUnitRoundoff) * magnitude(t.offset_z);  // o_z is a sum
+            }
             in[kPlaneDepth].rounding = larger(in[kPlaneDepth].rounding, e);
         }
     }

@@ -59,7 +59,7 @@ struct Primitive {
     std::array<glm::vec4, 3> clip{};
     bool is_finite = false;       // every component of every position
     bool is_projectable = false;  // and w > 0
-    bool needs_clipping = false;  // a vertex is outside the view volume
+    bool needs_clipping = false;  // a vertex is outside the clip volume
 };
 Primitive make_primitive(const cases::Case& c, const Triangle& triangle);
 

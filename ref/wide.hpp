@@ -22,6 +22,13 @@ inline Int128 edge_function(const FixedPoint& a, const FixedPoint& b, const Fixe
            static_cast<Int128>(b.y - a.y) * (p.x - a.x);
 }
 
+// Inside where a x + b y + c >= 0. With positions below 2^50: |a|, |b| < 2^51, |c| < 2^102.
+struct HalfPlane {
+    Int128 a = 0, b = 0, c = 0;
+    Int128 at(const FixedPoint& p) const { return a * p.x + b * p.y + c; }
+    friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
+};
+
 // Whether the edge a->b of a triangle with positive area owns the samples on it (top-left rule).
 inline bool is_top_left(const FixedPoint& a, const FixedPoint& b) {
     return b.y < a.y || (b.y == a.y && b.x > a.x);

@@ -154,6 +154,14 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
                                        attribute.name, attribute.values.size(), vertices));
         }
     }
+    for (const auto& [count, distances] :
+         {std::pair(draw.distances.clip_count, &draw.distances.clip),
+          std::pair(draw.distances.cull_count, &draw.distances.cull)}) {
+        if (count > 4 || distances->size() != (count > 0 ? vertices : 0)) {
+            return invalid(fmt::format("{} distances a vertex have values at {} of {} vertices",
+                                       count, distances->size(), vertices));
+        }
+    }
     const size_t elements = draw.indices ? draw.indices->size() : vertices;
     if (vertices >= kMaxId || elements >= kMaxId) {
         return unsupported(fmt::format("a draw has {} vertices, the harness tells {} apart",
@@ -195,6 +203,9 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
                 "a draw asks for a combination of shader features that no shader was built for; "
                 "put them into different draws");
         }
+    }
+    if (auto missing = missing_clip_support(capabilities.clip, c)) {
+        return unsupported(std::move(*missing));
     }
     return check_target(capabilities, c);
 }

@@ -165,6 +165,7 @@ void query_features(Capabilities& c) {
         c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
         c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
         query_sample_locations(c);
+        c.clip = query_clip_support(c.physical, has_device_extension);
         if (features13.dynamicRendering != VK_TRUE) {
             missing.emplace_back("the device lacks the feature dynamicRendering");
         }
@@ -341,6 +342,9 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features.features.independentBlend = VK_TRUE;
     features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
     features.features.sampleRateShading = capabilities.has_sample_shading ? VK_TRUE : VK_FALSE;
+
+    ClipFeatures clip;
+    enable_clip_features(capabilities.clip, features, extensions, clip);
 
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;

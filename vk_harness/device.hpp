@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "vk_harness/clip_support.hpp"
 #include "vk_harness/instance.hpp"
 
 namespace vk_harness {
@@ -27,6 +28,7 @@ struct Capabilities {
     bool has_standard_locations = false;  // standardSampleLocations
     bool has_sample_shading = false;      // sampleRateShading
     bool triangle_fans = true;
+    ClipSupport clip;
     bool portability_subset = false;
 };
 

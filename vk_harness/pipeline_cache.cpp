@@ -191,10 +191,8 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;  // the class; dynamic
 
-    VkPipelineViewportStateCreateInfo viewport{};
-    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-    viewport.viewportCount = 1;
-    viewport.scissorCount = 1;
+    ViewportState viewport;
+    viewport_state(key, viewport);
 
     RasterizationState rasterization;
     rasterization_state(key, rasterization);
@@ -226,7 +224,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     info.pStages = stages.data();
     info.pVertexInputState = &vertex_input.info;
     info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
+    info.pViewportState = &viewport.info;
     info.pRasterizationState = &rasterization.info;
     info.pMultisampleState = &multisample.info;
     info.pDepthStencilState = &depth;

@@ -41,6 +41,10 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
             key.attributes[k].interpolation = cases::Interpolation::flat;
         }
     }
+    key.clip_count = draw.distances.clip_count;
+    key.cull_count = draw.distances.cull_count;
+    key.negative_one_to_one = draw.depth.negative_one_to_one;
+    key.provoking = draw.provoking;
     key.shader_mask = draw.multisample.shader_mask;
     key.sample_mask = draw.multisample.sample_mask;
     if (draw.multisample.min_sample_shading) {

@@ -33,6 +33,8 @@ struct PipelineKey {
     // Vertex stage.
     uint32_t clip_count = 0, cull_count = 0;
     bool layer = false, viewport_index = false;
+    bool negative_one_to_one = false;  // depth clip control
+    cases::ProvokingVertex provoking = cases::ProvokingVertex::first;
     // Multisampling.
     std::optional<uint32_t> shader_mask = {};
     uint32_t sample_mask = 0xffffffffU;

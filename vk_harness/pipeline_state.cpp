@@ -3,6 +3,7 @@
 #include "vk_harness/pipeline_state.hpp"
 
 #include <bit>
+#include <utility>
 
 #include "vk_harness/sample_locations.hpp"
 
@@ -14,6 +15,13 @@ void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
         state.bindings.push_back({binding, 16, VK_VERTEX_INPUT_RATE_VERTEX});
         state.inputs.push_back({binding, binding, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
     }
+    for (const auto& [count, binding] :
+         {std::pair(key.clip_count, kClipBinding), std::pair(key.cull_count, kCullBinding)}) {
+        if (count > 0) {
+            state.bindings.push_back({binding, 16, VK_VERTEX_INPUT_RATE_VERTEX});
+            state.inputs.push_back({binding, binding, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
+        }
+    }
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
     state.info.vertexBindingDescriptionCount = static_cast<uint32_t>(state.bindings.size());
     state.info.pVertexBindingDescriptions = state.bindings.data();
@@ -21,10 +29,29 @@ void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
     state.info.pVertexAttributeDescriptions = state.inputs.data();
 }
 
-void rasterization_state(const PipelineKey&, RasterizationState& state) {
+void rasterization_state(const PipelineKey& key, RasterizationState& state) {
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
     state.info.polygonMode = VK_POLYGON_MODE_FILL;
     state.info.lineWidth = 1.0F;
+    if (key.provoking == cases::ProvokingVertex::last) {
+        state.provoking.sType =
+            VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT;
+        state.provoking.provokingVertexMode = VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT;
+        state.provoking.pNext = state.info.pNext;
+        state.info.pNext = &state.provoking;
+    }
+}
+
+void viewport_state(const PipelineKey& key, ViewportState& state) {
+    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+    state.info.viewportCount = 1;
+    state.info.scissorCount = 1;
+    if (key.negative_one_to_one) {
+        state.depth_clip_control.sType =
+            VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT;
+        state.depth_clip_control.negativeOneToOne = VK_TRUE;
+        state.info.pNext = &state.depth_clip_control;
+    }
 }
 
 void multisample_state(const PipelineKey& key, MultisampleState& state) {

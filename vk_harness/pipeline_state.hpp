@@ -20,9 +20,16 @@ struct VertexInputState {
 void vertex_input_state(const PipelineKey& key, VertexInputState& state);
 
 struct RasterizationState {
+    VkPipelineRasterizationProvokingVertexStateCreateInfoEXT provoking{};
     VkPipelineRasterizationStateCreateInfo info{};
 };
 void rasterization_state(const PipelineKey& key, RasterizationState& state);
+
+struct ViewportState {
+    VkPipelineViewportDepthClipControlCreateInfoEXT depth_clip_control{};
+    VkPipelineViewportStateCreateInfo info{};
+};
+void viewport_state(const PipelineKey& key, ViewportState& state);
 
 struct MultisampleState {
     uint32_t sample_mask = 0;

@@ -172,6 +172,13 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     std::array<VkBuffer, 1 + cases::kMaxAttributes> buffers{};
     buffers.fill(vertices);
     vk.vkCmdBindVertexBuffers(commands, 0, binding_count, buffers.data(), plan.vertices.data());
+    for (const auto& [count, binding] : {std::pair(draw.distances.clip_count, kClipBinding),
+                                         std::pair(draw.distances.cull_count, kCullBinding)}) {
+        if (count > 0) {
+            vk.vkCmdBindVertexBuffers(commands, binding, 1, &vertices,
+                                      &plan.distances[binding - kClipBinding]);
+        }
+    }
     if (draw.indices) {
         vk.vkCmdBindIndexBuffer(commands, vertices, plan.indices, VK_INDEX_TYPE_UINT32);
         vk.vkCmdDrawIndexed(commands, count, 1, 0, 0, 0);
@@ -190,6 +197,7 @@ VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin) {
             draw.vertices[binding] = offset;
             offset += array;
         }
+        offset = place_distances(*draw.draw, offset, draw.distances);
         draw.indices = offset;
         if (draw.draw->indices) {
             offset += draw.draw->indices->size() * sizeof(uint32_t);
@@ -219,6 +227,7 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
                 write(item.vertices[1 + k], none.data(), array);
             }
         }
+        write_distances(draw, item.distances, memory);
         if (draw.indices) {
             write(item.indices, draw.indices->data(), draw.indices->size() * sizeof(uint32_t));
         }

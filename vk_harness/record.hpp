@@ -18,6 +18,7 @@ struct DrawPlan {
     const cases::Draw* draw = nullptr;
     VkPipeline pipeline = VK_NULL_HANDLE;
     std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
+    DistancePlaces distances{};
     VkDeviceSize indices = 0;
 };
 
