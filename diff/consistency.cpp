@@ -221,7 +221,7 @@ void vary_plane(std::vector<T>& plane, uint32_t id, std::span<const SampleState>
         for (uint32_t w = 0; w < words.size(); ++w) {
             words[w] = varied_word(id, w, words[w], states[sample], variation);
         }
-        std::memcpy(&plane[sample], words.data(), sizeof(T));
+        std::memcpy(static_cast<void*>(&plane[sample]), words.data(), sizeof(T));
     }
 }
 
@@ -269,7 +269,6 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
         if (rule == nullptr || rule->profile > verdict.profile) {
             continue;
         }
-        verdict.compared_samples += found[k].compared;
         for (const Difference& difference : found[k].differences) {
             const uint64_t pixel = difference.sample / c.target.samples;
             Finding finding;

@@ -42,6 +42,8 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
         }
     }
     key.shader_mask = draw.multisample.shader_mask;
+    key.masked = c.variation.masked;
+    key.masks_depth = c.variation.masks_depth;
     return key;
 }
 
@@ -71,8 +73,8 @@ shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
                 break;
         }
         v.lod = v.lod || attribute.probe == cases::Probe::lod;
-        v.probes = v.probes || (attribute.probe != cases::Probe::value &&
-                                attribute.probe != cases::Probe::lod);
+        v.probes = v.probes ||
+                   (attribute.probe != cases::Probe::value && attribute.probe != cases::Probe::lod);
     }
     // The build compiles lod with the probes, and the sample built-ins with the mask (which changes
     // nothing once there is sample shading).
