@@ -10,6 +10,7 @@
 #include "cases/field_reader.hpp"
 #include "cases/load_draw.hpp"
 #include "cases/load_target.hpp"
+#include "cases/load_relations.hpp"
 #include "cases/loader.hpp"
 #include "cases/matrix.hpp"
 #include "cases/rule.hpp"
@@ -32,7 +33,7 @@ class CaseLoader {
         c_.where = {root_.where.file, 1, 1};
         context_.known_keys(root_, "a case file",
                             {"format", "description", "catches", "rules", "links", "matrix",
-                             "target", "draw", "expect"});
+                             "target", "draw", "expect", "relations"});
         if (const TomlValue* format = required("format", "write format = 1")) {
             const std::optional<Number> n = context_.number(*format, "format");
             if (n && n->value != 1) {
@@ -54,6 +55,9 @@ class CaseLoader {
         }
         read_target();
         read_draws();
+        if (const TomlValue* value = root_.find("relations")) {
+            c_.relations = load_relations(context_, *value, c_);
+        }
         return std::move(c_);
     }
 

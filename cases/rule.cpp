@@ -165,6 +165,30 @@ constexpr std::array kRules = {
          "z_f is interpolated linearly at the sample; binary32 budget on a D32 target and for "
          "FragCoord.z.",
          "primsrast-polygon-barycentrics", "15.10", "ref/value.hpp"},
+    Rule{"repeat.same", Profile::vulkan, "The same commands draw the same bits",
+         "Same draws, same state, same device: every sample of every attachment has the same bits, "
+         "in the same submission and in another. Nothing is left free (shaders have no side "
+         "effects).",
+         "invariance", "", "diff/consistency.cpp"},
+    Rule{"repeat.scissor", Profile::vulkan, "Scissors change no fragment",
+         "A target drawn tile by tile, each draw repeated under the scissor of each tile, has the "
+         "same bits as drawn at once, samples that are left free included (Rule 2, Corollary 1).",
+         "invariance", "15.14", "diff/consistency.cpp"},
+    Rule{"repeat.clears", Profile::vulkan, "Clear values change no fragment",
+         "Attachments cleared to other values receive the same fragments with the same bits (Rule "
+         "2, Corollary 1).",
+         "invariance", "", "diff/consistency.cpp"},
+    Rule{"repeat.write-masks", Profile::vulkan, "Write masks change no fragment",
+         "Attachments that are not masked have the same bits, those that are keep their clear "
+         "value (Rule 2, Corollary 1).",
+         "invariance", "", "diff/consistency.cpp"},
+    Rule{"repeat.attachments", Profile::practice,
+         "More or fewer attachments change no fragment, and copies are alike",
+         "The same primitives with more or fewer attributes, so with more or fewer colour "
+         "attachments, cover the same samples with the same depth, and a copied attribute has the "
+         "bits of its original (Corollary 2). The shader is another one, so Vulkan does not demand "
+         "it in so many words; every known device does it.",
+         "invariance", "", "diff/consistency.cpp"},
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "diff/capture.hpp"
+#include "diff/consistency.hpp"
 #include "ref/expectation.hpp"
 #include "ref/value.hpp"
 
@@ -189,6 +190,7 @@ diff::Capture draw_by_reference(const cases::Case& c) {
             }
         }
     }
+    diff::vary(capture, c.variation);
     return capture;
 }
 

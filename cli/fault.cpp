@@ -16,7 +16,7 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, FaultKind>, 15> kNames = {{
+constexpr std::array<std::pair<const char*, FaultKind>, 16> kNames = {{
     {"segv", FaultKind::segv},
     {"abort", FaultKind::abort},
     {"hang", FaultKind::hang},
@@ -26,6 +26,7 @@ constexpr std::array<std::pair<const char*, FaultKind>, 15> kNames = {{
     {"garbage", FaultKind::garbage},
     {"flip-pixel", FaultKind::flip_pixel},
     {"flake", FaultKind::flake},
+    {"flip-derived", FaultKind::flip_derived},
     {"device-lost", FaultKind::device_lost},
     {"unsupported", FaultKind::unsupported},
     {"noise", FaultKind::noise},

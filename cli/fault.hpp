@@ -24,6 +24,7 @@ enum class FaultKind {
     garbage,        // sends bytes that are no frame
     flip_pixel,     // changes one sample of the matching case's capture
     flake,          // as flip_pixel, only in the first attempt
+    flip_derived,   // changes one sample of each of the case's derived renderings
     device_lost,    // answers device_lost for the whole batch
     unsupported,    // says that the device cannot draw the case
     noise,          // prints bytes that break XML, HTML and terminals

@@ -74,10 +74,14 @@ CaseRecord make_record(const cases::Case& c) {
 }
 
 void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& capture,
-           const ref::Limits& limits, cases::Profile profile, KeepPictures pictures) {
+           std::span<const diff::Consistency> consistency, const ref::Limits& limits,
+           cases::Profile profile, KeepPictures pictures) {
     try {
         const ref::Expectation expectation = ref::expect(c, limits, profile);
-        const diff::Verdict verdict = diff::compare(c, expectation, capture);
+        diff::Verdict verdict = diff::compare(c, expectation, capture);
+        if (verdict.error.empty()) {
+            diff::add_differences(c, cases::derivations(c), consistency, verdict);
+        }
         record.status = !verdict.error.empty() ? Status::error
                         : verdict.ok()         ? Status::pass
                                                : Status::fail;

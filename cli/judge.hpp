@@ -8,6 +8,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "cases/case.hpp"
 #include "cli/process.hpp"
 #include "diff/capture.hpp"
+#include "diff/consistency.hpp"
 #include "ref/limits.hpp"
 #include "report/run.hpp"
 
@@ -25,9 +27,11 @@ enum class KeepPictures { none, failed, all };
 // The record of a case before it has run: what the file says of it.
 report::CaseRecord make_record(const cases::Case& c);
 
-// Judges a capture into `record`: pass, fail, or error if the case or the capture cannot be judged.
+// Judges a capture, and what comparing the case's derived renderings with it has found, into
+// `record`: pass, fail, or error if the case or the capture cannot be judged.
 void judge(report::CaseRecord& record, const cases::Case& c, const diff::CaptureView& capture,
-           const ref::Limits& limits, cases::Profile profile, KeepPictures pictures);
+           std::span<const diff::Consistency> consistency, const ref::Limits& limits,
+           cases::Profile profile, KeepPictures pictures);
 
 // What can be said of a case before any device is asked: empty, or why the reference disagrees with
 // the picture drawn by hand.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/message.hpp"
 
+#include <algorithm>
+
 #include "cases/wire.hpp"
 #include "cli/bytes.hpp"
 
@@ -164,6 +166,52 @@ std::optional<Failure> decode_failure(std::string_view bytes) {
     return failure;
 }
 
+namespace {
+
+constexpr size_t kMaxDerivations = 64;
+
+void put(ByteWriter& out, const std::vector<diff::Consistency>& consistency) {
+    out.value(uint64_t{consistency.size()});
+    for (const diff::Consistency& found : consistency) {
+        out.value(found.compared);
+        out.value(found.different);
+        out.plane(found.differences);
+    }
+}
+
+// False if these cannot be the findings in a capture of that many samples.
+bool get(ByteReader& in, std::vector<diff::Consistency>& consistency) {
+    uint64_t count = 0;
+    if (!in.value(count) || count > kMaxDerivations) {
+        return false;
+    }
+    consistency.resize(count);
+    for (diff::Consistency& found : consistency) {
+        in.value(found.compared);
+        in.value(found.different);
+        in.plane(found.differences);
+    }
+    return true;
+}
+
+bool is_possible(const diff::Consistency& found, uint64_t samples) {
+    return found.compared <= samples && found.different <= found.compared &&
+           found.differences.size() == std::min<uint64_t>(found.different, diff::kMaxDifferences) &&
+           std::all_of(found.differences.begin(), found.differences.end(),
+                       [samples](const diff::Difference& d) {
+                           return d.sample < samples && d.plane < diff::kPlanes && d.word < 4 &&
+                                  d.expected != d.got;
+                       });
+}
+
+}  // namespace
+
+std::string encode_consistency(const std::vector<diff::Consistency>& consistency) {
+    ByteWriter out;
+    put(out, consistency);
+    return out.take();
+}
+
 std::string encode_result(const CaseResult& result) {
     const Rendered& r = result.rendered;
     const diff::Capture& c = r.capture;
@@ -177,6 +225,7 @@ std::string encode_result(const CaseResult& result) {
     out.text(cases::target_to_bytes(c.target));
     out.value(uint8_t{c.has_primitive});
     out.value(c.attribute_count);
+    put(out, result.consistency);
     out.value(uint8_t{result.is_shared});
     if (result.is_shared) {
         out.value(result.offset);
@@ -209,6 +258,9 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
     in.text(target);
     in.value(has_primitive);
     in.value(c.attribute_count);
+    if (!get(in, result.consistency)) {
+        return std::nullopt;
+    }
     in.value(is_shared);
     if (is_shared != 0) {
         in.value(result.offset);
@@ -234,6 +286,11 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
     r.status = static_cast<Rendered::Status>(status);
     c.has_primitive = has_primitive != 0;
     result.is_shared = is_shared != 0;
+    for (const diff::Consistency& found : result.consistency) {
+        if (!is_possible(found, c.sample_count())) {
+            return std::nullopt;
+        }
+    }
     if (r.status == Rendered::Status::drawn && !result.is_shared) {
         const size_t n = c.sample_count();
         bool fits = c.hits.size() == n && c.writers.size() == n && c.frag_coord.size() == n &&

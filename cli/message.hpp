@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cases/case.hpp"
+#include "diff/consistency.hpp"
 #include "vk_harness/harness.hpp"
 
 namespace cli {
@@ -58,10 +59,14 @@ struct CaseResult {
     bool is_shared = false;
     uint64_t offset = 0;
     uint64_t bits = 0;
+    // What comparing the case's derived renderings with it has found, one a derivation.
+    std::vector<diff::Consistency> consistency;
     // In the parent: the capture, wherever it lies, and what keeps it there.
     diff::CaptureView view;
     std::shared_ptr<const void> keep;
 };
+// Of what was found alone: the same bytes for the same findings.
+std::string encode_consistency(const std::vector<diff::Consistency>& consistency);
 std::string encode_result(const CaseResult& result);
 std::optional<CaseResult> decode_result(std::string_view bytes);
 

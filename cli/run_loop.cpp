@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "cases/derive.hpp"
 #include "report/sentences.hpp"
 
 namespace cli {
@@ -251,16 +252,25 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
         settle(k, std::move(record));
         return;
     }
-    switch (schedule_.drawn(k, result.bits)) {
+    if (result.consistency.size() != cases::derivations(cases_[k].data).size()) {
+        CaseRecord record = fresh_record(k);
+        record.status = Status::error;
+        record.reason = "the worker did not compare all of the case's derived renderings";
+        settle(k, std::move(record));
+        return;
+    }
+    const uint64_t bits =
+        result.bits ^ checksum(FrameType::result, encode_consistency(result.consistency));
+    switch (schedule_.drawn(k, bits)) {
         case Schedule::Drawn::judge: {
             auto record = std::make_shared<CaseRecord>(fresh_record(k));
             record->messages = rendered.messages;
             const uint64_t bytes = capture_bytes(cases_[k].data);
             judging_bytes_ += bytes;
             pool_.submit(
-                [this, k, view = result.view, record] {
-                    judge(*record, cases_[k].data, view, config_.limits, config_.profile,
-                          config_.pictures);
+                [this, k, view = result.view, consistency = std::move(result.consistency), record] {
+                    judge(*record, cases_[k].data, view, consistency, config_.limits,
+                          config_.profile, config_.pictures);
                 },
                 [this, k, bytes, record, keep = result.keep] {
                     judging_bytes_ -= bytes;

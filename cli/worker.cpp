@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/backend.hpp"
+#include "cli/derived.hpp"
 #include "cli/fault.hpp"
 #include "cli/frame.hpp"
 #include "cli/judge.hpp"
@@ -77,15 +78,15 @@ void flip_pixel(Rendered& rendered) {
 }
 
 // The message about a result, with its planes or with the place where they lie.
-std::string frame_of(uint32_t k, Rendered rendered, const SharedWriter& shared) {
+std::string frame_of(uint32_t k, RenderedCase drawn, const SharedWriter& shared) {
     CaseResult result;
     result.index = k;
+    result.consistency = std::move(drawn.consistency);
+    Rendered& rendered = drawn.rendered;
     if (!rendered.placed.empty() && rendered.status == Rendered::Status::drawn) {
-        const diff::Capture& c = rendered.capture;
         result.is_shared = true;
         result.offset = shared.offset_of(rendered.placed);
-        result.bits = capture_bits(diff::view_planes(c.target, c.has_primitive, c.attribute_count,
-                                                     rendered.placed.data()));
+        result.bits = capture_bits(view_of(rendered));
     }
     result.rendered = std::move(rendered);
     return encode_frame(FrameType::result, encode_result(result));
@@ -107,25 +108,31 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
         }
     }
     shared.open(request.room.offset, request.room.size);
-    std::vector<Rendered> results = backend.render(
-        request.cases, step, [&shared](size_t, uint64_t bytes) { return shared.place(bytes); });
+    std::vector<RenderedCase> results = render_with_derived(
+        backend, request.cases, step,
+        [&shared](size_t, uint64_t bytes) { return shared.place(bytes); },
+        [&](size_t k, Rendered& derived) {
+            if (has_fault(faults, FaultKind::flip_derived, request.cases[k].id)) {
+                flip_pixel(derived);
+            }
+        });
     for (const cases::Case& c : request.cases) {
         if (has_fault(faults, FaultKind::device_lost, c.id)) {
-            for (Rendered& r : results) {
-                r.status = Rendered::Status::device_lost;
-                r.reason = "the device was lost on purpose (EDGECASE_FAULT)";
+            for (RenderedCase& r : results) {
+                r.rendered.status = Rendered::Status::device_lost;
+                r.rendered.reason = "the device was lost on purpose (EDGECASE_FAULT)";
             }
         }
     }
     for (size_t k = 0; k < results.size(); ++k) {
         const std::string& id = request.cases[k].id;
         if (has_fault(faults, FaultKind::unsupported, id)) {
-            results[k].status = Rendered::Status::unsupported;
-            results[k].reason = "unsupported on purpose (EDGECASE_FAULT)";
+            results[k].rendered.status = Rendered::Status::unsupported;
+            results[k].rendered.reason = "unsupported on purpose (EDGECASE_FAULT)";
         }
         if (has_fault(faults, FaultKind::flip_pixel, id) ||
             (request.attempt == 1 && has_fault(faults, FaultKind::flake, id))) {
-            flip_pixel(results[k]);
+            flip_pixel(results[k].rendered);
         }
         const std::string frame = frame_of(static_cast<uint32_t>(k), std::move(results[k]), shared);
         if (has_fault(faults, FaultKind::truncate, id)) {

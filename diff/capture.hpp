@@ -32,6 +32,12 @@ inline constexpr uint32_t kPoison = 0xffbadbadU;  // as a float: a NaN with a pa
 // hit to the other, so that a broken clear or blend is seen.
 inline constexpr float kHitGuard = 4096.0F;
 
+// What attachments are cleared to in a rendering with other clear values (cases::Variation).
+inline constexpr float kOtherClearValue = -0x1.25p127F;
+inline constexpr float kOtherClearDepth = 0.625F;
+inline constexpr uint32_t kOtherClearId = 0xffffffedU;
+inline constexpr float kOtherHitGuard = 2 * kHitGuard;
+
 // The last fragment's origin.
 struct Writer {
     uint32_t draw = kClearId;

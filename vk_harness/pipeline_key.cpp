@@ -51,6 +51,8 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
         key.min_shading_bits = std::bit_cast<uint32_t>(*draw.multisample.min_sample_shading);
     }
     key.sample_locations = c.target.sample_locations;
+    key.masked = c.variation.masked;
+    key.masks_depth = c.variation.masks_depth;
     return key;
 }
 

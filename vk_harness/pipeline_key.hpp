@@ -44,6 +44,9 @@ struct PipelineKey {
     shaders::ColorKind color = shaders::ColorKind::none;
     int32_t color_attribute = -1;
     bool instruments = true;
+    // Of cases::Variation.
+    uint32_t masked = 0;
+    bool masks_depth = false;
     friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };
 

@@ -70,11 +70,11 @@ void multisample_state(const PipelineKey& key, MultisampleState& state) {
     }
 }
 
-VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey&) {
+VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = VK_TRUE;  // without the test there is no depth write
-    depth.depthWriteEnable = VK_TRUE;
+    depth.depthWriteEnable = key.masks_depth ? VK_FALSE : VK_TRUE;
     depth.depthCompareOp = VK_COMPARE_OP_ALWAYS;
     return depth;
 }
@@ -94,6 +94,11 @@ void color_state(const PipelineKey& key, ColorState& state) {
     hits.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     hits.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     hits.alphaBlendOp = VK_BLEND_OP_ADD;
+    for (uint32_t k = 0; k < kFixedAttachments + key.attribute_count; ++k) {
+        if ((key.masked >> k & 1U) != 0) {
+            state.blends[k].colorWriteMask = 0;
+        }
+    }
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     state.info.attachmentCount = count;
     state.info.pAttachments = state.blends.data();

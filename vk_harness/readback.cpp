@@ -74,6 +74,9 @@ uint32_t decode_id(uint32_t bits) {
     if (bits == std::bit_cast<uint32_t>(kClearIdAsFloat)) {
         return diff::kClearId;
     }
+    if (bits == std::bit_cast<uint32_t>(kOtherClearIdAsFloat)) {
+        return diff::kOtherClearId;
+    }
     return bits == std::bit_cast<uint32_t>(-2.0F) ? diff::kNoPrimitive : kMalformedId;
 }
 

@@ -38,10 +38,11 @@ void read_planes(const cases::Target& target, uint32_t attribute_count,
                  const ReadbackLayout& layout, std::span<const std::byte> memory,
                  std::span<std::byte> planes);
 
-// An id that the device wrote as binary32: an integer below 2^24, -1 for 'cleared' and -2 for 'this
-// device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.
+// An id that the device wrote as binary32: an integer below 2^24, -1 and -3 for 'cleared' and -2
+// for 'this device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.
 uint32_t decode_id(uint32_t bits);
 inline constexpr uint32_t kMalformedId = 0xffffffeeU;
 inline constexpr float kClearIdAsFloat = -1.0F;
+inline constexpr float kOtherClearIdAsFloat = -3.0F;
 
 }  // namespace vk_harness

@@ -63,16 +63,43 @@ VkClearValue clear_color(float r, float g, float b, float a) {
 }
 
 // The clear value of each attachment, diff/capture.hpp.
-VkClearValue color_clear(uint32_t attachment) {
+VkClearValue color_clear(uint32_t attachment, bool other) {
+    const auto all = [](float value) { return clear_color(value, value, value, value); };
+    const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
     switch (attachment) {
         case 0:
-            return clear_color(0.0F, 0.0F, diff::kHitGuard, diff::kHitGuard);
+            return clear_color(0.0F, 0.0F, guard, guard);
         case 1:
-            return clear_color(kClearIdAsFloat, kClearIdAsFloat, kClearIdAsFloat, kClearIdAsFloat);
+            return all(other ? kOtherClearIdAsFloat : kClearIdAsFloat);
         default:
-            return clear_color(diff::kClearValue, diff::kClearValue, diff::kClearValue,
-                               diff::kClearValue);
+            return all(other ? diff::kOtherClearValue : diff::kClearValue);
     }
+}
+
+// The scissors that a draw is repeated under: its own, cut by each tile of the variation.
+std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& test) {
+    const cases::Rect& own = draw.scissor;
+    const auto [tile_width, tile_height] = test.variation.tile;
+    if (tile_width == 0 || tile_height == 0) {
+        return {{{own.x, own.y}, {own.width, own.height}}};
+    }
+    // 64 bits: a scissor may end at 2^31 - 1, beyond the target.
+    const auto cut = [](int64_t begin, int64_t size, int64_t tile, int64_t tile_size) {
+        return std::pair(std::max(begin, tile), std::min(begin + size, tile + tile_size));
+    };
+    std::vector<VkRect2D> scissors;
+    for (int64_t y = 0; y < test.target.height; y += tile_height) {
+        const auto [top, bottom] = cut(own.y, own.height, y, tile_height);
+        for (int64_t x = 0; x < test.target.width; x += tile_width) {
+            const auto [left, right] = cut(own.x, own.width, x, tile_width);
+            if (left < right && top < bottom) {
+                scissors.push_back(
+                    {{static_cast<int32_t>(left), static_cast<int32_t>(top)},
+                     {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}});
+            }
+        }
+    }
+    return scissors;
 }
 
 struct Access {
@@ -142,8 +169,8 @@ constexpr Access kSampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 
 void record_draw(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
-                 const DrawPlan& plan, uint32_t draw_index, uint32_t binding_count,
-                 VkBuffer vertices) {
+                 const DrawPlan& plan, const cases::Case& test, uint32_t draw_index,
+                 uint32_t binding_count, VkBuffer vertices) {
     const VolkDeviceTable& vk = device.vk();
     const cases::Draw& draw = *plan.draw;
     const uint32_t count =
@@ -155,10 +182,7 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     const VkViewport viewport = {draw.viewport.x,         draw.viewport.y,
                                  draw.viewport.width,     draw.viewport.height,
                                  draw.viewport.min_depth, draw.viewport.max_depth};
-    const VkRect2D scissor = {{draw.scissor.x, draw.scissor.y},
-                              {draw.scissor.width, draw.scissor.height}};
     vk.vkCmdSetViewport(commands, 0, 1, &viewport);
-    vk.vkCmdSetScissor(commands, 0, 1, &scissor);
     vk.vkCmdSetCullMode(commands, to_vulkan(draw.cull));
     vk.vkCmdSetFrontFace(commands, to_vulkan(draw.front_face));
     vk.vkCmdSetPrimitiveTopology(commands, to_vulkan(draw.topology));
@@ -181,9 +205,14 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     }
     if (draw.indices) {
         vk.vkCmdBindIndexBuffer(commands, vertices, plan.indices, VK_INDEX_TYPE_UINT32);
-        vk.vkCmdDrawIndexed(commands, count, 1, 0, 0, 0);
-    } else {
-        vk.vkCmdDraw(commands, count, 1, 0, 0);
+    }
+    for (const VkRect2D& scissor : scissors_of(draw, test)) {
+        vk.vkCmdSetScissor(commands, 0, 1, &scissor);
+        if (draw.indices) {
+            vk.vkCmdDrawIndexed(commands, count, 1, 0, 0, 0);
+        } else {
+            vk.vkCmdDraw(commands, count, 1, 0, 0);
+        }
     }
 }
 
@@ -243,10 +272,12 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
 
     std::vector<VkRenderingAttachmentInfo> colors;
     for (uint32_t k = 0; k < color_count; ++k) {
-        colors.push_back(attachment(target.color[k].view(), kColorDrawn.layout, color_clear(k)));
+        colors.push_back(attachment(target.color[k].view(), kColorDrawn.layout,
+                                    color_clear(k, plan.test->variation.other_clears)));
     }
     VkClearValue depth_clear{};
-    depth_clear.depthStencil = {diff::kClearDepth, 0};
+    depth_clear.depthStencil = {
+        plan.test->variation.other_depth_clear ? diff::kOtherClearDepth : diff::kClearDepth, 0};
     const VkRenderingAttachmentInfo depth =
         attachment(target.depth.view(), kDepthDrawn.layout, depth_clear);
     VkRenderingInfo rendering{};
@@ -258,8 +289,8 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
     rendering.pDepthAttachment = &depth;
     vk.vkCmdBeginRendering(commands, &rendering);
     for (uint32_t k = 0; k < plan.draws.size(); ++k) {
-        record_draw(device, pipelines, commands, plan.draws[k], k, 1 + plan.attribute_count,
-                    vertices);
+        record_draw(device, pipelines, commands, plan.draws[k], *plan.test, k,
+                    1 + plan.attribute_count, vertices);
     }
     vk.vkCmdEndRendering(commands);
 

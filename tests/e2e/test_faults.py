@@ -51,6 +51,13 @@ class Charging(ProgramTest):
         case = self.charge("flip-pixel", "fail")
         self.assertEqual(case["findings"][0]["kind"], "double")
 
+    def test_wrong_pixel_in_a_derived_rendering(self):
+        text = (self.suite / "fam" / "c3.toml").read_text()
+        self.write_case("fam/c3", text.replace("[target]", 'relations = ["same-twice", { scissor-tiles = [3, 2] }]\n[target]'))
+        case = self.charge("flip-derived", "fail")
+        self.assertEqual({f["rule"] for f in case["findings"]}, {"repeat.same", "repeat.scissor"})
+        self.assertEqual(len(case["findings"]), 3)
+
     def test_flake(self):
         self.charge("flake", "flake")
 

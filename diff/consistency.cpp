@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/consistency.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "cases/rule.hpp"
+
+namespace diff {
+
+namespace {
+
+// A plane as 32-bit words, `words` a sample; empty if the capture has none.
+struct PlaneWords {
+    const std::byte* data = nullptr;
+    size_t samples = 0;
+    uint32_t words = 0;
+
+    uint32_t at(size_t sample, uint32_t word) const {
+        uint32_t value = 0;
+        std::memcpy(&value, data + (sample * words + word) * sizeof value, sizeof value);
+        return value;
+    }
+    size_t bytes() const { return samples * words * sizeof(uint32_t); }
+};
+
+template <class T>
+PlaneWords words_of(std::span<const T> plane) {
+    static_assert(sizeof(T) % sizeof(uint32_t) == 0);
+    return {reinterpret_cast<const std::byte*>(plane.data()), plane.size(),
+            sizeof(T) / sizeof(uint32_t)};
+}
+
+std::array<PlaneWords, kPlanes> planes_of(const CaptureView& capture) {
+    std::array<PlaneWords, kPlanes> planes;
+    planes[0] = words_of(capture.hits);
+    planes[1] = words_of(capture.writers);
+    planes[2] = words_of(capture.frag_coord);
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        planes[3 + a] = words_of(capture.attributes[a]);
+    }
+    planes[kDepthPlane] = words_of(capture.depth);
+    return planes;
+}
+
+bool is_masked(const cases::Variation& variation, uint32_t plane) {
+    return plane == kDepthPlane ? variation.masks_depth
+                                : plane < kDepthPlane && (variation.masked >> plane & 1U) != 0;
+}
+
+// The word of a clear sample.
+uint32_t clear_word(uint32_t plane, uint32_t word, const cases::Variation& variation) {
+    const bool other = variation.other_clears;
+    switch (plane) {
+        case 0:
+            return std::bit_cast<uint32_t>(word < 2 ? 0.0F : other ? kOtherHitGuard : kHitGuard);
+        case 1:
+            return other ? kOtherClearId : kClearId;
+        case kDepthPlane:
+            return std::bit_cast<uint32_t>(variation.other_depth_clear ? kOtherClearDepth
+                                                                       : kClearDepth);
+        default:
+            return std::bit_cast<uint32_t>(other ? kOtherClearValue : kClearValue);
+    }
+}
+
+// What the variation makes of a word of the case's own rendering. Binary32 holds hit counts and
+// their guards exactly, so moving a guard moves every count by as much.
+uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, SampleState state,
+                     const cases::Variation& variation) {
+    if (is_masked(variation, plane) || (state == SampleState::clear && plane != kColorPlane)) {
+        return clear_word(plane, word, variation);
+    }
+    if (plane == 0 && word >= 2 && variation.other_clears) {
+        return std::bit_cast<uint32_t>(std::bit_cast<float>(base) + (kOtherHitGuard - kHitGuard));
+    }
+    return base;
+}
+
+// A hit sample whose depth has the bits of the clear value may hold it or may have been drawn so:
+// a draw need not write depth.
+bool may_be_clear_depth(uint32_t plane, uint32_t base, uint32_t got,
+                        const cases::Variation& variation) {
+    return plane == kDepthPlane && variation.other_depth_clear &&
+           base == std::bit_cast<uint32_t>(kClearDepth) &&
+           got == std::bit_cast<uint32_t>(kOtherClearDepth);
+}
+
+// Which plane of the case's own rendering a plane of the derived one is held against; kPlanes:
+// none.
+uint32_t original_of(uint32_t plane, const CaptureView& base, const cases::Derivation& derivation) {
+    const bool is_attribute = plane >= 3 && plane < kDepthPlane;
+    if (!is_attribute || plane - 3 < base.attribute_count) {
+        return plane;
+    }
+    return derivation.kind == cases::RelationKind::more_attributes ? plane - base.attribute_count
+                                                                   : kPlanes;
+}
+
+class BitComparison {
+  public:
+    BitComparison(const CaptureView& base, const CaptureView& derived,
+                  const cases::Derivation& derivation)
+        : base_(base),
+          variation_(derivation.variation),
+          theirs_(planes_of(derived)),
+          alike_(!variation_.other_clears && !variation_.other_depth_clear &&
+                 variation_.masked == 0 && !variation_.masks_depth) {
+        const std::array<PlaneWords, kPlanes> own = planes_of(base);
+        for (uint32_t p = 0; p < kPlanes; ++p) {
+            const uint32_t original = original_of(p, base, derivation);
+            ours_[p] = original < kPlanes ? own[original] : PlaneWords{};
+            // What one of them lacks is not compared: attributes that were left out.
+            is_compared_[p] = ours_[p].samples != 0 && theirs_[p].samples == ours_[p].samples;
+        }
+    }
+
+    Consistency run() {
+        const size_t count = base_.sample_count();
+        result_.compared = count;
+        if (alike_ && all_equal()) {
+            return std::move(result_);
+        }
+        for (size_t sample = 0; sample < count; ++sample) {
+            const SampleState state = sample_state(base_, sample);
+            if (state == SampleState::clear || state == SampleState::drawn) {
+                compare_sample(sample, state);
+            } else {
+                --result_.compared;
+            }
+        }
+        return std::move(result_);
+    }
+
+  private:
+    bool all_equal() const {
+        for (uint32_t p = 0; p < kPlanes; ++p) {
+            if (is_compared_[p] &&
+                std::memcmp(ours_[p].data, theirs_[p].data, ours_[p].bytes()) != 0) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    void compare_sample(size_t sample, SampleState state) {
+        for (uint32_t p = 0; p < kPlanes; ++p) {
+            for (uint32_t w = 0; is_compared_[p] && w < ours_[p].words; ++w) {
+                const uint32_t base = ours_[p].at(sample, w);
+                const uint32_t expected = varied_word(p, w, base, state, variation_);
+                const uint32_t got = theirs_[p].at(sample, w);
+                if (got == expected || may_be_clear_depth(p, base, got, variation_)) {
+                    continue;
+                }
+                ++result_.different;
+                if (result_.differences.size() < kMaxDifferences) {
+                    result_.differences.push_back({sample, p, w, expected, got});
+                }
+                return;
+            }
+        }
+    }
+
+    const CaptureView& base_;
+    const cases::Variation& variation_;
+    std::array<PlaneWords, kPlanes> ours_, theirs_;
+    std::array<bool, kPlanes> is_compared_{};
+    bool alike_;
+    Consistency result_;
+};
+
+std::string why_of(const cases::Derivation& derivation) {
+    using cases::RelationKind;
+    switch (derivation.kind) {
+        case RelationKind::same_twice:
+            return derivation.variation.later
+                       ? "the same commands in a later submission gave other bits"
+                       : "the same commands, once more in the same submission, gave other bits";
+        case RelationKind::scissor_tiles:
+            return fmt::format(
+                "with every draw repeated under the scissors of tiles of {} x {} pixels, the "
+                "sample has other bits; fragments do not depend on the scissor (Invariance, Rule 2 "
+                "and Corollary 1)",
+                derivation.variation.tile[0], derivation.variation.tile[1]);
+        case RelationKind::other_clears:
+            return "with attachments cleared to other values the sample has other bits; fragments "
+                   "do not depend on clear values (Invariance, Rule 2 and Corollary 1)";
+        case RelationKind::write_masks:
+            return "with some attachments masked, those that are written have other bits, or a "
+                   "masked one was written (Invariance, Rule 2 and Corollary 1)";
+        case RelationKind::fewer_attributes:
+            return "drawn without attributes, the sample has other bits in the attachments that "
+                   "are left";
+        case RelationKind::more_attributes:
+            break;
+    }
+    return "drawn with copies of its attributes, the sample has other bits, or a copy differs from "
+           "its original (Invariance, Corollary 2)";
+}
+
+std::string show_bits(uint32_t plane, uint32_t bits) {
+    return plane == 1 || plane == kColorPlane
+               ? fmt::format("{:#010x}", bits)
+               : fmt::format("{:#010x} ({})", bits, std::bit_cast<float>(bits));
+}
+
+template <class T>
+void vary_plane(std::vector<T>& plane, uint32_t id, std::span<const SampleState> states,
+                const cases::Variation& variation) {
+    for (size_t sample = 0; sample < plane.size(); ++sample) {
+        if (states[sample] != SampleState::clear && states[sample] != SampleState::drawn) {
+            continue;
+        }
+        std::array<uint32_t, sizeof(T) / sizeof(uint32_t)> words{};
+        std::memcpy(words.data(), &plane[sample], sizeof(T));
+        for (uint32_t w = 0; w < words.size(); ++w) {
+            words[w] = varied_word(id, w, words[w], states[sample], variation);
+        }
+        std::memcpy(static_cast<void*>(&plane[sample]), words.data(), sizeof(T));
+    }
+}
+
+}  // namespace
+
+Consistency compare_bits(const CaptureView& base, const CaptureView& derived,
+                         const cases::Derivation& derivation) {
+    return BitComparison(base, derived, derivation).run();
+}
+
+void vary(Capture& capture, const cases::Variation& variation) {
+    std::vector<SampleState> states(capture.sample_count());
+    for (size_t sample = 0; sample < states.size(); ++sample) {
+        states[sample] = sample_state(capture, sample);
+    }
+    vary_plane(capture.hits, 0, states, variation);
+    vary_plane(capture.writers, 1, states, variation);
+    vary_plane(capture.frag_coord, 2, states, variation);
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        vary_plane(capture.attributes[a], 3 + a, states, variation);
+    }
+    vary_plane(capture.depth, kDepthPlane, states, variation);
+}
+
+std::string plane_name(uint32_t plane, uint32_t word) {
+    constexpr std::array<const char*, 3> kNames = {"hits", "writer", "frag_coord"};
+    constexpr std::array<const char*, 4> kOrigins = {"draw", "primitive", "provoking vertex",
+                                                     "spare"};
+    if (plane == kDepthPlane) {
+        return "depth";
+    }
+    if (plane == 1) {
+        return fmt::format("writer's {}", kOrigins[word % 4]);
+    }
+    const std::string name = plane == kColorPlane ? "color"
+                             : plane < 3          ? kNames[plane]
+                                                  : fmt::format("attribute {}", plane - 3);
+    return fmt::format("{}.{}", name, "xyzw"[word % 4]);
+}
+
+void add_differences(const cases::Case& c, std::span<const cases::Derivation> derivations,
+                     std::span<const Consistency> found, Verdict& verdict) {
+    for (size_t k = 0; k < found.size() && k < derivations.size(); ++k) {
+        const cases::Rule* rule = cases::find_rule(derivations[k].rule);
+        if (rule == nullptr || rule->profile > verdict.profile) {
+            continue;
+        }
+        for (const Difference& difference : found[k].differences) {
+            const uint64_t pixel = difference.sample / c.target.samples;
+            Finding finding;
+            finding.kind = FindingKind::value;
+            finding.rule = rule->id;
+            finding.level = rule->profile;
+            finding.x = static_cast<uint32_t>(pixel % c.target.width);
+            finding.y = static_cast<uint32_t>(pixel / c.target.width % c.target.height);
+            finding.sample = static_cast<uint32_t>(difference.sample % c.target.samples);
+            finding.quantity = fmt::format("{}, {}", plane_name(difference.plane, difference.word),
+                                           derivations[k].name);
+            finding.expected = show_bits(difference.plane, difference.expected);
+            finding.got = show_bits(difference.plane, difference.got);
+            finding.why = why_of(derivations[k]);
+            const bool first = verdict.ok();
+            verdict.level = first ? finding.level : std::min(verdict.level, finding.level);
+            verdict.min_x = first ? finding.x : std::min(verdict.min_x, finding.x);
+            verdict.min_y = first ? finding.y : std::min(verdict.min_y, finding.y);
+            verdict.max_x = first ? finding.x : std::max(verdict.max_x, finding.x);
+            verdict.max_y = first ? finding.y : std::max(verdict.max_y, finding.y);
+            ++verdict.counts[static_cast<size_t>(FindingKind::value)];
+            if (difference.sample < verdict.marks.size() &&
+                (verdict.marks[difference.sample] == SampleMark::ok ||
+                 verdict.marks[difference.sample] == SampleMark::either)) {
+                verdict.marks[difference.sample] = SampleMark::value;
+            }
+            if (verdict.findings.size() < kMaxFindings) {
+                verdict.findings.push_back(std::move(finding));
+            }
+        }
+        verdict.counts[static_cast<size_t>(FindingKind::value)] +=
+            found[k].different - found[k].differences.size();
+    }
+}
+
+}  // namespace diff

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Self-consistency: two renderings of a case, bit for bit. No reference is asked and nothing is
+// tolerated; samples that the specification leaves free are compared like all others.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cases/derive.hpp"
+#include "diff/capture.hpp"
+#include "diff/verdict.hpp"
+
+namespace diff {
+
+// One sample whose bits differ: its first word that does.
+struct Difference {
+    uint64_t sample = 0;    // index in the capture
+    uint32_t plane = 0;     // 0 hits, 1 writers, 2 frag_coord, 3.. attributes, kDepthPlane, ...
+    uint32_t word = 0;      // of the sample in its plane
+    uint32_t expected = 0;  // bits of the case itself, changed as the variation demands
+    uint32_t got = 0;
+    friend bool operator==(const Difference&, const Difference&) = default;
+};
+inline constexpr uint32_t kDepthPlane = 3 + cases::kMaxAttributes;
+inline constexpr uint32_t kColorPlane = kDepthPlane + 1;
+inline constexpr uint32_t kPlanes = kColorPlane + 1;
+inline constexpr size_t kMaxDifferences = 64;
+
+// What comparing one derived rendering with the case's own has found.
+struct Consistency {
+    uint64_t compared = 0;                // samples
+    uint64_t different = 0;               // samples
+    std::vector<Difference> differences;  // the first kMaxDifferences
+    friend bool operator==(const Consistency&, const Consistency&) = default;
+};
+
+// `base` is the case as it stands, `derived` what cases::derive() drew. Samples of `base` that
+// contradict themselves or were not copied are passed over: compare() reports them.
+Consistency compare_bits(const CaptureView& base, const CaptureView& derived,
+                         const cases::Derivation& derivation);
+
+// Makes a capture of a case into what the variation should have drawn (fakes in tests, and the
+// reference as a device).
+void vary(Capture& capture, const cases::Variation& variation);
+
+// Adds the differences to a verdict, one finding a sample, as far as the verdict's profile demands
+// the rules. `found` holds one result a derivation.
+void add_differences(const cases::Case& c, std::span<const cases::Derivation> derivations,
+                     std::span<const Consistency> found, Verdict& verdict);
+
+// "attribute 1.z", "hits.x", ...
+std::string plane_name(uint32_t plane, uint32_t word);
+
+}  // namespace diff

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two renderings bit for bit: what must be the same, what a variation may change, and that every
+// single bit counts.
+#include "diff/consistency.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "perfect_capture.hpp"
+
+namespace diff {
+namespace {
+
+using cases::Derivation;
+using cases::RelationKind;
+
+struct Scene {
+    cases::Case test = pixel_case(8, 8, {{1, 1}, {7, 1}, {1, 7}});
+    Capture base;
+
+    explicit Scene(RelationKind kind = RelationKind::same_twice) {
+        add_attribute(test, cases::Interpolation::smooth, {1, 2, 3});
+        test.relations = {{kind, {3, 2}}};
+        base = perfect_capture(test, ref::expect(test, ref::Limits{8}, cases::Profile::direct3d));
+    }
+    std::vector<Derivation> derivations() const { return cases::derivations(test); }
+};
+
+// A bit of every plane in turn, at a drawn and at a clear sample.
+template <class Flip>
+void flip_each(Capture& capture, Flip&& check) {
+    for (const size_t sample : {size_t{2 * 8 + 2}, size_t{7 * 8 + 7}}) {
+        const auto flip = [&](auto& element, uint32_t plane) {
+            auto* bytes = reinterpret_cast<unsigned char*>(&element);
+            for (size_t byte = 0; byte < sizeof element; ++byte) {
+                bytes[byte] ^= 1U;
+                check(sample, plane, static_cast<uint32_t>(byte / 4));
+                bytes[byte] ^= 1U;
+            }
+        };
+        flip(capture.hits[sample], 0);
+        flip(capture.writers[sample], 1);
+        flip(capture.frag_coord[sample], 2);
+        flip(capture.attributes[0][sample], 3);
+        flip(capture.depth[sample], kDepthPlane);
+    }
+}
+
+}  // namespace
+
+TEST(Consistency, EveryRelationAcceptsWhatItDemands) {
+    for (const RelationKind kind : {RelationKind::same_twice, RelationKind::scissor_tiles,
+                                    RelationKind::other_clears, RelationKind::write_masks}) {
+        const Scene scene(kind);
+        ASSERT_FALSE(scene.derivations().empty());
+        for (const Derivation& d : scene.derivations()) {
+            Capture derived = scene.base;
+            vary(derived, d.variation);
+            const Consistency found = compare_bits(scene.base, derived, d);
+            EXPECT_EQ(found.compared, 64U) << d.name;
+            EXPECT_EQ(found.different, 0U) << d.name;
+        }
+    }
+}
+
+TEST(Consistency, EveryBitOfEveryPlaneCounts) {
+    for (const RelationKind kind : {RelationKind::same_twice, RelationKind::scissor_tiles,
+                                    RelationKind::other_clears, RelationKind::write_masks}) {
+        const Scene scene(kind);
+        for (const Derivation& d : scene.derivations()) {
+            Capture derived = scene.base;
+            vary(derived, d.variation);
+            flip_each(derived, [&](size_t sample, uint32_t plane, uint32_t word) {
+                const Consistency found = compare_bits(scene.base, derived, d);
+                ASSERT_EQ(found.different, 1U) << d.name << " plane " << plane;
+                ASSERT_EQ(found.differences.size(), 1U);
+                EXPECT_EQ(found.differences[0].sample, sample);
+                EXPECT_EQ(found.differences[0].plane, plane);
+                EXPECT_EQ(found.differences[0].word, word);
+            });
+        }
+    }
+}
+
+TEST(Consistency, UnchangedAttachmentsBreakOtherClearsAndMasks) {
+    for (const RelationKind kind : {RelationKind::other_clears, RelationKind::write_masks}) {
+        const Scene scene(kind);
+        for (const Derivation& d : scene.derivations()) {
+            EXPECT_GT(compare_bits(scene.base, scene.base, d).different, 0U) << d.name;
+        }
+    }
+}
+
+TEST(Consistency, EachAttachmentIsWrittenInOneOfTheTwoMasks) {
+    const Scene scene(RelationKind::write_masks);
+    const std::vector<Derivation> two = scene.derivations();
+    ASSERT_EQ(two.size(), 2U);
+    EXPECT_EQ(two[0].variation.masked & two[1].variation.masked, 0U);
+    EXPECT_EQ(two[0].variation.masked | two[1].variation.masked, 0xffU);
+    EXPECT_FALSE(two[0].variation.masks_depth);
+    EXPECT_TRUE(two[1].variation.masks_depth);
+}
+
+TEST(Consistency, DepthWritesStayWhereOtherDrawsTestDepth) {
+    Scene scene(RelationKind::write_masks);
+    scene.test.draws[0].depth.compare = cases::CompareOp::less;
+    EXPECT_FALSE(scene.derivations()[1].variation.masks_depth);
+    scene.test.relations = {{RelationKind::other_clears, {}}};
+    EXPECT_FALSE(scene.derivations()[0].variation.other_depth_clear);
+}
+
+TEST(Consistency, NaNsAreComparedByTheirBits) {
+    Scene scene;
+    const Derivation d = scene.derivations()[0];
+    scene.base.attributes[0][18].y = std::bit_cast<float>(0x7fc00001U);
+    Capture derived = scene.base;
+    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
+    derived.attributes[0][18].y = std::bit_cast<float>(0x7fc00002U);
+    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 1U);
+    scene.base.attributes[0][18].y = 0.0F;
+    derived.attributes[0][18].y = -0.0F;
+    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 1U);
+}
+
+TEST(Consistency, FewerAttributesCompareTheRest) {
+    const Scene scene(RelationKind::fewer_attributes);
+    const Derivation d = scene.derivations()[0];
+    EXPECT_TRUE(cases::derive(scene.test, d).draws[0].attributes.empty());
+    Capture derived = scene.base;
+    derived.attribute_count = 0;
+    derived.attributes[0].clear();
+    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
+    derived.hits[18].x += 1;
+    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 1U);
+}
+
+TEST(Consistency, CopiesOfAttributesEqualTheirOriginals) {
+    const Scene scene(RelationKind::more_attributes);
+    const Derivation d = scene.derivations()[0];
+    EXPECT_EQ(cases::derive(scene.test, d).draws[0].attributes.size(), 2U);
+    Capture derived = scene.base;
+    derived.attribute_count = 2;
+    derived.attributes[1] = derived.attributes[0];
+    EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
+    derived.attributes[1][18].x = std::nextafter(derived.attributes[1][18].x, 9.0F);
+    const Consistency found = compare_bits(scene.base, derived, d);
+    ASSERT_EQ(found.different, 1U);
+    EXPECT_EQ(plane_name(found.differences[0].plane, found.differences[0].word), "attribute 1.x");
+}
+
+TEST(Consistency, FindingsNameSampleBitsAndRule) {
+    const Scene scene(RelationKind::scissor_tiles);
+    const std::vector<Derivation> d = scene.derivations();
+    Capture derived = scene.base;
+    derived.hits[18].x += 1;
+    const std::vector<Consistency> found = {compare_bits(scene.base, derived, d[0])};
+    Verdict verdict;
+    verdict.profile = cases::Profile::vulkan;
+    verdict.marks.assign(64, SampleMark::ok);
+    add_differences(scene.test, d, found, verdict);
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    const Finding& f = verdict.findings[0];
+    EXPECT_EQ(f.rule, "repeat.scissor");
+    EXPECT_EQ(f.level, cases::Profile::vulkan);
+    EXPECT_EQ(f.x, 2U);
+    EXPECT_EQ(f.y, 2U);
+    EXPECT_EQ(f.quantity, "hits.x, scissor-tiles 3x2");
+    EXPECT_EQ(f.expected, "0x3f800000 (1)");
+    EXPECT_EQ(f.got, "0x40000000 (2)");
+    EXPECT_EQ(verdict.counts[static_cast<size_t>(FindingKind::value)], 1U);
+    EXPECT_EQ(verdict.marks[18], SampleMark::value);
+    EXPECT_FALSE(verdict.ok());
+}
+
+TEST(Consistency, AllDifferentSamplesAreCountedAndTheFirstOnesKept) {
+    const Scene scene;
+    const std::vector<Derivation> d = scene.derivations();
+    Capture derived = scene.base;
+    for (float& depth : derived.depth) {
+        depth += 1.0F;
+    }
+    const std::vector<Consistency> found = {compare_bits(scene.base, derived, d[0]),
+                                            compare_bits(scene.base, scene.base, d[1])};
+    EXPECT_EQ(found[0].different, 64U);
+    EXPECT_EQ(found[0].differences.size(), kMaxDifferences);
+    Verdict verdict;
+    add_differences(scene.test, d, found, verdict);
+    EXPECT_EQ(verdict.counts[static_cast<size_t>(FindingKind::value)], 64U);
+}
+
+TEST(Consistency, OtherShadersAreHeldToItFromPracticeOn) {
+    const Scene scene(RelationKind::more_attributes);
+    const std::vector<Derivation> d = scene.derivations();
+    const std::vector<Consistency> found = {{64, 1, {{18, 3, 0, 1, 2}}}};
+    Verdict verdict;
+    verdict.profile = cases::Profile::vulkan;
+    add_differences(scene.test, d, found, verdict);
+    EXPECT_TRUE(verdict.ok());
+    verdict.profile = cases::Profile::practice;
+    add_differences(scene.test, d, found, verdict);
+    EXPECT_FALSE(verdict.ok());
+}
+
+}  // namespace diff
