@@ -42,6 +42,7 @@ struct TriangleExplanation {
     bool culled = false;                 // faces away for every allowed position
     bool in_scissor = true;              // of its draw
     bool in_viewport = true;             // of its draw
+    bool is_undefined = false;           // a vertex is beyond what the profile promises anything of
     bool needs_clipping = false;         // a vertex lies outside the view volume
     bool has_area = true;                // with nearest snapping
     bool on_edge = false;                // some E is 0 and no E is negative, with nearest snapping
