@@ -102,7 +102,7 @@ class AttributeReader {
 
     bool store(size_t vertex, size_t i, const Number& n, const SourceLocation& where) {
         const float value = round_to_binary32(n).value;
-        if (std::fabs(value) > kMaxAttributeMagnitude) {
+        if (!n.non_finite && std::fabs(value) > kMaxAttributeMagnitude) {
             context_.error(where, "an attribute is larger than 2^126; write a smaller number");
             return false;
         }
@@ -113,7 +113,7 @@ class AttributeReader {
     bool read_one(const TomlValue& value, size_t vertex) {
         for (size_t i = 0; i < attribute_.components; ++i) {
             const TomlValue& element = component(value, i);
-            const std::optional<Number> n = context_.number(element, "an attribute");
+            const std::optional<Number> n = context_.any_binary32(element, "an attribute");
             if (!n || !store(vertex, i, *n, element.where)) {
                 return false;
             }
@@ -183,8 +183,10 @@ class AttributeReader {
             const std::optional<PixelPosition> at =
                 pixel_position(vertex, source_.space, source_.viewport);
             if (!at) {
-                context_.error(value.where,
-                               fmt::format("plane has no x and y at vertex {}, whose w is 0", v));
+                context_.error(
+                    value.where,
+                    fmt::format("plane has no x and y at vertex {}, whose {}", v,
+                                is_finite(vertex) ? "w is 0" : "position is not finite"));
                 return false;
             }
             const Names names = context_.names({{"x", {at->x, false}},

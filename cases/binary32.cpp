@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -34,7 +37,40 @@ long floor_log2(const mpq_class& q) {
     return left >= right ? e : e - 1;
 }
 
+constexpr uint32_t kSignBit = 0x80000000U;
+constexpr uint32_t kExponentBits = 0x7f800000U;
+constexpr uint32_t kQuietNan = 0x7fc00000U;
+
 }  // namespace
+
+Number number_of_bits(uint32_t bits) {
+    if ((bits & kExponentBits) == kExponentBits) {
+        return {0, false, bits};
+    }
+    return {exact(static_cast<double>(std::bit_cast<float>(bits))), bits == kSignBit};
+}
+
+std::optional<Number> read_special_number(std::string_view text) {
+    constexpr std::array<std::pair<std::string_view, uint32_t>, 4> kWords = {
+        {{"nan", kQuietNan},
+         {"-nan", kQuietNan | kSignBit},
+         {"inf", kExponentBits},
+         {"-inf", kExponentBits | kSignBit}}};
+    for (const auto& [word, bits] : kWords) {
+        if (text == word) {
+            return number_of_bits(bits);
+        }
+    }
+    constexpr std::string_view kBefore = "bits(0x";
+    if (text.size() != kBefore.size() + 9 || text.substr(0, kBefore.size()) != kBefore ||
+        text.back() != ')') {
+        return std::nullopt;
+    }
+    uint32_t bits = 0;
+    const char* const end = text.data() + text.size() - 1;
+    const auto [last, error] = std::from_chars(text.data() + kBefore.size(), end, bits, 16);
+    return error == std::errc() && last == end ? std::optional(number_of_bits(bits)) : std::nullopt;
+}
 
 Rounded round_to_binary32(const mpq_class& q) {
     if (q == 0) {
@@ -72,6 +108,9 @@ Rounded round_to_binary32(const mpq_class& q) {
 }
 
 Rounded round_to_binary32(const Number& n) {
+    if (n.non_finite) {
+        return {std::bit_cast<float>(*n.non_finite), true};
+    }
     if (n.value == 0 && n.negative_zero) {
         return {-0.0F, true};
     }

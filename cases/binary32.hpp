@@ -6,7 +6,10 @@
 
 #include <gmpxx.h>
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace cases {
 
@@ -14,7 +17,15 @@ namespace cases {
 struct Number {
     mpq_class value;
     bool negative_zero = false;  // only if value == 0
+    // The bits of a NaN or an infinity, which no rational can be; value is 0 then.
+    std::optional<uint32_t> non_finite = {};
 };
+
+// The binary32 with these bits.
+Number number_of_bits(uint32_t bits);
+// What no expression can write: "nan", "-nan", "inf", "-inf" and "bits(0x7fc00001)" with eight
+// hexadecimal digits. Nothing for any other text.
+std::optional<Number> read_special_number(std::string_view text);
 
 struct Rounded {
     float value = 0;     // infinite if the rational is too large

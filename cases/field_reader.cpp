@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "cases/selector.hpp"
@@ -108,6 +109,32 @@ std::optional<Number> LeafContext::number(const TomlValue& value, const std::str
     error(value.where, fmt::format("{} is {}; write a number or an expression in quotes", what,
                                    describe(value)));
     return std::nullopt;
+}
+
+std::optional<Number> LeafContext::any_binary32(const TomlValue& value, const std::string& what) {
+    if (value.is(Kind::floating) && !std::isfinite(value.floating)) {
+        return number_of_bits(std::bit_cast<uint32_t>(static_cast<float>(value.floating)));
+    }
+    if (!value.is(Kind::string)) {
+        return number(value, what);
+    }
+    std::string text = value.string;
+    const TomlValue* named = parameter(text);
+    if (named != nullptr && named->is(Kind::string)) {
+        text = named->string;
+    }
+    if (std::optional<Number> special = read_special_number(text)) {
+        return special;
+    }
+    if (text.rfind("bits(", 0) == 0) {
+        error(
+            value.where,
+            fmt::format("{}: \"{}\" is not the bits of a binary32; write eight hexadecimal digits "
+                        "as in \"bits(0x7fc00001)\"",
+                        what, text));
+        return std::nullopt;
+    }
+    return number(value, what);
 }
 
 std::optional<int64_t> LeafContext::integer(const TomlValue& value, const std::string& what,

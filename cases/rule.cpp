@@ -85,6 +85,12 @@ constexpr std::array kRules = {
          "It is discarded if one of the cull distances is negative at all three vertices, and drawn "
          "whole otherwise.",
          "vertexpostproc-clipping", "15.4.2", "ref/coverage_setup.cpp"},
+    Rule{"number.undefined", Profile::vulkan, "A bad number spoils its own triangle only",
+         "NaN and infinity make the result of their own triangle undefined inside scissor and "
+         "framebuffer, and so do positions beyond 2^32 (beyond FLT_MAX/16 from practice on); all "
+         "other triangles are drawn as ever and nothing is terminated. Denormals and zeros of "
+         "either sign are ordinary numbers, but a denormal w may be taken for zero.",
+         "fundamentals-floating-point", "15.4", "ref/position.hpp"},
     Rule{"scissor.half-open", Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",
          "fragops-scissor", "15.14", "ref/expectation.hpp"},

@@ -48,7 +48,9 @@ std::optional<ExactVertex> read_vertex(LeafContext& context, const TomlValue& va
     ExactVertex vertex = exact_vertex(0, 0);
     for (size_t i = 0; i < size; ++i) {
         const std::string component = fmt::format("{} of {}", kComponent.at(i), what);
-        std::optional<Number> n = context.number(value.array[i], component);
+        std::optional<Number> n = space == Space::clip
+                                      ? context.any_binary32(value.array[i], component)
+                                      : context.number(value.array[i], component);
         if (!n || (space != Space::pixels &&
                    !check_binary32(context, *n, value.array[i].where, component))) {
             return std::nullopt;
@@ -83,6 +85,11 @@ ExactVertex exact_vertex(mpq_class x, mpq_class y) {
     return vertex;
 }
 
+bool is_finite(const ExactVertex& vertex) {
+    return std::none_of(vertex.xyzw.begin(), vertex.xyzw.end(),
+                        [](const Number& n) { return n.non_finite.has_value(); });
+}
+
 std::optional<std::vector<ExactVertex>> read_vertices(LeafContext& context, const TomlValue& value,
                                                       Space space) {
     if (!context.array(value, "vertices")) {
@@ -108,7 +115,7 @@ std::optional<PixelPosition> pixel_position(const ExactVertex& vertex, Space spa
     if (space == Space::pixels) {
         return PixelPosition{vertex.x(), vertex.y()};
     }
-    if (vertex.w() == 0) {
+    if (!is_finite(vertex) || vertex.w() == 0) {
         return std::nullopt;
     }
     const Scale sx = scale(viewport.x, viewport.width);
@@ -133,7 +140,8 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
     for (size_t v = 0; v < vertices.size(); ++v) {
         ExactVertex clip = vertices[v];
         const Rounded w = round_to_binary32(clip.xyzw[3]);
-        if (std::isinf(w.value) || (space != Space::clip && std::fpclassify(w.value) == FP_ZERO)) {
+        if ((std::isinf(w.value) && !w.exact) ||
+            (space != Space::clip && std::fpclassify(w.value) == FP_ZERO)) {
             context.error(where,
                           fmt::format("w of vertex {} is not a binary32 other than zero", v));
             return std::nullopt;
@@ -154,7 +162,7 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
         bool is_exact = w.exact;
         for (size_t i = 0; i < 4; ++i) {
             const Rounded rounded = i == 3 ? w : round_to_binary32(clip.xyzw.at(i));
-            if (std::isinf(rounded.value)) {
+            if (std::isinf(rounded.value) && !rounded.exact) {
                 context.error(where, fmt::format("{} of vertex {} is larger than the largest "
                                                  "binary32 in clip space",
                                                  kComponent.at(i), v));

@@ -37,7 +37,10 @@ ExactVertex exact_vertex(mpq_class x, mpq_class y);
 std::optional<std::vector<ExactVertex>> read_vertices(LeafContext& context, const TomlValue& value,
                                                       Space space);
 
-// Framebuffer position in pixels by the viewport; nothing if w is 0.
+// False if a component is NaN or infinite (space clip only).
+bool is_finite(const ExactVertex& vertex);
+
+// Framebuffer position in pixels by the viewport; nothing if w is 0 or a component is not finite.
 struct PixelPosition {
     mpq_class x, y;
 };

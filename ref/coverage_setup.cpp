@@ -460,10 +460,10 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
                    {draw, triangle.vertex}, clip_volume_of(draw)};
     const std::array<glm::vec4, 3>& clip = s.input.clip;
     AreaSigns signs;
-    const bool is_finite = std::all_of(clip.begin(), clip.end(), [](const glm::vec4& v) {
-        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+    const bool is_number = std::all_of(clip.begin(), clip.end(), [&](const glm::vec4& v) {
+        return is_representable(v, profile);
     });
-    if (!is_finite) {
+    if (!is_number) {
         // Undefined for this primitive, anywhere inside scissor and framebuffer.
         t.kind = TriangleSetup::Kind::anywhere;
         t.window.is_viewport_ignored = true;
@@ -471,6 +471,18 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
         return t;
     }
     if (is_trivially_outside(clip, s.volume.view()) || is_culled_by_distance(draw, triangle)) {
+        return t;
+    }
+    // "x/w ... division by zero produces an unspecified result" (Vulkan, "General Requirements"); a
+    // denormal w may be flushed to zero. Direct3D clips to 0 < w before it divides.
+    const bool may_divide_by_zero =
+        profile != cases::Profile::direct3d &&
+        std::any_of(clip.begin(), clip.end(),
+                    [](const glm::vec4& v) { return std::fabs(v.w) < 0x1p-126F; });
+    if (may_divide_by_zero) {
+        t.kind = TriangleSetup::Kind::anywhere;
+        t.window.is_viewport_ignored = true;
+        apply_facing(t, {true, true, true}, draw);
         return t;
     }
     t.kind = TriangleSetup::Kind::outlines;

@@ -153,6 +153,11 @@ std::string reason_for(const TriangleExplanation& t) {
     if (t.near_distance) {
         return "inside the triangle, but a clip distance is 0 within its error at the sample";
     }
+    if (t.is_undefined) {
+        return "a vertex has a NaN, an infinity or a number beyond the guaranteed range: the "
+               "triangle "
+               "may cover any sample or none";
+    }
     if (t.edges.empty()) {
         return "a vertex lies behind the eye or beyond 2^32 pixels; the clipped polygon decides";
     }
@@ -280,6 +285,7 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
         e.on_grid = true;
         for (size_t k = 0; k < 3; ++k) {
             const glm::vec4& clip = draw.positions[t.vertex[k]];
+            e.is_undefined = e.is_undefined || !is_representable(clip, profile);
             e.needs_clipping = e.needs_clipping || !is_inside(clip, clip_volume_of(draw).view());
             if (is_projectable(clip)) {
                 snapped[k] = snap_nearest(clip, draw.viewport, limits);

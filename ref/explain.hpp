@@ -43,6 +43,7 @@ struct TriangleExplanation {
     bool in_scissor = true;              // of its draw
     bool in_viewport = true;             // of its draw
     bool in_mask = true;                 // of its draw
+    bool is_undefined = false;           // a vertex is beyond what the profile promises anything of
     bool needs_clipping = false;         // a vertex lies outside the view volume
     bool has_distances = false;          // of clipping
     bool culled_by_distance = false;     // it could cover the sample but for its cull distances

@@ -20,6 +20,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "ref/position_detail.hpp"
 #include "ref/position_filter.hpp"
@@ -228,6 +229,13 @@ IdealPosition ideal_position(const glm::vec4& clip, const cases::Viewport& viewp
 bool is_projectable(const glm::vec4& clip) {
     return std::isfinite(clip.x) && std::isfinite(clip.y) && std::isfinite(clip.z) &&
            std::isfinite(clip.w) && clip.w > 0;
+}
+
+bool is_representable(const glm::vec4& clip, cases::Profile profile) {
+    const float limit =
+        profile == cases::Profile::vulkan ? 0x1p32F : std::numeric_limits<float>::max() / 16;
+    const auto is_within = [limit](float c) { return std::fabs(c) <= limit; };  // false for NaN
+    return is_within(clip.x) && is_within(clip.y) && is_within(clip.z) && is_within(clip.w);
 }
 
 bool is_in_guaranteed_range(const glm::vec4& clip, cases::Profile profile) {

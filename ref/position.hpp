@@ -29,6 +29,13 @@ IdealPosition ideal_position(const glm::vec4& clip, const cases::Viewport& viewp
 // True if every component is finite and w > 0.
 bool is_projectable(const glm::vec4& clip);
 
+// False if a component is NaN, infinite, or so large that the profile promises nothing of a
+// triangle with this vertex, not even that it stays inside the viewport: beyond 2^32 at profile
+// vulkan (the magnitude that floating-point values must be able to have), beyond FLT_MAX/16
+// otherwise (Direct3D 11.3, 15.4: up to there clipping, division and viewport never make NaN or
+// infinity).
+bool is_representable(const glm::vec4& clip, cases::Profile profile);
+
 // False if the vertex is no longer one of which the profile can ask something: Vulkan guarantees a
 // largest magnitude of 2^32 only ("Floating-Point Computation": "at least 2^32"), so at profile
 // vulkan 1/w, x/w, y/w and z/w must stay within it. A vertex with w = 0 has no quotients and is

@@ -499,7 +499,8 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
             e.nearest = static_cast<double>(f);
             e.exact = std::isfinite(f) ? mpq_class(e.nearest).get_str() : fmt::format("{}", f);
         } else {
-            if (basis.orientation == 0) {
+            const auto index = static_cast<size_t>(&q - all.data());
+            if (basis.orientation == 0 || !impl_->promises(t)[index].is_number) {
                 continue;
             }
             const auto v = exact_value(basis, q, place);

@@ -15,7 +15,8 @@ namespace {
 // Above it a sum of a few, or a difference of two, overflows binary32; 1/w below is a denormal w.
 constexpr double kLargest = 0x1p126;
 
-// No profile asks for a number where binary32 has none: 1/w of a vertex (w = 0 has no value at all,
+// No profile asks for a number where binary32 has none (NaN and infinity "yield unspecified
+// results", Vulkan, "Floating-Point Computation"): 1/w of a vertex (w = 0 has no value at all,
 // a denormal w may be flushed to 0), z/w, f/w of a smooth value or f itself.
 bool is_unpromised(const Primitive& primitive, const Quantity& q) {
     if (q.kind != Kind::linear && q.kind != Kind::perspective) {
@@ -32,7 +33,8 @@ bool is_unpromised(const Primitive& primitive, const Quantity& q) {
         const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
         const bool is_quotient = q.attribute < 0 || q.kind == Kind::perspective;
         // Products with a power of two: exact.
-        if (w * kLargest < 1 || f > kLargest || (is_quotient && f > w * kLargest)) {
+        if (!std::isfinite(f) || w * kLargest < 1 || f > kLargest ||
+            (is_quotient && f > w * kLargest)) {
             return true;
         }
     }
@@ -45,7 +47,8 @@ constexpr double kGuaranteed = 0x1p32;
 // Whether 1/w or a quotient by w of a vertex that a device may use is beyond it.
 bool is_position_beyond(const Primitive& primitive) {
     if (!std::all_of(primitive.clip.begin(), primitive.clip.end(), [](const glm::vec4& v) {
-            return is_in_guaranteed_range(v, cases::Profile::vulkan);
+            return is_representable(v, cases::Profile::vulkan) &&
+                   is_in_guaranteed_range(v, cases::Profile::vulkan);
         })) {
         return true;
     }

@@ -182,8 +182,7 @@ Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
     for (size_t i = 0; i < 3; ++i) {
         const glm::vec4 v = p.draw->positions[triangle.vertex[i]];
         p.clip[i] = v;
-        const bool finite =
-            std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+        const bool finite = is_representable(v, cases::Profile::direct3d);
         p.is_finite = p.is_finite && finite;
         p.is_projectable = p.is_projectable && finite && v.w > 0;
         p.needs_clipping = p.needs_clipping || !is_inside(input, i, volume.all());
@@ -258,8 +257,11 @@ std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
         if (q.attribute < 0 || (q.kind != Kind::linear && q.kind != Kind::perspective)) {
             continue;
         }
-        const Triple<float> f =
+        Triple<float> f =
             attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+        for (float& value : f) {
+            value = std::isfinite(value) ? value : 0.0F;  // nothing is asked of it (promises_of)
+        }
         PlaneInput<T> plane;
         for (size_t i = 0; i < 3; ++i) {
             plane.h[i] = q.kind == Kind::perspective

@@ -57,7 +57,7 @@ struct Primitive {
     const cases::Draw* draw = nullptr;
     Triangle triangle;
     std::array<glm::vec4, 3> clip{};
-    bool is_finite = false;       // every component of every position
+    bool is_finite = false;       // is_representable() at the profiles beyond vulkan
     bool is_projectable = false;  // and w > 0
     bool needs_clipping = false;  // a vertex is outside the clip volume
 };

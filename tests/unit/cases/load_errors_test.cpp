@@ -411,6 +411,17 @@ vertices = [[0,0,0,1],[1,0,0,1],[0,1,0]])~"),
     {draw(R"~(space = "clip"
 vertices = [[0,0,0,1],["2^128",0,0,1],[0,1,0,1]])~"),
      R"~(f:8:24: error: x of vertex 1 is larger than the largest binary32)~"},
+    {draw(R"~(space = "clip"
+vertices = [[0,0,0,1],["bits(0x7fc)",0,0,1],[0,1,0,1]])~"),
+     R"~(f:8:24: error: x of vertex 1: "bits(0x7fc)" is not the bits of a binary32; write eight hexadecimal digits as in "bits(0x7fc00001)")~"},
+    {draw(R"~(space = "clip"
+vertices = [[0,0,0,1],[1,0,0,1],["nan",1,0,1]]
+[[draw.attribute]]
+plane = "x")~"),
+     R"~(f:10:9: error: plane has no x and y at vertex 2, whose position is not finite)~"},
+    {draw(R"~(space = "ndc"
+vertices = [[0,0],["nan",0],[0,1]])~"),
+     R"~(f:8:20: error: x of vertex 1: "nan" is not a number: nan is no number here)~"},
     {draw(R"~(space = "ndc"
 vertices = [[0,0],["1/3",0],[0,1]])~"),
      R"~(f:8:20: error: x of vertex 1 is not a binary32; its neighbours are "0x1.555554p-2" (0.3333333) and "0x1.555556p-2" (0.33333334))~"},
@@ -540,6 +551,8 @@ f:8:1: error: [[draw.attribute]] has 0 of the keys values, constant, plane and f
     {attribute(R"~(values = [1,2,"x"])~"),
      R"~(f:9:15: error: an attribute: "x" is not a number: the name x is unknown; names are the keys of [matrix])~"},
     {attribute(R"~(constant = "2^127")~"),
+     R"~(f:9:12: error: an attribute is larger than 2^126; write a smaller number)~"},
+    {attribute(R"~(constant = "bits(0x7f7fffff)")~"),
      R"~(f:9:12: error: an attribute is larger than 2^126; write a smaller number)~"},
     {attribute(R"~(constant = [])~"),
      R"~(f:9:12: error: 0 components are given; write 1 to 4)~"},

@@ -41,6 +41,35 @@ mpq_class power_of_two(int exponent) {
     return exponent >= 0 ? mpq_class(one) : mpq_class(1, one);
 }
 
+TEST(SpecialNumber, BitsArriveAsWritten) {
+    const std::pair<const char*, uint32_t> rows[] = {
+        {"nan", 0x7fc00000U},
+        {"-nan", 0xffc00000U},
+        {"inf", 0x7f800000U},
+        {"-inf", 0xff800000U},
+        {"bits(0x7fa00001)", 0x7fa00001U},  // signalling
+        {"bits(0xFFC12345)", 0xffc12345U},
+        {"bits(0x00000001)", 1U},
+        {"bits(0x80000000)", 0x80000000U},
+        {"bits(0x3f800000)", 0x3f800000U},
+    };
+    for (const auto& [text, bits] : rows) {
+        const std::optional<Number> n = read_special_number(text);
+        ASSERT_TRUE(n) << text;
+        const Rounded rounded = round_to_binary32(*n);
+        EXPECT_EQ(std::bit_cast<uint32_t>(rounded.value), bits) << text;
+        EXPECT_TRUE(rounded.exact) << text;
+    }
+}
+
+TEST(SpecialNumber, NothingElseIsOne) {
+    for (const char* text :
+         {"", "NaN", "nan ", "+inf", "bits(0x1)", "bits(0x7fc000001)", "bits(7fc00001)",
+          "bits(0x7fc0000g)", "bits(0x7fc00001", "bits(0x-fc00001)"}) {
+        EXPECT_FALSE(read_special_number(text)) << text;
+    }
+}
+
 }  // namespace
 
 TEST(Expression, HasExactValues) {

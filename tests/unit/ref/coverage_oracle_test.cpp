@@ -4,6 +4,8 @@
 // The fast reference against the oracle: equal in every sample of every random case.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "ref/coverage_exact.hpp"
 #include "ref/coverage_fast.hpp"
 #include "ref/coverage_setup.hpp"
@@ -70,6 +72,83 @@ TEST(CoverageOracle, RandomMeshes) {
         open += expect(c, s.limits, s.profile).either_samples;
     }
     EXPECT_GT(open, 100U);
+}
+
+// Meshes and triangles with bad numbers in some of their vertices.
+TEST(CoverageOracle, BadNumbers) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kMax = std::numeric_limits<float>::max();
+    const float bad[] = {std::numeric_limits<float>::quiet_NaN(),
+                         kInfinity,
+                         -kInfinity,
+                         kMax,
+                         -kMax,
+                         0x1p33F,
+                         0x1p-149F,
+                         -0x1p-149F,
+                         0.0F,
+                         -0.0F};
+    uint64_t must = 0;
+    uint64_t open = 0;
+    for (uint64_t seed = 1; seed <= 300; ++seed) {
+        RandomCases random(seed);
+        const Setting s = setting(random);
+        cases::Case c = random.flip() ? random.mesh() : random.triangles();
+        auto& positions = c.draws[0].positions;
+        const int64_t count = random.integer(1, 2);
+        for (int64_t k = 0; k < count; ++k) {
+            const auto v = static_cast<size_t>(random.integer(0, std::ssize(positions) - 1));
+            const auto part = static_cast<glm::vec4::length_type>(random.integer(0, 3));
+            positions[v][part] = bad[random.integer(0, 9)];
+        }
+        expect_equal(c, s, seed);
+        if (HasFatalFailure()) {
+            return;
+        }
+        const Expectation e = expect(c, s.limits, s.profile);
+        must += e.must_samples;
+        open += e.either_samples;
+    }
+    EXPECT_GT(must, 1000U);
+    EXPECT_GT(open, 1000U);
+}
+
+// What a bad vertex frees, by hand: the triangles that use it, inside the scissor, and nothing
+// else.
+TEST(BadNumbers, OnlyTheirTrianglesAreFree) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    for (const cases::Profile profile : cases::kProfiles) {
+        cases::Case c;
+        c.target.width = 8;
+        c.target.height = 4;
+        cases::Draw d;
+        d.viewport = {0, 0, 8, 4, 0, 1};
+        d.scissor = {0, 0, 6, 4};
+        // Columns 0 to 3 whole, by two triangles; the bad one is the second.
+        d.positions = {{-1, -1, 0, 1}, {0, -1, 0, 1},   {-1, 3, 0, 1},
+                       {0, 0, 0, 1},   {kNan, 0, 0, 1}, {0, 1, 0, 1}};
+        c.draws.push_back(d);
+        const Expectation e = expect(c, Limits{8}, profile);
+        const auto bounds = [&](uint32_t x, uint32_t y) { return e.samples[y * 8 + x].hits; };
+        EXPECT_EQ(bounds(0, 0).total_min, 1U);  // the good one covers it for certain
+        EXPECT_EQ(bounds(0, 0).total_max, 2U);  // and the bad one may
+        EXPECT_EQ(bounds(5, 3).total_min, 0U);
+        EXPECT_EQ(bounds(5, 3).total_max, 1U);
+        EXPECT_EQ(bounds(5, 3).front_max, 1U);  // of either face
+        EXPECT_EQ(bounds(5, 3).back_max, 1U);
+        EXPECT_EQ(bounds(6, 3).total_max, 0U);  // beyond the scissor nothing is free
+        EXPECT_EQ(bounds(7, 0).total_max, 0U);
+    }
+}
+
+// 2^33 is beyond what Vulkan guarantees and ordinary for binary32.
+TEST(BadNumbers, RangeDependsOnTheProfile) {
+    const glm::vec4 far(0x1p33F, 0, 0, 1);
+    EXPECT_FALSE(is_representable(far, cases::Profile::vulkan));
+    EXPECT_TRUE(is_representable(far, cases::Profile::practice));
+    EXPECT_TRUE(is_representable({0x1p32F, 0, 0, 1}, cases::Profile::vulkan));
+    EXPECT_FALSE(is_representable({0x1p125F, 0, 0, 1}, cases::Profile::direct3d));
+    EXPECT_TRUE(is_representable({0x1p123F, 0, 0, 1}, cases::Profile::direct3d));
 }
 
 TEST(CoverageOracle, ClassifyAgreesWithScan) {
