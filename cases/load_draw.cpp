@@ -53,9 +53,9 @@ class DrawLoader {
         const std::optional<std::vector<uint32_t>> order = vertex_order(
             context_, table_, draw_.topology, draw_.indices.has_value(), vertices_.size());
         if (const TomlValue* value = table_.find("attribute")) {
-            draw_.attributes = read_attributes(
-                context_, *value,
-                {vertices_, space_, draw_.viewport, draw_.topology, draw_.indices.has_value()});
+            draw_.attributes = read_attributes(context_, *value,
+                                               {vertices_, space_, draw_.viewport, draw_.topology,
+                                                draw_.indices.has_value(), target_.samples});
         }
         if (!context_.errors().empty()) {
             return draw_;
@@ -67,7 +67,9 @@ class DrawLoader {
         }
         draw_.positions = ordered(*positions, *order);
         for (Attribute& attribute : draw_.attributes) {
-            attribute.values = ordered(attribute.values, *order);
+            if (attribute.source == Source::vertex) {
+                attribute.values = ordered(attribute.values, *order);
+            }
         }
         return draw_;
     }

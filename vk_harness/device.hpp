@@ -22,6 +22,8 @@ struct Capabilities {
     VkDeviceSize max_allocation = 0, total_memory = 0;  // bytes
     VkSampleCountFlags sample_counts = 0;  // all attachments, drawn and read sample by sample
     bool triangle_fans = true;
+    bool has_sample_shading = false;      // sampleRateShading
+    bool barycentrics = false;         // VK_KHR_fragment_shader_barycentric
     bool portability_subset = false;
 };
 

@@ -71,8 +71,8 @@ shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
                 break;
         }
         v.lod = v.lod || attribute.probe == cases::Probe::lod;
-        v.probes = v.probes || (attribute.probe != cases::Probe::value &&
-                                attribute.probe != cases::Probe::lod);
+        v.probes = v.probes ||
+                   (attribute.probe != cases::Probe::value && attribute.probe != cases::Probe::lod);
     }
     // The build compiles lod with the probes, and the sample built-ins with the mask (which changes
     // nothing once there is sample shading).

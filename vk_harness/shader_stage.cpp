@@ -67,7 +67,8 @@ std::vector<InputChange> input_changes(const PipelineKey& key, bool has_primitiv
 
 void specialize(const PipelineKey& key, Specialization& out) {
     const auto set = [&](uint32_t id, uint32_t word) {
-        out.entries.push_back({id, static_cast<uint32_t>(out.words.size() * sizeof word), sizeof word});
+        out.entries.push_back(
+            {id, static_cast<uint32_t>(out.words.size() * sizeof word), sizeof word});
         out.words.push_back(word);
     };
     for (uint32_t k = 0; k < key.attribute_count; ++k) {

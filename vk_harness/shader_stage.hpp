@@ -13,7 +13,8 @@
 
 namespace vk_harness {
 
-// Interpolation and auxiliary qualifiers of the inputs; the primitive's number if the device has it.
+// Interpolation and auxiliary qualifiers of the inputs; the primitive's number if the device has
+// it.
 std::vector<InputChange> input_changes(const PipelineKey& key, bool has_primitive_id);
 
 // Values of the specialization constants of capture.frag. Must not be moved once it is filled.

@@ -143,11 +143,13 @@ tl::expected<Edit, std::string> plan_edit(std::span<const Instruction> code,
     };
     const bool is_placed = has(kCentroid) || has(kSample);
     if ((has(kFlat) && (has(kNoPerspective) || is_placed)) || (has(kCentroid) && has(kSample))) {
-        return Error(fmt::format("the decorations of input {} contradict each other", change.number));
+        return Error(
+            fmt::format("the decorations of input {} contradict each other", change.number));
     }
     for (const uint32_t decoration : edit.decorations) {
         if (is_decorated(code, edit.id, decoration)) {
-            return Error(fmt::format("input {} has decoration {} already", change.number, decoration));
+            return Error(
+                fmt::format("input {} has decoration {} already", change.number, decoration));
         }
     }
     return edit;
@@ -168,9 +170,8 @@ tl::expected<std::vector<uint32_t>, std::string> change_inputs(
         if (!edit) {
             return Error(edit.error());
         }
-        const bool is_second = std::any_of(edits.begin(), edits.end(), [&](const Edit& other) {
-            return other.id == edit->id;
-        });
+        const bool is_second = std::any_of(edits.begin(), edits.end(),
+                                           [&](const Edit& other) { return other.id == edit->id; });
         if (is_second) {
             return Error(fmt::format("input {} is changed twice", change.number));
         }
@@ -194,8 +195,8 @@ tl::expected<std::vector<uint32_t>, std::string> change_inputs(
         out.insert(out.end(), {first_word(kOpCapability, 2), capability});
     }
     for (const Instruction& i : *code) {
-        const auto edit = std::find_if(edits.begin(), edits.end(),
-                                       [&](const Edit& e) { return e.at == &i; });
+        const auto edit =
+            std::find_if(edits.begin(), edits.end(), [&](const Edit& e) { return e.at == &i; });
         if (edit == edits.end()) {
             out.insert(out.end(), i.words.begin(), i.words.end());
             continue;

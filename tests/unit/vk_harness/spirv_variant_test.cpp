@@ -3,7 +3,6 @@
 #include "vk_harness/spirv_variant.hpp"
 
 #include <gmock/gmock.h>
-
 #include <unistd.h>
 
 #include <cstdio>
@@ -104,7 +103,8 @@ TEST(SpirvVariant, WhatItRefuses) {
     EXPECT_EQ(error_of({}, {}), "the module does not begin as SPIR-V of this machine's byte order");
     Words bad = good;
     bad[0] = 0x03022307;
-    EXPECT_EQ(error_of(bad, {}), "the module does not begin as SPIR-V of this machine's byte order");
+    EXPECT_EQ(error_of(bad, {}),
+              "the module does not begin as SPIR-V of this machine's byte order");
     bad = good;
     bad[1] = 0x00010700;
     EXPECT_EQ(error_of(bad, {}), "the module's version 0x00010700 is not 1.0 to 1.6");
@@ -116,9 +116,8 @@ TEST(SpirvVariant, WhatItRefuses) {
     EXPECT_EQ(error_of(bad, {}), "the instruction at word 5 runs over the module's end");
     bad = good;
     bad.pop_back();
-    EXPECT_EQ(error_of(bad, {}),
-              "the instruction at word " + std::to_string(good.size() - 4) +
-                  " runs over the module's end");
+    EXPECT_EQ(error_of(bad, {}), "the instruction at word " + std::to_string(good.size() - 4) +
+                                     " runs over the module's end");
     bad = good;
     bad.insert(bad.end(), {2U << 16U | kDecorate, 5});
     EXPECT_EQ(error_of(bad, {}),
