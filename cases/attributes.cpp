@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "cases/attribute_probe.hpp"
 #include "cases/generate.hpp"
 
 namespace cases {
@@ -30,7 +31,8 @@ class AttributeReader {
     std::optional<Attribute> read() {
         context_.known_keys(
             table_, "[[draw.attribute]]",
-            {"name", "interpolation", "values", "constant", "plane", "from", "seed", "components"});
+            {"name", "interpolation", "values", "constant", "plane", "from", "seed", "components",
+             "auxiliary", "source", "probe", "offset", "sample", "texture"});
         if (const TomlValue* value = table_.find("name")) {
             attribute_.name = context_.text(*value, "name").value_or(attribute_.name);
             if (attribute_.name.empty()) {
@@ -41,14 +43,16 @@ class AttributeReader {
             attribute_.interpolation = static_cast<Interpolation>(
                 context_.word(*value, "interpolation", kInterpolation).value_or(0));
         }
-        if (!read_source()) {
+        if (!read_source(context_, table_, attribute_) ||
+            (attribute_.source == Source::vertex && !read_vertex_values()) ||
+            !read_probe(context_, table_, source_.samples, attribute_)) {
             return std::nullopt;
         }
         return std::move(attribute_);
     }
 
   private:
-    bool read_source() {
+    bool read_vertex_values() {
         size_t sources = 0;
         for (const std::string_view key : {"values", "constant", "plane", "from"}) {
             sources += table_.find(key) != nullptr ? 1U : 0U;
@@ -259,6 +263,7 @@ std::vector<Attribute> read_attributes(LeafContext& context, const TomlValue& va
                                                value.array.size(), kMaxAttributes));
         return attributes;
     }
+    std::vector<SourceLocation> where;
     for (const TomlValue& table : value.array) {
         if (!context.table(table, "attribute")) {
             continue;
@@ -266,8 +271,10 @@ std::vector<Attribute> read_attributes(LeafContext& context, const TomlValue& va
         AttributeReader reader(context, table, source, attributes.size());
         if (std::optional<Attribute> attribute = reader.read()) {
             attributes.push_back(std::move(*attribute));
+            where.push_back(table.where);
         }
     }
+    check_shared_inputs(context, attributes, where);
     for (size_t i = 0; i < attributes.size(); ++i) {
         for (size_t k = 0; k < i; ++k) {
             if (attributes[i].name == attributes[k].name) {

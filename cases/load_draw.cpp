@@ -77,8 +77,9 @@ class DrawLoader {
         move_vertices(context_, table_, space_, target_, vertices_);
         const std::optional<std::vector<uint32_t>> order = vertex_order(
             context_, table_, draw_.topology, draw_.indices.has_value(), vertices_.size());
-        const AttributeSource source{vertices_, space_, draw_.viewport, draw_.topology,
-                                     draw_.indices.has_value()};
+        const AttributeSource source{
+            vertices_,      space_, draw_.viewport, draw_.topology, draw_.indices.has_value(),
+            target_.samples};
         if (const TomlValue* value = table_.find("attribute")) {
             draw_.attributes = read_attributes(context_, *value, source);
         }
@@ -93,7 +94,9 @@ class DrawLoader {
         read_clipping(source, *positions, *order);
         draw_.positions = ordered(*positions, *order);
         for (Attribute& attribute : draw_.attributes) {
-            attribute.values = ordered(attribute.values, *order);
+            if (attribute.source == Source::vertex) {
+                attribute.values = ordered(attribute.values, *order);
+            }
         }
         return draw_;
     }

@@ -66,6 +66,8 @@ class ReferenceBackend : public Backend {
         device_.api_version = 1U << 22 | 3U << 12;  // VK_API_VERSION_1_3
         device_.subpixel_bits = 8;
         device_.viewport_subpixel_bits = 8;
+        device_.interpolation_offset_bits = 4;
+        device_.mipmap_bits = 8;
         device_.max_color_attachments = 8;
         device_.max_target_size = cases::kMaxTargetSize;
         device_.has_primitive_id = true;

@@ -76,9 +76,9 @@ void put(ByteWriter& out, const DeviceInfo& d) {
     out.text(d.driver_info);
     out.text(d.uuid);
     out.text(d.device_type);
-    for (const uint32_t v :
-         {d.vendor_id, d.device_id, d.api_version, d.driver_version, d.driver_id, d.subpixel_bits,
-          d.viewport_subpixel_bits, d.max_color_attachments, d.max_target_size}) {
+    for (const uint32_t v : {d.vendor_id, d.device_id, d.api_version, d.driver_version, d.driver_id,
+                             d.subpixel_bits, d.viewport_subpixel_bits, d.max_color_attachments,
+                             d.max_target_size, d.interpolation_offset_bits, d.mipmap_bits}) {
         out.value(v);
     }
     out.value(uint8_t{d.has_primitive_id});
@@ -94,7 +94,7 @@ void get(ByteReader& in, DeviceInfo& d) {
     in.text(d.device_type);
     for (uint32_t* v : {&d.vendor_id, &d.device_id, &d.api_version, &d.driver_version, &d.driver_id,
                         &d.subpixel_bits, &d.viewport_subpixel_bits, &d.max_color_attachments,
-                        &d.max_target_size}) {
+                        &d.max_target_size, &d.interpolation_offset_bits, &d.mipmap_bits}) {
         in.value(*v);
     }
     uint8_t has_primitive_id = 0;

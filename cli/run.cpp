@@ -288,6 +288,10 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
     }
     p.header.device = device;
     config.limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
+    // A device that rasterizes a sample only at the centre may have 0 bits, and asks for no offset.
+    config.limits.interpolation_offset_bits =
+        std::max(4, static_cast<int>(first->device.interpolation_offset_bits));
+    config.limits.mipmap_bits = std::max(4, static_cast<int>(first->device.mipmap_bits));
     if (auto fits = check_required_device(options, device); !fits) {
         return report_stop(fits.error());
     }

@@ -6,7 +6,9 @@ namespace ref {
 
 // What the reference has to know of the device it judges.
 struct Limits {
-    int subpixel_bits = 8;  // VkPhysicalDeviceLimits::subPixelPrecisionBits, 4..16
+    int subpixel_bits = 8;              // VkPhysicalDeviceLimits::subPixelPrecisionBits, 4..16
+    int interpolation_offset_bits = 4;  // subPixelInterpolationOffsetBits, at least 4
+    int mipmap_bits = 4;                // mipmapPrecisionBits, at least 4
     friend bool operator==(const Limits&, const Limits&) = default;
 };
 

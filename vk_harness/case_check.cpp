@@ -124,6 +124,47 @@ std::optional<Rejection> check_viewport(const Capabilities& c, const cases::View
     return std::nullopt;
 }
 
+// What an attribute asks of the fragment stage.
+std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Draw& draw,
+                                         const cases::Attribute& a) {
+    const size_t vertices = draw.positions.size();
+    if (a.source == cases::Source::vertex && a.values.size() != vertices) {
+        return invalid(fmt::format("attribute '{}' has {} values for {} vertices", a.name,
+                                   a.values.size(), vertices));
+    }
+    if (a.source == cases::Source::barycentric && !c.barycentrics) {
+        return unsupported(
+            "the device lacks the feature fragmentShaderBarycentric "
+            "(VK_KHR_fragment_shader_barycentric)");
+    }
+    const bool is_derivative = a.probe >= cases::Probe::dx && a.probe <= cases::Probe::width_coarse;
+    const bool is_at = a.probe >= cases::Probe::at_centroid && a.probe <= cases::Probe::at_offset;
+    // The shader that takes derivatives has interpolateAt* too.
+    const bool needs_sample_rate = a.auxiliary == cases::Auxiliary::sample ||
+                                   a.source == cases::Source::sample_id ||
+                                   a.source == cases::Source::sample_position || is_derivative ||
+                                   is_at || a.probe == cases::Probe::lod;
+    if (needs_sample_rate && !c.has_sample_shading) {
+        return unsupported("the device lacks the feature sampleRateShading");
+    }
+    for (const float offset : a.probe_offset) {
+        // Beyond the range the position is undefined; a device's range may end at 0.
+        if (a.probe == cases::Probe::at_offset && (offset < c.limits.minInterpolationOffset ||
+                                                   offset > c.limits.maxInterpolationOffset)) {
+            return unsupported(fmt::format(
+                "interpolateAtOffset by {} pixels leaves the device's range of {} to {}", offset,
+                c.limits.minInterpolationOffset, c.limits.maxInterpolationOffset));
+        }
+    }
+    for (const uint32_t side : a.texture_size) {
+        if (a.probe == cases::Probe::lod && side > c.limits.maxImageDimension2D) {
+            return unsupported(fmt::format("a texture of {} texels a side exceeds the device's {}",
+                                           side, c.limits.maxImageDimension2D));
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& draw) {
     if (auto rejection = check_viewport(c, draw.viewport)) {
         return rejection;
@@ -149,9 +190,8 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     }
     const size_t vertices = draw.positions.size();
     for (const cases::Attribute& attribute : draw.attributes) {
-        if (attribute.source == cases::Source::vertex && attribute.values.size() != vertices) {
-            return invalid(fmt::format("attribute '{}' has {} values for {} vertices",
-                                       attribute.name, attribute.values.size(), vertices));
+        if (auto rejection = check_attribute(c, draw, attribute)) {
+            return rejection;
         }
     }
     for (const auto& [count, distances] :

@@ -113,6 +113,8 @@ void query_properties(Capabilities& c, uint32_t index) {
     c.limits = first.limits;
     info.subpixel_bits = c.limits.subPixelPrecisionBits;
     info.viewport_subpixel_bits = c.limits.viewportSubPixelBits;
+    info.interpolation_offset_bits = c.limits.subPixelInterpolationOffsetBits;
+    info.mipmap_bits = c.limits.mipmapPrecisionBits;
     info.max_color_attachments =
         std::min(c.limits.maxColorAttachments, c.limits.maxFragmentOutputAttachments);
     vkGetPhysicalDeviceMemoryProperties(c.physical, &c.memory);
@@ -155,10 +157,20 @@ void query_features(Capabilities& c) {
         VkPhysicalDeviceFeatures2 features{};
         features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
         features.pNext = &features13;
+        VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
+        barycentric.sType =
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
+        const auto ask = [&features](auto& structure) {
+            structure.pNext = features.pNext;
+            features.pNext = &structure;
+        };
         c.portability_subset =
             has_device_extension(c.physical, VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
         if (c.portability_subset) {
-            features13.pNext = &portability;
+            ask(portability);
+        }
+        if (has_device_extension(c.physical, VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME)) {
+            ask(barycentric);
         }
         vkGetPhysicalDeviceFeatures2(c.physical, &features);
         c.triangle_fans = !c.portability_subset || portability.triangleFans == VK_TRUE;
@@ -166,6 +178,7 @@ void query_features(Capabilities& c) {
         c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
         query_sample_locations(c);
         c.clip = query_clip_support(c.physical, has_device_extension);
+        c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
         if (features13.dynamicRendering != VK_TRUE) {
             missing.emplace_back("the device lacks the feature dynamicRendering");
         }
@@ -328,20 +341,30 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features13.dynamicRendering = VK_TRUE;
     features13.synchronization2 = VK_TRUE;
     features13.maintenance4 = VK_TRUE;  // outputs that the next stage does not read
+    VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
+    barycentric.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
+    barycentric.fragmentShaderBarycentric = VK_TRUE;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &features13;
     std::vector<const char*> extensions;
+    const auto enable = [&](const char* extension, auto& structure) {
+        structure.pNext = features.pNext;
+        features.pNext = &structure;
+        extensions.push_back(extension);
+    };
     if (capabilities.portability_subset) {
-        features13.pNext = &portability;
-        extensions.push_back(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
+        enable(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
     }
     if (capabilities.location_counts != 0) {
         extensions.push_back(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);
     }
-    VkPhysicalDeviceFeatures2 features{};
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    features.pNext = &features13;
+    if (capabilities.barycentrics) {
+        enable(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
+    }
     features.features.independentBlend = VK_TRUE;
-    features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
     features.features.sampleRateShading = capabilities.has_sample_shading ? VK_TRUE : VK_FALSE;
+    features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
 
     ClipFeatures clip;
     enable_clip_features(capabilities.clip, features, extensions, clip);

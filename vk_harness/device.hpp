@@ -29,6 +29,7 @@ struct Capabilities {
     bool has_sample_shading = false;      // sampleRateShading
     bool triangle_fans = true;
     ClipSupport clip;
+    bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
     bool portability_subset = false;
 };
 

@@ -26,7 +26,8 @@ struct DeviceInfo {
     std::string device_type;  // "cpu", "discrete-gpu", ...
     uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0, max_color_attachments = 0,
              max_target_size = 0;
-    bool has_primitive_id = false;     // the feature geometryShader
+    uint32_t interpolation_offset_bits = 0, mipmap_bits = 0;  // of interpolateAtOffset, of a LOD
+    bool has_primitive_id = false;                            // the feature geometryShader
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
 };
 

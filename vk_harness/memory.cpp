@@ -223,4 +223,24 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     return image;
 }
 
+Result<Handle<VkDeviceMemory>> bind_memory(const Device& device, VkImage image) {
+    VkMemoryRequirements needs{};
+    device.vk().vkGetImageMemoryRequirements(device.get(), image, &needs);
+    const auto type = find_memory_type(device.capabilities().memory, needs.memoryTypeBits, 0,
+                                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    if (!type) {
+        return fail(no_memory_type("an image"));
+    }
+    auto allocation = allocate(device, needs.size, *type);
+    if (!allocation) {
+        return fail(allocation.error());
+    }
+    const VkResult result =
+        device.vk().vkBindImageMemory(device.get(), image, allocation->get(), 0);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
+    }
+    return std::move(*allocation);
+}
+
 }  // namespace vk_harness

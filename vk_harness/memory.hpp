@@ -62,4 +62,7 @@ class Image {
     VkDeviceSize memory_size_ = 0;
 };
 
+// Memory of its own for an image that needs no host access, bound to it.
+Result<Handle<VkDeviceMemory>> bind_memory(const Device& device, VkImage image);
+
 }  // namespace vk_harness

@@ -179,6 +179,10 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         return;
     }
     vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, plan.pipeline);
+    if (plan.texture != VK_NULL_HANDLE) {
+        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 0,
+                                   1, &plan.texture, 0, nullptr);
+    }
     const VkViewport viewport = {draw.viewport.x,         draw.viewport.y,
                                  draw.viewport.width,     draw.viewport.height,
                                  draw.viewport.min_depth, draw.viewport.max_depth};

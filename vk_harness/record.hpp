@@ -17,6 +17,7 @@ namespace vk_harness {
 struct DrawPlan {
     const cases::Draw* draw = nullptr;
     VkPipeline pipeline = VK_NULL_HANDLE;
+    VkDescriptorSet texture = VK_NULL_HANDLE;  // if an attribute asks for a level of detail
     std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
     DistancePlaces distances{};
     VkDeviceSize indices = 0;

@@ -44,6 +44,7 @@ BatchRenderer::BatchRenderer(Instance instance, std::unique_ptr<Device> device,
       device_(std::move(device)),
       pipelines_(std::move(pipelines)),
       targets_(*device_),
+      textures_(*device_),
       submission_(std::move(submission)) {}
 
 BatchRenderer::~BatchRenderer() {
@@ -70,6 +71,16 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         DrawPlan item;
         item.draw = &draw;
         item.pipeline = *pipeline;
+        for (const cases::Attribute& attribute : draw.attributes) {
+            if (attribute.probe == cases::Probe::lod) {
+                auto texture = textures_.get(pipelines_, attribute.texture_size);
+                if (!texture) {
+                    reject(result, texture.error());
+                    return false;
+                }
+                item.texture = *texture;
+            }
+        }
         plan.draws.push_back(item);
     }
     auto target = targets_.get(test.target, kFixedAttachments + plan.attribute_count);
@@ -108,6 +119,8 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
     if (!commands) {
         return fail(commands.error());
     }
+
+    textures_.record_transitions(*commands);
 
     Buffer* readback = nullptr;
     VkPipeline copy_color = VK_NULL_HANDLE;

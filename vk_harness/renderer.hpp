@@ -4,6 +4,7 @@
 // The body of Renderer: plans a batch, records it, submits it once, reads it back.
 #pragma once
 
+#include "vk_harness/lod_texture.hpp"
 #include "vk_harness/record.hpp"
 
 namespace vk_harness {
@@ -71,6 +72,7 @@ class BatchRenderer {
     std::unique_ptr<Device> device_;  // stable address: everything below points to it
     PipelineCache pipelines_;
     TargetCache targets_;
+    LodTextures textures_;
     Submission submission_;
     std::string lost_;  // why the device is lost, once it is
 };

@@ -27,6 +27,7 @@ Capabilities made_up() {
     c.limits.maxViewportDimensions[1] = 4096;
     c.limits.viewportBoundsRange[0] = -8192;
     c.limits.viewportBoundsRange[1] = 8191;
+    c.limits.maxImageDimension2D = 4096;
     return c;
 }
 
@@ -167,6 +168,52 @@ TEST(CaseCheck, Draw) {
     EXPECT_FALSE(check_case(m, c).has_value());
     m.triangle_fans = false;
     expect_rejected(m, c, unsupported, "the device lacks the feature triangleFans");
+}
+
+TEST(CaseCheck, Attribute) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    cases::Attribute bary;
+    bary.source = cases::Source::barycentric;
+    c.draws[0].attributes = {bary};
+    expect_rejected(m, c, unsupported,
+                    "the device lacks the feature fragmentShaderBarycentric "
+                    "(VK_KHR_fragment_shader_barycentric)");
+    m.barycentrics = true;
+    EXPECT_FALSE(check_case(m, c).has_value());
+
+    using cases::Probe;
+    for (const Probe probe : {Probe::at_centroid, Probe::at_sample, Probe::at_offset, Probe::dx,
+                              Probe::width_coarse, Probe::lod}) {
+        m.has_sample_shading = false;
+        c.draws[0].attributes = {attribute(3)};
+        c.draws[0].attributes[0].probe = probe;
+        expect_rejected(m, c, unsupported, "the device lacks the feature sampleRateShading");
+        m.has_sample_shading = true;
+        EXPECT_FALSE(check_case(m, c).has_value());
+    }
+    m.has_sample_shading = false;
+    c.draws[0].attributes = {attribute(3)};
+    c.draws[0].attributes[0].auxiliary = cases::Auxiliary::sample;
+    expect_rejected(m, c, unsupported, "the device lacks the feature sampleRateShading");
+    m.has_sample_shading = true;
+    c.draws[0].attributes[0].probe = Probe::at_offset;
+    c.draws[0].attributes[0].probe_offset = {0.25F, -0.5F};
+    m.limits.maxInterpolationOffset = 0.4375F;
+    expect_rejected(m, c, unsupported,
+                    "interpolateAtOffset by -0.5 pixels leaves the device's range of 0 to 0.4375");
+    c.draws[0].attributes[0].probe = Probe::lod;
+    c.draws[0].attributes[0].texture_size = {4096, 16};
+    m.limits.maxImageDimension2D = 2048;
+    expect_rejected(m, c, unsupported, "a texture of 4096 texels a side exceeds the device's 2048");
+    // Sample built-ins with derivatives: no shader was built for it.
+    m.limits.maxImageDimension2D = 4096;
+    c.draws[0].attributes.push_back(cases::Attribute{});
+    c.draws[0].attributes[1].source = cases::Source::sample_id;
+    expect_rejected(m, c, error,
+                    "a draw asks for a combination of shader features that no shader was built "
+                    "for; put them into different draws");
 }
 
 }  // namespace
