@@ -76,7 +76,7 @@ Points pixel_region(const TriangleSetup& setup, uint32_t x, uint32_t y) {
     region = cut(region, side(-1, 0, mpq_class(hull.bounds.x1) / unit));
     region = cut(region, side(0, 1, mpq_class(-hull.bounds.y0) / unit));
     region = cut(region, side(0, -1, mpq_class(hull.bounds.y1) / unit));
-    for (const fast::HalfPlane& h : hull.planes) {
+    for (const HalfPlane& h : hull.planes) {
         // S47.16 to pixels: a X + b Y + c with X = 2^16 x.
         const mpq_class a(to_mpz(h.a)), b(to_mpz(h.b)), c(to_mpz(h.c));
         region = cut(region, {mpq_class(a * unit), mpq_class(b * unit), c});
