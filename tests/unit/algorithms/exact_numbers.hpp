@@ -8,6 +8,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 
@@ -89,9 +90,9 @@ inline BlockLoss block_loss(const Corners& t, const Point& first, int64_t k, int
     const mpq_class drift =
         terms.shift == 0 ? mpq_class(0) : (1 + k + l) * power_of_two(terms.shift - 1 + s);
     mpq_class loss = 0;
-    mpq_class total = 0;       // sum N_i
-    mpq_class errors = 0;      // sum |e_i|
-    mpq_class weighted = 0;    // sum |e_i| (1 - b_i)
+    mpq_class total = 0;     // sum N_i
+    mpq_class errors = 0;    // sum |e_i|
+    mpq_class weighted = 0;  // sum |e_i| (1 - b_i)
     for (size_t i = 0; i < 3; ++i) {
         const mpq_class& oj = o[(i + 1) % 3];
         const mpq_class& ok = o[(i + 2) % 3];
