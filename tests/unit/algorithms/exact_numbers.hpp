@@ -8,6 +8,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "ref/algorithms/brown_gradient.hpp"
 #include "tests/unit/algorithms/exact_numbers.hpp"
 #include "tests/unit/algorithms/random_triangles.hpp"
 
@@ -26,6 +27,7 @@ mpq_class g(int k) {
 
 struct Case {
     Corners triangle;
+    Point point;
     Areas areas;
     Values z{}, w{};
 };
@@ -47,6 +49,7 @@ class RandomInterpolations {
             const int64_t t = random_.integer(0, 1000 - s);
             const Point p{(v0.x * (1000 - s - t) + v1.x * s + v2.x * t) / 1000,
                           (v0.y * (1000 - s - t) + v1.y * s + v2.y * t) / 1000};
+            c.point = p;
             c.areas = areas_at(c.triangle, p);
             const bool inside = std::min({c.areas.part[0], c.areas.part[1], c.areas.part[2]}) >= 0;
             if (inside != is_inside) {
@@ -179,6 +182,51 @@ TEST(Interpolation, NestedLinesAreBarycentric) {
         }
     }
     EXPECT_GT(checked, 2000);
+}
+
+// Equation 9 against the quotient rule for u = N/D with N = sum q_i A_i u_i and D = sum q_i A_i,
+// both affine, so that their derivatives are differences over one pixel: exactly, in rationals.
+TEST(Interpolation, EquationNineIsTheQuotientRule) {
+    RandomInterpolations random(9);
+    for (int n = 0; n < 2000; ++n) {
+        const Case c = random.next(true);
+        const auto w = [&](size_t k) { return exact(c.w[k]); };
+        const std::array<mpq_class, 3> q{w(1) * w(2), w(2) * w(0), w(0) * w(1)};
+        const std::array<mpq_class, 3> z{exact(c.z[0]), exact(c.z[1]), exact(c.z[2])};
+        const Point p = c.point;
+        const auto numerator_and_sum = [&](const Point& at) {
+            std::pair<mpq_class, mpq_class> out;
+            for (size_t k = 0; k < 3; ++k) {
+                const mpq_class a =
+                    mpz_class(edge_function(c.triangle[(k + 1) % 3], c.triangle[(k + 2) % 3], at));
+                out.first += q[k] * a * z[k];
+                out.second += q[k] * a;
+            }
+            return out;
+        };
+        const auto [num, sum] = numerator_and_sum(p);
+        if (sgn(sum) == 0) {
+            continue;
+        }
+        const auto derivative = [&, &num_ = num, &sum_ = sum](const Point& beside) {
+            const auto [num_1, sum_1] = numerator_and_sum(beside);
+            return mpq_class(((num_1 - num_) * sum_ - num_ * (sum_1 - sum_)) / (sum_ * sum_));
+        };
+        const Gradient<mpq_class> g =
+            brown_gradient<mpq_class>(c.triangle, q, z, mpq_class(num / sum), sum);
+        EXPECT_EQ(g.dx, derivative({p.x + kPixel, p.y}));
+        EXPECT_EQ(g.dy, derivative({p.x, p.y + kPixel}));
+        EXPECT_EQ(g.total(mpq_class(2)), mpq_class(2 * (g.dx + g.dy)));
+    }
+}
+
+// By hand: w = 1 everywhere, u = x in pixels: du/dx = 1 and du/dy = 0 wherever.
+TEST(Interpolation, GradientByHand) {
+    const Corners t{{{0, 0}, {2560, 0}, {0, 2560}}};
+    const Gradient<float> g =
+        brown_gradient<float>(t, {1, 1, 1}, {0, 10, 0}, 3.0F, 2560.0F * 2560.0F);
+    EXPECT_EQ(g.dx, 1.0F);
+    EXPECT_EQ(g.dy, 0.0F);
 }
 
 }  // namespace

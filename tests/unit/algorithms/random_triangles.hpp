@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "ref/algorithms/raster.hpp"
+#include "ref/algorithms/edge.hpp"
 
 namespace ref::algorithms::test {
 
@@ -62,6 +62,28 @@ class RandomTriangles {
             }
         }
         return t;
+    }
+
+    // A clockwise triangle in a square of `size` pixels with an edge that passes a sample, its
+    // middle, within 1/256 pixel in x and in y.
+    struct BesideEdge {
+        Corners triangle;
+        Point sample;
+    };
+    BesideEdge beside_edge(int64_t size) {
+        const int64_t reach = size * kPixel;
+        for (;;) {
+            const Point p{integer(0, size - 1) * kPixel + 128, integer(0, size - 1) * kPixel + 128};
+            const Point a{integer(0, reach), integer(0, reach)};
+            const Point b{2 * p.x - a.x + integer(-1, 1), 2 * p.y - a.y + integer(-1, 1)};
+            if (std::min(b.x, b.y) < 0 || std::max(b.x, b.y) > reach) {
+                continue;
+            }
+            const Corners t{{a, b, {integer(0, reach), integer(0, reach)}}};
+            if (const std::optional<Corners> ordered = clockwise(t)) {
+                return {*ordered, p};
+            }
+        }
     }
 
   private:
