@@ -200,9 +200,9 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     std::array<VkBuffer, 1 + cases::kMaxAttributes> buffers{};
     buffers.fill(vertices);
     vk.vkCmdBindVertexBuffers(commands, 0, binding_count, buffers.data(), plan.vertices.data());
-    for (const auto& [count, binding] : {std::pair(draw.distances.clip_count, kClipBinding),
-                                         std::pair(draw.distances.cull_count, kCullBinding)}) {
-        if (count > 0) {
+    for (const auto& [distances, binding] : {std::pair(draw.distances.clip_count, kClipBinding),
+                                             std::pair(draw.distances.cull_count, kCullBinding)}) {
+        if (distances > 0) {
             vk.vkCmdBindVertexBuffers(commands, binding, 1, &vertices,
                                       &plan.distances[binding - kClipBinding]);
         }
