@@ -66,6 +66,7 @@ enum class Probe : uint8_t {
     lod,  // textureQueryLod of a texture of Attribute::texture_size at (x, y): 2 components
 };
 
+inline constexpr float kDepthClear = 0.375F;  // unless the case says otherwise
 inline constexpr uint32_t kMaxAttributes = 4;
 inline constexpr uint32_t kMaxTargetSize = 16384;       // pixels a side
 inline constexpr uint32_t kRestartIndex = 0xffffffffU;  // primitive restart, 32-bit indices
@@ -227,6 +228,7 @@ struct Target {
     // Drivers take other paths then.
     bool has_instruments = true;
     bool has_depth = true;
+    float depth_clear = kDepthClear;  // what the depth attachment is cleared to, 0..1
     friend bool operator==(const Target&, const Target&) = default;
 };
 

@@ -12,6 +12,7 @@
 #include "cases/attributes.hpp"
 #include "cases/generate.hpp"
 #include "cases/load_clip.hpp"
+#include "cases/load_depth.hpp"
 #include "cases/load_target.hpp"
 #include "cases/transform.hpp"
 #include "cases/vertices.hpp"
@@ -49,6 +50,7 @@ class DrawLoader {
                              "cull",
                              "front_face",
                              "provoking",
+                             "depth",
                              "depth_volume",
                              "clip_distance",
                              "cull_distance",
@@ -70,6 +72,9 @@ class DrawLoader {
         draw_.multisample = load_multisample(context_, table_);
         read_viewport();
         read_scissor();
+        if (const TomlValue* depth = table_.find("depth")) {
+            draw_.depth = read_depth_state(context_, *depth);
+        }
         if (!context_.errors().empty() || !read_shape()) {
             return draw_;
         }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "cases/load_depth.hpp"
+
 namespace cases {
 
 namespace {
@@ -67,7 +69,8 @@ void read_locations(LeafContext& context, const TomlValue& table, Target& target
 
 Target load_target(LeafContext& context, const TomlValue& table) {
     Target target;
-    context.known_keys(table, "[target]", {"size", "samples", "sample_locations"});
+    context.known_keys(table, "[target]", {"size", "samples", "sample_locations", "depth", "depth_clear"});
+    read_depth_target(context, table, target);
     read_samples(context, table, target);
     read_locations(context, table, target);
     const TomlValue* size = table.find("size");

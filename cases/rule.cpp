@@ -195,6 +195,36 @@ constexpr std::array kRules = {
          "bits of its original (Corollary 2). The shader is another one, so Vulkan does not demand "
          "it in so many words; every known device does it.",
          "invariance", "", "diff/consistency.cpp"},
+    Rule{"depth.store", Profile::vulkan, "Fixed-point depth is stored as either neighbour",
+         "z (2^n - 1) rounds down or up; a whole number of steps is stored as it is. Direct3D rounds "
+         "within 0.6 of a step.",
+         "fundamentals-fpfixedconv", "3.2.3.6", "ref/value_wide.cpp"},
+    Rule{"depth.bias", Profile::vulkan, "Depth bias is m slope + r constant, clamped",
+         "m lies between the larger gradient and their Euclidean norm (Direct3D: the larger). r is "
+         "2^(e-23) with binary32 depth, e the exponent of the primitive's largest z, clipped or not; "
+         "at most 2 2^-n with n bits of fixed point. The clamp is exact. FragCoord.z may have the "
+         "bias or not.",
+         "primsrast-depthbias-computation", "15.10", "ref/depth_path.hpp"},
+    Rule{"depth.distinct", Profile::vulkan, "Planes that are r apart stay distinct",
+         "Polygons with the same vertices, biased apart by one r (fixed point: two, as r may be a "
+         "little less than a step), never compare equal or the wrong way round.",
+         "primsrast-depthbias-computation", "", "ref/depth_test.hpp"},
+    Rule{"depth.clamp", Profile::vulkan, "Depth clamp limits depth to the viewport's range",
+         "With depthClampEnable z is clamped to [min, max] of the viewport's depths, whichever is "
+         "the smaller, after the bias; near and far planes clip nothing.",
+         "fragops-depth", "17.10", "ref/depth_path.hpp"},
+    Rule{"depth.compare", Profile::vulkan, "A fragment is drawn if its depth compares as asked",
+         "Exact where the ranges that binary32 may compute are apart or both are one number. Nothing "
+         "says that fixed-point depth is rounded before it is compared: outcomes within a step are "
+         "free.",
+         "fragops-depth-comparison", "17.11", "ref/depth_test.hpp"},
+    Rule{"depth.repeat", Profile::vulkan, "The same triangle has the same depth again",
+         "Drawn twice by the same state with binary32 depth, it is equal to itself in every sample: "
+         "LESS_OR_EQUAL passes, LESS fails, wherever it is covered.",
+         "invariance", "", "ref/depth_test.hpp"},
+    Rule{"depth.write", Profile::vulkan, "Depth is written where the test passes and writes are on",
+         "A fragment that fails, or whose draw does not write depth, leaves the older depth.",
+         "fragops-depth-write", "17.12", "ref/depth_test.hpp"},
 };
 
 }  // namespace

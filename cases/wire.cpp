@@ -173,6 +173,7 @@ void write(Writer& w, const Target& target) {
     }
     w.flag(target.has_instruments);
     w.flag(target.has_depth);
+    w.real(target.depth_clear);
 }
 
 Target read_target(Reader& r) {
@@ -194,6 +195,7 @@ Target read_target(Reader& r) {
     }
     target.has_instruments = r.flag();
     target.has_depth = r.flag();
+    target.depth_clear = r.real();
     return target;
 }
 

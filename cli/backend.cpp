@@ -159,7 +159,9 @@ diff::Capture draw_by_reference(const cases::Case& c) {
     capture.hits.assign(n, glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
     capture.writers.assign(n, diff::Writer{});
     capture.frag_coord.assign(n, clear);
-    capture.depth.assign(n, diff::kClearDepth);
+    capture.depth.assign(n, c.target.depth_format == cases::DepthFormat::d32_float
+                                ? c.target.depth_clear
+                                : diff::nearest_depth(c.target.depth_clear, c.target.depth_format));
     for (uint32_t a = 0; a < capture.attribute_count; ++a) {
         capture.attributes[a].assign(n, clear);
     }
@@ -186,9 +188,22 @@ diff::Capture draw_by_reference(const cases::Case& c) {
         for (size_t a = 0; a < attributes; ++a) {
             capture.attributes[a][index] = glm::vec4(0);
         }
+        const bool writes_depth = c.draws[triangle.draw].depth.write;
         for (const ref::ExpectedValue& value : values.expected(t, id)) {
+            if (value.quantity == "depth" && !writes_depth) {
+                continue;
+            }
             if (float* slot = value_slot(capture, index, value.quantity); slot != nullptr) {
                 *slot = static_cast<float>(value.nearest);
+            }
+        }
+        if (!writes_depth && sample.depth_count > 0) {
+            const uint32_t last =
+                expectation.depth_writers[sample.depth_begin + sample.depth_count - 1];
+            for (const ref::ExpectedValue& value : values.expected(last, id)) {
+                if (value.quantity == "depth") {
+                    capture.depth[index] = static_cast<float>(value.nearest);
+                }
             }
         }
     }

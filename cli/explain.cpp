@@ -75,7 +75,8 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
     if (t.needs_clipping) {
         text += "        a vertex lies outside the view volume: the clipped polygon counts too\n";
     }
-    return text + fmt::format("        {}\n", t.reason);
+    text += fmt::format("        {}\n", t.reason);
+    return t.depth ? text + fmt::format("        {}\n", t.depth_text) : text;
 }
 
 }  // namespace

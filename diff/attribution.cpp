@@ -107,6 +107,30 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
     return std::nullopt;
 }
 
+// A hit too many of a triangle that must fail the depth test, or one too few of a triangle that must
+// pass it; the number alone does not tell which, so the last one that fits is named.
+std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExplanation& s,
+                                    bool is_missing) {
+    const ref::DepthOutcome asked =
+        is_missing ? ref::DepthOutcome::passes : ref::DepthOutcome::fails;
+    const auto fits = [&](const ref::TriangleExplanation& t) {
+        return t.depth == asked && (!is_missing || t.coverage == ref::Coverage::must);
+    };
+    const auto it = std::find_if(s.triangles.rbegin(), s.triangles.rend(), fits);
+    // Without a test nothing can have been lost to it.
+    const bool is_tested = std::any_of(
+        s.triangles.begin(), s.triangles.end(), [&](const auto& t) {
+            return t.depth && c.draws[t.triangle.draw].depth.compare != cases::CompareOp::always;
+        });
+    if (it == s.triangles.rend() || !is_tested) {
+        return std::nullopt;
+    }
+    const std::string_view rule = it->depth_reason == ref::DepthReason::same    ? "depth.repeat"
+                                  : it->depth_reason == ref::DepthReason::apart ? "depth.distinct"
+                                                                                : "depth.compare";
+    return Cause{rule, fmt::format("{} {}", name_of(*it), it->depth_text)};
+}
+
 // Too many hits at a sample that no triangle may cover.
 Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
     if (!s.in_scissor) {
@@ -293,6 +317,11 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked,
         finding.why =
             t ? fmt::format("{}: the sign of its area decides which face shows", name_of(*t))
               : std::string("the sign of the area decides which face shows");
+        return;
+    }
+    if (const std::optional<Cause> depth = cause_of_depth(case_, s, total < asked.total_min)) {
+        finding.rule = depth->rule;
+        finding.why = depth->why;
         return;
     }
     const Cause cause = asked.total_max == 0 ? cause_of_extra(s, finding.level)

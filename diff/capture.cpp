@@ -45,7 +45,7 @@ bool is_all_clear(const CaptureView& capture, size_t index) {
     static const glm::vec4 kCleared(kClearValue);
     bool clear = same_bits(capture.hits[index], kNoHits) && capture.writers[index] == Writer{} &&
                  same_bits(capture.frag_coord[index], kCleared) &&
-                 same_bits(capture.depth[index], kClearDepth);
+                 is_clear_depth(capture.target, capture.depth[index]);
     for (uint32_t a = 0; clear && a < capture.attribute_count; ++a) {
         clear = same_bits(capture.attributes[a][index], kCleared);
     }
@@ -53,6 +53,17 @@ bool is_all_clear(const CaptureView& capture, size_t index) {
 }
 
 }  // namespace
+
+bool is_clear_depth(const cases::Target& target, float depth) {
+    const double steps = depth_steps(target.depth_format);
+    if (target.depth_format == cases::DepthFormat::d32_float) {
+        return same_bits(depth, target.depth_clear);
+    }
+    const double ideal = static_cast<double>(target.depth_clear) * steps;
+    return same_bits(depth, depth_of_code(static_cast<uint32_t>(ideal), target.depth_format)) ||
+           same_bits(depth,
+                     depth_of_code(static_cast<uint32_t>(std::ceil(ideal)), target.depth_format));
+}
 
 SampleState sample_state(const CaptureView& capture, size_t index) {
     if (is_all_clear(capture, index)) {
@@ -81,7 +92,7 @@ SampleState sample_state(const CaptureView& capture, size_t index) {
         return SampleState::inconsistent;
     }
     const bool nothing_written = writer == Writer{} && is_clear(frag_coord) && attributes_clear &&
-                                 same_bits(depth, kClearDepth);
+                                 is_clear_depth(capture.target, depth);
     if (same_bits(hits.x + hits.y, 0.0F)) {
         return nothing_written ? SampleState::clear : SampleState::inconsistent;
     }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
@@ -24,8 +25,7 @@ namespace diff {
 // read-back memory is filled with the poison first: 'not drawn', 'drawn with zero' and 'not copied'
 // never look alike.
 inline constexpr float kClearValue = -0x1.5p127F;
-inline constexpr float kClearDepth =
-    0.375F;  // only meaningful where hits == 0; depth is drawn with ALWAYS
+inline constexpr float kClearDepth = cases::kDepthClear;  // unless Target::depth_clear is another
 inline constexpr uint32_t kClearId = 0xfffffff0U;
 inline constexpr uint32_t kPoison = 0xffbadbadU;  // as a float: a NaN with a payload
 // The two spare channels of the hit counter: additive blending must leave kGuard alone and add 1 a
@@ -37,6 +37,33 @@ inline constexpr float kOtherClearValue = -0x1.25p127F;
 inline constexpr float kOtherClearDepth = 0.625F;
 inline constexpr uint32_t kOtherClearId = 0xffffffedU;
 inline constexpr float kOtherHitGuard = 2 * kHitGuard;
+
+// UNORM depth in a capture is the binary32 nearest to code / (2^n - 1). Below 2^24 these are all
+// different, and code = depth * (2^n - 1) rounded to nearest: the error of the quotient is at most
+// 2^-25, which times 2^24 - 1 is less than a half.
+constexpr double depth_steps(cases::DepthFormat format) {
+    return format == cases::DepthFormat::d24_unorm   ? 16777215.0
+           : format == cases::DepthFormat::d16_unorm ? 65535.0
+                                                     : 0.0;
+}
+inline float depth_of_code(uint32_t code, cases::DepthFormat format) {
+    return static_cast<float>(code / depth_steps(format));
+}
+// The depth of the format that is nearest to z in [0, 1].
+inline float nearest_depth(float z, cases::DepthFormat format) {
+    return depth_of_code(static_cast<uint32_t>(static_cast<double>(z) * depth_steps(format) + 0.5),
+                         format);
+}
+// A depth that a shader read: converting a code to binary32 is off by a few parts in 2^24, far less
+// than half a step of D16. Anything that is no code stays what it is.
+inline float nearest_depth_code(float read, cases::DepthFormat format) {
+    const double scaled = static_cast<double>(read) * depth_steps(format);
+    if (!(scaled >= 0 && scaled <= depth_steps(format))) {
+        return read;
+    }
+    const auto code = static_cast<uint32_t>(scaled + 0.5);
+    return std::abs(scaled - code) < 0.25 ? depth_of_code(code, format) : read;
+}
 
 // The last fragment's origin.
 struct Writer {
@@ -57,7 +84,7 @@ struct Capture {
     std::vector<glm::vec4> hits;        // front hits, back hits, kHitGuard, kHitGuard + hits
     std::vector<Writer> writers;        // last writer
     std::vector<glm::vec4> frag_coord;  // of the last writer
-    std::vector<float> depth;           // D32_SFLOAT, of the last writer
+    std::vector<float> depth;           // of the last writer whose draw writes depth
     std::array<std::vector<glm::vec4>, cases::kMaxAttributes> attributes;  // of the last writer
 
     size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
@@ -131,5 +158,9 @@ enum class SampleState : uint8_t {
     inconsistent,  // anything else: the attachments contradict each other
 };
 SampleState sample_state(const CaptureView& capture, size_t index);
+
+// Whether a captured depth is the target's clear value as its format stores it: the bits of D32,
+// either neighbour of UNORM.
+bool is_clear_depth(const cases::Target& target, float depth);
 
 }  // namespace diff

@@ -197,7 +197,7 @@ class Comparison {
             if (!wrote(writer, expectation_.triangles[t])) {
                 continue;
             }
-            ref::FragmentVerdict v = values_.judge(t, id, device);
+            ref::FragmentVerdict v = values_.judge(t, id, device, part_of(t));
             if (!best || (v.ok && !best->ok) ||
                 (v.ok == best->ok && v.worst_ratio < best->worst_ratio)) {
                 best = std::move(v);
@@ -207,6 +207,9 @@ class Comparison {
         if (!best) {
             add(writer_finding(id, writer, expected), index);
             return;
+        }
+        if (part_of(best_triangle) != ref::FragmentPart::all) {
+            judge_older_depth(index, id, expected, device);
         }
         const auto& draw = case_.draws[expectation_.triangles[best_triangle].draw];
         verdict_.compared_values += 4;  // FragCoord.xy, z, w and depth
@@ -232,6 +235,45 @@ class Comparison {
                 expectation_.triangles[best_triangle].draw);
             add(std::move(finding), index);
         }
+    }
+
+    // A draw that does not write depth leaves an older fragment's depth.
+    ref::FragmentPart part_of(uint32_t t) const {
+        return case_.draws[expectation_.triangles[t].draw].depth.write
+                   ? ref::FragmentPart::all
+                   : ref::FragmentPart::all_but_depth;
+    }
+
+    // Depth where the last writer did not write it: some fragment's of those that may have been the
+    // last to do so, or the clear value.
+    void judge_older_depth(size_t index, ref::SampleId id, const ref::SampleExpectation& expected,
+                           const ref::FragmentValues& device) {
+        ++verdict_.compared_values;
+        if (expected.depth_may_be_clear && is_clear_depth(case_.target, device.depth)) {
+            return;
+        }
+        Finding finding = at(FindingKind::value, id);
+        finding.rule = "depth.write";
+        finding.level = cases::Profile::vulkan;
+        finding.quantity = "depth";
+        finding.expected = expected.depth_may_be_clear ? "the clear value" : "";
+        for (uint32_t k = 0; k < expected.depth_count; ++k) {
+            const uint32_t t = expectation_.depth_writers[expected.depth_begin + k];
+            const ref::FragmentVerdict v =
+                values_.judge(t, id, device, ref::FragmentPart::depth);
+            if (v.ok) {
+                return;
+            }
+            const ref::ValueMismatch& m = v.mismatches.front();
+            finding.level = k == 0 && !expected.depth_may_be_clear
+                                ? m.level
+                                : std::max(finding.level, m.level);
+            finding.expected += (finding.expected.empty() ? "" : ", or ") + m.expected;
+            finding.ratio = m.ratio;
+        }
+        finding.got = fmt::format("{:.9g}", device.depth);
+        finding.why = "the last fragment's draw does not write depth; no older one left this";
+        add(std::move(finding), index);
     }
 
     bool wrote(const Writer& writer, const ref::Triangle& t) const {

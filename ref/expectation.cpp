@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "ref/coverage_fast.hpp"
@@ -118,7 +119,12 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
         fast::scan(setups.back(), t, c.target, spans);
     }
     HitTable table(c.target, spans);
-    Narrowing narrowing(c, profile, out.triangles, setups, {fast::is_in_hull, fast::winding, fast::is_inside_whole});
+    std::optional<DepthTest> depth;
+    if (DepthTest::is_needed(c)) {
+        depth.emplace(c, out.triangles, limits, profile, false);
+    }
+    Narrowing narrowing(c, profile, out.triangles, setups, {fast::is_in_hull, fast::winding, fast::is_inside_whole},
+                        depth ? &*depth : nullptr);
     out.samples.resize(size_t{c.target.width} * c.target.height * c.target.samples);
     out.writers.reserve(table.size());
     size_t at = 0;
@@ -133,7 +139,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                     sample.writers_begin = static_cast<uint32_t>(out.writers.size());
                     continue;
                 }
-                sample = narrowing.judge(sample_position(i, j, s, c.target), s, hits, out.writers);
+                sample = narrowing.judge(sample_position(i, j, s, c.target), s, hits, out.writers, out.depth_writers);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
             }

@@ -35,6 +35,10 @@ struct SampleExpectation {
     uint32_t writers_begin = 0;  // into Expectation::writers
     uint32_t writers_count =
         0;  // triangles that may have written last, ascending; 0 if none may hit
+    // Into Expectation::depth_writers: whose depth may be stored. Only where a draw tests depth or
+    // does not write it (DepthTest::is_needed); otherwise it is the last writer's.
+    uint32_t depth_begin = 0, depth_count = 0;
+    bool depth_may_be_clear = false;  // or no fragment's
     friend bool operator==(const SampleExpectation&, const SampleExpectation&) = default;
 };
 
@@ -45,6 +49,7 @@ struct Expectation {
     std::vector<Triangle> triangles;         // drawing order
     std::vector<SampleExpectation> samples;  // [(j * width + i) * samples + s]
     std::vector<uint32_t> writers;
+    std::vector<uint32_t> depth_writers;
     uint64_t must_samples = 0;    // samples that must be hit at least once: the control of the case
     uint64_t either_samples = 0;  // samples where more than one answer is allowed
 };

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
 #include "ref/coverage_exact.hpp"
 #include "ref/coverage_setup.hpp"
 #include "ref/expectation.hpp"
@@ -19,7 +21,12 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
         const cases::Draw& draw = c.draws[t.draw];
         setups.push_back(set_up(c, t, limits, profile, boxes, window_of(c, draw, profile)));
     }
-    Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding, is_inside_whole});
+    std::optional<DepthTest> depth;
+    if (DepthTest::is_needed(c)) {
+        depth.emplace(c, out.triangles, limits, profile, true);
+    }
+    Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding, is_inside_whole},
+                        depth ? &*depth : nullptr);
     for (uint32_t j = 0; j < c.target.height; ++j) {
         for (uint32_t i = 0; i < c.target.width; ++i) {
             for (uint32_t s = 0; s < c.target.samples; ++s) {
@@ -34,7 +41,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                         hits.push_back({t, coverage});
                     }
                 }
-                const SampleExpectation sample = narrowing.judge(p, s, hits, out.writers);
+                const SampleExpectation sample = narrowing.judge(p, s, hits, out.writers, out.depth_writers);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
                 out.samples.push_back(sample);

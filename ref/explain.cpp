@@ -22,6 +22,9 @@ cases::Case alone(const cases::Case& c, const Triangle& t, SampleId sample) {
                         draw.positions[t.vertex[2]]};
     single.viewport = draw.viewport;
     single.cull = draw.cull;
+    single.depth.clamp = draw.depth.clamp;
+    single.depth.clip = draw.depth.clip;
+    single.depth.negative_one_to_one = draw.depth.negative_one_to_one;
     single.front_face = draw.front_face;
     single.multisample = draw.multisample;
     single.depth = draw.depth;
@@ -194,6 +197,51 @@ std::string reason_for(const TriangleExplanation& t) {
                                                           : "");
 }
 
+constexpr std::string_view kCompareNames[] = {
+    "NEVER",   "LESS",      "EQUAL",            "LESS_OR_EQUAL",
+    "GREATER", "NOT_EQUAL", "GREATER_OR_EQUAL", "ALWAYS"};
+
+std::string depth_text(DepthOutcome outcome, DepthReason reason, std::string_view op,
+                       const std::string& range) {
+    const std::string_view verdict = outcome == DepthOutcome::passes  ? "passes"
+                                     : outcome == DepthOutcome::fails ? "fails"
+                                                                      : "may pass or fail";
+    const std::string_view because =
+        reason == DepthReason::same ? ": the same triangle was drawn before by the same state, so "
+                                      "the depths are equal"
+        : reason == DepthReason::apart
+            ? ": the same triangle was drawn before, biased apart by whole units of r"
+            : "";
+    return fmt::format("{} the depth test {}, {}{}", verdict, op, range, because);
+}
+
+// The depth test of every triangle that may cover the sample.
+void explain_depth(const cases::Case& c, const std::vector<Triangle>& triangles,
+                   const Limits& limits, cases::Profile profile, SampleExplanation& out) {
+    if (!DepthTest::is_needed(c)) {
+        return;
+    }
+    DepthTest test(c, triangles, limits, profile, true);
+    std::vector<DepthCandidate> candidates;
+    std::vector<TriangleExplanation*> explained;
+    for (TriangleExplanation& t : out.triangles) {
+        if (t.coverage != Coverage::must_not) {
+            candidates.push_back({t.index, t.coverage == Coverage::must, false, -1});
+            explained.push_back(&t);
+        }
+    }
+    const DepthResolution r = test.resolve(out.position, candidates);
+    for (size_t k = 0; k < explained.size(); ++k) {
+        TriangleExplanation& t = *explained[k];
+        const cases::CompareOp op = c.draws[t.triangle.draw].depth.compare;
+        t.depth = r.outcomes[k];
+        t.depth_reason = r.reasons[k];
+        t.depth_text = depth_text(r.outcomes[k], r.reasons[k],
+                                  kCompareNames[static_cast<size_t>(op)],
+                                  test.range_text(t.index, out.position));
+    }
+}
+
 }  // namespace
 
 std::string_view to_string(EdgeKind kind) {
@@ -324,6 +372,7 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
         e.reason = reason_for(e);
         result.triangles.push_back(std::move(e));
     }
+    explain_depth(c, triangles, limits, profile, result);
     return result;
 }
 

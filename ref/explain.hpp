@@ -15,6 +15,7 @@
 #include "cases/case.hpp"
 #include "cases/profile.hpp"
 #include "ref/coverage.hpp"
+#include "ref/depth_test.hpp"
 #include "ref/expectation.hpp"
 #include "ref/limits.hpp"
 #include "ref/position.hpp"
@@ -55,6 +56,10 @@ struct TriangleExplanation {
     bool on_grid = false;                // every vertex may be in one place only
     std::vector<EdgeExplanation> edges;  // three; none if a vertex has no snapped position
     std::string reason;                  // one sentence
+    // Of a triangle that may cover the sample, if the case tests depth.
+    std::optional<DepthOutcome> depth;
+    DepthReason depth_reason = DepthReason::ranges;
+    std::string depth_text;  // one sentence
 };
 
 struct SampleExplanation {

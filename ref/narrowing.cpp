@@ -64,13 +64,15 @@ void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t least, uint32
 
 Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
                      const std::vector<Triangle>& triangles,
-                     const std::vector<TriangleSetup>& setups, Predicates predicates)
+                     const std::vector<TriangleSetup>& setups, Predicates predicates,
+                     DepthTest* depth)
     : case_(c),
       profile_(profile),
       triangles_(triangles),
       setups_(setups),
       predicates_(predicates),
       complements_(complements_of(c, triangles)),
+      depth_(depth),
       vertex_numbers_(c.draws.size()) {}
 
 uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
@@ -255,6 +257,26 @@ std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
     for (size_t m = 0; m < hits.size(); ++m) {
         is_open[m] = hits[m].coverage == Coverage::either && !is_paired[m];
     }
+    if (depth_ != nullptr) {
+        // Sets of one draw alone: meshes drawn one over the other are told apart by depth.
+        std::vector<bool> is_left = is_open;
+        for (size_t begin = 0; begin < hits.size();) {
+            const uint32_t draw = triangles_[hits[begin].triangle].draw;
+            std::vector<bool> takes_part(hits.size(), false);
+            size_t end = begin;
+            for (; end < hits.size() && triangles_[hits[end].triangle].draw == draw; ++end) {
+                takes_part[end] = is_open[end];
+            }
+            for (Fixed& set : closed_sets(p, hits, takes_part)) {
+                for (const uint32_t m : set.members) {
+                    is_left[m] = false;
+                }
+                out.push_back(std::move(set));
+            }
+            begin = end;
+        }
+        is_open = is_left;
+    }
     std::vector<Fixed> closed = closed_sets(p, hits, is_open);
     out.insert(out.end(), std::make_move_iterator(closed.begin()),
                std::make_move_iterator(closed.end()));
@@ -375,8 +397,59 @@ std::vector<Narrowing::Fixed> Narrowing::closed_sets(const FixedPoint& p, std::s
     return out;
 }
 
+DepthResolution Narrowing::resolve_depth(const FixedPoint& p, std::span<const Hit> hits,
+                                         const std::vector<Fixed>& sets) {
+    std::vector<DepthCandidate> candidates;
+    for (const Hit& hit : hits) {
+        candidates.push_back({hit.triangle, hit.coverage == Coverage::must});
+    }
+    for (size_t k = 0; k < sets.size(); ++k) {
+        const Fixed& set = sets[k];
+        for (const uint32_t m : set.members) {
+            candidates[m].is_absent = set.count == 0;
+            candidates[m].is_sure = set.least == set.members.size();
+            candidates[m].one_of = set.count == 1 ? static_cast<int>(k) : -1;
+            candidates[m].is_one_sure = set.least == 1;
+        }
+    }
+    return depth_->resolve(p, candidates);
+}
+
+void Narrowing::apply_depth(const FixedPoint& p, std::span<const Hit> hits,
+                            std::vector<Fixed>& sets, std::vector<Coverage>& coverage,
+                            std::vector<uint32_t>& depth_writers, SampleExpectation& out) {
+    const DepthResolution depth = resolve_depth(p, hits, sets);
+    for (size_t m = 0; m < hits.size(); ++m) {
+        if (depth.outcomes[m] == DepthOutcome::fails) {
+            coverage[m] = Coverage::must_not;
+        } else if (depth.outcomes[m] == DepthOutcome::open) {
+            coverage[m] = Coverage::either;
+        }
+    }
+    // A set of which some may fail the test no longer has a fixed number of hits.
+    std::erase_if(sets, [&](const Fixed& set) {
+        const auto passes = [&](uint32_t m) { return depth.outcomes[m] == DepthOutcome::passes; };
+        const bool is_whole =
+            set.count == 0 || std::all_of(set.members.begin(), set.members.end(), passes);
+        const bool is_sure = set.least == set.members.size();
+        for (const uint32_t m : set.members) {
+            if (!is_whole && passes(m)) {
+                coverage[m] = is_sure ? Coverage::must : Coverage::either;
+            }
+        }
+        return !is_whole;
+    });
+    out.depth_begin = static_cast<uint32_t>(depth_writers.size());
+    for (const uint32_t m : depth.stored) {
+        depth_writers.push_back(hits[m].triangle);
+    }
+    out.depth_count = static_cast<uint32_t>(depth.stored.size());
+    out.depth_may_be_clear = depth.may_be_clear;
+}
+
 SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
-                                   std::vector<uint32_t>& writers) {
+                                   std::vector<uint32_t>& writers,
+                                   std::vector<uint32_t>& depth_writers) {
     SampleExpectation out;
     sample_ = s;
     out.writers_begin = static_cast<uint32_t>(writers.size());
@@ -384,7 +457,7 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
                                     [](const Hit& h) { return h.coverage == Coverage::either; });
     // Alone, an open triangle can only be settled by partners that are decided.
     const auto least = profile_ == cases::Profile::direct3d || !complements_.empty() ? 1 : 2;
-    if (open < least) {
+    if (depth_ == nullptr && open < least) {
         uint32_t first = 0;
         for (uint32_t m = 0; m < hits.size(); ++m) {
             const bool is_must = hits[m].coverage == Coverage::must;
@@ -397,13 +470,44 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
         out.writers_count = static_cast<uint32_t>(writers.size()) - out.writers_begin;
         return out;
     }
+    std::vector<Fixed> sets = fixed_sets(p, hits);
     std::vector<Coverage> coverage(hits.size());
-    std::vector<bool> is_counted(hits.size(), false);
     for (size_t m = 0; m < hits.size(); ++m) {
         coverage[m] = hits[m].coverage;
     }
+    if (depth_ != nullptr) {
+        const DepthResolution depth = resolve_depth(p, hits, sets);
+        for (size_t m = 0; m < hits.size(); ++m) {
+            if (depth.outcomes[m] == DepthOutcome::fails) {
+                coverage[m] = Coverage::must_not;
+            } else if (depth.outcomes[m] == DepthOutcome::open) {
+                coverage[m] = Coverage::either;
+            }
+        }
+        // A set of which some may fail the test no longer has a fixed number of hits.
+        std::erase_if(sets, [&](const Fixed& set) {
+            const bool is_whole =
+                set.count == 0 || std::all_of(set.members.begin(), set.members.end(), [&](auto m) {
+                    return depth.outcomes[m] == DepthOutcome::passes;
+                });
+            for (const uint32_t m : set.members) {
+                const bool is_sure = set.count == set.members.size();
+                if (!is_whole && is_sure && depth.outcomes[m] == DepthOutcome::passes) {
+                    coverage[m] = Coverage::must;
+                }
+            }
+            return !is_whole;
+        });
+        out.depth_begin = static_cast<uint32_t>(depth_writers.size());
+        for (const uint32_t m : depth.stored) {
+            depth_writers.push_back(hits[m].triangle);
+        }
+        out.depth_count = static_cast<uint32_t>(depth.stored.size());
+        out.depth_may_be_clear = depth.may_be_clear;
+    }
+    std::vector<bool> is_counted(hits.size(), false);
     uint32_t first = 0;  // nothing before it can have written last
-    for (const Fixed& set : fixed_sets(p, hits)) {
+    for (const Fixed& set : sets) {
         uint32_t front = 0;
         for (const uint32_t m : set.members) {
             is_counted[m] = true;
@@ -419,7 +523,7 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
         }
     }
     for (uint32_t m = 0; m < hits.size(); ++m) {
-        if (!is_counted[m]) {
+        if (!is_counted[m] && coverage[m] != Coverage::must_not) {
             add_single(out.hits, setups_[hits[m].triangle], coverage[m] == Coverage::must);
             first = coverage[m] == Coverage::must ? std::max(first, m) : first;
         }

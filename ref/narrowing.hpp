@@ -30,6 +30,7 @@
 #include "cases/profile.hpp"
 #include "ref/complement.hpp"
 #include "ref/coverage_setup.hpp"
+#include "ref/depth_test.hpp"
 #include "ref/expectation.hpp"
 #include "ref/triangle.hpp"
 
@@ -55,12 +56,13 @@ struct Predicates {
 class Narrowing {
   public:
     Narrowing(const cases::Case& c, cases::Profile profile, const std::vector<Triangle>& triangles,
-              const std::vector<TriangleSetup>& setups, Predicates predicates);
+              const std::vector<TriangleSetup>& setups, Predicates predicates, DepthTest* depth);
 
     // Bounds for sample `s` of a pixel, at p, from the triangles that must or may cover it, in
-    // drawing order; appends the triangles that may have written last.
+    // drawing order; appends the triangles that may have written last, and those whose depth may be
+    // stored.
     SampleExpectation judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
-                            std::vector<uint32_t>& writers);
+                            std::vector<uint32_t>& writers, std::vector<uint32_t>& depth_writers);
 
   private:
     // Triangles of which exactly `count` cover the sample, or from `least` to `count`.
@@ -82,6 +84,12 @@ class Narrowing {
     // Whether a triangle covers p but for its clip distances, whatever the device's freedom, and no
     // edge of the triangle or border of the viewport is near.
     bool is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const;
+    DepthResolution resolve_depth(const FixedPoint& p, std::span<const Hit> hits,
+                                  const std::vector<Fixed>& sets);
+    // Takes away what fails the depth test.
+    void apply_depth(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets,
+                     std::vector<Coverage>& coverage, std::vector<uint32_t>& depth_writers,
+                     SampleExpectation& out);
     // Of the triangles that may cover p; sets of them alone.
     std::vector<Fixed> fixed_sets(const FixedPoint& p, std::span<const Hit> hits);
     // As fixed_sets, for the open ones among `hits` that are in none of its sets: with triangles
@@ -109,6 +117,7 @@ class Narrowing {
     Predicates predicates_;
     uint32_t sample_ = 0;  // of the pixel, the one at hand
     std::vector<Complement> complements_;  // by triangle, or empty
+    DepthTest* depth_;                     // null: every fragment passes and writes
     std::unordered_map<std::string, uint32_t> numbers_;
     std::vector<std::vector<uint32_t>> vertex_numbers_;  // per draw; 0 = not yet numbered
     std::unordered_map<uint64_t, std::vector<uint32_t>> edge_triangles_;  // when first asked for

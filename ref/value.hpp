@@ -70,6 +70,10 @@ struct ExpectedValue {
 };
 
 // Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
+// Which values of a fragment are judged: the depth plane may hold an older fragment than the others,
+// if the last one does not write depth.
+enum class FragmentPart : uint8_t { all, all_but_depth, depth };
+
 class ValueReference {
   public:
     ValueReference(const cases::Case& c, const Limits& limits, cases::Profile profile);
@@ -77,10 +81,12 @@ class ValueReference {
     ValueReference(ValueReference&&) noexcept;
 
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
-    FragmentVerdict judge(uint32_t t, SampleId sample, const FragmentValues& device);
+    FragmentVerdict judge(uint32_t t, SampleId sample, const FragmentValues& device,
+                          FragmentPart part = FragmentPart::all);
 
     // The oracle: the same question answered by rationals alone, without any filter. Slow.
-    FragmentVerdict judge_exact(uint32_t t, SampleId sample, const FragmentValues& device);
+    FragmentVerdict judge_exact(uint32_t t, SampleId sample, const FragmentValues& device,
+                                FragmentPart part = FragmentPart::all);
 
     // The exact values of triangle t at a sample, unsnapped basis.
     std::vector<ExpectedValue> expected(uint32_t t, SampleId sample);

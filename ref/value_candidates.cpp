@@ -317,9 +317,7 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
     // w of a visible point is a convex combination of the w_i.
     const float most_w = std::max({primitive.clip[0].w, primitive.clip[1].w, primitive.clip[2].w});
     set.least_inv_w = most_w > 0 ? T(T(1.0) / from_float<T>(most_w)) : T{};
-    const cases::Viewport& viewport = primitive.draw->viewport;
-    set.depth_range = {static_cast<double>(std::min(viewport.min_depth, viewport.max_depth)),
-                       static_cast<double>(std::max(viewport.min_depth, viewport.max_depth))};
+    set.depth = make_depth_path<T>(primitive, profile);
     const std::vector<PlaneInput<T>> inputs = plane_inputs<T>(primitive, quantities);
     const Vertices<T> ideal = ideal_vertices<T>(primitive);
     const double roundoff = profile == cases::Profile::vulkan ? kVulkanRoundoff : kUnitRoundoff;

@@ -85,6 +85,37 @@ value::Valued<mpq_class> exact_value(const value::Basis<mpq_class>& basis, const
     return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
 }
 
+// Depth that is stored as it is interpolated: the filters know no other.
+bool is_plain_depth(const value::Primitive& primitive) {
+    const cases::DepthState& depth = primitive.draw->depth;
+    return primitive.depth_format == cases::DepthFormat::d32_float && !depth.bias && !depth.clamp;
+}
+
+// The depth that a device most likely stores, from the exact one of its plane.
+double nominal_depth(const value::Primitive& primitive, const value::Basis<mpq_class>& basis,
+                     double z, Profile profile) {
+    const auto path = value::make_depth_path<mpq_class>(primitive, profile);
+    double out = z + value::nominal_bias(path, basis);
+    out = std::clamp(out, path.viewport.low, path.viewport.high);
+    const double steps = value::steps_of(path.format);
+    return steps > 0 ? std::nearbyint(out * steps) / steps : out;
+}
+
+// What is broken if stored depth is not what the plane leads to.
+std::string_view depth_rule(const value::Primitive& primitive, double z) {
+    const cases::DepthState& depth = primitive.draw->depth;
+    const cases::Viewport& v = primitive.draw->viewport;
+    const auto near = static_cast<double>(v.min_depth);
+    const auto far = static_cast<double>(v.max_depth);
+    if (depth.clamp && (z < std::min(near, far) || z > std::max(near, far))) {
+        return "depth.clamp";
+    }
+    if (depth.bias) {
+        return "depth.bias";
+    }
+    return primitive.depth_format == cases::DepthFormat::d32_float ? "depth.linear" : "depth.store";
+}
+
 // p/q if it is short enough to be read.
 std::string exact_text(const mpq_class& q) {
     const std::string text = q.get_str();
@@ -106,6 +137,7 @@ struct ValueReference::Impl {
         coverage;  // by profile
     uint32_t text_triangle = 0;
     std::optional<value::Basis<mpq_class>> text_basis;
+    FragmentPart part = FragmentPart::all;  // of the fragment being judged
 
     Impl(const cases::Case& the_case, const Limits& the_limits, Profile the_profile)
         : c(the_case), limits(the_limits), profile(the_profile), triangles(assemble(the_case)) {
@@ -187,6 +219,11 @@ struct ValueReference::Impl {
         return *text_basis;
     }
 
+    // Whether the part of the fragment that is being judged has the quantity.
+    bool is_part(const Quantity& q) const {
+        return part == FragmentPart::all || (q.attribute == -2) == (part == FragmentPart::depth);
+    }
+
     static bool is_other(const Ball& a, const Ball& b) {
         return std::fabs(a.v - b.v) > 0 || a.e > std::fabs(a.v) * 0x1p-40;
     }
@@ -204,7 +241,7 @@ struct ValueReference::Impl {
         std::vector<size_t> out(quantities_of(t).size());
         std::iota(out.begin(), out.end(), size_t{0});
         std::erase_if(out, [&](size_t index) {
-            return !promises(t)[index].is_number ||
+            return !is_part(quantities_of(t)[index]) || !promises(t)[index].is_number ||
                    (at == Profile::vulkan && !promises(t)[index].is_guaranteed);
         });
         return out;
@@ -383,6 +420,13 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
                     fmt::format("{:.9g}{} within {} x {:.3g}", v.value.get_d(),
                                 text.empty() ? "" : " = " + text, kBudgetFactor, v.budget.get_d());
                 reach = v.reach.get_d();
+                if (q.attribute == -2 && !is_plain_depth(primitive)) {
+                    m.rule = depth_rule(primitive, v.value.get_d());
+                    m.expected = fmt::format(
+                        "{:.9g} or near it (plane {:.9g} within {} x {:.3g})",
+                        nominal_depth(primitive, basis, v.value.get_d(), profile),
+                        v.value.get_d(), kBudgetFactor, v.budget.get_d());
+                }
             }
         }
         if (m.expected.empty()) {
@@ -392,7 +436,9 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         const double g = static_cast<double>(got);
         const double low = hull.low.v - hull.low.e - reach * (1 + 0x1p-30);
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
-        if (!std::isfinite(got) || g < low || g > high) {
+        const bool is_moved = (q.attribute == -2 || q.plane == value::kPlaneDepth) &&
+                              !is_plain_depth(primitive);
+        if (!std::isfinite(got) || (!is_moved && (g < low || g > high))) {
             m.rule = "interp.hull";
         }
         out.mismatches.push_back(std::move(m));
@@ -408,13 +454,15 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
     }
     const std::vector<Quantity>& all = quantities_of(t);
     for (const Quantity& q : all) {
-        if (q.kind == Kind::flat) {
+        if (is_part(q) && q.kind == Kind::flat) {
             judge_flat(triangle.primitive, q, q.get(device), out);
         }
     }
-    judge_samples(t, id, device, exact_only, out);
+    if (part != FragmentPart::depth) {
+        judge_samples(t, id, device, exact_only, out);
+    }
     bool is_decided = false;
-    if (!exact_only) {
+    if (!exact_only && part == FragmentPart::all && is_plain_depth(triangle.primitive)) {
         const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
         const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
         const value::Point<double> sample{
@@ -466,12 +514,15 @@ ValueReference::ValueReference(const cases::Case& c, const Limits& limits, Profi
 ValueReference::~ValueReference() = default;
 ValueReference::ValueReference(ValueReference&&) noexcept = default;
 
-FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device) {
+FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device,
+                                      FragmentPart part) {
+    impl_->part = part;
     return impl_->judge(t, sample, device, false);
 }
 
 FragmentVerdict ValueReference::judge_exact(uint32_t t, SampleId sample,
-                                            const FragmentValues& device) {
+                                            const FragmentValues& device, FragmentPart part) {
+    impl_->part = part;
     return impl_->judge(t, sample, device, true);
 }
 
@@ -510,6 +561,9 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
             e.exact = v.value.get_str();
             e.nearest = v.value.get_d();
             e.budget = v.budget.get_d();
+            if (q.attribute == -2 && !is_plain_depth(primitive)) {
+                e.nearest = nominal_depth(primitive, basis, e.nearest, impl_->profile);
+            }
         }
         out.push_back(std::move(e));
     }

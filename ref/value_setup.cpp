@@ -175,6 +175,7 @@ Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
     Primitive p;
     p.draw = &c.draws[triangle.draw];
     p.triangle = triangle;
+    p.depth_format = c.target.depth_format;
     p.is_finite = true;
     p.is_projectable = true;
     const ClipVolume volume = clip_volume_of(*p.draw);

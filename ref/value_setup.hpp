@@ -56,6 +56,7 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
 struct Primitive {
     const cases::Draw* draw = nullptr;
     Triangle triangle;
+    cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
     std::array<glm::vec4, 3> clip{};
     bool is_finite = false;       // is_representable() at the profiles beyond vulkan
     bool is_projectable = false;  // and w > 0

@@ -76,6 +76,19 @@ struct Reach {
 bool is_depth(const Quantity& q) {
     return q.attribute == -2;
 }
+bool is_frag_coord_z(const Quantity& q) {
+    return q.attribute == -1 && q.plane == kPlaneDepth;
+}
+
+// What bias may add to a quantity; FragCoord.z may have it or not.
+template <class T>
+Range<T> bias_for(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q) {
+    if (!set.depth.bias || !(is_depth(q) || is_frag_coord_z(q))) {
+        return {};
+    }
+    const Range<T> bias = bias_of(set.depth, basis, set.factor);
+    return is_depth(q) ? bias : Range<T>{smaller(bias.low, T(0.0)), larger(bias.high, T(0.0))};
+}
 
 // Whether the whole of a range lies outside of another one.
 template <class T>
@@ -120,6 +133,7 @@ void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
                std::span<const Site<T>> sites, const Range<T>& hull, bool at_sample,
                bool is_covered, double device, T& widest, Reach<T>& out) {
     const T& factor = set.factor;
+    const Range<T> bias = bias_for(set, basis, q);
     for (const Site<T>& site : sites) {
         const Valued<T> v =
             value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
@@ -136,14 +150,21 @@ void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
             }
             continue;
         }
-        out.note(device, nearest_double(v.value), nearest_double(v.budget));
+        const T least = v.value + bias.low;
+        const T most = v.value + bias.high;
+        out.note(device, nearest_double(least), nearest_double(v.budget));
+        out.note(device, nearest_double(most), nearest_double(v.budget));
         widest = larger(widest, v.reach);
-        const T low = v.value - v.reach;
-        const T high = v.value + v.reach;
-        if (is_depth(q) && set.any_of_all) {
+        // Adding the bias is one more rounding.
+        const T sum = set.depth.bias ? T(factor * T(kUnitRoundoff) *
+                                         larger(magnitude(least), magnitude(most)))
+                                     : T{};
+        const T low = least - v.reach - sum;
+        const T high = most + v.reach + sum;
+        if (is_depth(q) && set.any_of_all && !set.depth.is_clamped) {
             // Vulkan: depth outside of the viewport's range is undefined unless it is clamped.
             const Answer beyond =
-                is_beyond(T(v.value - v.budget), T(v.value + v.budget), set.depth_range);
+                is_beyond(T(least - v.budget), T(most + v.budget), set.depth.viewport);
             out.is_known = out.is_known && beyond != Answer::unknown;
             out.is_undefined = out.is_undefined || beyond == Answer::yes;
         }
@@ -151,47 +172,105 @@ void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
     }
 }
 
-// Whether the device's depth is what every value of the range is clamped to.
+// What a quantity is held to besides its range: depth is clamped and stored, FragCoord.z may be
+// clamped.
+struct Store {
+    bool may_clamp = false;   // to the viewport's range
+    bool must_clamp = false;  // depthClampEnable
+    Range<double> viewport;
+    double steps = 0;     // 2^n - 1; 0 for binary32
+    double rounding = 1;  // of a store, in steps: less than 1 is either neighbour of a number between
+};
+
 template <class T>
-Answer is_clamped(const Range<T>& range, const Range<double>& clamp, double device) {
-    const auto is_device = [&](double end) { return device <= end && device >= end; };
-    const Answer above = is_device(clamp.high) ? is_at_most(T(clamp.high), range.low) : Answer::no;
-    const Answer below = is_device(clamp.low) ? is_at_most(range.high, T(clamp.low)) : Answer::no;
-    return above == Answer::no ? below : above;
+Store store_of(const WideSet<T>& set, const Quantity& q) {
+    Store store;
+    store.viewport = set.depth.viewport;
+    if (is_depth(q)) {
+        store.may_clamp = true;
+        store.must_clamp = set.depth.is_clamped;
+        store.steps = steps_of(set.depth.format);
+        // Direct3D 11.3, 3.2.3.6: within 0.6 of a step; max norm is what that profile has, too.
+        store.rounding = set.depth.is_max_norm ? 0.6 : 1;
+    } else if (is_frag_coord_z(q)) {
+        store.may_clamp = set.depth.is_clamped;
+    }
+    return store;
 }
 
-// `clamp`: null, or what the device clamps its value to.
+// Whether a stored value may come from the range. A number of steps is stored as itself; any other
+// as either neighbour (Vulkan specification, "Conversion From Floating-Point to Normalized
+// Fixed-Point").
 template <class T>
-Fit fit(const Reach<T>& reach, double device, const Range<double>* clamp) {
-    if (reach.is_known && reach.is_undefined) {
+Answer may_store(const Range<T>& range, double device, const Store& store) {
+    if (store.steps <= 0) {
+        const Answer low = is_at_most(range.low, T(device));
+        const Answer high = is_at_most(T(device), range.high);
+        return low == Answer::no || high == Answer::no                ? Answer::no
+               : low == Answer::yes && high == Answer::yes ? Answer::yes
+                                                           : Answer::unknown;
+    }
+    const double code = std::round(device * store.steps);
+    // depth_of_code() of diff/capture.hpp is within 2^-25 of the code's value.
+    if (std::fabs(device * store.steps - code) > 0.5) {
+        return Answer::no;
+    }
+    const T low = range.low * T(store.steps);
+    const T high = range.high * T(store.steps);
+    if (store.rounding < 1) {
+        const Answer below = is_at_most(low, T(code + store.rounding));
+        const Answer above = is_at_most(T(code - store.rounding), high);
+        return below == Answer::no || above == Answer::no                ? Answer::no
+               : below == Answer::yes && above == Answer::yes ? Answer::yes
+                                                              : Answer::unknown;
+    }
+    const Answer below = is_positive(T(T(code + 1) - low));
+    const Answer above = is_positive(T(high - T(code - 1)));
+    return below == Answer::no || above == Answer::no                ? Answer::no
+           : below == Answer::yes && above == Answer::yes ? Answer::yes
+                                                          : Answer::unknown;
+}
+
+template <class T>
+Fit fit(const Reach<T>& reach, double device, const Store& store) {
+    const bool is_outside =
+        store.must_clamp && (device < store.viewport.low || device > store.viewport.high);
+    if (reach.is_known && reach.is_undefined && !is_outside) {
         return {Answer::yes, 0};
     }
     if (!std::isfinite(device)) {
-        const bool is_settled = reach.is_known || clamp == nullptr;
+        const bool is_settled = reach.is_known || !store.may_clamp;
         return {is_settled ? Answer::no : Answer::unknown, std::numeric_limits<double>::infinity()};
     }
     if (!reach.is_known) {
         return {Answer::unknown, 0};
     }
-    if (reach.is_free) {
+    if (reach.is_free && (!store.must_clamp || store.steps > 0)) {
         return {Answer::yes, 0};
+    }
+    if (reach.is_free) {
+        return {is_outside ? Answer::no : Answer::yes, 0};
     }
     if (reach.is_first) {
         return {};
     }
-    const T v(device);
-    const Answer low = is_at_most(reach.range.low, v);
-    const Answer high = is_at_most(v, reach.range.high);
-    const double distance = Reach<T>::distance(device, reach.low, reach.high);
+    const double step = store.steps > 0 ? store.rounding / store.steps : 0;
+    const double distance =
+        std::max(0.0, Reach<T>::distance(device, reach.low, reach.high) - step);
     const double ratio = reach.budget > 0 ? distance / reach.budget
                          : distance > 0   ? std::numeric_limits<double>::infinity()
                                           : 0.0;
-    if (low == Answer::no || high == Answer::no) {
-        const Answer clamped =
-            clamp == nullptr ? Answer::no : is_clamped(reach.range, *clamp, device);
-        return {clamped, clamped == Answer::yes ? 0 : ratio};
+    Answer answer = store.must_clamp ? Answer::no : may_store(reach.range, device, store);
+    if (answer != Answer::yes && store.may_clamp) {
+        const Answer other = may_store(clamped(reach.range, store.viewport), device, store);
+        if (other == Answer::yes) {
+            // A clamped value says nothing of the plane's error.
+            const bool is_inside = answer != Answer::no;
+            return {Answer::yes, is_inside || ratio <= 1 ? ratio : 0};
+        }
+        answer = other == Answer::unknown ? other : answer;
     }
-    return {low == Answer::yes && high == Answer::yes ? Answer::yes : Answer::unknown, ratio};
+    return {answer, ratio};
 }
 
 bool is_judged(const Quantity& q, size_t index, std::span<const size_t> only) {
@@ -280,6 +359,10 @@ void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
         // with the vertices: only their hull is claimed.
         const bool free_plane = q.kind == Kind::linear && q.attribute >= 0 && !is_projectable;
         if (is_judged(q, i, only) && (free_plane || candidate.is_unbounded)) {
+            if (set.depth.bias && (is_depth(q) || is_frag_coord_z(q))) {
+                reaches[i].is_free = true;  // of a gradient without bounds
+                continue;
+            }
             add_hull(set.hulls[i], widest[i], static_cast<double>(q.get(device)), reaches[i]);
         }
     }
@@ -342,9 +425,9 @@ void keep_better(WideVerdict& best, WideVerdict&& next, bool is_first) {
 }
 
 template <class T>
-void judge_value(const Reach<T>& reach, size_t index, double device, const Range<double>* clamp,
+void judge_value(const Reach<T>& reach, size_t index, double device, const Store& store,
                  WideVerdict& verdict) {
-    const Fit f = fit(reach, device, clamp);
+    const Fit f = fit(reach, device, store);
     if (f.answer == Answer::unknown) {
         verdict.is_known = false;
         return;
@@ -391,7 +474,7 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                     continue;
                 }
                 judge_value(reaches[i], i, static_cast<double>(quantities[i].get(device)),
-                            is_depth(quantities[i]) ? &set.depth_range : nullptr, verdict);
+                            store_of(set, quantities[i]), verdict);
                 if (!verdict.is_known) {
                     return verdict;
                 }
@@ -423,6 +506,52 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
     return best;
 }
 
+template <class T>
+DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool is_projectable,
+                             const Point<T>& sample) {
+    DepthReach<T> out;
+    const Evaluation<T> where{{sample}, {sample}, sample, {sample}, false};
+    const FragmentValues none;
+    std::vector<Reach<T>> reaches(1);
+    for (const Candidate<T>& candidate : set.candidates) {
+        if (candidate.is_piece) {
+            const Answer near = is_near(candidate.bases.front(), sample, set.margin);
+            if (near == Answer::unknown) {
+                out.is_known = false;
+                return out;
+            }
+            if (near == Answer::no) {
+                continue;
+            }
+        }
+        add_candidate(set, candidate, {&depth, 1}, is_projectable, where, {}, none, reaches);
+    }
+    const Reach<T>& reach = reaches.front();
+    out.is_known = reach.is_known;
+    out.is_free = reach.is_free || reach.is_undefined || reach.is_first;
+    out.range = reach.range;
+    if (out.is_free) {
+        return out;
+    }
+    const Range<T> inside = clamped(reach.range, set.depth.viewport);
+    if (set.depth.is_clamped) {
+        out.range = inside;
+    } else if (set.any_of_all) {
+        // Undefined as soon as a device's value may lie outside of the viewport's range.
+        const Answer low = is_at_most(T(set.depth.viewport.low), reach.range.low);
+        const Answer high = is_at_most(reach.range.high, T(set.depth.viewport.high));
+        out.is_known = low != Answer::unknown && high != Answer::unknown;
+        out.is_free = low != Answer::yes || high != Answer::yes;
+    } else {
+        out.range = {smaller(inside.low, reach.range.low), larger(inside.high, reach.range.high)};
+    }
+    return out;
+}
+
+template DepthReach<Ball> reach_of_depth<Ball>(const WideSet<Ball>&, const Quantity&, bool,
+                                               const Point<Ball>&);
+template DepthReach<mpq_class> reach_of_depth<mpq_class>(const WideSet<mpq_class>&, const Quantity&,
+                                                         bool, const Point<mpq_class>&);
 template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
                                       const std::vector<Evaluation<Ball>>&, const FragmentValues&,
                                       std::span<const size_t>);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ref/depth_path.hpp"
 #include "ref/value_budget.hpp"
 #include "ref/value_setup.hpp"
 
@@ -27,11 +28,6 @@ struct Candidate {
 };
 
 template <class T>
-struct Range {
-    T low{}, high{};
-};
-
-template <class T>
 struct WideSet {
     bool is_known = true;  // false: T could not tell an orientation; use rationals
     std::vector<Candidate<T>> candidates;
@@ -39,7 +35,7 @@ struct WideSet {
     T factor{};                   // K
     T margin{};                   // pixels, for pieces
     T least_inv_w{};              // of the visible part of the triangle
-    Range<double> depth_range;    // of the viewport, low <= high: devices clamp depth to it
+    DepthPath<T> depth;           // from interpolated to stored depth
     bool any_of_all = false;      // profile vulkan: each value alone, any candidate, their hull
 };
 
@@ -59,6 +55,17 @@ struct Evaluation {
     // all of those. Otherwise each value may have its own.
     bool is_one_point = false;
 };
+
+// All depths that the set's devices may compare and store at a point, after bias and clamp.
+template <class T>
+struct DepthReach {
+    bool is_known = true;  // false: T cannot tell; use rationals
+    bool is_free = false;  // any depth at all
+    Range<T> range;
+};
+template <class T>
+DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool is_projectable,
+                             const Point<T>& sample);
 
 struct WideVerdict {
     bool is_known = true;

@@ -53,6 +53,30 @@ std::optional<Rejection> check_locations(const Capabilities& c, const cases::Tar
     return std::nullopt;
 }
 
+std::optional<Rejection> check_depth_format(const Capabilities& c, const cases::Target& t) {
+    if (t.depth_format == cases::DepthFormat::d32_float) {
+        return std::nullopt;
+    }
+    const char* name =
+        t.depth_format == cases::DepthFormat::d24_unorm ? "X8_D24_UNORM_PACK32" : "D16_UNORM";
+    const VkSampleCountFlags counts =
+        c.depth_sample_counts.at(static_cast<size_t>(t.depth_format));
+    if (counts == 0) {
+        return unsupported(
+            fmt::format("the device cannot draw to and read back format {}", name));
+    }
+    if (t.samples > 1 && t.depth_format == cases::DepthFormat::d24_unorm) {
+        // A shader reads binary32; the conversion may be off by a step of 2^-24.
+        return unsupported("single samples of X8_D24_UNORM_PACK32 cannot be read exactly");
+    }
+    if ((counts & t.samples) == 0) {
+        return unsupported(
+            fmt::format("the device does not draw {} samples a pixel with format {}", t.samples,
+                        name));
+    }
+    return std::nullopt;
+}
+
 std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& test) {
     const cases::Target& t = test.target;
     if (t.width == 0 || t.height == 0) {
@@ -67,6 +91,9 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
     }
     if ((c.sample_counts & t.samples) == 0) {
         return unsupported(fmt::format("the device does not draw {} samples a pixel", t.samples));
+    }
+    if (auto rejection = check_depth_format(c, t)) {
+        return rejection;
     }
     if (auto rejection = check_locations(c, t)) {
         return rejection;
@@ -120,6 +147,19 @@ std::optional<Rejection> check_viewport(const Capabilities& c, const cases::View
                     [low, high](float end) { return end < low || end > high; })) {
         return unsupported(
             fmt::format("the viewport leaves the device's range of {} to {} pixels", low, high));
+    }
+    return std::nullopt;
+}
+
+std::optional<Rejection> check_depth(const Capabilities& c, const cases::DepthState& depth) {
+    if (depth.clamp && !c.depth_clamp) {
+        return unsupported("the device lacks the feature depthClamp");
+    }
+    if (depth.clip && !c.depth_clip_enable) {
+        return unsupported("the device lacks the feature depthClipEnable of VK_EXT_depth_clip_enable");
+    }
+    if (depth.bias && std::abs(depth.bias->clamp) > 0.0F && !c.depth_bias_clamp) {
+        return unsupported("the device lacks the feature depthBiasClamp");
     }
     return std::nullopt;
 }
@@ -187,6 +227,9 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     if (draw.attributes.size() > cases::kMaxAttributes) {
         return invalid(fmt::format("a draw has {} attributes, at most {} are allowed",
                                    draw.attributes.size(), cases::kMaxAttributes));
+    }
+    if (auto rejection = check_depth(c, draw.depth)) {
+        return rejection;
     }
     const size_t vertices = draw.positions.size();
     for (const cases::Attribute& attribute : draw.attributes) {

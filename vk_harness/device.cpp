@@ -124,6 +124,23 @@ void query_properties(Capabilities& c, uint32_t index) {
     }
 }
 
+// Optional extensions of depth; each is asked for alone, since its structure may only be chained if
+// the device has the extension.
+void query_depth_features(Capabilities& c) {
+    const auto query = [&](void* chained) {
+        VkPhysicalDeviceFeatures2 features{};
+        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        features.pNext = chained;
+        vkGetPhysicalDeviceFeatures2(c.physical, &features);
+    };
+    if (has_device_extension(c.physical, VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME)) {
+        VkPhysicalDeviceDepthClipEnableFeaturesEXT clip{};
+        clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
+        query(&clip);
+        c.depth_clip_enable = clip.depthClipEnable == VK_TRUE;
+    }
+}
+
 // Sample locations in sixteenths of a pixel, one grid cell a pixel.
 void query_sample_locations(Capabilities& c) {
     c.has_standard_locations = c.limits.standardSampleLocations == VK_TRUE;
@@ -175,6 +192,9 @@ void query_features(Capabilities& c) {
         vkGetPhysicalDeviceFeatures2(c.physical, &features);
         c.triangle_fans = !c.portability_subset || portability.triangleFans == VK_TRUE;
         c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
+        c.depth_clamp = features.features.depthClamp == VK_TRUE;
+        c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
+        query_depth_features(c);
         c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
         query_sample_locations(c);
         c.clip = query_clip_support(c.physical, has_device_extension);
@@ -250,6 +270,27 @@ void query_targets(Capabilities& c) {
     c.location_counts &= c.sample_counts;
 }
 
+void query_depth_formats(Capabilities& c) {
+    const VkPhysicalDeviceLimits& l = c.limits;
+    for (size_t k = 0; k < c.depth_sample_counts.size(); ++k) {
+        const VkFormat format = depth_format(static_cast<cases::DepthFormat>(k));
+        VkFormatProperties properties{};
+        vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
+        const VkFormatFeatureFlags needed =
+            VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT;
+        c.depth_sample_counts.at(k) = 0;
+        if ((properties.optimalTilingFeatures & needed) != needed) {
+            continue;
+        }
+        const ImageLimits read = image_limits(
+            c.physical, format,
+            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, 0);
+        c.depth_sample_counts.at(k) =
+            VK_SAMPLE_COUNT_1_BIT |
+            (read.samples & l.framebufferDepthSampleCounts & l.sampledImageDepthSampleCounts);
+    }
+}
+
 // Whether options.device means this device.
 bool names(const std::string& wanted, const DeviceInfo& info) {
     if (wanted.empty()) {
@@ -273,6 +314,7 @@ Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index) {
     query_properties(c, index);
     query_features(c);
     query_targets(c);
+    query_depth_formats(c);
     return c;
 }
 
@@ -344,6 +386,9 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
     barycentric.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
     barycentric.fragmentShaderBarycentric = VK_TRUE;
+    VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip{};
+    depth_clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
+    depth_clip.depthClipEnable = VK_TRUE;
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &features13;
@@ -355,6 +400,9 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     };
     if (capabilities.portability_subset) {
         enable(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
+    }
+    if (capabilities.depth_clip_enable) {
+        enable(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
     }
     if (capabilities.location_counts != 0) {
         extensions.push_back(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);

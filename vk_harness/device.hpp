@@ -4,6 +4,7 @@
 // Physical devices, what they can do, and the one logical device that draws.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,10 @@ struct Capabilities {
     float location_range[2] = {0, 0};     // pixels
     bool has_standard_locations = false;  // standardSampleLocations
     bool has_sample_shading = false;      // sampleRateShading
+    // By cases::DepthFormat: sample counts that can be drawn and read back; 0 if the device has not
+    // got the format.
+    std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};
+    bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     bool triangle_fans = true;
     ClipSupport clip;
     bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
@@ -65,6 +70,17 @@ class Device {
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kColorBitsFormat = VK_FORMAT_R32G32B32A32_UINT;  // to read bits
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat depth_format(cases::DepthFormat format) {
+    switch (format) {
+        case cases::DepthFormat::d24_unorm:
+            return VK_FORMAT_X8_D24_UNORM_PACK32;
+        case cases::DepthFormat::d16_unorm:
+            return VK_FORMAT_D16_UNORM;
+        case cases::DepthFormat::d32_float:
+            break;
+    }
+    return kDepthFormat;
+}
 // Colour attachments before the attributes: hits, writer, frag_coord.
 inline constexpr uint32_t kFixedAttachments = 3;
 

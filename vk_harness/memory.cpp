@@ -155,7 +155,8 @@ Result<void> Buffer::invalidate() const {
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
                             uint32_t samples, VkImageCreateFlags flags) {
     const VolkDeviceTable& vk = device.vk();
-    const bool depth = format == kDepthFormat;
+    const bool depth = format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_X8_D24_UNORM_PACK32 ||
+                       format == VK_FORMAT_D16_UNORM;
     const bool multisampled = samples > 1;
     const VkImageUsageFlags attachment =
         depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;

@@ -202,7 +202,9 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     ColorState color;
     color_state(key, color);
 
-    const std::array<VkDynamicState, 6> dynamic_states = {
+    const std::array<VkDynamicState, 10> dynamic_states = {
+        VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,   VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
+        VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,  VK_DYNAMIC_STATE_DEPTH_BIAS,
         VK_DYNAMIC_STATE_VIEWPORT,           VK_DYNAMIC_STATE_SCISSOR,
         VK_DYNAMIC_STATE_CULL_MODE,          VK_DYNAMIC_STATE_FRONT_FACE,
         VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY, VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE};
@@ -215,7 +217,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
     rendering.colorAttachmentCount = static_cast<uint32_t>(color.formats.size());
     rendering.pColorAttachmentFormats = color.formats.data();
-    rendering.depthAttachmentFormat = kDepthFormat;
+    rendering.depthAttachmentFormat = depth_format(key.depth_format);
 
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;

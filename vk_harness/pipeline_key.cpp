@@ -52,7 +52,9 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
     }
     key.sample_locations = c.target.sample_locations;
     key.masked = c.variation.masked;
-    key.masks_depth = c.variation.masks_depth;
+    key.depth_format = c.target.depth_format;
+    key.depth_clamp = draw.depth.clamp;
+    key.depth_clip = draw.depth.clip;
     return key;
 }
 

@@ -40,13 +40,16 @@ struct PipelineKey {
     uint32_t sample_mask = 0xffffffffU;
     std::optional<uint32_t> min_shading_bits = {};  // of Multisample::min_sample_shading
     std::vector<std::array<uint8_t, 2>> sample_locations = {};  // 1/16 pixel; empty: standard
+    // Depth; the test and the bias are dynamic.
+    cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
+    bool depth_clamp = false;
+    std::optional<bool> depth_clip = {};
     // Colour output.
     shaders::ColorKind color = shaders::ColorKind::none;
     int32_t color_attribute = -1;
     bool instruments = true;
     // Of cases::Variation.
     uint32_t masked = 0;
-    bool masks_depth = false;
     friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };
 

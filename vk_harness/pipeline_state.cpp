@@ -33,6 +33,14 @@ void rasterization_state(const PipelineKey& key, RasterizationState& state) {
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
     state.info.polygonMode = VK_POLYGON_MODE_FILL;
     state.info.lineWidth = 1.0F;
+    state.info.depthClampEnable = key.depth_clamp ? VK_TRUE : VK_FALSE;
+    if (key.depth_clip) {
+        state.depth_clip.sType =
+            VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT;
+        state.depth_clip.depthClipEnable = *key.depth_clip ? VK_TRUE : VK_FALSE;
+        state.depth_clip.pNext = state.info.pNext;
+        state.info.pNext = &state.depth_clip;
+    }
     if (key.provoking == cases::ProvokingVertex::last) {
         state.provoking.sType =
             VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT;
@@ -70,12 +78,11 @@ void multisample_state(const PipelineKey& key, MultisampleState& state) {
     }
 }
 
-VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
+VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey&) {
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = VK_TRUE;  // without the test there is no depth write
-    depth.depthWriteEnable = key.masks_depth ? VK_FALSE : VK_TRUE;
-    depth.depthCompareOp = VK_COMPARE_OP_ALWAYS;
+    // Compare operation and writes are dynamic.
     return depth;
 }
 

@@ -22,6 +22,7 @@ void vertex_input_state(const PipelineKey& key, VertexInputState& state);
 struct RasterizationState {
     VkPipelineRasterizationProvokingVertexStateCreateInfoEXT provoking{};
     VkPipelineRasterizationStateCreateInfo info{};
+    VkPipelineRasterizationDepthClipStateCreateInfoEXT depth_clip{};
 };
 void rasterization_state(const PipelineKey& key, RasterizationState& state);
 

@@ -20,6 +20,41 @@ std::vector<T> copy_out(std::span<const std::byte> memory, VkDeviceSize offset, 
     return std::vector<T>(first, first + count);
 }
 
+// Depth as the capture holds it (diff/capture.hpp). Copied texels of D16 are 2 bytes and of
+// X8_D24 the low 24 bits of a word; with several samples a shader has written binary32.
+void decode_depth(const cases::Target& target, std::span<const std::byte> from, float* to) {
+    const size_t count = size_t{target.width} * target.height * target.samples;
+    const auto* words = reinterpret_cast<const uint32_t*>(from.data());
+    const auto poison_float = std::bit_cast<float>(diff::kPoison);
+    if (target.depth_format == cases::DepthFormat::d32_float) {
+        std::memcpy(to, words, count * sizeof(float));
+        return;
+    }
+    if (target.samples > 1) {
+        std::transform(words, words + count, to, [&](uint32_t word) {
+            return word == diff::kPoison
+                       ? poison_float
+                       : diff::nearest_depth_code(std::bit_cast<float>(word), target.depth_format);
+        });
+        return;
+    }
+    if (target.depth_format == cases::DepthFormat::d24_unorm) {
+        std::transform(words, words + count, to, [&](uint32_t word) {
+            return word == diff::kPoison
+                       ? poison_float
+                       : diff::depth_of_code(word & 0xffffffU, cases::DepthFormat::d24_unorm);
+        });
+        return;
+    }
+    // Half of the poison is a code like any other; a copy that never happened leaves it everywhere.
+    const auto* halves = reinterpret_cast<const uint16_t*>(from.data());
+    const bool is_copied = !std::all_of(words, words + (count + 1) / 2,
+                                        [](uint32_t word) { return word == diff::kPoison; });
+    std::transform(halves, halves + count, to, [&](uint16_t code) {
+        return is_copied ? diff::depth_of_code(code, cases::DepthFormat::d16_unorm) : poison_float;
+    });
+}
+
 // Neighbours mostly have the same origin, so the last answer is kept.
 void decode_writers(std::span<const diff::Writer> from, diff::Writer* to) {
     const auto decode = [](const diff::Writer& words) {
@@ -96,7 +131,8 @@ diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count
         capture.attributes[k] =
             copy_out<glm::vec4>(memory, layout.color[kFixedAttachments + k], count);
     }
-    capture.depth = copy_out<float>(memory, layout.depth, count);
+    capture.depth.resize(count);
+    decode_depth(target, memory.subspan(layout.depth), capture.depth.data());
     return capture;
 }
 
@@ -116,7 +152,7 @@ void read_planes(const cases::Target& target, uint32_t attribute_count,
     for (uint32_t k = 2; k < kFixedAttachments + attribute_count; ++k) {
         copy(layout.color[k], count * sizeof(glm::vec4));
     }
-    copy(layout.depth, count * sizeof(float));
+    decode_depth(target, memory.subspan(layout.depth), reinterpret_cast<float*>(to));
 }
 
 }  // namespace vk_harness

@@ -191,6 +191,12 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     vk.vkCmdSetFrontFace(commands, to_vulkan(draw.front_face));
     vk.vkCmdSetPrimitiveTopology(commands, to_vulkan(draw.topology));
     vk.vkCmdSetPrimitiveRestartEnable(commands, draw.primitive_restart ? VK_TRUE : VK_FALSE);
+    const cases::DepthState& depth = draw.depth;
+    vk.vkCmdSetDepthCompareOp(commands, static_cast<VkCompareOp>(depth.compare));
+    vk.vkCmdSetDepthWriteEnable(commands, depth.write && !test.variation.masks_depth ? VK_TRUE : VK_FALSE);
+    const cases::DepthBias bias = depth.bias.value_or(cases::DepthBias{});
+    vk.vkCmdSetDepthBiasEnable(commands, depth.bias ? VK_TRUE : VK_FALSE);
+    vk.vkCmdSetDepthBias(commands, bias.constant, bias.clamp, bias.slope);
     shaders::DrawConstants constants;
     constants.index = draw_index;
     constants.layer = draw.layer;
@@ -281,7 +287,9 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
     }
     VkClearValue depth_clear{};
     depth_clear.depthStencil = {
-        plan.test->variation.other_depth_clear ? diff::kOtherClearDepth : diff::kClearDepth, 0};
+        plan.test->variation.other_depth_clear ? diff::kOtherClearDepth
+                                               : plan.test->target.depth_clear,
+        0};
     const VkRenderingAttachmentInfo depth =
         attachment(target.depth.view(), kDepthDrawn.layout, depth_clear);
     VkRenderingInfo rendering{};

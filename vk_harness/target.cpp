@@ -30,7 +30,7 @@ Result<Target*> TargetCache::get(const cases::Target& key, uint32_t color_count)
                 ? VkImageCreateFlags{0}
                 : VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT};
         auto depth =
-            Image::create(*device_, kDepthFormat, {key.width, key.height}, key.samples, flags);
+            Image::create(*device_, depth_format(key.depth_format), {key.width, key.height}, key.samples, flags);
         if (!depth) {
             return fail(depth.error());
         }

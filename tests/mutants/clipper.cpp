@@ -40,10 +40,12 @@ std::vector<Plane> planes_of(const cases::Draw& draw, const Device& device) {
         band_y = guard_band(draw.viewport.height, draw.viewport.y);
     }
     std::vector<Plane> planes{{0, 1, band_x}, {0, -1, band_x}, {1, 1, band_y}, {1, -1, band_y}};
-    if (device.fault != Fault::clip_no_near) {
+    const bool clips_depth = draw.depth.clip.value_or(!draw.depth.clamp) ||
+                             device.fault == Fault::depth_clamp_clips;
+    if (clips_depth && device.fault != Fault::clip_no_near) {
         planes.push_back({2, 1, 0});
     }
-    if (device.fault != Fault::clip_no_far) {
+    if (clips_depth && device.fault != Fault::clip_no_far) {
         planes.push_back({2, -1, 1});
     }
     return planes;

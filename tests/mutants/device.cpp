@@ -13,6 +13,7 @@
 
 #include "mutants/assembly.hpp"
 #include "mutants/clipper.hpp"
+#include "mutants/depth.hpp"
 #include "mutants/multisample.hpp"
 #include "mutants/planes.hpp"
 #include "mutants/tiles.hpp"
@@ -161,6 +162,7 @@ class DrawCommand {
     std::unique_ptr<TrianglePlanes> cached_planes_;
     WindowVertex cached_first_;
     uint32_t culled_ = 0;  // triangles so far
+    float largest_z_ = 0;  // of the polygon being drawn
     std::array<uint32_t, 32> vertex_cache_ = [] {
         std::array<uint32_t, 32> empty{};
         empty.fill(UINT32_MAX);
@@ -291,11 +293,13 @@ void DrawCommand::rasterize(const Primitive& primitive) {
     }
     const ClippedPolygon polygon = clip_triangle(triangle, draw_, device_);
     std::vector<WindowVertex> window;
+    largest_z_ = 0;
     for (const ClipVertex& v : polygon.vertices) {
         if (!(v.position.w > 0) && device_.fault != Fault::clip_none) {
             return;  // inside the volume w = 0 is a single point
         }
         window.push_back(project(v));
+        largest_z_ = std::max(largest_z_, std::fabs(window.back().z));
     }
     if (window.size() >= 3) {
         if (device_.fault == Fault::clip_last_piece_lost && window.size() > 3) {
@@ -531,6 +535,28 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
     const size_t at = (static_cast<size_t>(j) * out_.target.width + static_cast<size_t>(i)) *
                           out_.target.samples +
                       s;
+    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
+    const float sample_x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
+    const float sample_y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
+    float z = planes.depth(sample_x, sample_y);
+    if (fault == Fault::values_at_corner) {
+        z = planes.depth(static_cast<float>(i), static_cast<float>(j));
+    } else if (fault == Fault::depth_at_centre) {
+        z = planes.depth(static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F);
+    }
+    const float largest = fault == Fault::bias_exponent_of_sample ? std::fabs(z) : largest_z_;
+    const cases::DepthFormat format = out_.target.depth_format;
+    const float bias =
+        depth_bias(draw_, format, planes.depth_dx(), planes.depth_dy(), largest, device_);
+    z = fragment_depth(z, bias, draw_, format, device_);
+    const bool passes = passes_depth_test(draw_, z, out_.depth[at], device_);
+    if ((passes && (draw_.depth.write || fault == Fault::depth_write_ignored)) ||
+        fault == Fault::depth_write_before_test) {
+        out_.depth[at] = z;
+    }
+    if (!passes) {
+        return;
+    }
     out_.hits[at] += front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);
     const bool of_piece = fault == Fault::clip_flat_piece;
     const uint32_t id =
@@ -545,12 +571,6 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
     out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy, invocation.frag_coord.y + corner_xy,
                            planes.depth(x, y),
                            fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
-    const bool is_depth_at_sample =
-        fault != Fault::values_at_corner && fault != Fault::depth_at_centre;
-    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
-    const Place own{static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit,
-                    static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit};
-    out_.depth[at] = is_depth_at_sample ? planes.depth(own.x, own.y) : planes.depth(x, y);
 
     for (size_t a = 0; a < draw_.attributes.size(); ++a) {
         bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat;
@@ -613,7 +633,7 @@ diff::Capture render(const cases::Case& c, const Device& device) {
     out.hits.assign(count, glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
     out.writers.assign(count, diff::Writer{});
     out.frag_coord.assign(count, glm::vec4(diff::kClearValue));
-    out.depth.assign(count, diff::kClearDepth);
+    out.depth.assign(count, stored_depth(c.target.depth_clear, c.target.depth_format, device));
     for (const cases::Draw& draw : c.draws) {
         out.attribute_count =
             std::max(out.attribute_count, static_cast<uint32_t>(draw.attributes.size()));

@@ -33,6 +33,9 @@ class TrianglePlanes {
 
     // Depth at (x, y).
     float depth(float x, float y) const;
+    // Its gradients.
+    float depth_dx() const { return depth_.dadx; }
+    float depth_dy() const { return depth_.dady; }
     // 1/w at (x, y).
     float inverse_w(float x, float y) const;
     // Attribute a at (x, y); not for flat ones.

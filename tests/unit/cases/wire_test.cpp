@@ -61,6 +61,7 @@ Case sample() {
     c.target.color = ColorTarget{ColorFormat::rgba16_float, {1, 2, 3, 4}};
     c.target.has_instruments = false;
     c.target.has_depth = false;
+    c.target.depth_clear = 0.75F;
     c.draws = {draw, Draw{}};
     c.relations = {{RelationKind::scissor_tiles, {7, 3}}, {RelationKind::more_attributes, {}}};
     c.blit = Blit{ColorFormat::rgb10a2_unorm,

@@ -42,7 +42,7 @@ inline void clear_sample(diff::Capture& capture, size_t index) {
     capture.hits[index] = {0, 0, diff::kHitGuard, diff::kHitGuard};
     capture.writers[index] = diff::Writer{};
     capture.frag_coord[index] = clear;
-    capture.depth[index] = diff::kClearDepth;
+    capture.depth[index] = capture.target.depth_clear;
     for (uint32_t a = 0; a < capture.attribute_count; ++a) {
         capture.attributes[a][index] = clear;
     }

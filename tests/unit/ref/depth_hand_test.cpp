@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Depth test, bias, clamp and store worked out by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ref/expectation.hpp"
+#include "ref/explain.hpp"
+#include "ref/value.hpp"
+#include "tests/unit/ref/value_case.hpp"
+
+namespace ref::test {
+namespace {
+
+using cases::CompareOp;
+using cases::DepthFormat;
+using cases::Profile;
+
+// A triangle over the whole 4x4 target whose depth is z + gx x + gy y.
+cases::Draw plane(double z, double gx = 0, double gy = 0) {
+    cases::Draw d;
+    const auto vertex = [&](double x, double y) {
+        return value_test::clip_of(x, y, z + gx * x + gy * y, 1, 4);
+    };
+    d.positions = {vertex(-8, -8), vertex(16, -8), vertex(-8, 16)};
+    d.viewport = {0, 0, 4, 4, 0, 1};
+    d.scissor = {0, 0, 4, 4};
+    return d;
+}
+
+// The same within the target, so that nothing is clipped.
+cases::Draw half_plane(double z, double gx = 0, double gy = 0) {
+    cases::Draw d = plane(z, gx, gy);
+    const auto vertex = [&](double x, double y) {
+        return value_test::clip_of(x, y, z + gx * x + gy * y, 1, 4);
+    };
+    d.positions = {vertex(0, 0), vertex(4, 0), vertex(0, 4)};
+    return d;
+}
+
+cases::Case case_of(std::vector<cases::Draw> draws, DepthFormat format = DepthFormat::d32_float) {
+    cases::Case c;
+    c.id = "depth";
+    c.target = {4, 4, 1};
+    c.target.depth_format = format;
+    c.draws = std::move(draws);
+    return c;
+}
+
+constexpr size_t kSample = 0;  // pixel (0, 0), inside all of them
+
+uint32_t hits(const cases::Case& c, Profile profile, uint32_t* most = nullptr) {
+    const Expectation e = expect(c, Limits{}, profile);
+    const HitBounds& b = e.samples[kSample].hits;
+    if (most != nullptr) {
+        *most = b.total_max;
+    }
+    return b.total_min;
+}
+
+void expect_hits(const cases::Case& c, uint32_t low, uint32_t high) {
+    for (const Profile profile : cases::kProfiles) {
+        uint32_t most = 0;
+        EXPECT_EQ(hits(c, profile, &most), low) << cases::to_string(profile);
+        EXPECT_EQ(most, high) << cases::to_string(profile);
+    }
+}
+
+// Whether triangle 0 may leave this depth at pixel (0, 0).
+bool accepts(const cases::Case& c, double depth, Profile profile) {
+    ValueReference values(c, Limits{}, profile);
+    FragmentValues device;
+    device.depth = static_cast<float>(depth);
+    return values.judge(0, {0, 0, 0}, device, FragmentPart::depth).ok;
+}
+
+TEST(DepthHand, EveryCompareOperation) {
+    struct Row {
+        CompareOp op;
+        bool in_front, behind;
+    };
+    for (const Row& row : {Row{CompareOp::never, false, false}, Row{CompareOp::less, true, false},
+                           Row{CompareOp::equal, false, false},
+                           Row{CompareOp::less_or_equal, true, false},
+                           Row{CompareOp::greater, false, true},
+                           Row{CompareOp::not_equal, true, true},
+                           Row{CompareOp::greater_or_equal, false, true},
+                           Row{CompareOp::always, true, true}}) {
+        for (const DepthFormat format :
+             {DepthFormat::d32_float, DepthFormat::d24_unorm, DepthFormat::d16_unorm}) {
+            for (const double z : {0.25, 0.75}) {
+                cases::Case c = case_of({half_plane(0.5), half_plane(z)}, format);
+                c.draws[1].depth.compare = row.op;
+                const bool passes = z < 0.5 ? row.in_front : row.behind;
+                SCOPED_TRACE(static_cast<int>(row.op));
+                expect_hits(c, passes ? 2 : 1, passes ? 2 : 1);
+            }
+        }
+    }
+}
+
+// Both planes are clamped to 1: equal in every format, by no interpolation.
+TEST(DepthHand, ClampedDepthsAreEqual) {
+    struct Row {
+        CompareOp op;
+        bool equal;
+    };
+    for (const Row& row : {Row{CompareOp::less, false}, Row{CompareOp::equal, true},
+                           Row{CompareOp::less_or_equal, true}, Row{CompareOp::greater, false},
+                           Row{CompareOp::not_equal, false},
+                           Row{CompareOp::greater_or_equal, true}}) {
+        for (const DepthFormat format :
+             {DepthFormat::d32_float, DepthFormat::d24_unorm, DepthFormat::d16_unorm}) {
+            cases::Case c = case_of({half_plane(0.5), half_plane(0.5)}, format);
+            for (cases::Draw& d : c.draws) {
+                d.viewport.max_depth = 0.25F;
+                d.viewport.min_depth = 0.25F;  // an empty range: every depth is 1/4
+                d.depth.clamp = true;
+            }
+            if (format != DepthFormat::d32_float) {
+                // 65535/4 and 16777215/4 are no whole numbers of steps: 1 is.
+                for (cases::Draw& d : c.draws) {
+                    d.viewport.max_depth = d.viewport.min_depth = 1;
+                }
+            }
+            c.draws[1].depth.compare = row.op;
+            expect_hits(c, row.equal ? 2 : 1, row.equal ? 2 : 1);
+        }
+    }
+}
+
+TEST(DepthHand, EqualPlanesOfDifferentTrianglesAreOpen) {
+    for (const CompareOp op : {CompareOp::equal, CompareOp::less, CompareOp::greater_or_equal}) {
+        cases::Case c = case_of({half_plane(0.5, 0.01), plane(0.5, 0.01)});
+        c.draws[1].depth.compare = op;
+        expect_hits(c, 1, 2);
+    }
+}
+
+// 1/4 + 0.4 steps and 1/4 + 0.9 steps of D16 have a code in common.
+TEST(DepthHand, WithinAStepOfFixedPointIsOpen) {
+    cases::Case c = case_of({half_plane(16384.4 / 65535), half_plane(16384.9 / 65535)},
+                            DepthFormat::d16_unorm);
+    c.draws[1].depth.compare = CompareOp::greater;
+    uint32_t most = 0;
+    EXPECT_EQ(hits(c, Profile::direct3d, &most), 1U);
+    EXPECT_EQ(most, 2U);
+    // Two steps apart they have none.
+    c.draws[1] = half_plane(16386.9 / 65535);
+    c.draws[1].depth.compare = CompareOp::greater;
+    EXPECT_EQ(hits(c, Profile::direct3d, &most), 2U);
+}
+
+TEST(DepthHand, TheSameTriangleAgainIsEqual) {
+    for (const CompareOp op : {CompareOp::less_or_equal, CompareOp::less}) {
+        cases::Draw d = half_plane(0.3, 0.013, 0.007);
+        d.depth.compare = op;
+        cases::Case c = case_of({d, d});
+        c.target.depth_clear = 1;
+        const uint32_t count = op == CompareOp::less ? 1 : 2;
+        expect_hits(c, count, count);
+        // Nothing is promised with fixed point (the stored depth is rounded), nor if the state differs.
+        c.target.depth_format = DepthFormat::d16_unorm;
+        expect_hits(c, 1, 2);
+        c.target.depth_format = DepthFormat::d32_float;
+        c.draws[0].depth.compare = CompareOp::always;
+        expect_hits(c, 1, 2);
+    }
+}
+
+TEST(DepthHand, PlanesThatAreRApartAreDistinct) {
+    for (const float constant : {-2.0F, 2.0F}) {
+        for (const DepthFormat format : {DepthFormat::d32_float, DepthFormat::d16_unorm}) {
+            cases::Draw d = half_plane(0.3, 0.013, 0.007);
+            cases::Case c = case_of({d, d}, format);
+            c.draws[1].depth.bias = cases::DepthBias{constant, 0, 0};
+            c.draws[1].depth.compare = CompareOp::less;
+            const uint32_t count = constant < 0 ? 2 : 1;
+            expect_hits(c, count, count);
+            c.draws[1].depth.bias->clamp = 0x1p-30F;  // then nothing is known of the distance
+            c.draws[1].depth.bias->constant = 2;
+            expect_hits(c, 1, 2);
+        }
+    }
+}
+
+// z = 5/8, e = -1: r = 2^-24. 2^16 of them are 2^-8.
+TEST(DepthHand, UnitOfBinary32) {
+    cases::Case c = case_of({half_plane(0.625)});
+    c.draws[0].depth.bias = cases::DepthBias{65536, 0, 0};
+    for (const Profile profile : cases::kProfiles) {
+        EXPECT_TRUE(accepts(c, 0.625 + 0x1p-8, profile));
+        EXPECT_FALSE(accepts(c, 0.625, profile));
+        EXPECT_FALSE(accepts(c, 0.625 - 0x1p-8, profile));
+        EXPECT_FALSE(accepts(c, 0.625 + 0x1p-7, profile));
+        EXPECT_FALSE(accepts(c, 0.625 + 0x1p-9, profile));
+    }
+}
+
+// D16: r in (0, 2 2^-16].
+TEST(DepthHand, UnitOfFixedPoint) {
+    cases::Case c = case_of({half_plane(0.5)}, DepthFormat::d16_unorm);
+    c.draws[0].depth.bias = cases::DepthBias{1000, 0, 0};
+    const auto step = [](double code) { return code / 65535; };
+    for (const Profile profile : cases::kProfiles) {
+        EXPECT_TRUE(accepts(c, step(32768 + 1000), profile));
+        EXPECT_TRUE(accepts(c, step(32768 + 2000), profile));
+        EXPECT_FALSE(accepts(c, step(32768 + 2010), profile));
+        EXPECT_FALSE(accepts(c, step(32768 - 10), profile));
+    }
+}
+
+// Gradients 3/64 and 4/64: the larger is 1/16, the Euclidean norm 5/64.
+TEST(DepthHand, SlopeBetweenTheNorms) {
+    cases::Case c = case_of({half_plane(0.25, 3.0 / 64, 4.0 / 64)});
+    c.draws[0].depth.bias = cases::DepthBias{0, 0, 2};
+    const double z = 0.25 + 3.5 / 64;  // at (1/2, 1/2)
+    for (const Profile profile : cases::kProfiles) {
+        const bool is_strict = profile == Profile::direct3d;
+        EXPECT_TRUE(accepts(c, z + 2.0 / 16, profile));
+        EXPECT_EQ(accepts(c, z + 10.0 / 64, profile), !is_strict);
+        EXPECT_EQ(accepts(c, z + 9.0 / 64, profile), !is_strict);
+        EXPECT_FALSE(accepts(c, z + 14.0 / 64, profile));  // the sum
+        EXPECT_FALSE(accepts(c, z + 6.0 / 64, profile));   // x alone
+    }
+    c.draws[0].depth.bias->clamp = 1.0F / 32;
+    for (const Profile profile : cases::kProfiles) {
+        EXPECT_TRUE(accepts(c, z + 1.0 / 32, profile));
+        EXPECT_FALSE(accepts(c, z + 2.0 / 16, profile));
+    }
+    c.draws[0].depth.bias->clamp = -1.0F / 32;  // from below: no limit here
+    EXPECT_TRUE(accepts(c, z + 2.0 / 16, Profile::direct3d));
+    EXPECT_FALSE(accepts(c, z - 1.0 / 32, Profile::direct3d));
+}
+
+TEST(DepthHand, ClampIsExactAndAfterTheBias) {
+    cases::Case c = case_of({half_plane(0.5)});
+    c.draws[0].viewport.min_depth = 0.75F;
+    c.draws[0].viewport.max_depth = 0.25F;
+    c.draws[0].depth.clamp = true;
+    c.draws[0].depth.bias = cases::DepthBias{0x1p23F, 0, 0};  // 2^23 2^-24 = 1/2: beyond 3/4
+    for (const Profile profile : cases::kProfiles) {
+        EXPECT_TRUE(accepts(c, 0.75, profile));
+        EXPECT_FALSE(accepts(c, std::nextafter(0.75F, 0.0F), profile));
+        EXPECT_FALSE(accepts(c, std::nextafter(0.75F, 1.0F), profile));
+        EXPECT_FALSE(accepts(c, 1, profile));
+    }
+}
+
+// z = 1/4 is 16383.75 steps of D16: 16383 or 16384, and within 0.6 only the latter.
+TEST(DepthHand, EitherNeighbourIsStored) {
+    const cases::Case c = case_of({half_plane(0.25)}, DepthFormat::d16_unorm);
+    EXPECT_TRUE(accepts(c, 16384.0 / 65535, Profile::direct3d));
+    EXPECT_FALSE(accepts(c, 16383.0 / 65535, Profile::direct3d));
+    EXPECT_TRUE(accepts(c, 16383.0 / 65535, Profile::practice));
+    EXPECT_FALSE(accepts(c, 16382.0 / 65535, Profile::practice));
+    EXPECT_FALSE(accepts(c, 16385.0 / 65535, Profile::practice));
+}
+
+TEST(DepthHand, AWriteThatIsOffKeepsTheOlderDepth) {
+    cases::Case c = case_of({half_plane(0.5), half_plane(0.25), half_plane(0.375)});
+    c.draws[1].depth.write = false;
+    c.draws[2].depth.compare = CompareOp::less;
+    expect_hits(c, 3, 3);
+    const Expectation e = expect(c, Limits{}, Profile::vulkan);
+    ASSERT_EQ(e.samples[kSample].depth_count, 1U);
+    EXPECT_EQ(e.depth_writers[e.samples[kSample].depth_begin], 2U);
+    EXPECT_FALSE(e.samples[kSample].depth_may_be_clear);
+    c.draws[1].depth.write = true;
+    expect_hits(c, 2, 2);
+}
+
+TEST(DepthHand, ExplanationNamesTheTest) {
+    cases::Case c = case_of({half_plane(0.5), half_plane(0.75)});
+    c.draws[1].depth.compare = CompareOp::less;
+    const SampleExplanation s = explain_sample(c, Limits{}, Profile::direct3d, {0, 0, 0});
+    ASSERT_EQ(s.triangles.size(), 2U);
+    EXPECT_EQ(s.triangles[1].depth, DepthOutcome::fails);
+    EXPECT_EQ(s.triangles[1].depth_text.rfind("fails the depth test LESS, depth 0.7", 0), 0U)
+        << s.triangles[1].depth_text;
+}
+
+}  // namespace
+}  // namespace ref::test
