@@ -12,7 +12,12 @@ namespace {
 // The state machine of an input assembler.
 class Assembler {
   public:
-    Assembler(cases::Topology topology, Fault fault) : topology_(topology), fault_(fault) {}
+    Assembler(const cases::Draw& draw, Fault fault)
+        : topology_(draw.topology),
+          is_last_((draw.provoking == cases::ProvokingVertex::last) !=
+                   (fault == Fault::provoking_mode_ignored &&
+                    draw.provoking == cases::ProvokingVertex::last)),
+          fault_(fault) {}
 
     void restart() {
         if (fault_ == Fault::restart_ignored) {
@@ -47,7 +52,7 @@ class Assembler {
                 break;
             case cases::Topology::triangle_strip:
                 if (odd_ && fault_ != Fault::strip_parity) {
-                    emit({a, vertex, b}, a, vertex);
+                    emit({a, vertex, b}, a, fault_ == Fault::provoking_strip_odd ? b : vertex);
                 } else {
                     emit({a, b, vertex}, a, vertex);
                 }
@@ -55,7 +60,8 @@ class Assembler {
                 window_ = {b, vertex};
                 break;
             case cases::Topology::triangle_fan:  // window: hub, last rim vertex
-                emit({b, vertex, a}, fault_ == Fault::fan_hub_provoking ? a : b, vertex);
+                emit({b, vertex, a}, fault_ == Fault::fan_hub_provoking ? a : b,
+                     fault_ == Fault::provoking_fan_last_hub ? a : vertex);
                 if (fault_ == Fault::fan_batch_hub && run_ % 9 == 0) {
                     window_[0] = b;
                 }
@@ -68,13 +74,17 @@ class Assembler {
 
   private:
     void emit(std::array<uint32_t, 3> vertex, uint32_t first, uint32_t last) {
-        const uint32_t provoking = fault_ == Fault::provoking_last ? last : first;
+        const uint32_t provoking = is_last_ || fault_ == Fault::provoking_last ? last : first;
+        if (is_last_ && fault_ == Fault::provoking_turns) {
+            std::swap(vertex[0], vertex[2]);
+        }
         out_.push_back({vertex, provoking, next_id_});
         ++next_id_;
         ++run_;
     }
 
     cases::Topology topology_;
+    bool is_last_;  // mode of the draw
     Fault fault_;
     std::array<uint32_t, 2> window_{};
     uint32_t count_ = 0;  // vertices in the window
@@ -87,7 +97,7 @@ class Assembler {
 }  // namespace
 
 std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault) {
-    Assembler assembler(draw.topology, fault);
+    Assembler assembler(draw, fault);
     const auto vertex_count = static_cast<uint32_t>(draw.positions.size());
     if (draw.indices && fault != Fault::indices_ignored) {
         for (const uint32_t index : *draw.indices) {

@@ -19,6 +19,7 @@ struct ClipVertex {
     glm::vec4 position{};
     Values values{};
     uint32_t source = 0;  // number of the vertex that it came from
+    glm::vec4 distance{};  // clip distances
 };
 
 struct ClippedPolygon {
@@ -31,5 +32,8 @@ struct ClippedPolygon {
 // edge, and put exactly onto its plane.
 ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, const cases::Draw& draw,
                              const Device& device);
+
+// Whether clip distances are interpolated and tested at each sample instead.
+bool tests_distances(const Device& device);
 
 }  // namespace mutants

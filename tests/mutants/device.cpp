@@ -142,6 +142,9 @@ class DrawCommand {
                                                        bool positive) const;
     bool is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const;
     bool is_culled(bool front) const;
+    bool is_distance_culled(const Primitive& primitive) const;
+    bool is_distance_clipped(const TrianglePlanes& planes, int64_t i, int64_t j, uint32_t s) const;
+    glm::vec4 distances_of(uint32_t v, const Primitive& primitive, size_t k) const;
     bool inside_viewport(int64_t i, int64_t j, uint32_t s) const;
     // Sample s of pixel (i,j) is covered: with several samples the fragment waits until all of its
     // samples are known.
@@ -179,6 +182,7 @@ WindowVertex DrawCommand::project(const ClipVertex& v) const {
     WindowVertex out;
     out.values = v.values;
     out.source = v.source;
+    out.distance = v.distance;
     out.w = p.w;
     out.inv_w = 1.0F / p.w;
     const auto divide = [&](float a) { return device_.reciprocal_w ? a * out.inv_w : a / p.w; };
@@ -192,6 +196,10 @@ WindowVertex DrawCommand::project(const ClipVertex& v) const {
     out.x = mad(divide(p.x), view.width * 0.5F, view.x + view.width * 0.5F);
     out.y = mad(divide(p.y), height * 0.5F, top + height * 0.5F);
     out.z = mad(divide(p.z), view.max_depth - view.min_depth, view.min_depth);
+    if (draw_.depth.negative_one_to_one && device_.fault != Fault::depth_scale_ignored) {
+        out.z = mad(divide(p.z), (view.max_depth - view.min_depth) * 0.5F,
+                    (view.max_depth + view.min_depth) * 0.5F);
+    }
     switch (device_.fault) {
         case Fault::depth_range_ignored:
             out.z = divide(p.z);
@@ -276,12 +284,68 @@ uint32_t DrawCommand::cached_vertex(uint32_t v) {
     return entry;
 }
 
+// What the distances of vertex v are for a primitive.
+glm::vec4 DrawCommand::distances_of(uint32_t v, const Primitive& primitive, size_t k) const {
+    const std::vector<glm::vec4>& all = draw_.distances.clip;
+    if (all.empty()) {
+        return glm::vec4(0.0F);
+    }
+    if (device_.fault == Fault::distance_by_order) {
+        // Right for lists without indices only.
+        return all[(3 * size_t{primitive.id} + k) % all.size()];
+    }
+    const glm::vec4& d = all[v];
+    return device_.fault == Fault::distance_rotated ? glm::vec4(d.y, d.z, d.w, d.x) : d;
+}
+
+bool DrawCommand::is_distance_culled(const Primitive& primitive) const {
+    const cases::ClipDistances& d = draw_.distances;
+    const auto is_out = [&](uint32_t v, uint32_t k) {
+        const float c = d.cull[v][static_cast<glm::vec4::length_type>(k)];
+        return device_.fault == Fault::cull_distance_zero ? c <= 0 : c < 0;
+    };
+    bool is_mixed = d.cull_count > 0;
+    for (const uint32_t v : primitive.vertex) {
+        bool is_out_of_some = false;
+        for (uint32_t k = 0; k < d.cull_count; ++k) {
+            is_out_of_some = is_out_of_some || is_out(v, k);
+        }
+        is_mixed = is_mixed && is_out_of_some;
+    }
+    bool is_culled = false;
+    for (uint32_t k = 0; k < d.cull_count; ++k) {
+        const auto count =
+            std::count_if(primitive.vertex.begin(), primitive.vertex.end(),
+                          [&](uint32_t v) { return is_out(v, k); });
+        switch (device_.fault) {
+            case Fault::cull_distance_any:
+                is_culled = is_culled || count > 0;
+                break;
+            case Fault::cull_distance_provoking:
+                is_culled = is_culled || is_out(primitive.provoking, k);
+                break;
+            default:
+                is_culled = is_culled || count == 3;
+                break;
+        }
+    }
+    if (device_.fault == Fault::cull_distance_mixed) {
+        return is_mixed;
+    }
+    return is_culled && device_.fault != Fault::cull_distance_ignored;
+}
+
 void DrawCommand::rasterize(const Primitive& primitive) {
+    if (is_distance_culled(primitive)) {
+        ++culled_;
+        return;
+    }
     std::array<ClipVertex, 3> triangle;
     for (size_t k = 0; k < 3; ++k) {
         const uint32_t v = cached_vertex(primitive.vertex[k]);
         triangle[k].position = draw_.positions[v];
         triangle[k].source = v;
+        triangle[k].distance = distances_of(v, primitive, k);
         for (size_t a = 0; a < draw_.attributes.size(); ++a) {
             const bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat &&
                               device_.fault != Fault::flat_smooth &&
@@ -500,9 +564,27 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
     shade_covered(primitive, first, front);
 }
 
+// With clip distances tested at each sample.
+bool DrawCommand::is_distance_clipped(const TrianglePlanes& planes, int64_t i, int64_t j,
+                                      uint32_t s) const {
+    if (!tests_distances(device_)) {
+        return false;
+    }
+    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
+    const float x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
+    const float y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
+    for (int k = 0; k < static_cast<int>(draw_.distances.clip_count); ++k) {
+        const float c = planes.distance(k, x, y);
+        if (device_.fault == Fault::distance_plane_never ? !(c > 0) : !(c >= 0)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void DrawCommand::cover(const Primitive& primitive, const TrianglePlanes& planes,
                         const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s) {
-    if (!inside_viewport(i, j, s)) {
+    if (!inside_viewport(i, j, s) || is_distance_clipped(planes, i, j, s)) {
         return;
     }
     if (samples_.size() == 1) {

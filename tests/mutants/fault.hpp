@@ -52,6 +52,28 @@ enum class Fault : uint8_t {
     clip_flat_piece,        // flat values come from the clipped polygon's first vertex
     clip_last_piece_lost,   // the last triangle of the clipped polygon's fan is lost
     clip_rejects_any,       // a triangle with a vertex outside is dropped
+    // clip and cull distances
+    distance_flipped,       // the half-space is c <= 0
+    distance_reversed,      // the cut is at 1 - t
+    distance_linear,        // distances are interpolated linearly on screen
+    distance_last_ignored,  // the last plane does not clip
+    distance_rotated,       // components y, z, w, x
+    distance_zero_outside,  // a vertex at distance 0 is outside
+    distance_by_order,      // distances are fetched by position in the index list
+    distance_plane_twice,   // c >= 0 is tested at each sample, on the plane by either side
+    distance_plane_never,   // c > 0 is tested at each sample
+    cull_distance_any,      // one negative vertex culls
+    cull_distance_mixed,    // a triangle is culled if each vertex is outside of some plane
+    cull_distance_zero,     // 0 counts as negative
+    cull_distance_ignored,
+    cull_distance_provoking,  // the provoking vertex decides
+    depth_volume_ignored,     // 0 <= z in spite of depth clip control
+    depth_scale_ignored,      // depth clip control moves the plane, but not the transform
+    // provoking vertex
+    provoking_mode_ignored,  // the first vertex in last-vertex mode
+    provoking_strip_odd,     // in last-vertex mode an odd triangle of a strip takes i+1
+    provoking_fan_last_hub,  // in last-vertex mode a fan takes the hub
+    provoking_turns,         // last-vertex mode turns the triangles round
     // facing and culling
     cull_inverted,
     front_face_inverted,

@@ -37,6 +37,11 @@ TrianglePlanes::TrianglePlanes(const std::array<WindowVertex, 3>& v, bool positi
     depth_ = make({v[0].z, v[1].z, v[2].z});
     inverse_w_ = make({v[0].inv_w, v[1].inv_w, v[2].inv_w});
     depth_over_w_ = make({v[0].z * v[0].inv_w, v[1].z * v[1].inv_w, v[2].z * v[2].inv_w});
+    for (uint32_t k = 0; k < draw.distances.clip_count; ++k) {
+        const auto c = static_cast<glm::vec4::length_type>(k);
+        distances_[k] = make({v[0].distance[c] * v[0].inv_w, v[1].distance[c] * v[1].inv_w,
+                              v[2].distance[c] * v[2].inv_w});
+    }
     for (size_t a = 0; a < draw.attributes.size(); ++a) {
         const bool linear = is_linear(a);
         for (int k = 0; k < 4; ++k) {
@@ -128,6 +133,10 @@ float TrianglePlanes::depth(float x, float y) const {
 
 float TrianglePlanes::inverse_w(float x, float y) const {
     return at(inverse_w_, x, y);
+}
+
+float TrianglePlanes::distance(int k, float x, float y) const {
+    return at(distances_[static_cast<size_t>(k)], x, y);
 }
 
 glm::vec4 TrianglePlanes::attribute(size_t a, float x, float y) const {

@@ -21,6 +21,7 @@ struct WindowVertex {
     int64_t sx = 0, sy = 0;  // snapped, in units of 2^-subpixel_bits pixel
     Values values{};
     uint32_t source = 0;
+    glm::vec4 distance{};  // clip distances
 };
 
 // The values of one triangle as functions of framebuffer coordinates, binary32 throughout.
@@ -38,6 +39,8 @@ class TrianglePlanes {
     float depth_dy() const { return depth_.dady; }
     // 1/w at (x, y).
     float inverse_w(float x, float y) const;
+    // Numerator of clip distance k at (x, y): its sign is the distance's.
+    float distance(int k, float x, float y) const;
     // Attribute a at (x, y); not for flat ones.
     glm::vec4 attribute(size_t a, float x, float y) const;
 
@@ -57,6 +60,7 @@ class TrianglePlanes {
     std::array<float, 3> x_{}, y_{};
     float inverse_area_ = 0;
     Plane depth_, inverse_w_, depth_over_w_;
+    std::array<Plane, 4> distances_;
     std::array<std::array<Plane, 4>, cases::kMaxAttributes> attributes_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "ref/sample.hpp"
@@ -52,6 +53,40 @@ TEST(Assemble, IndicesAndRestart) {
               (std::vector<Numbers>{{0, 1, 2}, {1, 3, 2}, {4, 5, 6}}));
     EXPECT_EQ(vertices(triangle_fan, 6, {{0, 1, 2, kCut, kCut, 3, 4, 5}}, true),
               (std::vector<Numbers>{{1, 2, 0}, {4, 5, 3}}));
+}
+
+TEST(Assemble, LastProvokingVertexChangesNothingElse) {
+    const auto provoking = [](cases::Topology topology, cases::ProvokingVertex mode) {
+        cases::Case c = blank(1, 1);
+        cases::Draw d = whole(c);
+        d.topology = topology;
+        d.provoking = mode;
+        d.positions.resize(6);
+        c.draws.push_back(d);
+        std::vector<uint32_t> out;
+        for (const Triangle& t : assemble(c)) {
+            out.push_back(t.provoking);
+            EXPECT_NE(std::find(t.vertex.begin(), t.vertex.end(), t.provoking), t.vertex.end());
+        }
+        c.draws[0].provoking = cases::ProvokingVertex::first;
+        const std::vector<Triangle> first = assemble(c);
+        c.draws[0].provoking = mode;
+        const std::vector<Triangle> same = assemble(c);
+        for (size_t k = 0; k < first.size(); ++k) {
+            EXPECT_EQ(first[k].vertex, same[k].vertex);
+            EXPECT_EQ(first[k].primitive, same[k].primitive);
+        }
+        return out;
+    };
+    using enum cases::Topology;
+    using enum cases::ProvokingVertex;
+    using List = std::vector<uint32_t>;
+    EXPECT_EQ(provoking(triangle_list, first), (List{0, 3}));
+    EXPECT_EQ(provoking(triangle_list, last), (List{2, 5}));
+    EXPECT_EQ(provoking(triangle_strip, first), (List{0, 1, 2, 3}));
+    EXPECT_EQ(provoking(triangle_strip, last), (List{2, 3, 4, 5}));
+    EXPECT_EQ(provoking(triangle_fan, first), (List{1, 2, 3, 4}));
+    EXPECT_EQ(provoking(triangle_fan, last), (List{2, 3, 4, 5}));
 }
 
 TEST(Samples, StandardLocationsAreDistinctAndOnTheFourBitGrid) {
