@@ -189,6 +189,15 @@ struct ValueReference::Impl {
 
     // Where the fragment is, and what a profile says of its coverage if anything depends on it.
     value::Fragment fragment(uint32_t t, SampleId id, Profile at, bool is_exact = false) {
+        value::Fragment f = covered_fragment(t, id, at, is_exact);
+        if (at != Profile::direct3d && c.target.samples > 1 && value::has_centroid(*f.draw)) {
+            f.region = pixel_region(coverage_at(at).setup(t), id.x, id.y);
+        }
+        return f;
+    }
+
+    // The same without the part of the pixel that lies in the primitive, which takes rationals.
+    value::Fragment covered_fragment(uint32_t t, SampleId id, Profile at, bool is_exact) {
         value::Fragment f;
         f.id = id;
         f.target = &c.target;
@@ -200,9 +209,6 @@ struct ValueReference::Impl {
         if (has_mask || has_centroid) {
             FragmentCoverage& cover = coverage_at(at);
             f.coverage = is_exact ? cover.exact(t, id.x, id.y) : cover.of(t, id.x, id.y);
-        }
-        if (has_centroid && at != Profile::direct3d) {
-            f.region = pixel_region(coverage_at(at).setup(t), id.x, id.y);
         }
         return f;
     }
@@ -339,11 +345,19 @@ void ValueReference::Impl::judge_samples(uint32_t t, SampleId id, const Fragment
         if (!value::is_sample_kind(q.kind)) {
             continue;
         }
+        // What is allowed at a profile is allowed at every looser one.
+        auto& strict = fragments.at(static_cast<size_t>(profile));
+        if (!strict) {
+            strict = covered_fragment(t, id, profile, exact_only);
+        }
+        if (may_be(*strict, q, device, profile)) {
+            continue;
+        }
         // The loosest profile that forbids it.
         for (const Profile at : cases::kProfiles) {
             auto& f = fragments.at(static_cast<size_t>(at));
             if (!f) {
-                f = fragment(t, id, at, exact_only);
+                f = covered_fragment(t, id, at, exact_only);
             }
             if (at > profile || may_be(*f, q, device, at)) {
                 continue;
@@ -472,7 +486,8 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
         if (c.target.samples > 1) {
             // The likeliest alternative; the others are left to the next stage.
             const auto nominal =
-                value::evaluations<Ball>(fragment(t, id, profile), profile).front();
+                value::evaluations<Ball>(fragment(t, id, Profile::direct3d), Profile::direct3d)
+                    .front();
             places = {{nominal.attributes[0].x.v, nominal.attributes[0].y.v},
                       sample,
                       {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};

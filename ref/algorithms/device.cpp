@@ -203,6 +203,9 @@ std::vector<DrawnSample> draw(const cases::Case& c, const Device& device) {
         }
         const Shader shader(d, t, corners, device);
         for (uint32_t s = 0; s < c.target.samples; ++s) {
+            if (!is_in_mask(d.multisample, s)) {
+                continue;
+            }
             const Point offset = to_point(sample_position(0, 0, s, c.target));
             Picture picture;
             device.scan(corners, pixels_of(d, c.target, offset), offset, picture);

@@ -37,6 +37,9 @@ std::vector<LegalDevice> legal_devices() {
     add("guard_band", Profile::direct3d, [](Device& d) { d.clip = ClipMethod::guard_band; });
     add("fused", Profile::direct3d, [](Device& d) { d.fused = true; });
     add("reciprocal_w", Profile::direct3d, [](Device& d) { d.reciprocal_w = true; });
+    add("inputs_at_the_centre_of_shaded_samples", Profile::direct3d,
+        [](Device& d) { d.inputs_follow_samples = false; });
+    add("centroid_is_the_mean", Profile::practice, [](Device& d) { d.centroid = Centroid::mean; });
     add("like_swiftshader", Profile::direct3d, [](Device& d) {
         d.subpixel_bits = 4;
         d.basis = PlaneBasis::snapped;

@@ -13,7 +13,7 @@ bool is_per_sample(const cases::Draw& draw, const Device& device) {
     if (device.fault == Fault::shading_once) {
         return false;
     }
-    return draw.multisample.min_sample_shading.value_or(0) > 0 ||
+    return draw.multisample.min_sample_shading.has_value() ||
            std::any_of(draw.attributes.begin(), draw.attributes.end(), [](const auto& a) {
                return a.source == cases::Source::sample_id ||
                       a.source == cases::Source::sample_position;

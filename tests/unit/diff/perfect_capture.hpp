@@ -55,7 +55,7 @@ inline void set_hits(diff::Capture& capture, size_t index, float front, float ba
 // What triangle t leaves at a sample: nearest values of the reference.
 inline void write_fragment(diff::Capture& capture, const cases::Case& c, const ref::Expectation& e,
                            ref::ValueReference& values, uint32_t t, ref::SampleId id) {
-    const size_t index = size_t{id.y} * c.target.width + id.x;
+    const size_t index = (size_t{id.y} * c.target.width + id.x) * c.target.samples + id.sample;
     const ref::Triangle& triangle = e.triangles[t];
     capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                               diff::kClearId};
@@ -68,6 +68,10 @@ inline void write_fragment(diff::Capture& capture, const cases::Case& c, const r
         const auto value = static_cast<float>(v.nearest);
         if (v.quantity == "depth") {
             capture.depth[index] = value;
+        } else if (v.quantity == "frag_coord.x") {
+            capture.frag_coord[index].x = value;
+        } else if (v.quantity == "frag_coord.y") {
+            capture.frag_coord[index].y = value;
         } else if (v.quantity == "frag_coord.z") {
             capture.frag_coord[index].z = value;
         } else if (v.quantity == "frag_coord.w") {
@@ -100,17 +104,18 @@ inline diff::Capture perfect_capture(const cases::Case& c, const ref::Expectatio
         capture.attributes[a].resize(count);
     }
     ref::ValueReference values(c, e.limits, e.profile);
-    for (uint32_t y = 0; y < c.target.height; ++y) {
-        for (uint32_t x = 0; x < c.target.width; ++x) {
-            const size_t index = size_t{y} * c.target.width + x;
-            clear_sample(capture, index);
-            const ref::SampleExpectation& s = e.samples[index];
-            if (s.hits.total_min > 0) {
-                set_hits(capture, index, static_cast<float>(s.hits.front_min),
-                         static_cast<float>(s.hits.back_min));
-                write_fragment(capture, c, e, values,
-                               e.writers[s.writers_begin + s.writers_count - 1], {x, y, 0});
-            }
+    for (size_t index = 0; index < count; ++index) {
+        const size_t pixel = index / c.target.samples;
+        const ref::SampleId id{static_cast<uint32_t>(pixel % c.target.width),
+                               static_cast<uint32_t>(pixel / c.target.width),
+                               static_cast<uint32_t>(index % c.target.samples)};
+        clear_sample(capture, index);
+        const ref::SampleExpectation& s = e.samples[index];
+        if (s.hits.total_min > 0) {
+            set_hits(capture, index, static_cast<float>(s.hits.front_min),
+                     static_cast<float>(s.hits.back_min));
+            write_fragment(capture, c, e, values, e.writers[s.writers_begin + s.writers_count - 1],
+                           id);
         }
     }
     return capture;
