@@ -184,6 +184,42 @@ TEST(Interpolation, NestedLinesAreBarycentric) {
     EXPECT_GT(checked, 2000);
 }
 
+// Equations 1 to 6 in rationals: u by both forms of equation 4, and by the transformed coordinates
+// of equation 5 in equation 6, with the areas of equation 2; and equation 3 is equation 6 with one
+// w.
+TEST(Interpolation, EquationsOneToSixAgree) {
+    RandomInterpolations random(10);
+    for (int n = 0; n < 2000; ++n) {
+        const Case c = random.next(true);
+        const auto b = test::exact_barycentrics(c.areas);
+        const auto b_eye = test::exact_perspective(c.areas, c.w);
+        mpq_class first_numerator = 0;
+        mpq_class first_denominator = 0;
+        mpq_class second_numerator = 0;
+        mpq_class second_denominator = 0;
+        mpq_class six = 0;
+        mpq_class three = 0;
+        for (size_t i = 0; i < 3; ++i) {
+            const mpq_class u = exact(c.z[i]);
+            const mpq_class w = exact(c.w[i]);
+            const mpq_class product = exact(c.w[(i + 1) % 3]) * exact(c.w[(i + 2) % 3]);
+            first_numerator += b[i] * (u / w);
+            first_denominator += b[i] / w;
+            second_numerator += b[i] * product * u;
+            second_denominator += b[i] * product;
+            six += b_eye[i] * u;
+            three += b[i] * u;
+        }
+        EXPECT_EQ(mpq_class(first_numerator / first_denominator), six);
+        EXPECT_EQ(mpq_class(second_numerator / second_denominator), six);
+        EXPECT_EQ(mpq_class(b_eye[0] + b_eye[1] + b_eye[2]), 1);
+        const auto same = test::exact_perspective(c.areas, {0.75F, 0.75F, 0.75F});
+        EXPECT_EQ(
+            mpq_class(same[0] * exact(c.z[0]) + same[1] * exact(c.z[1]) + same[2] * exact(c.z[2])),
+            three);
+    }
+}
+
 // Equation 9 against the quotient rule for u = N/D with N = sum q_i A_i u_i and D = sum q_i A_i,
 // both affine, so that their derivatives are differences over one pixel: exactly, in rationals.
 TEST(Interpolation, EquationNineIsTheQuotientRule) {

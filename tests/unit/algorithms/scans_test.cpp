@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "ref/algorithms/edge.hpp"
 #include "ref/coverage_exact.hpp"
@@ -146,6 +147,45 @@ TEST(Scans, AgreeAtTheLimitsOfTheFormat) {
         }
     }
     EXPECT_GT(covered, 1000U);
+}
+
+// Edges that pass a sample as near as they can without touching it, E = 1 or E = -1 unit of area: a
+// walker's remainder carries exactly there, and nowhere else.
+TEST(Scans, AgreeOneUnitOfAreaBesideAnEdge) {
+    RandomTriangles random(23);
+    int beside = 0;
+    for (int n = 0; n < 4000; ++n) {
+        const Point p = sample_of(random.integer(1, 14), random.integer(1, 14), {128, 128});
+        const int64_t dx = random.integer(-1500, 1500);
+        const int64_t dy = random.integer(1, 3000);
+        // (u, v) with dx v - dy u = +-1, by the extended Euclidean algorithm.
+        int64_t r0 = dy;
+        int64_t r1 = std::abs(dx);
+        int64_t s0 = 0;
+        int64_t s1 = 1;
+        while (r1 != 0) {
+            const int64_t q = r0 / r1;
+            r0 = std::exchange(r1, r0 - q * r1);
+            s0 = std::exchange(s1, s0 - q * s1);
+        }
+        if (r0 != 1) {
+            continue;
+        }
+        const int64_t v = dx < 0 ? -s0 : s0;  // dx v = 1 (mod dy)
+        const int64_t sign = random.integer(0, 1) * 2 - 1;
+        const Point a{p.x - sign * ((dx * v - 1) / dy), p.y - sign * v};
+        const Corners t{
+            {a, {a.x + dx, a.y + dy}, {random.integer(0, 4096), random.integer(0, 4096)}}};
+        const int64_t e = edge_function(t[0], t[1], p);
+        ASSERT_EQ(e, sign);
+        ++beside;
+        const PixelRect rect{0, 0, 16, 16};
+        const std::string expected = draw_exactly(t, rect, {128, 128});
+        for (const NamedScan& scan : all_scans()) {
+            ASSERT_EQ(draw(scan, t, rect, {128, 128}), expected) << scan.name << " " << describe(t);
+        }
+    }
+    EXPECT_GT(beside, 2000);
 }
 
 // By hand: the square (1.5,1.5)-(4.5,4.5) cut along its diagonal. The upper left half owns its top
