@@ -45,8 +45,7 @@ std::vector<Fragment> fragments_of(const ref::Expectation& e, const CaptureView&
         if (sample_state(capture, index) != SampleState::drawn) {
             continue;
         }
-        const ref::Triangle* t =
-            triangle_of(e, capture, e.samples[index], capture.writers[index]);
+        const ref::Triangle* t = triangle_of(e, capture, e.samples[index], capture.writers[index]);
         if (t == nullptr) {
             continue;
         }
@@ -82,8 +81,8 @@ std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureV
                                          const Fragment& f, size_t first, uint32_t x, uint32_t y) {
     const uint32_t least = ref::value::least_invocations(draw, capture.target.samples);
     const auto rate = ref::value::shading_rate(draw, capture.target.samples);
-    const bool is_on = rate == ref::value::ShadingRate::some ||
-                       rate == ref::value::ShadingRate::sample;
+    const bool is_on =
+        rate == ref::value::ShadingRate::some || rate == ref::value::ShadingRate::sample;
     // A sample that the fragment does not cover may have had an invocation of its own.
     if (!is_on || f.samples.size() != capture.target.samples ||
         !has_distinct_locations(capture.target)) {
@@ -110,8 +109,8 @@ std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureV
 std::optional<Finding> check_masks(const cases::Draw& draw, const CaptureView& capture,
                                    const Fragment& f, size_t first, uint32_t attribute, uint32_t x,
                                    uint32_t y) {
-    const bool is_one = ref::value::shading_rate(draw, capture.target.samples) ==
-                        ref::value::ShadingRate::fragment;
+    const bool is_one =
+        ref::value::shading_rate(draw, capture.target.samples) == ref::value::ShadingRate::fragment;
     const auto mask_of = [&](uint32_t s) -> uint32_t {
         const float v = capture.attributes[attribute][first + s].x;
         return v >= 0.0F && v < 0x1p16F ? static_cast<uint32_t>(v) : 0U;
@@ -140,9 +139,9 @@ bool has_pixel_rules(const cases::Case& c) {
     return c.target.samples > 1 &&
            std::any_of(c.draws.begin(), c.draws.end(), [&](const cases::Draw& draw) {
                return ref::value::least_invocations(draw, c.target.samples) > 1 ||
-                      std::any_of(draw.attributes.begin(), draw.attributes.end(), [](const auto& a) {
-                          return a.source == cases::Source::sample_mask_in;
-                      });
+                      std::any_of(
+                          draw.attributes.begin(), draw.attributes.end(),
+                          [](const auto& a) { return a.source == cases::Source::sample_mask_in; });
            });
 }
 

@@ -4,6 +4,7 @@
 #include "ref/coverage_setup.hpp"
 #include "ref/expectation.hpp"
 #include "ref/narrowing.hpp"
+#include "ref/triangle_setups.hpp"
 
 namespace ref::exact {
 
@@ -13,19 +14,14 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     out.profile = profile;
     out.target = c.target;
     out.triangles = assemble(c);
-    VertexBoxes boxes(c, limits, profile);
-    std::vector<TriangleSetup> setups;
-    for (const Triangle& t : out.triangles) {
-        const cases::Draw& draw = c.draws[t.draw];
-        setups.push_back(set_up(c, t, limits, profile, boxes, window_of(c, draw, profile)));
-    }
+    TriangleSetups setups(c, out.triangles, limits, profile);
     Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding, is_inside_whole});
     for (uint32_t j = 0; j < c.target.height; ++j) {
         for (uint32_t i = 0; i < c.target.width; ++i) {
             for (uint32_t s = 0; s < c.target.samples; ++s) {
                 const FixedPoint p = sample_position(i, j, s, c.target);
                 std::vector<Hit> hits;
-                for (uint32_t t = 0; t < setups.size(); ++t) {
+                for (uint32_t t = 0; t < out.triangles.size(); ++t) {
                     if (!is_in_mask(c.draws[out.triangles[t].draw].multisample, s)) {
                         continue;
                     }

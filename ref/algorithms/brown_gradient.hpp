@@ -18,8 +18,8 @@ struct Gradient {
 };
 
 // du/dx = sum q_i alpha_i (u_i - u) / sum q_i A_i, and du/dy with beta; q_0 = w_1 w_2 and so on.
-// `u` is the value at the point and `sum` the denominator of equation 5 there, sum q_i A_i with areas
-// as edge_function() has them (units of 2^-16 square pixels) for the vertices in this order.
+// `u` is the value at the point and `sum` the denominator of equation 5 there, sum q_i A_i with
+// areas as edge_function() has them (units of 2^-16 square pixels) for the vertices in this order.
 template <class T>
 Gradient<T> brown_gradient(const Corners& t, const std::array<T, 3>& q,
                            const std::array<T, 3>& values, const T& u, const T& sum) {

@@ -53,14 +53,14 @@ std::vector<Sample> random_samples() {
 
 // Half the sum of |b^ - b| when the products and b^ are rounded to n bits.
 double coordinate_loss(const Sample& s, int bits) {
-    const NineTerms terms = nine_terms(s.triangle, s.first, normalise_products(normalise_w(s.w, bits), bits), 0);
+    const NineTerms terms =
+        nine_terms(s.triangle, s.first, normalise_products(normalise_w(s.w, bits), bits), 0);
     const auto computed = at_pixel(terms, s.k, s.l);
     if (computed[0] + computed[1] + computed[2] <= 0) {
         return 1;
     }
     const std::array<int64_t, 3> q = quantised_barycentrics(computed, bits);
-    const Areas areas =
-        areas_at(s.triangle, {s.first.x + s.k * kPixel, s.first.y + s.l * kPixel});
+    const Areas areas = areas_at(s.triangle, {s.first.x + s.k * kPixel, s.first.y + s.l * kPixel});
     const auto b = test::exact_perspective(areas, s.w);
     mpq_class loss = 0;
     for (size_t i = 0; i < 3; ++i) {
@@ -109,8 +109,7 @@ std::vector<BlockRow> block_rows() {
         row.bits = bits;
         row.terms_bound = 0;
         for (const Sample& s : samples) {
-            const auto products =
-                test::block_loss(s.triangle, s.first, s.k, s.l, s.w, bits, 0);
+            const auto products = test::block_loss(s.triangle, s.first, s.k, s.l, s.w, bits, 0);
             row.products = std::max(row.products, products.measured);
             row.products_bound = std::max(row.products_bound, products.bound.value_or(1));
             const auto terms = test::block_loss(s.triangle, s.first, s.k, s.l, s.w, bits, bits);
@@ -130,15 +129,16 @@ std::vector<BlockRow> block_rows() {
 
 std::string block_table(const std::vector<BlockRow>& rows) {
     std::string out =
-        "| bits n | products of w: loss | bound | 2R 2^-n | nine terms too: loss | bound | products and b' "
+        "| bits n | products of w: loss | bound | 2R 2^-n | nine terms too: loss | bound | "
+        "products and b' "
         "rounded: loss | samples on the wrong side |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (const BlockRow& r : rows) {
-        out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", r.bits,
-                           number(r.products), number(r.products_bound),
-                           number(std::ldexp(8.0, -r.bits)), number(r.terms),
-                           r.terms_bound ? number(*r.terms_bound) : "none",
-                           number(r.coordinates), number(r.wrong_coverage));
+        out +=
+            fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", r.bits, number(r.products),
+                        number(r.products_bound), number(std::ldexp(8.0, -r.bits)), number(r.terms),
+                        r.terms_bound ? number(*r.terms_bound) : "none", number(r.coordinates),
+                        number(r.wrong_coverage));
     }
     return out;
 }

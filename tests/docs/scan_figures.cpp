@@ -91,25 +91,26 @@ std::string work_table() {
         const auto per_covered = [&](uint64_t v) {
             return static_cast<double>(v) / static_cast<double>(covered);
         };
-        out += fmt::format("| {} | {:.1f} | {:.2f} | {:.2f} | {:.3f} | {:.2f} |\n", size,
-                           static_cast<double>(covered) / count, per_covered(tested),
-                           per_covered(tested_in_tiles), per_covered(tiles),
-                           per_covered(quad_lanes));
+        out +=
+            fmt::format("| {} | {:.1f} | {:.2f} | {:.2f} | {:.3f} | {:.2f} |\n", size,
+                        static_cast<double>(covered) / count, per_covered(tested),
+                        per_covered(tested_in_tiles), per_covered(tiles), per_covered(quad_lanes));
     }
     return out;
 }
 
 std::string float_table() {
     std::string out =
-        "| length x thickness | at | areas exact: three | two | areas in binary32: three | bound | two | "
+        "| length x thickness | at | areas exact: three | two | areas in binary32: three | bound | "
+        "two | "
         "bound |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
     struct Shape {
         int64_t size, thin, offset;
         const char* place;
     };
-    const Shape shapes[] = {{64, 1, 0, "0"},     {64, 16, 0, "0"},      {64, 256, 0, "0"},
-                            {64, 4096, 0, "0"},  {64, 1, 8000, "8000"}, {4, 1, 8000, "8000"},
-                            {2048, 1, 0, "0"},   {2048, 256, 0, "0"},   {2048, 65536, 0, "0"}};
+    const Shape shapes[] = {{64, 1, 0, "0"},    {64, 16, 0, "0"},      {64, 256, 0, "0"},
+                            {64, 4096, 0, "0"}, {64, 1, 8000, "8000"}, {4, 1, 8000, "8000"},
+                            {2048, 1, 0, "0"},  {2048, 256, 0, "0"},   {2048, 65536, 0, "0"}};
     for (const Shape& shape : shapes) {
         RandomTriangles random(1998);
         std::array<double, 6> worst{};
@@ -121,13 +122,12 @@ std::string float_table() {
             }
             const test::FloatLoss loss = test::float_loss(t, point_in(random, t), z);
             const auto in_u = [](const mpq_class& v) { return std::ldexp(v.get_d(), 24); };
-            const double values[] = {
-                in_u(loss.exact_three.measured),
-                in_u(loss.exact_two.measured),
-                loss.is_bounded ? in_u(loss.three.measured) : HUGE_VAL,
-                loss.is_bounded ? in_u(loss.three.bound) : HUGE_VAL,
-                loss.is_bounded ? in_u(loss.two.measured) : HUGE_VAL,
-                loss.is_bounded ? in_u(loss.two.bound) : HUGE_VAL};
+            const double values[] = {in_u(loss.exact_three.measured),
+                                     in_u(loss.exact_two.measured),
+                                     loss.is_bounded ? in_u(loss.three.measured) : HUGE_VAL,
+                                     loss.is_bounded ? in_u(loss.three.bound) : HUGE_VAL,
+                                     loss.is_bounded ? in_u(loss.two.measured) : HUGE_VAL,
+                                     loss.is_bounded ? in_u(loss.two.bound) : HUGE_VAL};
             for (size_t k = 0; k < worst.size(); ++k) {
                 worst[k] = std::max(worst[k], values[k]);
             }
@@ -135,19 +135,19 @@ std::string float_table() {
         const auto text = [](double v) {
             return std::isinf(v) ? std::string("none") : fmt::format("{:.3g}", v);
         };
-        out += fmt::format(
-            "| {} x {} | {} | {} | {} | {} | {} | {} | {} |\n", shape.size,
-            shape.thin <= shape.size ? fmt::format("{}", shape.size / shape.thin)
-                                     : fmt::format("1/{}", shape.thin / shape.size),
-            shape.place, text(worst[0]), text(worst[1]), text(worst[2]), text(worst[3]),
-            text(worst[4]), text(worst[5]));
+        out += fmt::format("| {} x {} | {} | {} | {} | {} | {} | {} | {} |\n", shape.size,
+                           shape.thin <= shape.size ? fmt::format("{}", shape.size / shape.thin)
+                                                    : fmt::format("1/{}", shape.thin / shape.size),
+                           shape.place, text(worst[0]), text(worst[1]), text(worst[2]),
+                           text(worst[3]), text(worst[4]), text(worst[5]));
     }
     return out;
 }
 
 std::string float_coverage_table() {
     std::string out =
-        "| size in pixels | samples within 1/256 pixel of an edge | on the wrong side |\n| --- | --- | --- |\n";
+        "| size in pixels | samples within 1/256 pixel of an edge | on the wrong side |\n| --- | "
+        "--- | --- |\n";
     for (const int64_t size : {15, 32, 64, 256, 1024, 4096, 16384}) {
         RandomTriangles random(2012);
         int wrong = 0;

@@ -42,8 +42,8 @@ TEST(FloatAreas, CoverageIsWrongOnLargerTriangles) {
 }
 
 // By hand: the edge from (0,0) to (4097,4096) units passes 1 unit of area beside (4098,4097):
-// 4097 * 4097 - 4096 * 4098 = 1. 4097^2 = 16785409 needs 25 bits and becomes 16785408, which is also
-// 4096 * 4098: the computed area is 0.
+// 4097 * 4097 - 4096 * 4098 = 1. 4097^2 = 16785409 needs 25 bits and becomes 16785408, which is
+// also 4096 * 4098: the computed area is 0.
 TEST(FloatAreas, WrongSignByHand) {
     const Corners t{{{0, 0}, {4097, 4096}, {4098, 4097}}};
     EXPECT_EQ(edge_function(t[0], t[1], t[2]), 1);
@@ -63,9 +63,8 @@ TEST(FloatAreas, LossIsWithinItsBound) {
         }
         const int64_t s = random.integer(0, 1000);
         const int64_t r = random.integer(0, 1000 - s);
-        const Point p{
-            ((*t)[0].x * (1000 - s - r) + (*t)[1].x * s + (*t)[2].x * r) / 1000,
-            ((*t)[0].y * (1000 - s - r) + (*t)[1].y * s + (*t)[2].y * r) / 1000};
+        const Point p{((*t)[0].x * (1000 - s - r) + (*t)[1].x * s + (*t)[2].x * r) / 1000,
+                      ((*t)[0].y * (1000 - s - r) + (*t)[1].y * s + (*t)[2].y * r) / 1000};
         const Values z{static_cast<float>(random.integer(-1000000, 1000000)),
                        static_cast<float>(random.integer(-1000000, 1000000)),
                        static_cast<float>(random.integer(-1000, 1000))};
@@ -76,7 +75,8 @@ TEST(FloatAreas, LossIsWithinItsBound) {
         ++bounded;
         ASSERT_LE(loss.three.measured, loss.three.bound) << n;
         ASSERT_LE(loss.two.measured, loss.two.bound) << n;
-        worst_three = std::max(worst_three, mpq_class(loss.three.measured / loss.three.bound).get_d());
+        worst_three =
+            std::max(worst_three, mpq_class(loss.three.measured / loss.three.bound).get_d());
         worst_two = std::max(worst_two, mpq_class(loss.two.measured / loss.two.bound).get_d());
     }
     EXPECT_GT(bounded, 10000);

@@ -32,7 +32,9 @@ inline FloatLoss float_loss(const Corners& t, const Point& p, const Values& valu
         z[k] = mpq_class(static_cast<double>(values[k]));
     }
     const mpq_class exact = l[0] * z[0] + l[1] * z[1] + l[2] * z[2];
-    const auto error = [&](float v) { return mpq_class(abs(mpq_class(static_cast<double>(v)) - exact)); };
+    const auto error = [&](float v) {
+        return mpq_class(abs(mpq_class(static_cast<double>(v)) - exact));
+    };
     const mpq_class d1 = abs(z[1] - z[0]);
     const mpq_class d2 = abs(z[2] - z[0]);
 
@@ -42,9 +44,9 @@ inline FloatLoss float_loss(const Corners& t, const Point& p, const Values& valu
         sum += abs(l[k] * z[k]);
     }
     out.exact_three = {error(three_multiplies(areas, values)), rounding_bound(6) * sum};
-    out.exact_two = {error(two_multiplies(areas, values)),
-                     rounding_bound(7) * (abs(l[1]) * d1 + abs(l[2]) * d2) +
-                         rounding_bound(2) * abs(z[0])};
+    out.exact_two = {
+        error(two_multiplies(areas, values)),
+        rounding_bound(7) * (abs(l[1]) * d1 + abs(l[2]) * d2) + rounding_bound(2) * abs(z[0])};
 
     // M of the header, in units of areas.
     const auto magnitude = [](const Point& a, const Point& b, const Point& q) {
