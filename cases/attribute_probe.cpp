@@ -15,9 +15,9 @@ constexpr std::array<std::string_view, 3> kAuxiliary = {"none", "centroid", "sam
 constexpr std::array<std::string_view, 5> kSource = {"vertex", "barycentric", "sample-mask-in",
                                                      "sample-id", "sample-position"};
 constexpr std::array<std::string_view, 14> kProbe = {
-    "value",       "at-centroid", "at-sample", "at-offset",   "dfdx",
-    "dfdy",        "dfdx-fine",   "dfdy-fine", "dfdx-coarse", "dfdy-coarse",
-    "fwidth",      "fwidth-fine", "fwidth-coarse", "query-lod"};
+    "value",  "at-centroid", "at-sample",     "at-offset",   "dfdx",
+    "dfdy",   "dfdx-fine",   "dfdy-fine",     "dfdx-coarse", "dfdy-coarse",
+    "fwidth", "fwidth-fine", "fwidth-coarse", "query-lod"};
 static_assert(static_cast<size_t>(Probe::lod) + 1 == kProbe.size());
 
 uint32_t components_of(Source source) {
@@ -46,9 +46,10 @@ bool read_offset(LeafContext& context, const TomlValue& value, Attribute& attrib
             return false;
         }
         if (*offset < kMinProbeOffset || *offset > kMaxProbeOffset) {
-            context.error(where, fmt::format("the offset {} lies outside of {} to {}, which is what "
-                                             "every device has; write a smaller one",
-                                             *offset, kMinProbeOffset, kMaxProbeOffset));
+            context.error(where,
+                          fmt::format("the offset {} lies outside of {} to {}, which is what "
+                                      "every device has; write a smaller one",
+                                      *offset, kMinProbeOffset, kMaxProbeOffset));
             return false;
         }
         attribute.probe_offset[i] = *offset;
@@ -154,8 +155,7 @@ bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
         }
         attribute.probe = static_cast<Probe>(*word);
         if (is_flat && attribute.probe != Probe::value) {
-            context.error(value->where,
-                          "a flat attribute is the same everywhere; leave probe out");
+            context.error(value->where, "a flat attribute is the same everywhere; leave probe out");
             return false;
         }
     }
@@ -178,9 +178,10 @@ bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
     }
     if (probe == Probe::lod) {
         if (attribute.components != 2) {
-            context.error(table.where, fmt::format("probe = \"query-lod\" looks up coordinates of 2 "
-                                                   "components; the attribute has {}",
-                                                   attribute.components));
+            context.error(table.where,
+                          fmt::format("probe = \"query-lod\" looks up coordinates of 2 "
+                                      "components; the attribute has {}",
+                                      attribute.components));
             return false;
         }
         return read_texture(context, *table.find("texture"), attribute);

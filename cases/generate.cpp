@@ -13,7 +13,8 @@ namespace cases {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kKinds = {"grid", "fan", "strip", "mesh", "triangles"};
+constexpr std::array<std::string_view, 6> kKinds = {"grid", "fan",       "strip",
+                                                    "mesh", "triangles", "surface"};
 
 }  // namespace
 
@@ -185,6 +186,10 @@ std::optional<Generated> generate(LeafContext& context, const TomlValue& table,
             context.known_keys(table, "the generator \"mesh\"",
                                {"kind", "seed", "points", "from", "to", "grid", "w", "shuffle"});
             return generate_mesh(keys);
+        case 5:
+            context.known_keys(table, "the generator \"surface\"",
+                               {"kind", "seed", "shape", "columns", "rows", "center", "radius"});
+            return generate_surface(keys);
         default:
             context.known_keys(table, "the generator \"triangles\"",
                                {"kind", "seed", "count", "class", "from", "to", "grid", "w"});

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <random>
 #include <vector>
@@ -20,6 +21,7 @@ struct Generated {
     Topology topology = Topology::triangle_list;
     std::vector<ExactVertex> vertices;  // pixels
     std::optional<std::vector<uint32_t>> indices;
+    std::vector<glm::vec4> clip;  // instead of `vertices`: clip space, for meshes at scale
 };
 
 // The table `generate` of a draw.

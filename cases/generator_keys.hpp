@@ -82,5 +82,6 @@ std::optional<Generated> generate_fan(GeneratorKeys& keys);
 std::optional<Generated> generate_strip(GeneratorKeys& keys);
 std::optional<Generated> generate_mesh(GeneratorKeys& keys);
 std::optional<Generated> generate_triangles(GeneratorKeys& keys);
+std::optional<Generated> generate_surface(GeneratorKeys& keys);
 
 }  // namespace cases

@@ -9,8 +9,8 @@
 
 #include "cases/field_reader.hpp"
 #include "cases/load_draw.hpp"
-#include "cases/load_target.hpp"
 #include "cases/load_relations.hpp"
+#include "cases/load_target.hpp"
 #include "cases/loader.hpp"
 #include "cases/matrix.hpp"
 #include "cases/rule.hpp"

@@ -41,8 +41,9 @@ class DistanceReader {
             const TomlValue* value = table_.find(key);
             if (value != nullptr && found != nullptr) {
                 context_.error(value->where,
-                               name_ + " says twice where its values come from; keep one of "
-                                       "values, constant, plane and half_space");
+                               name_ +
+                                   " says twice where its values come from; keep one of "
+                                   "values, constant, plane and half_space");
                 return false;
             }
             found = value != nullptr ? value : found;

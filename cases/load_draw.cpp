@@ -79,6 +79,10 @@ class DrawLoader {
             return draw_;
         }
         check_count(name, notes);
+        if (!draw_.positions.empty()) {
+            refuse_with_surface();
+            return draw_;
+        }
         move_vertices(context_, table_, space_, target_, vertices_);
         const std::optional<std::vector<uint32_t>> order = vertex_order(
             context_, table_, draw_.topology, draw_.indices.has_value(), vertices_.size());
@@ -277,7 +281,22 @@ class DrawLoader {
         draw_.topology = generated->topology;
         draw_.indices = std::move(generated->indices);
         vertices_ = std::move(generated->vertices);
+        draw_.positions = std::move(generated->clip);
         return true;
+    }
+
+    // A surface has its positions already, and nothing that exact vertices are needed for.
+    void refuse_with_surface() {
+        for (const char* key :
+             {"attribute", "mirror", "rotate", "offset", "winding", "first", "order"}) {
+            if (const TomlValue* value = table_.find(key)) {
+                context_.error(
+                    value->where,
+                    fmt::format("{} does not go with the generator \"surface\"; leave it "
+                                "out",
+                                key));
+            }
+        }
     }
 
     bool read_indices(const TomlValue& value) {

@@ -80,11 +80,12 @@ constexpr std::array kRules = {
          "Drawn with d and again with -d, otherwise alike, a triangle that the plane cuts has each "
          "of its samples hit exactly once along the cut, samples on the plane included.",
          "vertexpostproc-clipping", "", "ref/narrowing.cpp"},
-    Rule{"cull.distance", Profile::vulkan,
-         "A triangle whose cull distances are all negative is not drawn",
-         "It is discarded if one of the cull distances is negative at all three vertices, and drawn "
-         "whole otherwise.",
-         "vertexpostproc-clipping", "15.4.2", "ref/coverage_setup.cpp"},
+    Rule{
+        "cull.distance", Profile::vulkan,
+        "A triangle whose cull distances are all negative is not drawn",
+        "It is discarded if one of the cull distances is negative at all three vertices, and drawn "
+        "whole otherwise.",
+        "vertexpostproc-clipping", "15.4.2", "ref/coverage_setup.cpp"},
     Rule{"number.undefined", Profile::vulkan, "A bad number spoils its own triangle only",
          "NaN and infinity make the result of their own triangle undefined inside scissor and "
          "framebuffer, and so do positions beyond 2^32 (beyond FLT_MAX/16 from practice on); all "

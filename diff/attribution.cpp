@@ -92,9 +92,9 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
             return Cause{"face.cull", fmt::format("{} is culled", name_of(t))};
         }
         if (t.culled_by_distance) {
-            return Cause{"cull.distance",
-                         fmt::format("a cull distance of {} is negative at all vertices",
-                                     name_of(t))};
+            return Cause{
+                "cull.distance",
+                fmt::format("a cull distance of {} is negative at all vertices", name_of(t))};
         }
         if (t.clipped_by_distance && !t.on_edge) {
             return Cause{"clip.distance",

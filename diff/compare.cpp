@@ -322,8 +322,8 @@ class Comparison {
     }
 
     const char* provoking_rule(uint32_t draw) const {
-        const bool is_last = draw < case_.draws.size() && case_.draws[draw].provoking ==
-                                                              cases::ProvokingVertex::last;
+        const bool is_last = draw < case_.draws.size() &&
+                             case_.draws[draw].provoking == cases::ProvokingVertex::last;
         return is_last ? "provoking.last" : "provoking.first";
     }
 

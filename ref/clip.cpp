@@ -21,9 +21,9 @@
 // errors enter as weights (1-t) and t, which are off by |dt| times e1 + e2. Several planes: the
 // bound is carried from cut to cut. Devices cut in different orders; the larger bound of the orders
 // x y z, z x y and, with clip distances, those first and last is taken. A clip distance is exact at
-// the triangle's vertices and cut like a coordinate. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times |p/2|, plus the
-// rounding of divide and transform (position.cpp). Bounds are symmetric in the two end points, so
-// that two triangles which share the edge get the same box for the same point.
+// the triangle's vertices and cut like a coordinate. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times
+// |p/2|, plus the rounding of divide and transform (position.cpp). Bounds are symmetric in the two
+// end points, so that two triangles which share the edge get the same box for the same point.
 #include "ref/clip.hpp"
 
 #include <algorithm>
@@ -311,8 +311,9 @@ bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> p
             case ClipPlane::z_low_symmetric:
                 return clip.z >= -clip.w;
             default:
-                return triangle.distance[i][static_cast<glm::vec4::length_type>(
-                           user_index(plane))] >= 0;
+                return triangle
+                           .distance[i][static_cast<glm::vec4::length_type>(user_index(plane))] >=
+                       0;
         }
     });
 }
@@ -321,13 +322,14 @@ bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,
                           std::span<const ClipPlane> planes) {
     return std::any_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
         return !is_user(plane) &&
-               std::none_of(triangle.begin(), triangle.end(),
-                            [&](const glm::vec4& v) { return is_inside(v, {&plane, 1}); });
+               std::none_of(triangle.begin(), triangle.end(), [&](const glm::vec4& v) {
+                   return is_inside(v, {&plane, 1});
+               });
     });
 }
 
-std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle,
-                                         const cases::Viewport& viewport, cases::Profile profile,
+std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases::Viewport& viewport,
+                                         cases::Profile profile,
                                          std::span<const ClipPlane> planes) {
     const mpq_class u =
         profile == cases::Profile::vulkan ? mpq_class(1, 100000) : mpq_class(1, int64_t{1} << 24);

@@ -40,8 +40,8 @@ inline constexpr size_t kMaxUserPlanes = 4;
 inline constexpr size_t kMaxPlanes = 6 + kMaxUserPlanes;
 inline constexpr size_t kMaxClippedVertices = 3 + kMaxPlanes;  // each plane adds at most one
 
-// The half-spaces whose intersection is the clip volume of a draw: the borders of the viewport, then
-// near and far plane (none without depth clipping), then the clip distances.
+// The half-spaces whose intersection is the clip volume of a draw: the borders of the viewport,
+// then near and far plane (none without depth clipping), then the clip distances.
 struct ClipVolume {
     std::array<ClipPlane, kMaxPlanes> planes{};
     uint8_t view_count = 0, count = 0;
@@ -80,7 +80,7 @@ struct ClippedVertex {
     // transform_error applies.
     TransformError error;
     bool is_bounded =
-        true;            // false if no bound exists or w = 0: the device's vertex may be anywhere
+        true;  // false if no bound exists or w = 0: the device's vertex may be anywhere
     // c_k / w of clip distance k, and what clipping may make of it; only if clip w > 0.
     std::vector<mpq_class> ratio, ratio_error;
     int original = -1;   // 0..2 if this is a vertex of the triangle
@@ -101,8 +101,8 @@ bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,
 // The part of a triangle of finite vertices inside the planes, in the order of its vertices; empty
 // if there is none. With profile vulkan errors are those of arithmetic accurate to 1 part in 10^5,
 // otherwise those of binary32.
-std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle,
-                                         const cases::Viewport& viewport, cases::Profile profile,
+std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases::Viewport& viewport,
+                                         cases::Profile profile,
                                          std::span<const ClipPlane> planes = kViewVolume);
 
 }  // namespace ref

@@ -5,10 +5,10 @@
 // single specified clip distance d_i (or a number of similarly specified clip distances, if
 // multiple half-spaces are enabled). Next, suppose that the same series of primitives are drawn
 // again with each such clip distance replaced by -d_i (and the graphics pipeline is otherwise the
-// same). In this case, primitives must not be missing any pixels, and pixels must not be drawn twice
-// in regions where those primitives are cut by the clip planes." (Vulkan specification, "Primitive
-// Clipping".) With several distances the two draws do not fill the primitive; that no sample is hit
-// twice still holds.
+// same). In this case, primitives must not be missing any pixels, and pixels must not be drawn
+// twice in regions where those primitives are cut by the clip planes." (Vulkan specification,
+// "Primitive Clipping".) With several distances the two draws do not fill the primitive; that no
+// sample is hit twice still holds.
 #pragma once
 
 #include <cstdint>

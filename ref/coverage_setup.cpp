@@ -111,6 +111,20 @@ void test_tie(Outline& o, size_t i) {
 }
 
 void draw_together(Outline& o, bool has_tie_rule) {
+    if (o.count <= 3 && std::none_of(o.edge.begin(), o.edge.begin() + o.count,
+                                     [](EdgeLabel e) { return e >= kFirstClipEdge; })) {
+        // A triangle as it is: nothing is drawn together and no edge is cut.
+        o.must_count = o.count;
+        std::copy_n(o.boxes.begin(), o.count, o.must_boxes.begin());
+        for (size_t i = 0; i < o.count; ++i) {
+            o.must_test[i] = EdgeTest::strict;
+            o.tie_side[i] = 0;
+            if (has_tie_rule) {
+                test_tie(o, i);
+            }
+        }
+        return;
+    }
     std::vector<Box> boxes(o.boxes.begin(), o.boxes.begin() + o.count);
     std::vector<EdgeLabel> labels(o.edge.begin(), o.edge.begin() + o.count);
     bool has_changed = o.count > 3;
@@ -308,9 +322,8 @@ bool tested_outline(const Source& s, std::span<const ClipPlane> planes, Outline&
     CutSource source{s.input, s.draw.viewport, s.profile, {}, s.window};
     for (size_t i = 0; i < 3; ++i) {
         const glm::vec4& v = s.input.clip[i];
-        source.vertex[i] = v.w < 0
-                               ? position_box(-v, s.draw.viewport, s.limits, s.profile)
-                               : s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
+        source.vertex[i] = v.w < 0 ? position_box(-v, s.draw.viewport, s.limits, s.profile)
+                                   : s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
     }
     const auto cuts = distance_cuts(source, polygon, out.vertices());
     is_bounded = cuts.has_value();
@@ -325,9 +338,8 @@ constexpr DistanceCut kOpenCut = {{0, 0, 1}, {0, 0, -1}};
 bool add_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
     std::array<std::span<const ClipPlane>, 2> volumes{s.volume.depth(), s.volume.view()};
     const std::array<size_t, 3> all{0, 1, 2};
-    const bool leaves_view = !std::all_of(all.begin(), all.end(), [&](size_t i) {
-        return is_inside(s.input, i, s.volume.view());
-    });
+    const bool leaves_view = !std::all_of(
+        all.begin(), all.end(), [&](size_t i) { return is_inside(s.input, i, s.volume.view()); });
     bool is_defined = true;
     for (const bool is_view : {false, true}) {
         if (is_view ? !leaves_view : !t.has_outline) {
@@ -409,7 +421,7 @@ std::array<const Outline*, 4> TriangleSetup::outlines(size_t& count) const {
         out[count++] = &unclipped;
     }
     if (is_clipped) {
-        out[count++] = &clipped;
+        out[count++] = clipped.get();
     }
     for (const Outline& o : tested) {
         out[count++] = &o;
@@ -454,15 +466,18 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
     TriangleSetup t;
     t.window = window;
     t.grid_step = int64_t{1} << (kFixedBits - limits.subpixel_bits);
-    const Source s{draw,           triangle,
-                   limits,         profile,
-                   boxes,          window,
-                   {draw, triangle.vertex}, clip_volume_of(draw)};
+    const Source s{draw,
+                   triangle,
+                   limits,
+                   profile,
+                   boxes,
+                   window,
+                   {draw, triangle.vertex},
+                   clip_volume_of(draw)};
     const std::array<glm::vec4, 3>& clip = s.input.clip;
     AreaSigns signs;
-    const bool is_number = std::all_of(clip.begin(), clip.end(), [&](const glm::vec4& v) {
-        return is_representable(v, profile);
-    });
+    const bool is_number = std::all_of(
+        clip.begin(), clip.end(), [&](const glm::vec4& v) { return is_representable(v, profile); });
     if (!is_number) {
         // Undefined for this primitive, anywhere inside scissor and framebuffer.
         t.kind = TriangleSetup::Kind::anywhere;
@@ -475,10 +490,10 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
     }
     // "x/w ... division by zero produces an unspecified result" (Vulkan, "General Requirements"); a
     // denormal w may be flushed to zero. Direct3D clips to 0 < w before it divides.
-    const bool may_divide_by_zero =
-        profile != cases::Profile::direct3d &&
-        std::any_of(clip.begin(), clip.end(),
-                    [](const glm::vec4& v) { return std::fabs(v.w) < 0x1p-126F; });
+    const bool may_divide_by_zero = profile != cases::Profile::direct3d &&
+                                    std::any_of(clip.begin(), clip.end(), [](const glm::vec4& v) {
+                                        return std::fabs(v.w) < 0x1p-126F;
+                                    });
     if (may_divide_by_zero) {
         t.kind = TriangleSetup::Kind::anywhere;
         t.window.is_viewport_ignored = true;
@@ -487,9 +502,8 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
     }
     t.kind = TriangleSetup::Kind::outlines;
     const std::array<size_t, 3> all{0, 1, 2};
-    t.is_clipped = !std::all_of(all.begin(), all.end(), [&](size_t i) {
-        return is_inside(s.input, i, s.volume.all());
-    });
+    t.is_clipped = !std::all_of(all.begin(), all.end(),
+                                [&](size_t i) { return is_inside(s.input, i, s.volume.all()); });
     t.has_outline = outline_by(s, s.volume.without_borders(), t.unclipped);
     if (t.has_outline) {
         choose_mode(t.unclipped, t.grid_step, profile);
@@ -500,16 +514,19 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
         return is_in_guaranteed_range(v, profile);
     });
     bool is_defined = is_in_range && (t.has_outline || t.is_clipped);
+    if (t.is_clipped) {
+        t.clipped = std::make_shared<Outline>();
+    }
     if (t.is_clipped && is_in_range) {
-        is_defined = outline_by(s, s.volume.all(), t.clipped);
+        is_defined = outline_by(s, s.volume.all(), *t.clipped);
         const bool is_fractional = t.window.zone_x.low != t.window.core_x.low ||
                                    t.window.zone_y.low != t.window.core_y.low;
         if (is_fractional && !t.has_outline) {
             is_defined = false;  // nothing says what the zone around the viewport shows
         }
         if (is_defined) {
-            choose_mode(t.clipped, t.grid_step, profile);
-            signs |= signs_of(t.clipped, t.grid_step);
+            choose_mode(*t.clipped, t.grid_step, profile);
+            signs |= signs_of(*t.clipped, t.grid_step);
         }
     }
     if (is_defined && s.volume.has_user_planes()) {

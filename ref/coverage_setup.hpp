@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -99,13 +100,14 @@ struct TriangleSetup {
     bool is_clipped = false;   // a vertex lies outside the clip volume
     bool has_outline = false;  // `unclipped` is meaningful
     Outline unclipped;         // cut by the depth planes and clip distances only
-    Outline clipped;           // by all planes; meaningful if is_clipped
+    // Cut by all planes; only if is_clipped. Few triangles have one, and it is large.
+    std::shared_ptr<Outline> clipped;
     // Not cut by the clip distances, which are tested at each sample; empty where no distance
     // matters.
     std::vector<Outline> tested;
     int8_t tested_unclipped = -1, tested_clipped = -1;  // into `tested`; -1: as if cut
-    int64_t grid_step = 1;     // S47.16 units of one subpixel
-    int orientation = 0;       // sign of the area for every choice of positions; 0 if it depends
+    int64_t grid_step = 1;                              // S47.16 units of one subpixel
+    int orientation = 0;  // sign of the area for every choice of positions; 0 if it depends
     Facing facing = Facing::depends;  // before culling
     bool can_be_front = false;        // drawn so, after culling
     bool can_be_back = false;

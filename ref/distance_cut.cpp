@@ -6,15 +6,16 @@
 // Where D is safely positive the sign of c_k is that of N, which is linear in framebuffer
 // coordinates. What a device may have instead of N at a sample p of the outline:
 //
-//   * The vertices moved, by at most (dx, dy) from their ideal positions. With the values g_i at the
+//   * The vertices moved, by at most (dx, dy) from their ideal positions. With the values g_i at
+//   the
 //     vertices as they are, N of the moved triangle at p is the ideal N at the point that has the
 //     same b_i in the ideal triangle; inside the triangle (b_i >= 0) that point is at most (dx, dy)
 //     away, so N is off by at most |N_x| dx + |N_y| dy.
 //   * The binary32 budget of a plane through the moved vertices (docs/precision.md):
-//     u (2 max(sum |g_i| D_i, max_j sum |g_i - g_j| D_i) + max |g_i|), g_i = d_i/w_i, times K. D_i =
-//     |db_i/dx| X + |db_i/dy| Y is |e_y| X + |e_x| Y over twice the area, e the edge opposite to
-//     vertex i; a moved edge is longer by at most 2 dx, 2 dy, and the area is at least the least one
-//     that corners of the boxes make (the area is multi-affine).
+//     u (2 max(sum |g_i| D_i, max_j sum |g_i - g_j| D_i) + max |g_i|), g_i = d_i/w_i, times K. D_i
+//     = |db_i/dx| X + |db_i/dy| Y is |e_y| X + |e_x| Y over twice the area, e the edge opposite to
+//     vertex i; a moved edge is longer by at most 2 dx, 2 dy, and the area is at least the least
+//     one that corners of the boxes make (the area is multi-affine).
 //   * Values at the corners of a clipped polygon off by ClippedVertex::ratio_error. A device that
 //     sets planes up from such pieces is taken to lose no more than that and the budget above.
 //
@@ -119,8 +120,8 @@ mpq_class least_area(const std::array<std::optional<Box>, 3>& boxes) {
 // Vertices before the eye: g_i at ideal positions.
 struct Projected {
     std::array<mpq_class, 3> x, y, inv_w;
-    mpq_class area;         // twice, of the ideal positions, signed
-    mpq_class moved_area;   // the least one of the moved positions
+    mpq_class area;                  // twice, of the ideal positions, signed
+    mpq_class moved_area;            // the least one of the moved positions
     std::array<mpq_class, 3> reach;  // D_i of the moved triangle
     Spread moved;
 };
@@ -247,8 +248,7 @@ std::vector<Linear> homogeneous_planes(const CutSource& s, std::span<const Clipp
     for (size_t i = 0; i < 3; ++i) {
         inputs.back().h[i] = 1;
         for (uint32_t k = 0; k < s.triangle.distance_count; ++k) {
-            inputs[k].h[i] =
-                exact(s.triangle.distance[i][static_cast<glm::vec4::length_type>(k)]);
+            inputs[k].h[i] = exact(s.triangle.distance[i][static_cast<glm::vec4::length_type>(k)]);
         }
     }
     const auto ideal = make_basis(at_ideal(s), inputs, kBudgetFactor);
@@ -280,9 +280,9 @@ std::vector<Linear> homogeneous_planes(const CutSource& s, std::span<const Clipp
                     mpq_class worst;
                     for (const mpq_class& x : {region.x0, region.x1}) {
                         for (const mpq_class& y : {region.y0, region.y1}) {
-                            worst = larger_of(worst, abs((form.x - out[k].x) * x +
-                                                         (form.y - out[k].y) * y + form.c -
-                                                         out[k].c));
+                            worst =
+                                larger_of(worst, abs((form.x - out[k].x) * x +
+                                                     (form.y - out[k].y) * y + form.c - out[k].c));
                         }
                     }
                     out[k].error = larger_of(
@@ -299,9 +299,8 @@ std::vector<Linear> planes_of(const CutSource& s, std::span<const ClippedVertex>
                               const Region& region, const Spread& moved) {
     const mpq_class factor = budget_factor(s.profile);
     const uint32_t n = s.triangle.distance_count;
-    const bool is_before_eye =
-        std::all_of(s.triangle.clip.begin(), s.triangle.clip.end(),
-                    [](const glm::vec4& v) { return v.w >= 0x1p-126F; });
+    const bool is_before_eye = std::all_of(s.triangle.clip.begin(), s.triangle.clip.end(),
+                                           [](const glm::vec4& v) { return v.w >= 0x1p-126F; });
     std::vector<Linear> out;
     if (is_before_eye) {
         Projected p;

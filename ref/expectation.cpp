@@ -10,6 +10,7 @@
 #include "ref/coverage_fast.hpp"
 #include "ref/coverage_setup.hpp"
 #include "ref/narrowing.hpp"
+#include "ref/triangle_setups.hpp"
 
 namespace ref {
 
@@ -105,25 +106,20 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     out.profile = profile;
     out.target = c.target;
     out.triangles = assemble(c);
-    VertexBoxes boxes(c, limits, profile);
-    std::vector<Window> windows;
-    for (const cases::Draw& d : c.draws) {
-        windows.push_back(window_of(c, d, profile));
-    }
-    std::vector<TriangleSetup> setups;
-    setups.reserve(out.triangles.size());
+    TriangleSetups setups(c, out.triangles, limits, profile);
     std::vector<fast::Span> spans;
     for (uint32_t t = 0; t < out.triangles.size(); ++t) {
-        const Triangle& triangle = out.triangles[t];
-        setups.push_back(set_up(c, triangle, limits, profile, boxes, windows[triangle.draw]));
-        fast::scan(setups.back(), t, c.target, spans);
+        if (setups.may_touch_a_sample(t)) {
+            fast::scan(setups[t], t, c.target, spans);
+        }
     }
     HitTable table(c.target, spans);
     std::optional<DepthTest> depth;
     if (DepthTest::is_needed(c)) {
         depth.emplace(c, out.triangles, limits, profile, false);
     }
-    Narrowing narrowing(c, profile, out.triangles, setups, {fast::is_in_hull, fast::winding, fast::is_inside_whole},
+    Narrowing narrowing(c, profile, out.triangles, setups,
+                        {fast::is_in_hull, fast::winding, fast::is_inside_whole},
                         depth ? &*depth : nullptr);
     out.samples.resize(size_t{c.target.width} * c.target.height * c.target.samples);
     out.writers.reserve(table.size());
@@ -139,7 +135,8 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                     sample.writers_begin = static_cast<uint32_t>(out.writers.size());
                     continue;
                 }
-                sample = narrowing.judge(sample_position(i, j, s, c.target), s, hits, out.writers, out.depth_writers);
+                sample = narrowing.judge(sample_position(i, j, s, c.target), s, hits, out.writers,
+                                         out.depth_writers);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
             }

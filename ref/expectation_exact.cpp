@@ -6,6 +6,7 @@
 #include "ref/coverage_setup.hpp"
 #include "ref/expectation.hpp"
 #include "ref/narrowing.hpp"
+#include "ref/triangle_setups.hpp"
 
 namespace ref::exact {
 
@@ -15,12 +16,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     out.profile = profile;
     out.target = c.target;
     out.triangles = assemble(c);
-    VertexBoxes boxes(c, limits, profile);
-    std::vector<TriangleSetup> setups;
-    for (const Triangle& t : out.triangles) {
-        const cases::Draw& draw = c.draws[t.draw];
-        setups.push_back(set_up(c, t, limits, profile, boxes, window_of(c, draw, profile)));
-    }
+    TriangleSetups setups(c, out.triangles, limits, profile);
     std::optional<DepthTest> depth;
     if (DepthTest::is_needed(c)) {
         depth.emplace(c, out.triangles, limits, profile, true);
@@ -32,7 +28,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
             for (uint32_t s = 0; s < c.target.samples; ++s) {
                 const FixedPoint p = sample_position(i, j, s, c.target);
                 std::vector<Hit> hits;
-                for (uint32_t t = 0; t < setups.size(); ++t) {
+                for (uint32_t t = 0; t < out.triangles.size(); ++t) {
                     if (!is_in_mask(c.draws[out.triangles[t].draw].multisample, s)) {
                         continue;
                     }
@@ -41,7 +37,8 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                         hits.push_back({t, coverage});
                     }
                 }
-                const SampleExpectation sample = narrowing.judge(p, s, hits, out.writers, out.depth_writers);
+                const SampleExpectation sample =
+                    narrowing.judge(p, s, hits, out.writers, out.depth_writers);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
                 out.samples.push_back(sample);

@@ -3,10 +3,9 @@
 #include "ref/narrowing.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <iterator>
 #include <numeric>
-#include <string>
 
 namespace ref {
 
@@ -63,9 +62,8 @@ void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t least, uint32
 }  // namespace
 
 Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
-                     const std::vector<Triangle>& triangles,
-                     const std::vector<TriangleSetup>& setups, Predicates predicates,
-                     DepthTest* depth)
+                     const std::vector<Triangle>& triangles, TriangleSetups& setups,
+                     Predicates predicates, DepthTest* depth)
     : case_(c),
       profile_(profile),
       triangles_(triangles),
@@ -75,6 +73,15 @@ Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
       depth_(depth),
       vertex_numbers_(c.draws.size()) {}
 
+size_t Narrowing::VertexHash::operator()(const VertexKey& key) const {
+    uint64_t h = 0;
+    for (const uint32_t word : key) {
+        h = (h ^ word) * 0x9e3779b97f4a7c15U;
+        h ^= h >> 29U;
+    }
+    return static_cast<size_t>(h);
+}
+
 uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
     const cases::Draw& d = case_.draws[draw];
     std::vector<uint32_t>& numbers = vertex_numbers_[draw];
@@ -82,18 +89,18 @@ uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
     if (numbers[vertex] == 0) {
         const cases::Viewport& v = d.viewport;
         const glm::vec4& p = d.positions[vertex];
-        const float bits[] = {p.x, p.y, p.z, p.w, v.x, v.y, v.width, v.height};
-        std::string key(sizeof bits, '\0');
-        std::memcpy(key.data(), bits, sizeof bits);
-        if (d.distances.clip_count > 0) {
-            // An edge that is cut elsewhere is another edge.
-            const glm::vec4& c = d.distances.clip[vertex];
-            const float distances[] = {c.x, c.y, c.z, c.w};
-            key.append(reinterpret_cast<const char*>(distances),
-                       d.distances.clip_count * sizeof(float));
+        // An edge that clip distances cut elsewhere is another edge.
+        const glm::vec4 distance =
+            d.distances.clip_count > 0 ? d.distances.clip[vertex] : glm::vec4(0);
+        VertexKey key{d.distances.clip_count};
+        const std::array<float, 12> parts = {p.x,        p.y,        p.z,        p.w,
+                                             v.x,        v.y,        v.width,    v.height,
+                                             distance.x, distance.y, distance.z, distance.w};
+        for (size_t k = 0; k < parts.size(); ++k) {
+            key[k + 1] = std::bit_cast<uint32_t>(parts[k]);
         }
         const auto next = static_cast<uint32_t>(numbers_.size() + 1);
-        numbers[vertex] = numbers_.try_emplace(std::move(key), next).first->second;
+        numbers[vertex] = numbers_.try_emplace(key, next).first->second;
     }
     return numbers[vertex];
 }
@@ -158,13 +165,14 @@ int Narrowing::winding_of(const FixedPoint& p, const TriangleSetup& setup,
 
 int Narrowing::count_of(const FixedPoint& p, std::span<const Hit> hits,
                         const std::vector<uint32_t>& members) const {
-    // Cut by the depth planes or by all, by the clip distances or not: every member in the same way.
+    // Cut by the depth planes or by all, by the clip distances or not: every member in the same
+    // way.
     std::array<int, 4> count{};
     bool has_unclipped = true;
     for (const uint32_t m : members) {
         const TriangleSetup& setup = setups_[hits[m].triangle];
         const int open = setup.has_outline ? winding_of(p, setup, setup.unclipped) : 0;
-        const int cut = setup.is_clipped ? winding_of(p, setup, setup.clipped) : open;
+        const int cut = setup.is_clipped ? winding_of(p, setup, *setup.clipped) : open;
         const auto tested = [&](int8_t index, int otherwise) {
             return index < 0 ? otherwise
                              : winding_of(p, setup, setup.tested[static_cast<size_t>(index)]);
@@ -177,8 +185,7 @@ int Narrowing::count_of(const FixedPoint& p, std::span<const Hit> hits,
         count[3] += tested_open;
     }
     const size_t models = has_unclipped ? 4 : 2;
-    if (std::any_of(count.begin(), count.begin() + models,
-                    [&](int c) { return c != count[0]; })) {
+    if (std::any_of(count.begin(), count.begin() + models, [&](int c) { return c != count[0]; })) {
         return -1;
     }
     return count[0] >= 0 && count[0] <= static_cast<int>(members.size()) ? count[0] : -1;
@@ -190,15 +197,22 @@ uint64_t Narrowing::edge_number(const Triangle& triangle, uint32_t edge) {
     return uint64_t{std::min(a, b)} << 32U | std::max(a, b);
 }
 
-const std::vector<uint32_t>& Narrowing::triangles_at(uint64_t edge) {
-    if (edge_triangles_.empty()) {
-        for (uint32_t t = 0; t < triangles_.size(); ++t) {
+std::span<const Narrowing::EdgeOwner> Narrowing::triangles_at(uint64_t edge) {
+    if (edge_owners_.empty()) {
+        for (const uint32_t t : setups_.known()) {
             for (uint32_t e = 0; e < 3; ++e) {
-                edge_triangles_[edge_number(triangles_[t], e)].push_back(t);
+                edge_owners_.push_back({edge_number(triangles_[t], e), t});
             }
         }
+        std::sort(edge_owners_.begin(), edge_owners_.end(),
+                  [](const EdgeOwner& a, const EdgeOwner& b) {
+                      return a.edge < b.edge || (a.edge == b.edge && a.triangle < b.triangle);
+                  });
     }
-    return edge_triangles_[edge];
+    const auto by_edge = [](const EdgeOwner& a, const EdgeOwner& b) { return a.edge < b.edge; };
+    const auto [begin, end] =
+        std::equal_range(edge_owners_.begin(), edge_owners_.end(), EdgeOwner{edge, 0}, by_edge);
+    return {begin, end};
 }
 
 bool Narrowing::is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const {
@@ -206,8 +220,7 @@ bool Narrowing::is_inside_whole(const FixedPoint& p, const TriangleSetup& setup)
         setup.tested.empty() || !setup.window.must_touch(p)) {
         return false;
     }
-    constexpr EdgeLabel kFirstUserEdge =
-        kFirstClipEdge + static_cast<EdgeLabel>(ClipPlane::user_0);
+    constexpr EdgeLabel kFirstUserEdge = kFirstClipEdge + static_cast<EdgeLabel>(ClipPlane::user_0);
     size_t count = 0;
     const auto outlines = setup.outlines(count);
     for (size_t k = 0; k < count; ++k) {
@@ -219,9 +232,8 @@ bool Narrowing::is_inside_whole(const FixedPoint& p, const TriangleSetup& setup)
             }
         }
     }
-    return std::all_of(setup.tested.begin(), setup.tested.end(), [&](const Outline& o) {
-        return predicates_.is_inside_whole(setup, o, p);
-    });
+    return std::all_of(setup.tested.begin(), setup.tested.end(),
+                       [&](const Outline& o) { return predicates_.is_inside_whole(setup, o, p); });
 }
 
 std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p,
@@ -238,10 +250,9 @@ std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p
                 continue;
             }
             const auto is_must = [&](uint32_t k) { return hits[k].coverage == Coverage::must; };
-            const bool is_hit =
-                is_must(m) || is_must(n) ||
-                (c.fills && is_inside_whole(p, setups_[hits[m].triangle]) &&
-                 is_inside_whole(p, setups_[hits[n].triangle]));
+            const bool is_hit = is_must(m) || is_must(n) ||
+                                (c.fills && is_inside_whole(p, setups_[hits[m].triangle]) &&
+                                 is_inside_whole(p, setups_[hits[n].triangle]));
             out.push_back({{m, n}, 1, is_hit ? 1U : 0U});
             is_paired[m] = is_paired[n] = true;
         }
@@ -308,7 +319,8 @@ void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
         sides.clear();
         add_sides(p, Hit(all[m]), static_cast<uint32_t>(m), sides);
         for (const Side& side : sides) {
-            for (const uint32_t t : triangles_at(side.edge)) {
+            for (const EdgeOwner& owner : triangles_at(side.edge)) {
+                const uint32_t t = owner.triangle;
                 const bool is_drawn = setups_[t].kind != TriangleSetup::Kind::nothing;
                 if (is_drawn && std::none_of(all.begin(), all.end(),
                                              [&](const Hit& h) { return h.triangle == t; })) {

@@ -20,9 +20,9 @@
 // triangle that only the distance leaves it open.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -33,6 +33,7 @@
 #include "ref/depth_test.hpp"
 #include "ref/expectation.hpp"
 #include "ref/triangle.hpp"
+#include "ref/triangle_setups.hpp"
 
 namespace ref {
 
@@ -56,7 +57,7 @@ struct Predicates {
 class Narrowing {
   public:
     Narrowing(const cases::Case& c, cases::Profile profile, const std::vector<Triangle>& triangles,
-              const std::vector<TriangleSetup>& setups, Predicates predicates, DepthTest* depth);
+              TriangleSetups& setups, Predicates predicates, DepthTest* depth);
 
     // Bounds for sample `s` of a pixel, at p, from the triangles that must or may cover it, in
     // drawing order; appends the triangles that may have written last, and those whose depth may be
@@ -90,6 +91,16 @@ class Narrowing {
     void apply_depth(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets,
                      std::vector<Coverage>& coverage, std::vector<uint32_t>& depth_writers,
                      SampleExpectation& out);
+    struct EdgeOwner {
+        uint64_t edge = 0;
+        uint32_t triangle = 0;
+    };
+    // What makes two vertices the same: the bits of position, viewport and clip distances.
+    using VertexKey = std::array<uint32_t, 13>;
+    struct VertexHash {
+        size_t operator()(const VertexKey& key) const;
+    };
+
     // Of the triangles that may cover p; sets of them alone.
     std::vector<Fixed> fixed_sets(const FixedPoint& p, std::span<const Hit> hits);
     // As fixed_sets, for the open ones among `hits` that are in none of its sets: with triangles
@@ -98,8 +109,9 @@ class Narrowing {
     // Sets closed under partnership among the hits that take part.
     std::vector<Fixed> closed_sets(const FixedPoint& p, std::span<const Hit> hits,
                                    const std::vector<bool>& takes_part);
-    // All triangles with an edge between two vertices.
-    const std::vector<uint32_t>& triangles_at(uint64_t edge);
+    // The triangles with an edge between two vertices, of those that may touch a sample at all (the
+    // others have no band that contains one).
+    std::span<const EdgeOwner> triangles_at(uint64_t edge);
     uint64_t edge_number(const Triangle& triangle, uint32_t edge);
     // Adds the edges of a hit near p; false if p lies where no rule fixes anything.
     bool add_sides(const FixedPoint& p, const Hit& hit, uint32_t member, std::vector<Side>& sides);
@@ -113,14 +125,14 @@ class Narrowing {
     const cases::Case& case_;
     cases::Profile profile_;
     const std::vector<Triangle>& triangles_;
-    const std::vector<TriangleSetup>& setups_;
+    TriangleSetups& setups_;
     Predicates predicates_;
-    uint32_t sample_ = 0;  // of the pixel, the one at hand
+    uint32_t sample_ = 0;                  // of the pixel, the one at hand
     std::vector<Complement> complements_;  // by triangle, or empty
     DepthTest* depth_;                     // null: every fragment passes and writes
-    std::unordered_map<std::string, uint32_t> numbers_;
+    std::unordered_map<VertexKey, uint32_t, VertexHash> numbers_;
     std::vector<std::vector<uint32_t>> vertex_numbers_;  // per draw; 0 = not yet numbered
-    std::unordered_map<uint64_t, std::vector<uint32_t>> edge_triangles_;  // when first asked for
+    std::vector<EdgeOwner> edge_owners_;  // sorted by edge, then triangle; when first asked for
 };
 
 }  // namespace ref

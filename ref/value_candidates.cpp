@@ -332,11 +332,11 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
         const bool leaves_view = !is_inside(input, 0, volume.view()) ||
                                  !is_inside(input, 1, volume.view()) ||
                                  !is_inside(input, 2, volume.view());
-        set.hulls = hulls_of(
-            primitive, inputs, quantities,
-            leaves_view ? piece_vertices(primitive, inputs, ideal, roundoff, volume.view())
-                        : std::vector<PieceVertex<T>>{},
-            roundoff);
+        set.hulls =
+            hulls_of(primitive, inputs, quantities,
+                     leaves_view ? piece_vertices(primitive, inputs, ideal, roundoff, volume.view())
+                                 : std::vector<PieceVertex<T>>{},
+                     roundoff);
     } else {
         set.hulls = hulls_of(primitive, inputs, quantities, polygon, roundoff);
     }

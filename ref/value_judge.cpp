@@ -131,6 +131,8 @@ struct ValueReference::Impl {
     std::vector<Triangle> triangles;
     std::vector<std::vector<Quantity>> quantities;  // by draw
     std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
+    std::deque<uint32_t> order;                     // of the loaded ones, oldest first
+    static constexpr size_t kKeptTriangles = 16384;
     WideCache<Ball> balls{64};
     WideCache<mpq_class> rationals{4};
     std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)>
@@ -157,6 +159,12 @@ struct ValueReference::Impl {
             return *slot;
         }
         slot = std::make_unique<Loaded>();
+        // Samples come row by row: what was not asked for longest is not asked for soon.
+        order.push_back(t);
+        if (order.size() > kKeptTriangles) {
+            loaded[order.front()].reset();
+            order.pop_front();
+        }
         slot->primitive = value::make_primitive(c, triangles[t]);
         if (!slot->primitive.is_finite) {
             return *slot;
@@ -326,9 +334,8 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
     m.level = Profile::vulkan;
     for (const uint32_t v : primitive.triangle.vertex) {
         if (v != primitive.triangle.provoking && bits(values[v][component]) == bits(got)) {
-            m.rule = primitive.draw->provoking == cases::ProvokingVertex::first
-                         ? "provoking.first"
-                         : "provoking.last";
+            m.rule = primitive.draw->provoking == cases::ProvokingVertex::first ? "provoking.first"
+                                                                                : "provoking.last";
         }
     }
     m.expected =

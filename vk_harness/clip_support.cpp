@@ -86,10 +86,11 @@ std::optional<std::string> missing_clip_support(const ClipSupport& support, cons
         }
         if (d.clip_count > support.max_clip || d.cull_count > support.max_cull ||
             d.clip_count + d.cull_count > support.max_combined) {
-            return fmt::format("a draw has {} clip and {} cull distances, the device allows {} and "
-                               "{}, together {}",
-                               d.clip_count, d.cull_count, support.max_clip, support.max_cull,
-                               support.max_combined);
+            return fmt::format(
+                "a draw has {} clip and {} cull distances, the device allows {} and "
+                "{}, together {}",
+                d.clip_count, d.cull_count, support.max_clip, support.max_cull,
+                support.max_combined);
         }
         if (draw.depth.negative_one_to_one && !support.depth_clip_control) {
             return "the device lacks the feature depthClipControl";

@@ -23,9 +23,9 @@ inline constexpr uint32_t kClipBinding = 5, kCullBinding = 6;
 
 struct ClipSupport {
     uint32_t max_clip = 0, max_cull = 0, max_combined = 0;  // distances; 0 without the feature
-    bool depth_clip_control = false;        // VK_EXT_depth_clip_control
-    bool last_provoking_vertex = false;     // VK_EXT_provoking_vertex, provokingVertexLast
-    bool provoking_per_pipeline = false;    // provokingVertexModePerPipeline
+    bool depth_clip_control = false;                        // VK_EXT_depth_clip_control
+    bool last_provoking_vertex = false;   // VK_EXT_provoking_vertex, provokingVertexLast
+    bool provoking_per_pipeline = false;  // provokingVertexModePerPipeline
 };
 
 using HasExtension = bool (*)(VkPhysicalDevice, const char*);
