@@ -51,6 +51,11 @@ std::vector<Pair> frag_coords(const Fragment& f, Profile profile) {
             all_samples.push_back(centre);
             return all_samples;
         case ShadingRate::some:
+            // A minimum of one invocation asks for nothing that a fragment without sample shading
+            // does not have; devices then leave it off.
+            if (least_invocations(*f.draw, f.target->samples) == 1) {
+                all_samples.insert(all_samples.begin(), centre);
+            }
             return all_samples;
         case ShadingRate::sample:
             break;

@@ -43,13 +43,14 @@ void add_invocations(const Fragment& f, ShadingRate rate, std::vector<Spot>& spo
     }
 }
 
-// Direct3D's centroid, for every coverage that the fragment may have.
+// Direct3D's centroid, for every coverage that the fragment may have. The fragments of a clipped
+// triangle may be those of its pieces, which cover any part of the pixel's samples.
 void add_centroids(const Fragment& f, const Spot& centre, std::vector<Spot>& spots) {
     const uint32_t all = (1U << f.target->samples) - 1;
     const uint32_t mask = f.draw->multisample.sample_mask & all;
     if (f.coverage.may == all) {
         add(spots, centre);
-        if (f.coverage.must == all && mask == all) {
+        if (f.coverage.is_one_fragment && f.coverage.must == all && mask == all) {
             return;
         }
     }
@@ -57,7 +58,7 @@ void add_centroids(const Fragment& f, const Spot& centre, std::vector<Spot>& spo
         if (((f.coverage.may & mask) >> s & 1U) != 0) {
             add(spots, spot_of(f, s));
         }
-        if (((f.coverage.must & mask) >> s & 1U) != 0) {
+        if (f.coverage.is_one_fragment && ((f.coverage.must & mask) >> s & 1U) != 0) {
             return;
         }
     }

@@ -85,7 +85,8 @@ std::vector<Promise> promises_of(const Primitive& primitive, std::span<const Qua
     for (const Quantity& q : quantities) {
         const bool is_numeric = q.kind == Kind::linear || q.kind == Kind::perspective;
         const bool is_beyond =
-            is_everything || (q.attribute >= 0 && is_attribute_beyond(primitive, q));
+            is_numeric &&
+            (is_everything || (q.attribute >= 0 && is_attribute_beyond(primitive, q)));
         out.push_back({!is_unpromised(primitive, q), !(is_numeric && is_beyond)});
     }
     return out;

@@ -123,8 +123,8 @@ TEST(PixelRegion, IsPixelAndTriangle) {
         EXPECT_LE(p.x + p.y, 8);
         EXPECT_TRUE(p.x >= 4 && p.x <= 5 && p.y >= 3 && p.y <= 4);
     }
-    EXPECT_TRUE(std::any_of(part.begin(), part.end(),
-                            [](const P& p) { return p.x == 5 && p.y == 3; }));
+    EXPECT_TRUE(
+        std::any_of(part.begin(), part.end(), [](const P& p) { return p.x == 5 && p.y == 3; }));
     EXPECT_TRUE(pixel_region(coverage.setup(0), 7, 7).empty());
 }
 
