@@ -51,6 +51,7 @@ void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t
     for (auto& attribute : c.attributes) {
         move(attribute);
     }
+    move(c.color);
     move(c.depth);
 }
 
