@@ -167,6 +167,13 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
                       fmt::format("the draw has no attribute \"{}\" for its colour", *name));
         return -1;
     }
+    if (found->source != Source::vertex || found->probe != Probe::value) {
+        context.error(value.where,
+                      fmt::format("the colour cannot be the attribute \"{}\", which is not a value from "
+                                  "the vertices alone",
+                                  *name));
+        return -1;
+    }
     if (is_integer(target.format)) {
         const bool whole =
             std::all_of(found->values.begin(), found->values.end(), [](const glm::vec4& v) {

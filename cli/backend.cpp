@@ -208,6 +208,7 @@ diff::Capture draw_by_reference(const cases::Case& c) {
             }
         }
     }
+    add_color(capture, c);
     diff::vary(capture, c.variation);
     return capture;
 }

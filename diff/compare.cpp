@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "diff/attribution.hpp"
+#include "diff/color.hpp"
 #include "diff/pixel_check.hpp"
 #include "diff/verdict.hpp"
 
@@ -22,7 +24,10 @@ class Comparison {
           capture_(capture),
           attribution_(c, expectation),
           values_(c, expectation.limits, expectation.profile),
-          has_pixel_rules_(has_pixel_rules(c)) {
+          has_pixel_rules_(c.target.has_instruments && has_pixel_rules(c)) {
+        if (c.target.color) {
+            color_.emplace(c, expectation, capture_, attribution_);
+        }
         verdict_.profile = expectation.profile;
         verdict_.level = expectation.profile;
         verdict_.must_samples = expectation.must_samples;
@@ -76,9 +81,6 @@ class Comparison {
                 return fmt::format("the capture lacks attribute {} of the case", a);
             }
         }
-        if (case_.target.color) {
-            return "colour targets cannot be judged yet";
-        }
         if (expectation_.must_samples == 0) {
             return "the case has no sample that must be covered, so a black picture would pass; "
                    "add a "
@@ -91,7 +93,7 @@ class Comparison {
         const ref::SampleExpectation& expected = expectation_.samples[index];
         const ref::HitBounds& bounds = expected.hits;
         const SampleState state = sample_state(capture_, index);
-        if (state == SampleState::clear && bounds == ref::HitBounds{}) {
+        if (state == SampleState::clear && bounds == ref::HitBounds{} && !color_) {
             ++verdict_.compared_samples;  // marks and hits are zero already
             return;
         }
@@ -103,6 +105,11 @@ class Comparison {
         }
         ++verdict_.compared_samples;
 
+        if (!case_.target.has_instruments && state == SampleState::drawn) {
+            verdict_.device_hits[index] = color_->hits_for_pictures(index);
+            judge_color(index, id, std::nullopt);
+            return;
+        }
         switch (state) {
             case SampleState::not_copied:
                 verdict_.error = fmt::format(
@@ -151,6 +158,18 @@ class Comparison {
         }
         if (front + back > 0) {
             judge_writer(index, id, expected);
+        } else {
+            judge_color(index, id, std::nullopt);
+        }
+    }
+
+    void judge_color(size_t index, ref::SampleId id, std::optional<uint32_t> writer) {
+        if (!color_) {
+            return;
+        }
+        ++verdict_.compared_values;
+        if (std::optional<Finding> finding = color_->judge(index, id, writer)) {
+            add(std::move(*finding), index);
         }
     }
 
@@ -221,6 +240,7 @@ class Comparison {
             verdict_.worst_ratio = best->worst_ratio;
             verdict_.worst_quantity = fmt::format("pixel ({}, {})", id.x, id.y);
         }
+        judge_color(index, id, best_triangle);
         for (ref::ValueMismatch& m : best->mismatches) {
             Finding finding = at(FindingKind::value, id);
             finding.rule = m.rule;
@@ -380,6 +400,7 @@ class Comparison {
     Attribution attribution_;
     ref::ValueReference values_;
     bool has_pixel_rules_ = false;
+    std::optional<ColorComparison> color_;
     Verdict verdict_;
 };
 
