@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cases/attributes.hpp"
+#include "cases/color.hpp"
 #include "cases/generate.hpp"
 #include "cases/load_clip.hpp"
 #include "cases/load_depth.hpp"
@@ -61,6 +62,7 @@ class DrawLoader {
                              "winding",
                              "first",
                              "order",
+                             "color",
                              "sample_mask",
                              "shader_mask",
                              "min_sample_shading"});
@@ -92,6 +94,7 @@ class DrawLoader {
         if (const TomlValue* value = table_.find("attribute")) {
             draw_.attributes = read_attributes(context_, *value, source);
         }
+        read_color();
         if (!context_.errors().empty()) {
             return draw_;
         }
@@ -129,6 +132,19 @@ class DrawLoader {
             result.push_back(values[i]);
         }
         return result;
+    }
+
+    void read_color() {
+        const TomlValue* value = table_.find("color");
+        if (value != nullptr && target_.color) {
+            draw_.color = read_color_output(context_, *value, *target_.color, draw_.attributes);
+        } else if (value != nullptr) {
+            context_.error(value->where, "the target has no colour; write [target.color]");
+        } else if (target_.color) {
+            context_.error(table_.where,
+                           "[[draw]] has no color, but the target has; write color = { value = "
+                           "[r, g, b, a] }");
+        }
     }
 
     // What a draw says of clipping and of its provoking vertices.

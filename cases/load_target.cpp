@@ -5,6 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "cases/color.hpp"
 
 #include "cases/load_depth.hpp"
 
@@ -65,14 +69,38 @@ void read_locations(LeafContext& context, const TomlValue& table, Target& target
     }
 }
 
+void read_attachments(LeafContext& context, const TomlValue& table, Target& target) {
+    constexpr std::array<std::string_view, 3> kAttachments = {"all", "color", "color+depth"};
+    const TomlValue* value = table.find("attachments");
+    if (value == nullptr) {
+        return;
+    }
+    const std::optional<size_t> word = context.word(*value, "attachments", kAttachments);
+    if (!word) {
+        return;
+    }
+    target.has_instruments = *word == 0;
+    target.has_depth = *word != 1;
+    if (*word != 0 && !target.color) {
+        context.error(value->where,
+                      "attachments leaves nothing to draw to; write [target.color]");
+    }
+}
+
 }  // namespace
 
 Target load_target(LeafContext& context, const TomlValue& table) {
     Target target;
-    context.known_keys(table, "[target]", {"size", "samples", "sample_locations", "depth", "depth_clear"});
+    context.known_keys(table, "[target]",
+                       {"size", "samples", "sample_locations", "depth", "depth_clear", "color",
+                        "attachments"});
     read_depth_target(context, table, target);
     read_samples(context, table, target);
     read_locations(context, table, target);
+    if (const TomlValue* color = table.find("color")) {
+        target.color = read_color_target(context, *color);
+    }
+    read_attachments(context, table, target);
     const TomlValue* size = table.find("size");
     if (size == nullptr) {
         context.error(table.where, "[target] has no size; write size = [width, height]");

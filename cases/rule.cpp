@@ -163,6 +163,28 @@ constexpr std::array kRules = {
     Rule{"fragcoord.w", Profile::practice, "FragCoord.w is the interpolated 1/w",
          "Linear in framebuffer space; binary32 budget.", "interfaces-builtin-variables-fragcoord",
          "", "ref/value.hpp"},
+    Rule{"store.unorm", Profile::vulkan, "A colour is stored as one of the two nearest codes",
+         "r = f (2^b - 1) of the clamped value; a whole r is stored as it is, otherwise one of its two "
+         "neighbours. Direct3D allows 0.6 of a unit.",
+         "fundamentals-fpfixedconv", "3.2.3.6", "ref/blend.hpp"},
+    Rule{"store.srgb", Profile::vulkan, "An sRGB target stores one of the two nearest codes",
+         "The linear value is encoded by the sRGB transfer function and stored as a neighbouring code.",
+         "fundamentals-fpfixedconv", "3.2.3.6", "ref/blend.hpp"},
+    Rule{"store.half", Profile::vulkan, "A half holds one of the two neighbours of a value",
+         "The rounding direction is not defined; what a half can represent is kept.",
+         "fundamentals-fp-conversion", "3.2.2", "ref/blend.hpp"},
+    Rule{"store.float", Profile::vulkan, "A binary32 target holds what the shader wrote",
+         "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2", "ref/blend.hpp"},
+    Rule{"store.integer", Profile::vulkan, "An integer target holds what the shader wrote",
+         "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2", "ref/blend.hpp"},
+    Rule{"blend.equation", Profile::vulkan, "Blending follows its equation",
+         "As if in floating point, with a precision no lower than the destination's: every intermediate "
+         "may be rounded to a neighbour in the destination's format. Fixed-point targets clamp source, "
+         "factors and result. What is representable throughout is exact.",
+         "framebuffer-blending", "17.5", "ref/blend.hpp"},
+    Rule{"blend.write-mask", Profile::vulkan, "A masked component keeps its value",
+         "Components whose bit is not in the write mask are left as they were.",
+         "framebuffer-color-write-mask", "17.5", "ref/blend.hpp"},
     Rule{"write.consistent", Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
          "blending of "

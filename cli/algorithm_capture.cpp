@@ -41,6 +41,7 @@ diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Dev
             capture.attributes[a][index] = is_written ? sample.values.attributes[a] : clear;
         }
     }
+    add_color(capture, c);
     return capture;
 }
 

@@ -51,6 +51,7 @@ void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t
     for (auto& attribute : c.attributes) {
         move(attribute);
     }
+    move(c.color);
     move(c.depth);
 }
 
@@ -207,6 +208,7 @@ diff::Capture draw_by_reference(const cases::Case& c) {
             }
         }
     }
+    add_color(capture, c);
     diff::vary(capture, c.variation);
     return capture;
 }

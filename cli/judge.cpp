@@ -129,6 +129,7 @@ uint64_t capture_bits(const diff::CaptureView& capture) {
     for (const std::span<const glm::vec4> attribute : capture.attributes) {
         add(raw(attribute));
     }
+    add(raw(capture.color));
     return sum;
 }
 
@@ -137,9 +138,7 @@ uint64_t capture_bytes(const cases::Case& c) {
     for (const cases::Draw& draw : c.draws) {
         attributes = std::max(attributes, draw.attributes.size());
     }
-    const uint64_t sample =
-        sizeof(glm::vec4) * (2 + attributes) + sizeof(diff::Writer) + sizeof(float);
-    return sample * c.target.width * c.target.height * c.target.samples;
+    return diff::plane_bytes(c.target, static_cast<uint32_t>(attributes));
 }
 
 Pool::Pool(unsigned threads) : event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {

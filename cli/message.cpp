@@ -216,8 +216,9 @@ std::string encode_result(const CaseResult& result) {
     const Rendered& r = result.rendered;
     const diff::Capture& c = r.capture;
     ByteWriter out;
-    out.reserve(256 +
-                c.hits.size() * (sizeof(glm::vec4) * (3 + c.attribute_count) + sizeof(float)));
+    out.reserve(256 + (c.hits.empty() && c.color.empty()
+                           ? 0
+                           : diff::plane_bytes(c.target, c.attribute_count)));
     out.value(result.index);
     out.value(static_cast<uint32_t>(r.status));
     out.text(r.reason);
@@ -239,6 +240,7 @@ std::string encode_result(const CaseResult& result) {
     for (const std::vector<glm::vec4>& attribute : c.attributes) {
         out.plane(attribute);
     }
+    out.plane(c.color);
     return out.take();
 }
 
@@ -273,6 +275,7 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
         for (std::vector<glm::vec4>& attribute : c.attributes) {
             in.plane(attribute);
         }
+        in.plane(c.color);
     }
     if (!in.finished() || status > static_cast<uint32_t>(Rendered::Status::error) ||
         c.attribute_count > cases::kMaxAttributes) {
@@ -292,13 +295,7 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
         }
     }
     if (r.status == Rendered::Status::drawn && !result.is_shared) {
-        const size_t n = c.sample_count();
-        bool fits = c.hits.size() == n && c.writers.size() == n && c.frag_coord.size() == n &&
-                    c.depth.size() == n;
-        for (uint32_t a = 0; a < c.attribute_count; ++a) {
-            fits = fits && c.attributes[a].size() == n;
-        }
-        if (!fits) {
+        if (!diff::has_all_planes(c)) {
             return std::nullopt;
         }
     }

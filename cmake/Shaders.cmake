@@ -22,7 +22,8 @@ function(edgecase_compile_shader source output variants)
     set(EDGECASE_SHADER_INCLUDES "${EDGECASE_SHADER_INCLUDES}#include \"${output}.inc\"\n" PARENT_SCOPE)
 endfunction()
 
-edgecase_compile_shader(copy_samples.comp copy "copy_color=-DDEPTH=0;copy_depth=-DDEPTH=1")
+edgecase_compile_shader(copy_samples.comp copy
+    "copy_depth=-DDEPTH=1;copy_1=-DDEPTH=0,-DWORDS=1;copy_2=-DDEPTH=0,-DWORDS=2;copy_4=-DDEPTH=0,-DWORDS=4")
 
 # Vertex shaders: attributes x (clip x cull distances without routing, and routing without distances).
 # Each row of a table is a variant: what it was compiled for, then its words.
@@ -112,6 +113,7 @@ file(CONFIGURE OUTPUT ${EDGECASE_SHADER_DIR}/modules.inc CONTENT
 ${EDGECASE_SHADER_INCLUDES}
 constexpr Module<VertexVariant> kVertex[] = {
 ${vertex_table}};
+constexpr std::span<const uint32_t> kCopy[] = {copy_depth, copy_1, copy_2, copy_4};
 constexpr Module<FragmentVariant> kFragment[] = {
 ${fragment_table}};
 ")

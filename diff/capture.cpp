@@ -17,6 +17,10 @@ bool is_poison(const glm::vec4& v) {
     return is_poison(v.x) || is_poison(v.y) || is_poison(v.z) || is_poison(v.w);
 }
 
+bool is_poison(const ColorCodes& codes) {
+    return codes == ColorCodes{kPoison, kPoison, kPoison, kPoison};
+}
+
 bool same_bits(float a, float b) {
     return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
 }
@@ -45,7 +49,9 @@ bool is_all_clear(const CaptureView& capture, size_t index) {
     static const glm::vec4 kCleared(kClearValue);
     bool clear = same_bits(capture.hits[index], kNoHits) && capture.writers[index] == Writer{} &&
                  same_bits(capture.frag_coord[index], kCleared) &&
-                 is_clear_depth(capture.target, capture.depth[index]);
+                 (capture.depth.empty() ||
+                  is_clear_depth(capture.target, capture.depth[index]));
+    clear = clear && (capture.color.empty() || !is_poison(capture.color[index]));
     for (uint32_t a = 0; clear && a < capture.attribute_count; ++a) {
         clear = same_bits(capture.attributes[a][index], kCleared);
     }
@@ -66,17 +72,23 @@ bool is_clear_depth(const cases::Target& target, float depth) {
 }
 
 SampleState sample_state(const CaptureView& capture, size_t index) {
+    if (!capture.target.has_instruments) {
+        const bool poison = (!capture.color.empty() && is_poison(capture.color[index])) ||
+                            (!capture.depth.empty() && is_poison(capture.depth[index]));
+        return poison ? SampleState::not_copied : SampleState::drawn;
+    }
     if (is_all_clear(capture, index)) {
         return SampleState::clear;
     }
     const glm::vec4& hits = capture.hits[index];
     const Writer& writer = capture.writers[index];
     const glm::vec4& frag_coord = capture.frag_coord[index];
-    const float depth = capture.depth[index];
+    const float depth = capture.depth.empty() ? kClearDepth : capture.depth[index];
 
-    bool poison = is_poison(hits) || is_poison(frag_coord) || is_poison(depth) ||
-                  writer.draw == kPoison || writer.primitive == kPoison ||
-                  writer.provoking_vertex == kPoison || writer.spare == kPoison;
+    bool poison = (!capture.color.empty() && is_poison(capture.color[index])) || is_poison(hits) ||
+                  is_poison(frag_coord) || is_poison(depth) || writer.draw == kPoison ||
+                  writer.primitive == kPoison || writer.provoking_vertex == kPoison ||
+                  writer.spare == kPoison;
     bool attributes_clear = true;
     for (uint32_t a = 0; a < capture.attribute_count; ++a) {
         poison = poison || is_poison(capture.attributes[a][index]);
@@ -92,7 +104,7 @@ SampleState sample_state(const CaptureView& capture, size_t index) {
         return SampleState::inconsistent;
     }
     const bool nothing_written = writer == Writer{} && is_clear(frag_coord) && attributes_clear &&
-                                 is_clear_depth(capture.target, depth);
+                                 (capture.depth.empty() || is_clear_depth(capture.target, depth));
     if (same_bits(hits.x + hits.y, 0.0F)) {
         return nothing_written ? SampleState::clear : SampleState::inconsistent;
     }

@@ -76,6 +76,11 @@ struct Writer {
 };
 inline constexpr uint32_t kNoPrimitive = 0xffffffefU;
 
+// The stored code of each component of the colour target, widened to 32 bits: UNORM codes, float
+// and half bits, integers. Components that the format lacks are 0. kPoison in all four: not copied.
+using ColorCodes = std::array<uint32_t, 4>;
+
+// Which planes a target has. Without instruments only `color` and `depth` are there.
 struct Capture {
     cases::Target target;
     bool has_primitive = false;  // Writer::primitive is meaningful
@@ -86,6 +91,7 @@ struct Capture {
     std::vector<glm::vec4> frag_coord;  // of the last writer
     std::vector<float> depth;           // of the last writer whose draw writes depth
     std::array<std::vector<glm::vec4>, cases::kMaxAttributes> attributes;  // of the last writer
+    std::vector<ColorCodes> color;                                         // Target::color
 
     size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
 };
@@ -100,6 +106,7 @@ struct CaptureView {
     std::span<const glm::vec4> frag_coord;
     std::span<const float> depth;
     std::array<std::span<const glm::vec4>, cases::kMaxAttributes> attributes;
+    std::span<const ColorCodes> color;
 
     CaptureView() = default;
     CaptureView(const Capture& c)  // not explicit: a capture is a view of itself
@@ -109,7 +116,8 @@ struct CaptureView {
           hits(c.hits),
           writers(c.writers),
           frag_coord(c.frag_coord),
-          depth(c.depth) {
+          depth(c.depth),
+          color(c.color) {
         for (size_t a = 0; a < attributes.size(); ++a) {
             attributes[a] = c.attributes[a];
         }
@@ -118,11 +126,15 @@ struct CaptureView {
 };
 
 // Bytes of all planes of a capture, one after the other: hits, writers, frag_coord, attributes,
-// depth.
+// color, depth; those that the target has.
 inline uint64_t plane_bytes(const cases::Target& target, uint32_t attribute_count) {
     const uint64_t samples = uint64_t{target.width} * target.height * target.samples;
-    return samples *
-           (sizeof(glm::vec4) * (2 + uint64_t{attribute_count}) + sizeof(Writer) + sizeof(float));
+    const uint64_t instruments =
+        target.has_instruments
+            ? sizeof(glm::vec4) * (2 + uint64_t{attribute_count}) + sizeof(Writer)
+            : 0;
+    return samples * (instruments + (target.color ? sizeof(ColorCodes) : 0) +
+                      (target.has_depth ? sizeof(float) : 0));
 }
 
 // The capture whose planes lie at `planes`: plane_bytes() bytes, aligned to 16.
@@ -134,20 +146,39 @@ inline CaptureView view_planes(const cases::Target& target, bool has_primitive,
     view.attribute_count = attribute_count;
     const size_t count = view.sample_count();
     // Storage of bytes holds whatever objects were written there (C++20, implicit object creation).
-    const auto vectors = [&] {
-        const auto* first = reinterpret_cast<const glm::vec4*>(planes);
-        planes += count * sizeof(glm::vec4);
-        return std::span(first, count);
+    const auto take = [&]<class T>(std::span<const T>& plane) {
+        plane = std::span(reinterpret_cast<const T*>(planes), count);
+        planes += count * sizeof(T);
     };
-    view.hits = vectors();
-    view.writers = std::span(reinterpret_cast<const Writer*>(planes), count);
-    planes += count * sizeof(Writer);
-    view.frag_coord = vectors();
-    for (uint32_t a = 0; a < attribute_count; ++a) {
-        view.attributes[a] = vectors();
+    if (target.has_instruments) {
+        take(view.hits);
+        take(view.writers);
+        take(view.frag_coord);
+        for (uint32_t a = 0; a < attribute_count; ++a) {
+            take(view.attributes[a]);
+        }
     }
-    view.depth = std::span(reinterpret_cast<const float*>(planes), count);
+    if (target.color) {
+        take(view.color);
+    }
+    if (target.has_depth) {
+        take(view.depth);
+    }
     return view;
+}
+
+// True if the planes are those that the target has, one entry a sample.
+inline bool has_all_planes(const CaptureView& c) {
+    const size_t count = c.sample_count();
+    const size_t instruments = c.target.has_instruments ? count : 0;
+    bool fits = c.hits.size() == instruments && c.writers.size() == instruments &&
+                c.frag_coord.size() == instruments &&
+                c.color.size() == (c.target.color ? count : 0) &&
+                c.depth.size() == (c.target.has_depth ? count : 0);
+    for (uint32_t a = 0; a < c.attribute_count; ++a) {
+        fits = fits && c.attributes[a].size() == instruments;
+    }
+    return fits;
 }
 
 // What the sample's bits say before any expectation is asked.
@@ -157,6 +188,7 @@ enum class SampleState : uint8_t {
     not_copied,    // poison: read-back failed
     inconsistent,  // anything else: the attachments contradict each other
 };
+// Without instruments: `drawn`, which then says nothing, or `not_copied`.
 SampleState sample_state(const CaptureView& capture, size_t index);
 
 // Whether a captured depth is the target's clear value as its format stores it: the bits of D32,

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "diff/attribution.hpp"
+#include "diff/color.hpp"
 #include "diff/pixel_check.hpp"
 #include "diff/verdict.hpp"
 
@@ -22,7 +24,10 @@ class Comparison {
           capture_(capture),
           attribution_(c, expectation),
           values_(c, expectation.limits, expectation.profile),
-          has_pixel_rules_(has_pixel_rules(c)) {
+          has_pixel_rules_(c.target.has_instruments && has_pixel_rules(c)) {
+        if (c.target.color) {
+            color_.emplace(c, expectation, capture_, attribution_);
+        }
         verdict_.profile = expectation.profile;
         verdict_.level = expectation.profile;
         verdict_.must_samples = expectation.must_samples;
@@ -62,10 +67,7 @@ class Comparison {
   private:
     // Why there is nothing to judge; empty if there is.
     std::string unusable() const {
-        const size_t count = capture_.sample_count();
-        if (capture_.target != case_.target || capture_.hits.size() != count ||
-            capture_.writers.size() != count || capture_.frag_coord.size() != count ||
-            capture_.depth.size() != count) {
+        if (capture_.target != case_.target || !has_all_planes(capture_)) {
             return fmt::format(
                 "the capture has another size than the case's {}x{} target with {} sample(s)",
                 case_.target.width, case_.target.height, case_.target.samples);
@@ -75,7 +77,7 @@ class Comparison {
             attributes = std::max(attributes, draw.attributes.size());
         }
         for (size_t a = 0; a < attributes; ++a) {
-            if (capture_.attribute_count <= a || capture_.attributes[a].size() != count) {
+            if (case_.target.has_instruments && capture_.attribute_count <= a) {
                 return fmt::format("the capture lacks attribute {} of the case", a);
             }
         }
@@ -91,7 +93,7 @@ class Comparison {
         const ref::SampleExpectation& expected = expectation_.samples[index];
         const ref::HitBounds& bounds = expected.hits;
         const SampleState state = sample_state(capture_, index);
-        if (state == SampleState::clear && bounds == ref::HitBounds{}) {
+        if (state == SampleState::clear && bounds == ref::HitBounds{} && !color_) {
             ++verdict_.compared_samples;  // marks and hits are zero already
             return;
         }
@@ -103,6 +105,11 @@ class Comparison {
         }
         ++verdict_.compared_samples;
 
+        if (!case_.target.has_instruments && state == SampleState::drawn) {
+            verdict_.device_hits[index] = color_->hits_for_pictures(index);
+            judge_color(index, id, std::nullopt);
+            return;
+        }
         switch (state) {
             case SampleState::not_copied:
                 verdict_.error = fmt::format(
@@ -124,7 +131,8 @@ class Comparison {
                     "FragCoord.x {}, "
                     "depth {}",
                     h.x, h.y, h.z, h.w, w.draw, w.primitive, w.provoking_vertex,
-                    capture_.frag_coord[index].x, capture_.depth[index]);
+                    capture_.frag_coord[index].x,
+                    capture_.depth.empty() ? kClearDepth : capture_.depth[index]);
                 finding.why = "the attachments of one sample contradict each other";
                 verdict_.device_hits[index] = 255;
                 add(std::move(finding), index);
@@ -150,6 +158,18 @@ class Comparison {
         }
         if (front + back > 0) {
             judge_writer(index, id, expected);
+        } else {
+            judge_color(index, id, std::nullopt);
+        }
+    }
+
+    void judge_color(size_t index, ref::SampleId id, std::optional<uint32_t> writer) {
+        if (!color_) {
+            return;
+        }
+        ++verdict_.compared_values;
+        if (std::optional<Finding> finding = color_->judge(index, id, writer)) {
+            add(std::move(*finding), index);
         }
     }
 
@@ -184,7 +204,7 @@ class Comparison {
         const Writer& writer = capture_.writers[index];
         ref::FragmentValues device;
         device.frag_coord = capture_.frag_coord[index];
-        device.depth = capture_.depth[index];
+        device.depth = capture_.depth.empty() ? 0.0F : capture_.depth[index];
         for (uint32_t a = 0; a < capture_.attribute_count; ++a) {
             device.attributes[a] = capture_.attributes[a][index];
         }
@@ -220,6 +240,7 @@ class Comparison {
             verdict_.worst_ratio = best->worst_ratio;
             verdict_.worst_quantity = fmt::format("pixel ({}, {})", id.x, id.y);
         }
+        judge_color(index, id, best_triangle);
         for (ref::ValueMismatch& m : best->mismatches) {
             Finding finding = at(FindingKind::value, id);
             finding.rule = m.rule;
@@ -379,6 +400,7 @@ class Comparison {
     Attribution attribution_;
     ref::ValueReference values_;
     bool has_pixel_rules_ = false;
+    std::optional<ColorComparison> color_;
     Verdict verdict_;
 };
 

@@ -45,6 +45,7 @@ std::array<PlaneWords, kPlanes> planes_of(const CaptureView& capture) {
         planes[3 + a] = words_of(capture.attributes[a]);
     }
     planes[kDepthPlane] = words_of(capture.depth);
+    planes[kColorPlane] = words_of(capture.color);
     return planes;
 }
 

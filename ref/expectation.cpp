@@ -131,6 +131,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
             for (uint32_t s = 0; s < c.target.samples; ++s, ++at, ++k) {
                 SampleExpectation& sample = out.samples[at];
                 const std::span<const Hit> hits = is_touched ? table.of(k) : std::span<const Hit>();
+                add_fragments(out, c, hits);
                 if (hits.empty()) {
                     sample.writers_begin = static_cast<uint32_t>(out.writers.size());
                     continue;

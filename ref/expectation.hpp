@@ -42,6 +42,13 @@ struct SampleExpectation {
     friend bool operator==(const SampleExpectation&, const SampleExpectation&) = default;
 };
 
+// A triangle that must or may cover a sample.
+struct PossibleHit {
+    uint32_t triangle = 0;
+    bool is_certain = false;
+    friend bool operator==(const PossibleHit&, const PossibleHit&) = default;
+};
+
 struct Expectation {
     Limits limits;
     cases::Profile profile = cases::Profile::direct3d;
@@ -50,6 +57,10 @@ struct Expectation {
     std::vector<SampleExpectation> samples;  // [(j * width + i) * samples + s]
     std::vector<uint32_t> writers;
     std::vector<uint32_t> depth_writers;
+    // If the target has a colour: the triangles that must or may cover sample i, in drawing order,
+    // are fragments[fragments_begin[i] .. fragments_begin[i + 1]).
+    std::vector<PossibleHit> fragments;
+    std::vector<uint32_t> fragments_begin;
     uint64_t must_samples = 0;    // samples that must be hit at least once: the control of the case
     uint64_t either_samples = 0;  // samples where more than one answer is allowed
 };

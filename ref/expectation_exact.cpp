@@ -37,6 +37,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                         hits.push_back({t, coverage});
                     }
                 }
+                add_fragments(out, c, hits);
                 const SampleExpectation sample =
                     narrowing.judge(p, s, hits, out.writers, out.depth_writers);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;

@@ -54,6 +54,25 @@ struct Predicates {
     bool (*is_inside_whole)(const TriangleSetup&, const Outline&, const FixedPoint&);
 };
 
+// Keeps the hits of the next sample for the colour target, if the case has one.
+inline void add_fragments(Expectation& out, const cases::Case& c, std::span<const Hit> hits) {
+    if (!out.target.color) {
+        return;
+    }
+    if (out.fragments_begin.empty()) {
+        out.fragments_begin.push_back(0);
+    }
+    for (const Hit& hit : hits) {
+        // A depth test or a mask may still take it away; the bounds of the sample know how many.
+        const cases::Draw& draw = c.draws[out.triangles[hit.triangle].draw];
+        const bool passes = draw.depth.compare == cases::CompareOp::always &&
+                            draw.multisample.sample_mask == 0xffffffffU &&
+                            !draw.multisample.shader_mask;
+        out.fragments.push_back({hit.triangle, passes && hit.coverage == Coverage::must});
+    }
+    out.fragments_begin.push_back(static_cast<uint32_t>(out.fragments.size()));
+}
+
 class Narrowing {
   public:
     Narrowing(const cases::Case& c, cases::Profile profile, const std::vector<Triangle>& triangles,

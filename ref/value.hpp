@@ -69,6 +69,13 @@ struct ExpectedValue {
     bool is_flat = false;  // compared bit for bit
 };
 
+// All that a value may be under a profile, rounded outwards to binary64.
+struct ValueRange {
+    bool is_promised = false;  // false: nothing is claimed of the value
+    double low = 0, high = 0;
+};
+inline constexpr int32_t kDepthAttribute = -2;
+
 // Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
 // Which values of a fragment are judged: the depth plane may hold an older fragment than the others,
 // if the last one does not write depth.
@@ -90,6 +97,10 @@ class ValueReference {
 
     // The exact values of triangle t at a sample, unsnapped basis.
     std::vector<ExpectedValue> expected(uint32_t t, SampleId sample);
+
+    // What component `component` of an attribute (index into Draw::attributes, or kDepthAttribute)
+    // may be; a point if it is flat. Components beyond the attribute's are 0.
+    ValueRange range(uint32_t t, SampleId sample, int32_t attribute, uint32_t component);
 
   private:
     struct Impl;

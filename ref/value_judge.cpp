@@ -548,6 +548,68 @@ FragmentVerdict ValueReference::judge_exact(uint32_t t, SampleId sample,
     return impl_->judge(t, sample, device, true);
 }
 
+ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
+                                 uint32_t component) {
+    const value::Primitive& primitive = impl_->load(t).primitive;
+    if (!primitive.is_finite) {
+        return {};
+    }
+    if (attribute >= 0) {
+        const cases::Attribute& a = primitive.draw->attributes[static_cast<size_t>(attribute)];
+        if (component >= a.components) {
+            return {true, 0, 0};
+        }
+        if (a.interpolation == cases::Interpolation::flat) {
+            const auto v = static_cast<double>(
+                a.values[primitive.triangle.provoking]
+                        [static_cast<glm::vec4::length_type>(component)]);
+            return {std::isfinite(v), v, v};
+        }
+    }
+    const std::vector<Quantity>& all = impl_->quantities_of(t);
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) {
+        return q.attribute == attribute && q.component == component &&
+               (q.kind == Kind::linear || q.kind == Kind::perspective);
+    });
+    const auto index = static_cast<size_t>(found - all.begin());
+    const std::vector<size_t> asked = impl_->asked(t, impl_->profile);
+    if (found == all.end() || std::find(asked.begin(), asked.end(), index) == asked.end()) {
+        return {};
+    }
+    const std::span<const Quantity> span(all);
+    const auto& balls = impl_->balls.get(t, impl_->profile, [&] {
+        return value::make_wide_set<Ball>(primitive, span, impl_->limits, impl_->profile);
+    });
+    ValueRange out;
+    value::WideRange<Ball> range;
+    range.is_known = false;
+    if (balls.is_known) {
+        range = value::range_wide(balls, span, primitive.is_projectable,
+                                  value::evaluations<Ball>(
+                                      impl_->fragment(t, sample, impl_->profile), impl_->profile),
+                                  index);
+    }
+    if (range.is_known) {
+        out = {!range.is_free, range.range.low.v - range.range.low.e,
+               range.range.high.v + range.range.high.e};
+    } else {
+        const auto& exact = impl_->rationals.get(t, impl_->profile, [&] {
+            return value::make_wide_set<mpq_class>(primitive, span, impl_->limits, impl_->profile);
+        });
+        const auto wide = value::range_wide(
+            exact, span, primitive.is_projectable,
+            value::evaluations<mpq_class>(impl_->fragment(t, sample, impl_->profile),
+                                          impl_->profile),
+            index);
+        out = {!wide.is_free, wide.range.low.get_d(), wide.range.high.get_d()};
+    }
+    // Outwards: a subtraction rounds by half an ulp, get_d truncates by less than one.
+    out.low = std::nextafter(std::nextafter(out.low, -HUGE_VAL), -HUGE_VAL);
+    out.high = std::nextafter(std::nextafter(out.high, HUGE_VAL), HUGE_VAL);
+    out.is_promised = out.is_promised && std::isfinite(out.low) && std::isfinite(out.high);
+    return out;
+}
+
 std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample) {
     const value::Primitive& primitive = impl_->load(t).primitive;
     std::vector<ExpectedValue> out;

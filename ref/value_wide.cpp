@@ -3,6 +3,7 @@
 #include "ref/value_wide.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -552,6 +553,33 @@ template DepthReach<Ball> reach_of_depth<Ball>(const WideSet<Ball>&, const Quant
                                                const Point<Ball>&);
 template DepthReach<mpq_class> reach_of_depth<mpq_class>(const WideSet<mpq_class>&, const Quantity&,
                                                          bool, const Point<mpq_class>&);
+template <class T>
+WideRange<T> range_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
+                        size_t index) {
+    const std::array<size_t, 1> only = {index};
+    std::vector<Reach<T>> reaches(quantities.size());
+    const FragmentValues nothing;  // only reports ask for the device's values
+    for (const Evaluation<T>& where : evaluations) {
+        for (const Candidate<T>& candidate : set.candidates) {
+            // A piece that may be near counts: the range is an upper bound.
+            if (!candidate.is_piece ||
+                is_near(candidate.bases.front(), where.sample, set.margin) != Answer::no) {
+                add_candidate(set, candidate, quantities, is_projectable, where, only, nothing,
+                              reaches);
+            }
+        }
+    }
+    const Reach<T>& reach = reaches[index];
+    return {reach.is_known, reach.is_free || reach.is_undefined || reach.is_first, reach.range};
+}
+
+template WideRange<Ball> range_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
+                                          const std::vector<Evaluation<Ball>>&, size_t);
+template WideRange<mpq_class> range_wide<mpq_class>(const WideSet<mpq_class>&,
+                                                    std::span<const Quantity>, bool,
+                                                    const std::vector<Evaluation<mpq_class>>&,
+                                                    size_t);
 template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
                                       const std::vector<Evaluation<Ball>>&, const FragmentValues&,
                                       std::span<const size_t>);

@@ -82,4 +82,16 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
                        const FragmentValues& device, std::span<const size_t> only);
 
+// Everything that a quantity may be, whichever candidate and place the device uses.
+template <class T>
+struct WideRange {
+    bool is_known = true;
+    bool is_free = false;  // nothing is claimed of it
+    Range<T> range;
+};
+template <class T>
+WideRange<T> range_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
+                        size_t index);
+
 }  // namespace ref::value

@@ -4,9 +4,20 @@
 // Copies every sample of a multisampled attachment to a buffer, word (j * width + i) * samples + s. A
 // resolve would combine or choose samples in an implementation-dependent way; this reads each one.
 // Colour is read through an unsigned view of the float image, so that no bit can change on the way.
-// DEPTH is defined by the build.
+// DEPTH, and of colour the WORDS a sample (1, 2 or 4), are defined by the build.
 #version 450
 #extension GL_EXT_samplerless_texture_functions : require
+
+#if WORDS == 4
+#define WORD uvec4
+#define TAKE(texel) (texel)
+#elif WORDS == 2
+#define WORD uvec2
+#define TAKE(texel) ((texel).xy)
+#else
+#define WORD uint
+#define TAKE(texel) ((texel).x)
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -25,7 +36,7 @@ layout(set = 0, binding = 1, std430) writeonly buffer Words {
 #else
 layout(set = 0, binding = 0) uniform utexture2DMS source;
 layout(set = 0, binding = 1, std430) writeonly buffer Words {
-    uvec4 words[];
+    WORD words[];
 };
 #endif
 
@@ -39,7 +50,7 @@ void main() {
 #if DEPTH
         words[first + s] = floatBitsToUint(texelFetch(source, ivec2(pixel), int(s)).r);
 #else
-        words[first + s] = texelFetch(source, ivec2(pixel), int(s));
+        words[first + s] = TAKE(texelFetch(source, ivec2(pixel), int(s)));
 #endif
     }
 }

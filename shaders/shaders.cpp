@@ -36,8 +36,8 @@ std::span<const uint32_t> capture_fragment(const FragmentVariant& variant) {
     return find(kFragment, variant);
 }
 
-std::span<const uint32_t> copy_samples(bool depth) {
-    return depth ? std::span<const uint32_t>(copy_depth) : std::span<const uint32_t>(copy_color);
+std::span<const uint32_t> copy_samples(bool depth, uint32_t words) {
+    return kCopy[depth ? 0U : words == 4 ? 3U : words];
 }
 
 std::span<const uint32_t> any_module(size_t i) {
@@ -49,7 +49,7 @@ std::span<const uint32_t> any_module(size_t i) {
         return kFragment[i].code;
     }
     i -= std::size(kFragment);
-    return i < 2 ? copy_samples(i == 1) : std::span<const uint32_t>();
+    return i < std::size(kCopy) ? kCopy[i] : std::span<const uint32_t>();
 }
 
 }  // namespace shaders

@@ -74,8 +74,8 @@ static_assert(sizeof(DrawConstants) == 32);
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);
 std::span<const uint32_t> capture_fragment(const FragmentVariant& variant);
 
-// copy_samples.comp for colour or depth attachments.
-std::span<const uint32_t> copy_samples(bool depth);
+// copy_samples.comp for depth attachments, or colour attachments with `words` (1, 2 or 4) a sample.
+std::span<const uint32_t> copy_samples(bool depth, uint32_t words);
 
 // Number i of all modules, for tests; empty beyond the last.
 std::span<const uint32_t> any_module(size_t i);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/color.hpp"
 #include "vk_harness/pipeline_key.hpp"
 #include "vk_harness/target.hpp"
 
@@ -98,7 +99,11 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
     if (auto rejection = check_locations(c, t)) {
         return rejection;
     }
-    const uint32_t colors = kFixedAttachments + attribute_count(test);
+    const std::vector<Attachment> attachments = attachments_of(test);
+    if (attachments.empty()) {
+        return invalid("the target has no attachments");
+    }
+    const uint32_t colors = color_count(attachments);
     if (colors > c.info.max_color_attachments) {
         return unsupported(fmt::format("the case needs {} colour attachments, the device has {}",
                                        colors, c.info.max_color_attachments));
@@ -115,10 +120,46 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
             fmt::format("an attachment of {} bytes exceeds the device's largest allocation of {}",
                         words * 16, c.max_allocation));
     }
-    const VkDeviceSize needed = attachment_bytes(t, colors);
+    const VkDeviceSize needed = attachment_bytes(t, attachments);
     if (needed > c.total_memory) {
         return unsupported(fmt::format("the attachments take {} bytes, the device has {}", needed,
                                        c.total_memory));
+    }
+    return std::nullopt;
+}
+
+// The colour target's format, as an attachment, blended where a draw blends, read back.
+std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& test) {
+    if (!test.target.color) {
+        return std::nullopt;
+    }
+    const auto& color = *test.target.color;
+    const bool blends = std::any_of(test.draws.begin(), test.draws.end(),
+                                    [](const auto& draw) { return draw.color.blend.has_value(); });
+    if (blends && is_integer(color.format)) {
+        return invalid("a target of integers is blended");
+    }
+    const bool multisampled = test.target.samples > 1;
+    const VkFormatFeatureFlags needed =
+        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
+        (blends ? VkFormatFeatureFlags{VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT} : 0U) |
+        (multisampled ? VkFormatFeatureFlags{VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT}
+                      : VkFormatFeatureFlags{VK_FORMAT_FEATURE_TRANSFER_SRC_BIT});
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(c.physical, to_vulkan(color.format), &properties);
+    if ((properties.optimalTilingFeatures & needed) != needed) {
+        return unsupported(fmt::format("the device does not draw{} to the colour format {}",
+                                       blends ? " and blend" : "", cases::name_of(color.format)));
+    }
+    VkImageFormatProperties image{};
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+        c.physical, to_vulkan(color.format), VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
+        color_usage(test.target.samples), color_flags(test.target.samples), &image);
+    if (result != VK_SUCCESS || (image.sampleCounts & test.target.samples) == 0 ||
+        image.maxExtent.width < test.target.width || image.maxExtent.height < test.target.height) {
+        return unsupported(fmt::format(
+            "the device has no {} x {} target of format {} with {} samples", test.target.width,
+            test.target.height, cases::name_of(color.format), test.target.samples));
     }
     return std::nullopt;
 }
@@ -273,6 +314,12 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         if (auto rejection = check_draw(capabilities, draw)) {
             return rejection;
         }
+        if (draw.color.attribute >= std::ssize(draw.attributes)) {
+            return invalid("a draw's colour comes from an attribute that it does not have");
+        }
+    }
+    if (auto rejection = check_color(capabilities, c)) {
+        return rejection;
     }
     if (c.draws.size() >= kMaxId) {
         return unsupported(fmt::format("the case has {} draws, the harness tells {} apart",
@@ -291,6 +338,24 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         return unsupported(std::move(*missing));
     }
     return check_target(capabilities, c);
+}
+
+uint32_t input_count(const cases::Case& c) {
+    if (c.target.has_instruments) {
+        return attribute_count(c);
+    }
+    return std::any_of(c.draws.begin(), c.draws.end(),
+                       [](const cases::Draw& draw) { return draw.color.attribute >= 0; })
+               ? 1
+               : 0;
+}
+
+const cases::Attribute* input_attribute(const cases::Case& c, const cases::Draw& draw,
+                                        uint32_t input) {
+    const int64_t index = c.target.has_instruments ? int64_t{input} : draw.color.attribute;
+    return index >= 0 && index < std::ssize(draw.attributes)
+               ? &draw.attributes[static_cast<size_t>(index)]
+               : nullptr;
 }
 
 uint32_t attribute_count(const cases::Case& c) {

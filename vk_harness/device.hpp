@@ -68,7 +68,6 @@ class Device {
 
 // Formats of the attachments (diff/capture.hpp).
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-inline constexpr VkFormat kColorBitsFormat = VK_FORMAT_R32G32B32A32_UINT;  // to read bits
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat depth_format(cases::DepthFormat format) {
     switch (format) {

@@ -7,6 +7,8 @@
 #include <bit>
 #include <optional>
 
+#include "vk_harness/attachments.hpp"
+
 namespace vk_harness {
 
 namespace {
@@ -152,6 +154,15 @@ Result<void> Buffer::invalidate() const {
     return {};
 }
 
+VkImageUsageFlags color_usage(uint32_t samples) {
+    return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+           (samples > 1 ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+}
+
+VkImageCreateFlags color_flags(uint32_t samples) {
+    return samples > 1 ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0;
+}
+
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
                             uint32_t samples, VkImageCreateFlags flags) {
     const VolkDeviceTable& vk = device.vk();
@@ -214,7 +225,7 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     }
     image.view_ = std::move(*view);
     if (multisampled && !depth) {
-        auto bits = create_view(device, handle, kColorBitsFormat, image.aspect_,
+        auto bits = create_view(device, handle, bits_format(format), image.aspect_,
                                 VK_IMAGE_USAGE_SAMPLED_BIT);
         if (!bits) {
             return fail(bits.error());

@@ -37,6 +37,10 @@ class Buffer {
     bool coherent_ = true;
 };
 
+// Usage and flags of a colour attachment that is copied (one sample) or read sample by sample.
+VkImageUsageFlags color_usage(uint32_t samples);
+VkImageCreateFlags color_flags(uint32_t samples);
+
 // A colour or depth attachment.
 class Image {
   public:

@@ -144,12 +144,14 @@ Result<VkPipeline> PipelineCache::get(const PipelineKey& key) {
     return pipelines_.emplace(key, std::move(*pipeline)).first->second.get();
 }
 
-Result<VkPipeline> PipelineCache::get_copy(bool depth) {
-    const auto found = copies_.find(depth);
+Result<VkPipeline> PipelineCache::get_copy(const Attachment& attachment) {
+    const std::span<const uint32_t> source =
+        shaders::copy_samples(attachment.is_depth(), attachment.sample_bytes / 4);
+    const auto found = copies_.find(source.data());
     if (found != copies_.end()) {
         return found->second.get();
     }
-    auto code = shader_module(shaders::copy_samples(depth));
+    auto code = shader_module(source);
     if (!code) {
         return fail(code.error());
     }
@@ -164,7 +166,7 @@ Result<VkPipeline> PipelineCache::get_copy(bool depth) {
         return fail(call_failure(Stage::pipeline, result, "vkCreateComputePipelines"));
     }
     Handle<VkPipeline> owned(device_->get(), pipeline, device_->vk().vkDestroyPipeline);
-    return copies_.emplace(depth, std::move(owned)).first->second.get();
+    return copies_.emplace(source.data(), std::move(owned)).first->second.get();
 }
 
 Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) {
@@ -202,7 +204,8 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     ColorState color;
     color_state(key, color);
 
-    const std::array<VkDynamicState, 10> dynamic_states = {
+    const std::array<VkDynamicState, 11> dynamic_states = {
+        VK_DYNAMIC_STATE_BLEND_CONSTANTS,
         VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,   VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
         VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,  VK_DYNAMIC_STATE_DEPTH_BIAS,
         VK_DYNAMIC_STATE_VIEWPORT,           VK_DYNAMIC_STATE_SCISSOR,
@@ -217,7 +220,8 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
     rendering.colorAttachmentCount = static_cast<uint32_t>(color.formats.size());
     rendering.pColorAttachmentFormats = color.formats.data();
-    rendering.depthAttachmentFormat = depth_format(key.depth_format);
+    rendering.depthAttachmentFormat =
+        key.has_depth ? depth_format(key.depth_format) : VK_FORMAT_UNDEFINED;
 
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;

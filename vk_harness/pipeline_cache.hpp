@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "vk_harness/device.hpp"
+#include "vk_harness/attachments.hpp"
 #include "vk_harness/pipeline_key.hpp"
 #include "vk_harness/spirv_variant.hpp"
 
@@ -21,8 +21,8 @@ class PipelineCache {
 
     // The pipeline of that key, made at the first call.
     Result<VkPipeline> get(const PipelineKey& key);
-    // The compute pipeline that copies the samples of a colour or depth attachment to a buffer.
-    Result<VkPipeline> get_copy(bool depth);
+    // The compute pipeline that copies the samples of an attachment to a buffer.
+    Result<VkPipeline> get_copy(const Attachment& attachment);
 
     VkPipelineLayout layout() const { return layout_.get(); }
     // Set 0 of a draw: binding 0, the texture whose level of detail is asked for.
@@ -46,7 +46,7 @@ class PipelineCache {
     // By the embedded code's address and the changes.
     std::map<std::pair<const uint32_t*, std::vector<InputChange>>, Handle<VkShaderModule>> modules_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
-    std::map<bool, Handle<VkPipeline>> copies_;
+    std::map<const uint32_t*, Handle<VkPipeline>> copies_;  // by the embedded code's address
 };
 
 // Stages that see shaders::DrawConstants.

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "cases/color.hpp"
+#include "vk_harness/case_check.hpp"
+
 namespace vk_harness {
 
 namespace {
@@ -25,18 +28,30 @@ AttributeKey attribute_key(const cases::Attribute& attribute) {
     return key;
 }
 
+ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& output) {
+    ColorKey key;
+    key.format = to_vulkan(target.format);
+    key.write_mask = output.write_mask;
+    if (output.blend) {
+        key.blends = true;
+        const cases::BlendEquation& c = output.blend->color;
+        const cases::BlendEquation& a = output.blend->alpha;
+        key.equation = {static_cast<uint8_t>(c.source),      static_cast<uint8_t>(c.destination),
+                        static_cast<uint8_t>(c.op),          static_cast<uint8_t>(a.source),
+                        static_cast<uint8_t>(a.destination), static_cast<uint8_t>(a.op)};
+    }
+    return key;
+}
+
 }  // namespace
 
 PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
     PipelineKey key;
-    for (const cases::Draw& other : c.draws) {
-        key.attribute_count =
-            std::max(key.attribute_count, static_cast<uint32_t>(other.attributes.size()));
-    }
+    key.attribute_count = input_count(c);
     key.samples = c.target.samples;
-    for (size_t k = 0; k < key.attribute_count; ++k) {
-        if (k < draw.attributes.size()) {
-            key.attributes[k] = attribute_key(draw.attributes[k]);
+    for (uint32_t k = 0; k < key.attribute_count; ++k) {
+        if (const cases::Attribute* attribute = input_attribute(c, draw, k)) {
+            key.attributes[k] = attribute_key(*attribute);
         } else {
             key.attributes[k].interpolation = cases::Interpolation::flat;
         }
@@ -55,6 +70,16 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
     key.depth_format = c.target.depth_format;
     key.depth_clamp = draw.depth.clamp;
     key.depth_clip = draw.depth.clip;
+    key.has_depth = c.target.has_depth;
+    key.instruments = c.target.has_instruments;
+    if (c.target.color) {
+        key.color = cases::is_integer(c.target.color->format) ? shaders::ColorKind::integer
+                                                              : shaders::ColorKind::number;
+        // Without instruments the only input is the colour.
+        key.color_attribute =
+            key.instruments ? draw.color.attribute : std::min(draw.color.attribute, int32_t{0});
+        key.color_target = color_key(*c.target.color, draw.color);
+    }
     return key;
 }
 

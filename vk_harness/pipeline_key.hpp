@@ -12,6 +12,7 @@
 
 #include "cases/case.hpp"
 #include "shaders/shaders.hpp"
+#include "vk_harness/attachments.hpp"
 
 namespace vk_harness {
 
@@ -24,6 +25,15 @@ struct AttributeKey {
     std::array<uint32_t, 2> offset_bits{};  // of Attribute::probe_offset, if the probe uses it
     uint32_t sample = 0;                    // Attribute::probe_sample, likewise
     friend auto operator<=>(const AttributeKey&, const AttributeKey&) = default;
+};
+
+// The colour target and how it is written.
+struct ColorKey {
+    VkFormat format = VK_FORMAT_UNDEFINED;  // UNDEFINED: there is none
+    bool blends = false;
+    std::array<uint8_t, 6> equation{};  // source, destination, op of colour, then of alpha
+    uint8_t write_mask = 0xf;
+    friend auto operator<=>(const ColorKey&, const ColorKey&) = default;
 };
 
 struct PipelineKey {
@@ -44,12 +54,14 @@ struct PipelineKey {
     cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
     bool depth_clamp = false;
     std::optional<bool> depth_clip = {};
+    bool has_depth = true;
     // Colour output.
     shaders::ColorKind color = shaders::ColorKind::none;
     int32_t color_attribute = -1;
     bool instruments = true;
     // Of cases::Variation.
     uint32_t masked = 0;
+    ColorKey color_target;
     friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };
 

@@ -78,36 +78,56 @@ void multisample_state(const PipelineKey& key, MultisampleState& state) {
     }
 }
 
-VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey&) {
+VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    if (!key.has_depth) {
+        return depth;
+    }
     depth.depthTestEnable = VK_TRUE;  // without the test there is no depth write
     // Compare operation and writes are dynamic.
     return depth;
 }
 
+namespace {
+
+VkPipelineColorBlendAttachmentState blend_state(const ColorKey& key) {
+    VkPipelineColorBlendAttachmentState out{};
+    out.blendEnable = key.blends ? VK_TRUE : VK_FALSE;
+    out.srcColorBlendFactor = static_cast<VkBlendFactor>(key.equation[0]);
+    out.dstColorBlendFactor = static_cast<VkBlendFactor>(key.equation[1]);
+    out.colorBlendOp = static_cast<VkBlendOp>(key.equation[2]);
+    out.srcAlphaBlendFactor = static_cast<VkBlendFactor>(key.equation[3]);
+    out.dstAlphaBlendFactor = static_cast<VkBlendFactor>(key.equation[4]);
+    out.alphaBlendOp = static_cast<VkBlendOp>(key.equation[5]);
+    out.colorWriteMask = key.write_mask;  // bits as VkColorComponentFlagBits
+    return out;
+}
+
+}  // namespace
+
 void color_state(const PipelineKey& key, ColorState& state) {
-    const uint32_t count = kFixedAttachments + key.attribute_count;
-    VkPipelineColorBlendAttachmentState plain{};
-    plain.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    state.blends.assign(count, plain);
+    const uint32_t count = key.instruments ? kFixedAttachments + key.attribute_count : 0;
+    state.blends.assign(count, blend_state(ColorKey()));
     state.formats.assign(count, kColorFormat);
-    VkPipelineColorBlendAttachmentState& hits = state.blends.front();
-    hits.blendEnable = VK_TRUE;
-    hits.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    hits.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    hits.colorBlendOp = VK_BLEND_OP_ADD;
-    hits.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    hits.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    hits.alphaBlendOp = VK_BLEND_OP_ADD;
-    for (uint32_t k = 0; k < kFixedAttachments + key.attribute_count; ++k) {
+    if (key.instruments) {  // hits are added
+        ColorKey add;
+        add.blends = true;
+        add.equation = {VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD,
+                        VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD};
+        state.blends.front() = blend_state(add);
+    }
+    if (key.color_target.format != VK_FORMAT_UNDEFINED) {
+        state.blends.push_back(blend_state(key.color_target));
+        state.formats.push_back(key.color_target.format);
+    }
+    for (uint32_t k = 0; k < count; ++k) {
         if ((key.masked >> k & 1U) != 0) {
             state.blends[k].colorWriteMask = 0;
         }
     }
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    state.info.attachmentCount = count;
+    state.info.attachmentCount = static_cast<uint32_t>(state.blends.size());
     state.info.pAttachments = state.blends.data();
 }
 

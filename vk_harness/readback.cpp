@@ -74,20 +74,19 @@ void decode_writers(std::span<const diff::Writer> from, diff::Writer* to) {
 
 }  // namespace
 
-ReadbackLayout make_layout(const cases::Target& target, uint32_t color_count, VkDeviceSize begin,
-                           VkDeviceSize alignment) {
+ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attachment>& attachments,
+                           VkDeviceSize begin, VkDeviceSize alignment) {
     const VkDeviceSize samples = VkDeviceSize{target.width} * target.height * target.samples;
     const auto align = [alignment](VkDeviceSize offset) {
         return (offset + alignment - 1) & ~(alignment - 1);
     };
     ReadbackLayout layout;
     VkDeviceSize offset = align(begin);
-    for (uint32_t attachment = 0; attachment < color_count; ++attachment) {
-        layout.color[attachment] = offset;
-        offset = align(offset + samples * sizeof(glm::vec4));
+    for (const Attachment& attachment : attachments) {
+        layout.offset.push_back(offset);
+        offset = align(offset + samples * attachment.copied_bytes(target.samples));
     }
-    layout.depth = offset;
-    layout.end = align(offset + samples * sizeof(float));
+    layout.end = offset;
     return layout;
 }
 
@@ -115,44 +114,113 @@ uint32_t decode_id(uint32_t bits) {
     return bits == std::bit_cast<uint32_t>(-2.0F) ? diff::kNoPrimitive : kMalformedId;
 }
 
-diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count,
+diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes) {
+    std::array<uint32_t, 4> words{};
+    std::memcpy(words.data(), texel, bytes);
+    constexpr std::array<uint32_t, 4> kPoisonWords = {diff::kPoison, diff::kPoison, diff::kPoison,
+                                                      diff::kPoison};
+    if (std::memcmp(words.data(), kPoisonWords.data(), bytes) == 0) {
+        return kPoisonWords;
+    }
+    const auto bits = [&words](uint32_t first, uint32_t count) {
+        return words[first / 32] >> (first % 32) & ((1U << count) - 1);
+    };
+    switch (format) {  // Vulkan specification, "Format Definition": packed formats from bit 0 up
+        case cases::ColorFormat::rgba8_unorm:
+        case cases::ColorFormat::rgba8_srgb:
+        case cases::ColorFormat::rgba8_uint:
+            return {bits(0, 8), bits(8, 8), bits(16, 8), bits(24, 8)};
+        case cases::ColorFormat::bgra8_unorm:
+            return {bits(16, 8), bits(8, 8), bits(0, 8), bits(24, 8)};
+        case cases::ColorFormat::rgb10a2_unorm:
+            return {bits(0, 10), bits(10, 10), bits(20, 10), bits(30, 2)};
+        case cases::ColorFormat::r5g6b5_unorm:
+            return {bits(11, 5), bits(5, 6), bits(0, 5), 0};
+        case cases::ColorFormat::rgba16_unorm:
+        case cases::ColorFormat::rgba16_float:
+            return {bits(0, 16), bits(16, 16), bits(32, 16), bits(48, 16)};
+        case cases::ColorFormat::rgba32_float:
+            return words;
+        case cases::ColorFormat::r32_float:
+        case cases::ColorFormat::r32_uint:
+            break;
+    }
+    return {words[0], 0, 0, 0};
+}
+
+namespace {
+
+void decode_color(const cases::Target& target, const Attachment& attachment,
+                  const std::byte* memory, diff::ColorCodes* to) {
+    const size_t count = size_t{target.width} * target.height * target.samples;
+    const uint32_t step = attachment.copied_bytes(target.samples);
+    for (size_t k = 0; k < count; ++k) {
+        to[k] = decode_texel(target.color->format, memory + k * step, step);
+    }
+}
+
+}  // namespace
+
+diff::Capture read_capture(const cases::Target& target, const std::vector<Attachment>& attachments,
                            bool has_primitive, const ReadbackLayout& layout,
                            std::span<const std::byte> memory) {
     diff::Capture capture;
     capture.target = target;
     capture.has_primitive = has_primitive;
-    capture.attribute_count = attribute_count;
     const size_t count = capture.sample_count();
-    capture.hits = copy_out<glm::vec4>(memory, layout.color[0], count);
-    capture.writers = copy_out<diff::Writer>(memory, layout.color[1], count);
-    decode_writers(capture.writers, capture.writers.data());
-    capture.frag_coord = copy_out<glm::vec4>(memory, layout.color[2], count);
-    for (uint32_t k = 0; k < attribute_count; ++k) {
-        capture.attributes[k] =
-            copy_out<glm::vec4>(memory, layout.color[kFixedAttachments + k], count);
+    for (size_t k = 0; k < attachments.size(); ++k) {
+        const VkDeviceSize at = layout.offset[k];
+        switch (attachments[k].role) {
+            case Role::hits:
+                capture.hits = copy_out<glm::vec4>(memory, at, count);
+                break;
+            case Role::writer:
+                capture.writers = copy_out<diff::Writer>(memory, at, count);
+                decode_writers(capture.writers, capture.writers.data());
+                break;
+            case Role::frag_coord:
+                capture.frag_coord = copy_out<glm::vec4>(memory, at, count);
+                break;
+            case Role::attribute:
+                capture.attributes[capture.attribute_count++] =
+                    copy_out<glm::vec4>(memory, at, count);
+                break;
+            case Role::color:
+                capture.color.resize(count);
+                decode_color(target, attachments[k], memory.data() + at, capture.color.data());
+                break;
+            case Role::depth:
+                capture.depth.resize(count);
+                decode_depth(target, memory.subspan(at), capture.depth.data());
+                break;
+        }
     }
-    capture.depth.resize(count);
-    decode_depth(target, memory.subspan(layout.depth), capture.depth.data());
     return capture;
 }
 
-void read_planes(const cases::Target& target, uint32_t attribute_count,
+void read_planes(const cases::Target& target, const std::vector<Attachment>& attachments,
                  const ReadbackLayout& layout, std::span<const std::byte> memory,
                  std::span<std::byte> planes) {
     const size_t count = size_t{target.width} * target.height * target.samples;
     std::byte* to = planes.data();
-    const auto copy = [&](VkDeviceSize offset, size_t bytes) {
-        std::memcpy(to, memory.data() + offset, bytes);
-        to += bytes;
-    };
-    copy(layout.color[0], count * sizeof(glm::vec4));
-    const auto* writers = reinterpret_cast<const diff::Writer*>(memory.data() + layout.color[1]);
-    decode_writers(std::span(writers, count), reinterpret_cast<diff::Writer*>(to));
-    to += count * sizeof(diff::Writer);
-    for (uint32_t k = 2; k < kFixedAttachments + attribute_count; ++k) {
-        copy(layout.color[k], count * sizeof(glm::vec4));
+    for (size_t k = 0; k < attachments.size(); ++k) {
+        const std::byte* from = memory.data() + layout.offset[k];
+        if (attachments[k].role == Role::writer) {
+            decode_writers(std::span(reinterpret_cast<const diff::Writer*>(from), count),
+                           reinterpret_cast<diff::Writer*>(to));
+            to += count * sizeof(diff::Writer);
+        } else if (attachments[k].role == Role::color) {
+            decode_color(target, attachments[k], from, reinterpret_cast<diff::ColorCodes*>(to));
+            to += count * sizeof(diff::ColorCodes);
+        } else if (attachments[k].is_depth()) {
+            decode_depth(target, memory.subspan(layout.offset[k]), reinterpret_cast<float*>(to));
+            to += count * sizeof(float);
+        } else {
+            const size_t bytes = count * attachments[k].texel_bytes;
+            std::memcpy(to, from, bytes);
+            to += bytes;
+        }
     }
-    decode_depth(target, memory.subspan(layout.depth), reinterpret_cast<float*>(to));
 }
 
 }  // namespace vk_harness

@@ -4,10 +4,12 @@
 // Where a case's samples lie in read-back memory, and how they become a capture.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
+#include "diff/capture.hpp"
+#include "vk_harness/attachments.hpp"
 #include "vk_harness/memory.hpp"
 
 namespace vk_harness {
@@ -15,28 +17,31 @@ namespace vk_harness {
 // Byte offsets of each attachment in the read-back buffer. Words in sample order
 // (diff/capture.hpp).
 struct ReadbackLayout {
-    std::array<VkDeviceSize, kFixedAttachments + cases::kMaxAttributes> color{};
-    VkDeviceSize depth = 0;
+    std::vector<VkDeviceSize> offset;  // one an attachment
     VkDeviceSize end = 0;
 };
 
-// The layout of a case with `color_count` colour attachments from byte `begin` on; every offset is
-// a multiple of `alignment`, a power of two.
-ReadbackLayout make_layout(const cases::Target& target, uint32_t color_count, VkDeviceSize begin,
-                           VkDeviceSize alignment);
+// The layout of a case from byte `begin` on; every offset is a multiple of `alignment`, a power of
+// two.
+ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attachment>& attachments,
+                           VkDeviceSize begin, VkDeviceSize alignment);
 
 // Fills memory with diff::kPoison words, so that what the device does not copy is seen.
 void poison(std::span<std::byte> memory);
 
 // The capture of a case from read-back memory.
-diff::Capture read_capture(const cases::Target& target, uint32_t attribute_count,
+diff::Capture read_capture(const cases::Target& target, const std::vector<Attachment>& attachments,
                            bool has_primitive, const ReadbackLayout& layout,
                            std::span<const std::byte> memory);
 
 // The same into `planes`, in the order of diff::view_planes; diff::plane_bytes() bytes.
-void read_planes(const cases::Target& target, uint32_t attribute_count,
+void read_planes(const cases::Target& target, const std::vector<Attachment>& attachments,
                  const ReadbackLayout& layout, std::span<const std::byte> memory,
                  std::span<std::byte> planes);
+
+// The stored codes of one texel of the colour target, `bytes` (2, 4, 8 or 16) long; kPoison four
+// times if its bytes are those of the fill pattern.
+diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes);
 
 // An id that the device wrote as binary32: an integer below 2^24, -1 and -3 for 'cleared' and -2
 // for 'this device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.

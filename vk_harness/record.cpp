@@ -3,8 +3,11 @@
 #include "vk_harness/record.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
+#include <optional>
 
+#include "vk_harness/case_check.hpp"
 #include "vk_harness/sample_locations.hpp"
 
 namespace vk_harness {
@@ -53,29 +56,6 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkC
     return info;
 }
 
-VkClearValue clear_color(float r, float g, float b, float a) {
-    VkClearValue clear{};
-    clear.color.float32[0] = r;
-    clear.color.float32[1] = g;
-    clear.color.float32[2] = b;
-    clear.color.float32[3] = a;
-    return clear;
-}
-
-// The clear value of each attachment, diff/capture.hpp.
-VkClearValue color_clear(uint32_t attachment, bool other) {
-    const auto all = [](float value) { return clear_color(value, value, value, value); };
-    const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
-    switch (attachment) {
-        case 0:
-            return clear_color(0.0F, 0.0F, guard, guard);
-        case 1:
-            return all(other ? kOtherClearIdAsFloat : kClearIdAsFloat);
-        default:
-            return all(other ? diff::kOtherClearValue : diff::kClearValue);
-    }
-}
-
 // The scissors that a draw is repeated under: its own, cut by each tile of the variation.
 std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& test) {
     const cases::Rect& own = draw.scissor;
@@ -112,10 +92,9 @@ struct Access {
 void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
              const Access& color_before, const Access& color_after, const Access& depth_before,
              const Access& depth_after) {
-    const uint32_t color_count = kFixedAttachments + plan.attribute_count;
     // A depth image made for sample locations is told them whenever its layout changes.
     const std::vector<VkSampleLocationEXT> places =
-        sample_places(plan.target->key.sample_locations);
+        sample_places(plan.test->target.sample_locations);
     const VkSampleLocationsInfoEXT locations = sample_locations_info(places);
     std::vector<VkImageMemoryBarrier2> barriers;
     const auto add = [&](const Image& image, const Access& before, const Access& after) {
@@ -136,10 +115,11 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
         b.subresourceRange = {image.aspect(), 0, 1, 0, 1};
         barriers.push_back(b);
     };
-    for (uint32_t k = 0; k < color_count; ++k) {
-        add(plan.target->color[k], color_before, color_after);
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        const bool depth = plan.attachments[k].is_depth();
+        add(*plan.images[k], depth ? depth_before : color_before,
+            depth ? depth_after : color_after);
     }
-    add(plan.target->depth, depth_before, depth_after);
     VkDependencyInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     info.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size());
@@ -201,8 +181,15 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     constants.index = draw_index;
     constants.layer = draw.layer;
     constants.viewport_index = draw.viewport_index;
+    for (int k = 0; k < 4; ++k) {
+        const float value = draw.color.value[k];
+        constants.color[k] =
+            plan.has_integer_color ? static_cast<uint32_t>(value) : std::bit_cast<uint32_t>(value);
+    }
     vk.vkCmdPushConstants(commands, pipelines.layout(), kDrawStages, 0, sizeof constants,
                           &constants);
+    const glm::vec4 blend = draw.color.blend ? draw.color.blend->constants : glm::vec4(0);
+    vk.vkCmdSetBlendConstants(commands, &blend.x);
     std::array<VkBuffer, 1 + cases::kMaxAttributes> buffers{};
     buffers.fill(vertices);
     vk.vkCmdBindVertexBuffers(commands, 0, binding_count, buffers.data(), plan.vertices.data());
@@ -232,7 +219,7 @@ VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin) {
     VkDeviceSize offset = begin;
     for (DrawPlan& draw : plan.draws) {
         const VkDeviceSize array = draw.draw->positions.size() * sizeof(glm::vec4);
-        for (uint32_t binding = 0; binding <= plan.attribute_count; ++binding) {
+        for (uint32_t binding = 0; binding <= plan.input_count; ++binding) {
             draw.vertices[binding] = offset;
             offset += array;
         }
@@ -256,10 +243,11 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
         const cases::Draw& draw = *item.draw;
         const size_t array = draw.positions.size() * sizeof(glm::vec4);
         write(item.vertices[0], draw.positions.data(), array);
-        for (uint32_t k = 0; k < plan.attribute_count; ++k) {
-            const bool is_given = k < draw.attributes.size();
-            if (is_given && draw.attributes[k].source == cases::Source::vertex) {
-                write(item.vertices[1 + k], draw.attributes[k].values.data(), array);
+        for (uint32_t k = 0; k < plan.input_count; ++k) {
+            const cases::Attribute* attribute = input_attribute(*plan.test, draw, k);
+            const bool is_given = attribute != nullptr;
+            if (is_given && attribute->source == cases::Source::vertex) {
+                write(item.vertices[1 + k], attribute->values.data(), array);
             } else {
                 const std::vector<glm::vec4> none(draw.positions.size(),
                                                   glm::vec4(is_given ? 0.0F : diff::kClearValue));
@@ -276,71 +264,62 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
 void record_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                   const CasePlan& plan, VkBuffer vertices, bool for_copies) {
     const VolkDeviceTable& vk = device.vk();
-    const Target& target = *plan.target;
-    const uint32_t color_count = kFixedAttachments + plan.attribute_count;
+    const cases::Target& target = plan.test->target;
     barrier(device, commands, plan, kReused, kColorDrawn, kReused, kDepthDrawn);
 
     std::vector<VkRenderingAttachmentInfo> colors;
-    for (uint32_t k = 0; k < color_count; ++k) {
-        colors.push_back(attachment(target.color[k].view(), kColorDrawn.layout,
-                                    color_clear(k, plan.test->variation.other_clears)));
+    std::optional<VkRenderingAttachmentInfo> depth;
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        const Attachment& a = plan.attachments[k];
+        if (a.is_depth()) {
+            depth = attachment(plan.images[k]->view(), kDepthDrawn.layout, a.clear);
+        } else {
+            colors.push_back(attachment(plan.images[k]->view(), kColorDrawn.layout, a.clear));
+        }
     }
-    VkClearValue depth_clear{};
-    depth_clear.depthStencil = {
-        plan.test->variation.other_depth_clear ? diff::kOtherClearDepth
-                                               : plan.test->target.depth_clear,
-        0};
-    const VkRenderingAttachmentInfo depth =
-        attachment(target.depth.view(), kDepthDrawn.layout, depth_clear);
     VkRenderingInfo rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    rendering.renderArea = {{0, 0}, {target.key.width, target.key.height}};
+    rendering.renderArea = {{0, 0}, {target.width, target.height}};
     rendering.layerCount = 1;
-    rendering.colorAttachmentCount = color_count;
+    rendering.colorAttachmentCount = static_cast<uint32_t>(colors.size());
     rendering.pColorAttachments = colors.data();
-    rendering.pDepthAttachment = &depth;
+    rendering.pDepthAttachment = depth ? &*depth : nullptr;
     vk.vkCmdBeginRendering(commands, &rendering);
     for (uint32_t k = 0; k < plan.draws.size(); ++k) {
-        record_draw(device, pipelines, commands, plan.draws[k], *plan.test, k,
-                    1 + plan.attribute_count, vertices);
+        record_draw(device, pipelines, commands, plan.draws[k], *plan.test, k, 1 + plan.input_count,
+                    vertices);
     }
     vk.vkCmdEndRendering(commands);
 
     if (for_copies) {
-        const Access& after = target.key.samples > 1 ? kSampled : kCopied;
+        const Access& after = target.samples > 1 ? kSampled : kCopied;
         barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after);
     }
 }
 
-void record_copies(const Device& device, VkPipeline copy_color, VkPipeline copy_depth,
+void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
                    VkPipelineLayout copy_layout, VkCommandBuffer commands, const CasePlan& plan,
                    VkBuffer readback, std::span<const VkDescriptorSet> sets) {
     const VolkDeviceTable& vk = device.vk();
-    const Target& target = *plan.target;
-    const cases::Target& key = target.key;
-    const uint32_t color_count = kFixedAttachments + plan.attribute_count;
-    if (key.samples == 1) {
+    const cases::Target& target = plan.test->target;
+    if (target.samples == 1) {
         VkBufferImageCopy region{};
-        region.imageExtent = {key.width, key.height, 1};
-        for (uint32_t k = 0; k < color_count; ++k) {
-            region.bufferOffset = plan.readback.color[k];
-            region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-            vk.vkCmdCopyImageToBuffer(commands, target.color[k].get(), kCopied.layout, readback, 1,
+        region.imageExtent = {target.width, target.height, 1};
+        for (size_t k = 0; k < plan.images.size(); ++k) {
+            region.bufferOffset = plan.readback.offset[k];
+            region.imageSubresource = {plan.images[k]->aspect(), 0, 0, 1};
+            vk.vkCmdCopyImageToBuffer(commands, plan.images[k]->get(), kCopied.layout, readback, 1,
                                       &region);
         }
-        region.bufferOffset = plan.readback.depth;
-        region.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
-        vk.vkCmdCopyImageToBuffer(commands, target.depth.get(), kCopied.layout, readback, 1,
-                                  &region);
         return;
     }
-    const std::array<uint32_t, kCopyConstants> constants = {key.width, key.height, key.samples};
-    const uint32_t groups_x = (key.width + kCopyGroupSize - 1) / kCopyGroupSize;
-    const uint32_t groups_y = (key.height + kCopyGroupSize - 1) / kCopyGroupSize;
-    for (uint32_t k = 0; k <= color_count; ++k) {
-        if (k == 0 || k == color_count) {
-            vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                 k == 0 ? copy_color : copy_depth);
+    const std::array<uint32_t, kCopyConstants> constants = {target.width, target.height,
+                                                            target.samples};
+    const uint32_t groups_x = (target.width + kCopyGroupSize - 1) / kCopyGroupSize;
+    const uint32_t groups_y = (target.height + kCopyGroupSize - 1) / kCopyGroupSize;
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        if (k == 0 || pipelines[k] != pipelines[k - 1]) {
+            vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[k]);
             vk.vkCmdPushConstants(commands, copy_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                   sizeof(constants), constants.data());
         }

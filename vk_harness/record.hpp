@@ -21,13 +21,15 @@ struct DrawPlan {
     std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
     DistancePlaces distances{};
     VkDeviceSize indices = 0;
+    bool has_integer_color = false;  // the colour target's format holds integers
 };
 
 struct CasePlan {
     const cases::Case* test = nullptr;
-    size_t slot = 0;  // among the cases of the batch
-    uint32_t attribute_count = 0;
-    Target* target = nullptr;
+    size_t slot = 0;           // among the cases of the batch
+    uint32_t input_count = 0;  // case_check.hpp
+    std::vector<Attachment> attachments;
+    std::vector<const Image*> images;  // one an attachment
     std::vector<DrawPlan> draws;
     ReadbackLayout readback;
 };
@@ -42,9 +44,9 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory);
 void record_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                   const CasePlan& plan, VkBuffer vertices, bool for_copies);
 
-// Records the copies of all samples to the read-back buffer. `sets` holds one descriptor set a
-// colour attachment and then one for depth if the target is multisampled, else nothing.
-void record_copies(const Device& device, VkPipeline copy_color, VkPipeline copy_depth,
+// Records the copies of all samples to the read-back buffer. If the target is multisampled, `sets`
+// and `pipelines` hold one descriptor set and one compute pipeline an attachment, else nothing.
+void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
                    VkPipelineLayout copy_layout, VkCommandBuffer commands, const CasePlan& plan,
                    VkBuffer readback, std::span<const VkDescriptorSet> sets);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cases/color.hpp"
 #include "vk_harness/case_check.hpp"
 
 namespace vk_harness {
@@ -61,7 +62,7 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         result.reason = std::move(rejection->reason);
         return false;
     }
-    plan.attribute_count = attribute_count(test);
+    plan.input_count = input_count(test);
     for (const cases::Draw& draw : test.draws) {
         auto pipeline = pipelines_.get(pipeline_key(test, draw));
         if (!pipeline) {
@@ -81,14 +82,16 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
                 item.texture = *texture;
             }
         }
+        item.has_integer_color = test.target.color && cases::is_integer(test.target.color->format);
         plan.draws.push_back(item);
     }
-    auto target = targets_.get(test.target, kFixedAttachments + plan.attribute_count);
-    if (!target) {
-        reject(result, target.error());
+    plan.attachments = attachments_of(test);
+    auto images = targets_.get(test.target, plan.attachments);
+    if (!images) {
+        reject(result, images.error());
         return false;
     }
-    plan.target = *target;
+    plan.images = std::move(*images);
     return true;
 }
 
@@ -101,8 +104,8 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
     VkDeviceSize readback_bytes = 0;
     for (CasePlan& plan : plans) {
         vertex_bytes = place_vertices(plan, vertex_bytes);
-        const uint32_t colors = kFixedAttachments + plan.attribute_count;
-        plan.readback = make_layout(plan.test->target, colors, readback_bytes, alignment());
+        plan.readback =
+            make_layout(plan.test->target, plan.attachments, readback_bytes, alignment());
         readback_bytes = plan.readback.end;
     }
     auto vertices = submission_.vertices(vertex_bytes);
@@ -123,8 +126,6 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
     textures_.record_transitions(*commands);
 
     Buffer* readback = nullptr;
-    VkPipeline copy_color = VK_NULL_HANDLE;
-    VkPipeline copy_depth = VK_NULL_HANDLE;
     if (read_back) {
         auto buffer = submission_.readback(readback_bytes);
         if (!buffer) {
@@ -135,32 +136,28 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
         if (auto flushed = readback->flush(); !flushed) {
             return flushed;
         }
-        const bool multisampled = std::any_of(plans.begin(), plans.end(), [](const auto& plan) {
-            return plan.test->target.samples > 1;
-        });
-        if (multisampled) {
-            auto color = pipelines_.get_copy(false);
-            auto depth = pipelines_.get_copy(true);
-            if (!color || !depth) {
-                return fail(color ? depth.error() : color.error());
-            }
-            copy_color = *color;
-            copy_depth = *depth;
-        }
     }
     for (const CasePlan& plan : plans) {
         record_draws(*device_, pipelines_, *commands, plan, (*vertices)->get(), read_back);
         if (read_back) {
             std::vector<VkDescriptorSet> sets;
+            std::vector<VkPipeline> copies;
             if (plan.test->target.samples > 1) {
+                for (const Attachment& attachment : plan.attachments) {
+                    auto copy = pipelines_.get_copy(attachment);
+                    if (!copy) {
+                        return fail(copy.error());
+                    }
+                    copies.push_back(*copy);
+                }
                 auto made = submission_.copy_sets(pipelines_, plan);
                 if (!made) {
                     return fail(made.error());
                 }
                 sets = std::move(*made);
             }
-            record_copies(*device_, copy_color, copy_depth, pipelines_.copy_layout(), *commands,
-                          plan, readback->get(), sets);
+            record_copies(*device_, copies, pipelines_.copy_layout(), *commands, plan,
+                          readback->get(), sets);
         }
         append(results[plan.slot].messages, instance_.messages().take());
     }
@@ -179,17 +176,18 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
             const bool has_primitive = device_->capabilities().info.has_primitive_id;
             Rendered& result = results[plan.slot];
             if (store) {
-                const uint64_t bytes = diff::plane_bytes(target, plan.attribute_count);
+                const uint64_t bytes = diff::plane_bytes(target, attribute_count(*plan.test));
                 result.placed = store(plan.slot, bytes);
             }
             if (result.placed.empty()) {
-                result.capture = read_capture(target, plan.attribute_count, has_primitive,
+                result.capture = read_capture(target, plan.attachments, has_primitive,
                                               plan.readback, readback->bytes());
             } else {
                 result.capture.target = target;
                 result.capture.has_primitive = has_primitive;
-                result.capture.attribute_count = plan.attribute_count;
-                read_planes(target, plan.attribute_count, plan.readback, readback->bytes(),
+                result.capture.attribute_count =
+                    target.has_instruments ? attribute_count(*plan.test) : 0;
+                read_planes(target, plan.attachments, plan.readback, readback->bytes(),
                             result.placed);
             }
         }
@@ -251,8 +249,7 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         CasePlan item;
         item.test = &batch[slot];
         item.slot = slot;
-        const VkDeviceSize size =
-            attachment_bytes(item.test->target, kFixedAttachments + attribute_count(*item.test));
+        const VkDeviceSize size = attachment_bytes(item.test->target, attachments_of(*item.test));
         if (bytes + size > kChunkBytes && !plans.empty()) {
             run_chunk(plans, read_back, results, step, store);
             bytes = 0;

@@ -141,8 +141,7 @@ Result<void> Submission::run() {
 Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& pipelines,
                                                            const CasePlan& plan) {
     const VolkDeviceTable& vk = device_->vk();
-    const uint32_t color_count = kFixedAttachments + plan.attribute_count;
-    const uint32_t count = color_count + 1;
+    const auto count = static_cast<uint32_t>(plan.images.size());
     const std::array<VkDescriptorPoolSize, 2> sizes = {
         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count},
         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
@@ -170,16 +169,13 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
         return fail(call_failure(Stage::memory, result, "vkAllocateDescriptorSets"));
     }
 
-    const cases::Target& key = plan.target->key;
-    const VkDeviceSize samples = VkDeviceSize{key.width} * key.height * key.samples;
+    const cases::Target& target = plan.test->target;
+    const VkDeviceSize samples = VkDeviceSize{target.width} * target.height * target.samples;
     for (uint32_t k = 0; k < count; ++k) {
-        const bool depth = k == color_count;
-        const Image& image = depth ? plan.target->depth : plan.target->color[k];
-        const VkDescriptorImageInfo image_info = {VK_NULL_HANDLE, image.sample_view(),
+        const VkDescriptorImageInfo image_info = {VK_NULL_HANDLE, plan.images[k]->sample_view(),
                                                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        const VkDescriptorBufferInfo buffer_info = {
-            readback_.get(), depth ? plan.readback.depth : plan.readback.color[k],
-            samples * (depth ? sizeof(float) : sizeof(glm::vec4))};
+        const VkDescriptorBufferInfo buffer_info = {readback_.get(), plan.readback.offset[k],
+                                                    samples * plan.attachments[k].sample_bytes};
         std::array<VkWriteDescriptorSet, 2> writes{};
         for (uint32_t binding = 0; binding < 2; ++binding) {
             writes[binding].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

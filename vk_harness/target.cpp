@@ -3,62 +3,75 @@
 #include "vk_harness/target.hpp"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 namespace vk_harness {
 
-VkDeviceSize Target::memory_size() const {
-    VkDeviceSize size = depth.memory_size();
-    for (const Image& image : color) {
-        size += image.memory_size();
-    }
-    return size;
+VkDeviceSize attachment_bytes(const cases::Target& target,
+                              const std::vector<Attachment>& attachments) {
+    // At most 16 bytes a sample and attachment; below 2^14 * 2^14 * 2^6 * 2^7 = 2^41.
+    const VkDeviceSize bytes =
+        std::accumulate(attachments.begin(), attachments.end(), VkDeviceSize{0},
+                        [](VkDeviceSize sum, const Attachment& a) { return sum + a.sample_bytes; });
+    return VkDeviceSize{target.width} * target.height * target.samples * bytes;
 }
 
-VkDeviceSize attachment_bytes(const cases::Target& key, uint32_t color_count) {
-    // 16 bytes a colour sample, 4 bytes a depth sample; below 2^14 * 2^14 * 2^6 * 2^7 = 2^41.
-    return VkDeviceSize{key.width} * key.height * key.samples * (16 * color_count + 4);
+TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& target) {
+    const auto found = std::find_if(shelves_.begin(), shelves_.end(), [&](const auto& s) {
+        return s->format == format && s->width == target.width && s->height == target.height &&
+               s->samples == target.samples && s->sample_locations == target.sample_locations;
+    });
+    if (found != shelves_.end()) {
+        return **found;
+    }
+    auto made = std::make_unique<Shelf>();
+    made->format = format;
+    made->width = target.width;
+    made->height = target.height;
+    made->samples = target.samples;
+    made->sample_locations = target.sample_locations;
+    shelves_.push_back(std::move(made));
+    return *shelves_.back();
 }
 
-Result<Target*> TargetCache::get(const cases::Target& key, uint32_t color_count) {
-    auto found = std::find_if(targets_.begin(), targets_.end(),
-                              [&key](const auto& target) { return target->key == key; });
-    if (found == targets_.end()) {
-        auto target = std::make_unique<Target>();
-        target->key = key;
-        const VkImageCreateFlags flags =
-            key.sample_locations.empty()
-                ? VkImageCreateFlags{0}
-                : VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT};
-        auto depth =
-            Image::create(*device_, depth_format(key.depth_format), {key.width, key.height}, key.samples, flags);
-        if (!depth) {
-            return fail(depth.error());
+Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
+                                                   const std::vector<Attachment>& attachments) {
+    ++clock_;
+    std::vector<const Image*> out;
+    std::map<VkFormat, size_t> taken;
+    for (const Attachment& attachment : attachments) {
+        Shelf& from = shelf(attachment.format, target);
+        from.last_use = clock_;
+        const size_t nth = taken[attachment.format]++;
+        if (nth == from.images.size()) {
+            const VkImageCreateFlags flags =
+                attachment.is_depth() && !target.sample_locations.empty()
+                    ? VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT}
+                    : VkImageCreateFlags{0};
+            auto image = Image::create(*device_, attachment.format, {target.width, target.height},
+                                       target.samples, flags);
+            if (!image) {
+                return fail(image.error());
+            }
+            from.images.push_back(std::make_unique<Image>(std::move(*image)));
         }
-        target->depth = std::move(*depth);
-        targets_.push_back(std::move(target));
-        found = std::prev(targets_.end());
+        out.push_back(from.images[nth].get());
     }
-    Target& target = **found;
-    target.last_use = ++clock_;
-    while (target.color.size() < color_count) {
-        auto image = Image::create(*device_, kColorFormat, {key.width, key.height}, key.samples);
-        if (!image) {
-            return fail(image.error());
-        }
-        target.color.push_back(std::move(*image));
-    }
-    return &target;
+    return out;
 }
 
 void TargetCache::trim(VkDeviceSize limit) {
-    std::sort(targets_.begin(), targets_.end(),
+    std::sort(shelves_.begin(), shelves_.end(),
               [](const auto& a, const auto& b) { return a->last_use > b->last_use; });
     VkDeviceSize held = 0;
-    const auto end = std::find_if(targets_.begin(), targets_.end(), [&](const auto& target) {
-        held += target->memory_size();
+    const auto end = std::find_if(shelves_.begin(), shelves_.end(), [&](const auto& s) {
+        for (const auto& image : s->images) {
+            held += image->memory_size();
+        }
         return held > limit;
     });
-    targets_.erase(end, targets_.end());
+    shelves_.erase(end, shelves_.end());
 }
 
 }  // namespace vk_harness

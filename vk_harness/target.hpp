@@ -1,43 +1,47 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The attachments that a case is drawn to, kept from case to case.
+// The images that a case is drawn to, kept from case to case.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "cases/case.hpp"
+#include "vk_harness/attachments.hpp"
 #include "vk_harness/memory.hpp"
 
 namespace vk_harness {
 
-// hits, writer, frag_coord, one image an attribute, and depth, all of one size and sample count.
-struct Target {
-    cases::Target key;
-    std::vector<Image> color;  // hits, writer, frag_coord, attributes in order
-    Image depth;
-    uint64_t last_use = 0;
-
-    VkDeviceSize memory_size() const;
-};
-
-// Bytes that drawing a case of this size takes: what the device has to hold in attachments.
-VkDeviceSize attachment_bytes(const cases::Target& key, uint32_t color_count);
+// Bytes that drawing a case takes: what the device has to hold in attachments.
+VkDeviceSize attachment_bytes(const cases::Target& target,
+                              const std::vector<Attachment>& attachments);
 
 class TargetCache {
   public:
     explicit TargetCache(const Device& device) : device_(&device) {}
 
-    // The target of that size with at least `color_count` colour attachments. Valid until trim().
-    Result<Target*> get(const cases::Target& key, uint32_t color_count);
+    // One image an attachment, of the size and sample count of the target; no image twice in one
+    // answer. Valid until trim().
+    Result<std::vector<const Image*>> get(const cases::Target& target,
+                                          const std::vector<Attachment>& attachments);
 
-    // Frees the targets that were not used for longest until at most `limit` bytes are held.
+    // Frees the images that were not used for longest until at most `limit` bytes are held.
     void trim(VkDeviceSize limit);
 
   private:
+    // Images of one kind, as many as a case needed at most.
+    struct Shelf {
+        VkFormat format = VK_FORMAT_UNDEFINED;
+        uint32_t width = 0, height = 0, samples = 1;
+        std::vector<std::array<uint8_t, 2>> sample_locations;
+        std::vector<std::unique_ptr<Image>> images;
+        uint64_t last_use = 0;
+    };
+    Shelf& shelf(VkFormat format, const cases::Target& target);
+
     const Device* device_;
-    std::vector<std::unique_ptr<Target>> targets_;
+    std::vector<std::unique_ptr<Shelf>> shelves_;
     uint64_t clock_ = 0;
 };
 

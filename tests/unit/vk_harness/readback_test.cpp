@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "vk_harness/target.hpp"
+
 namespace vk_harness {
 namespace {
 
@@ -40,32 +42,106 @@ TEST(DecodeId, NothingElseLooksLikeAnId) {
     }));
 }
 
+// A case of one draw with `attributes` attributes.
+cases::Case target_case(cases::Target target, size_t attributes) {
+    cases::Case c;
+    c.target = std::move(target);
+    c.draws.resize(1);
+    c.draws[0].attributes.resize(attributes);
+    return c;
+}
+
 TEST(Layout, AttachmentsDoNotOverlap) {
-    const cases::Target target = {3, 5, 4};
-    const ReadbackLayout layout = make_layout(target, 5, 100, 64);
-    EXPECT_EQ(layout.color[0], 128U);
-    for (size_t k = 1; k < 5; ++k) {
-        EXPECT_GE(layout.color[k], layout.color[k - 1] + 60 * 16);
-        EXPECT_EQ(layout.color[k] % 64, 0U);
+    for (const uint32_t samples : {1U, 4U}) {
+        cases::Case c = target_case({3, 5, samples}, 2);
+        c.target.color = {cases::ColorFormat::r5g6b5_unorm, {}};
+        const std::vector<Attachment> attachments = attachments_of(c);
+        ASSERT_EQ(attachments.size(), 7U);
+        EXPECT_EQ(attachments[5].role, Role::color);
+        EXPECT_TRUE(attachments[6].is_depth());
+        const ReadbackLayout layout = make_layout(c.target, attachments, 100, 64);
+        EXPECT_EQ(layout.offset[0], 128U);
+        VkDeviceSize free = layout.offset[0];
+        for (size_t k = 0; k < 7; ++k) {
+            EXPECT_GE(layout.offset[k], free);
+            EXPECT_EQ(layout.offset[k] % 64, 0U);
+            const uint32_t bytes = k == 6 ? 4U : k < 5 ? 16U : samples == 1 ? 2U : 4U;
+            free = layout.offset[k] + VkDeviceSize{15} * samples * bytes;
+        }
+        EXPECT_GE(layout.end, free);
     }
-    EXPECT_GE(layout.depth, layout.color[4] + 60 * 16);
-    EXPECT_GE(layout.end, layout.depth + 60 * 4);
+}
+
+TEST(Attachments, WithoutInstrumentsOnlyColourAndDepthAreLeft) {
+    cases::Case c = target_case({3, 5, 1}, 2);
+    c.target.color = {cases::ColorFormat::r32_uint, {7, 0, 0, 0}};
+    c.target.has_instruments = false;
+    std::vector<Attachment> attachments = attachments_of(c);
+    ASSERT_EQ(attachments.size(), 2U);
+    EXPECT_EQ(attachments[0].format, VK_FORMAT_R32_UINT);
+    EXPECT_EQ(attachments[0].clear.color.uint32[0], 7U);  // an integer, not the bits of a float
+    EXPECT_TRUE(attachments[1].is_depth());
+    c.target.has_depth = false;
+    EXPECT_EQ(attachments_of(c).size(), 1U);
+    EXPECT_EQ(attachment_bytes(c.target, attachments_of(c)), 3U * 5 * 4);
+}
+
+TEST(DecodeTexel, ComponentsInTheOrderOfTheFormat) {
+    const auto decode = [](cases::ColorFormat format, std::array<uint32_t, 4> words,
+                           uint32_t bytes) {
+        return decode_texel(format, reinterpret_cast<const std::byte*>(words.data()), bytes);
+    };
+    using F = cases::ColorFormat;
+    using Codes = diff::ColorCodes;
+    EXPECT_EQ(decode(F::rgba8_unorm, {0x44332211U}, 4), (Codes{0x11, 0x22, 0x33, 0x44}));
+    EXPECT_EQ(decode(F::rgba8_srgb, {0x44332211U}, 4), (Codes{0x11, 0x22, 0x33, 0x44}));
+    EXPECT_EQ(decode(F::rgba8_uint, {0x44332211U}, 4), (Codes{0x11, 0x22, 0x33, 0x44}));
+    EXPECT_EQ(decode(F::bgra8_unorm, {0x44332211U}, 4), (Codes{0x33, 0x22, 0x11, 0x44}));
+    EXPECT_EQ(decode(F::rgb10a2_unorm, {1U | 2U << 10 | 3U << 20 | 2U << 30}, 4),
+              (Codes{1, 2, 3, 2}));
+    EXPECT_EQ(decode(F::r5g6b5_unorm, {31U << 11 | 33U << 5 | 2U}, 2), (Codes{31, 33, 2, 0}));
+    EXPECT_EQ(decode(F::r5g6b5_unorm, {31U << 11 | 33U << 5 | 2U}, 4), (Codes{31, 33, 2, 0}));
+    EXPECT_EQ(decode(F::rgba16_unorm, {0x22221111U, 0x44443333U}, 8),
+              (Codes{0x1111, 0x2222, 0x3333, 0x4444}));
+    EXPECT_EQ(decode(F::rgba16_float, {0x22221111U, 0x44443333U}, 8),
+              (Codes{0x1111, 0x2222, 0x3333, 0x4444}));
+    EXPECT_EQ(decode(F::rgba32_float, {1, 2, 3, 4}, 16), (Codes{1, 2, 3, 4}));
+    EXPECT_EQ(decode(F::r32_float, {5}, 4), (Codes{5, 0, 0, 0}));
+    EXPECT_EQ(decode(F::r32_uint, {5}, 4), (Codes{5, 0, 0, 0}));
+    const Codes poison = {diff::kPoison, diff::kPoison, diff::kPoison, diff::kPoison};
+    for (uint32_t f = 0; f <= static_cast<uint32_t>(cases::kLastColorFormat); ++f) {
+        EXPECT_EQ(decode(static_cast<F>(f), poison, 4), poison) << f;
+    }
 }
 
 TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
-    const cases::Target target = {2, 1, 1};
-    const ReadbackLayout layout = make_layout(target, 4, 0, 64);
+    cases::Case c = target_case({2, 1, 1}, 1);
+    c.target.color = {cases::ColorFormat::rgba8_unorm, {}};
+    const std::vector<Attachment> attachments = attachments_of(c);
+    const ReadbackLayout layout = make_layout(c.target, attachments, 0, 64);
     std::vector<std::byte> memory(layout.end);
     poison(memory);
     const auto put = [&memory](VkDeviceSize offset, const std::vector<float>& values) {
         std::memcpy(memory.data() + offset, values.data(), values.size() * sizeof(float));
     };
-    put(layout.color[0], {1, 2, 3, 4, 5, 6, 7, 8});
-    put(layout.color[1], {0, 1, 2, -1, 3, -2, 5, -1});
-    put(layout.color[2], {9, 10, 11, 12});  // the second sample is not copied
-    put(layout.color[3], {13, 14, 15, 16, 17, 18, 19, 20});
-    put(layout.depth, {0.25F, 0.75F});
-    const diff::Capture capture = read_capture(target, 1, true, layout, memory);
+    put(layout.offset[0], {1, 2, 3, 4, 5, 6, 7, 8});
+    put(layout.offset[1], {0, 1, 2, -1, 3, -2, 5, -1});
+    put(layout.offset[2], {9, 10, 11, 12});  // the second sample is not copied
+    put(layout.offset[3], {13, 14, 15, 16, 17, 18, 19, 20});
+    memory[layout.offset[4] + 4] = std::byte{99};
+    put(layout.offset[5], {0.25F, 0.75F});
+    const diff::Capture capture = read_capture(c.target, attachments, true, layout, memory);
+    EXPECT_TRUE(diff::has_all_planes(capture));
+    EXPECT_EQ(capture.color[0][0], diff::kPoison);
+    EXPECT_EQ(capture.color[1], (diff::ColorCodes{99, 0xdb, 0xba, 0xff}));
+    // The same into planes one after the other.
+    std::vector<glm::vec4> planes(diff::plane_bytes(c.target, 1) / sizeof(glm::vec4) + 1);
+    read_planes(c.target, attachments, layout, memory, std::as_writable_bytes(std::span(planes)));
+    const diff::CaptureView view =
+        diff::view_planes(c.target, true, 1, std::as_bytes(std::span(planes)).data());
+    EXPECT_EQ(view.color[1], capture.color[1]);
+    EXPECT_EQ(view.depth[1], 0.75F);
+    EXPECT_EQ(view.attributes[0][1], capture.attributes[0][1]);
     EXPECT_EQ(capture.hits[1], glm::vec4(5, 6, 7, 8));
     EXPECT_EQ(capture.writers[0], (diff::Writer{0, 1, 2, diff::kClearId}));
     EXPECT_EQ(capture.writers[1], (diff::Writer{3, diff::kNoPrimitive, 5, diff::kClearId}));

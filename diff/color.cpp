@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/color.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diff {
+
+using Kind = ref::ColorVerdict::Kind;
+
+ref::ColorReference& ColorComparison::reference(cases::Profile profile) {
+    auto& slot = references_[static_cast<size_t>(profile)];
+    if (!slot) {
+        const bool is_asked = profile == expectation_.profile;
+        slot = std::make_unique<ref::ColorReference>(
+            case_, is_asked ? expectation_ : attribution_.at(profile));
+    }
+    return *slot;
+}
+
+std::optional<ref::ColorWitness> ColorComparison::witness_of(size_t index,
+                                                             std::optional<uint32_t> writer) const {
+    if (!case_.target.has_instruments) {
+        return std::nullopt;
+    }
+    ref::ColorWitness witness;
+    witness.hits =
+        static_cast<uint32_t>(capture_.hits[index].x) + static_cast<uint32_t>(capture_.hits[index].y);
+    if (witness.hits > 0 && writer) {
+        witness.writer = *writer;
+        const int32_t attribute =
+            case_.draws[expectation_.triangles[*writer].draw].color.attribute;
+        if (attribute >= 0) {
+            const glm::vec4& written = capture_.attributes[static_cast<size_t>(attribute)][index];
+            const bool finite = std::isfinite(written.x) && std::isfinite(written.y) &&
+                                std::isfinite(written.z) && std::isfinite(written.w);
+            witness.written = finite ? &written : nullptr;
+        }
+    }
+    return witness;
+}
+
+std::optional<Finding> ColorComparison::judge(size_t index, ref::SampleId id,
+                                              std::optional<uint32_t> writer) {
+    const std::optional<ref::ColorWitness> witness = witness_of(index, writer);
+    const ref::ColorVerdict verdict =
+        reference(expectation_.profile).judge(index, id, capture_.color[index], witness);
+    if (verdict.kind != Kind::ok && verdict.kind != Kind::open) {
+        return finding_of(index, id, verdict, witness);
+    }
+    if (!case_.target.has_instruments && case_.target.has_depth &&
+        !reference(expectation_.profile)
+             .explains_depth(index, id, capture_.depth[index], kClearDepth)) {
+        Finding finding;
+        finding.kind = FindingKind::value;
+        finding.x = id.x;
+        finding.y = id.y;
+        finding.sample = id.sample;
+        finding.rule = "depth.linear";
+        finding.quantity = "depth";
+        finding.level = expectation_.profile;
+        for (const cases::Profile p : {cases::Profile::practice, cases::Profile::vulkan}) {
+            if (p < expectation_.profile &&
+                !reference(p).explains_depth(index, id, capture_.depth[index], kClearDepth)) {
+                finding.level = p;
+            }
+        }
+        finding.expected = "the depth of a fragment that the colour allows";
+        finding.got = fmt::format("{:.9g}", capture_.depth[index]);
+        finding.why = "no triangle that may have written last has this depth here";
+        return finding;
+    }
+    return std::nullopt;
+}
+
+Finding ColorComparison::finding_of(size_t index, ref::SampleId id,
+                                    const ref::ColorVerdict& verdict,
+                                    const std::optional<ref::ColorWitness>& witness) {
+    Finding finding;
+    finding.x = id.x;
+    finding.y = id.y;
+    finding.sample = id.sample;
+    const ref::color::Unit unit{case_.target.color->format, expectation_.profile};
+    const std::string got = unit.text_of(capture_.color[index]);
+    const uint32_t hits = verdict.hits;
+    switch (verdict.kind) {
+        case Kind::missing:
+            finding.kind = FindingKind::missing;
+            attribution_.attribute_hits(finding, hits, 0);
+            break;
+        case Kind::extra:
+            finding.kind = FindingKind::extra;
+            attribution_.attribute_hits(finding, hits, 0);
+            break;
+        case Kind::twice:
+            finding.kind = FindingKind::double_hit;
+            attribution_.attribute_hits(finding, hits, 0);
+            break;
+        case Kind::order:
+            finding.kind = FindingKind::order;
+            finding.rule = "order.primitive";
+            finding.why = "the fragments were blended in another order than they were drawn";
+            break;
+        default:
+            finding.kind = FindingKind::value;
+            finding.rule = verdict.rule;
+            finding.why = "no allowed set of fragments leaves this colour";
+            break;
+    }
+    finding.quantity = "color";
+    finding.expected = verdict.expected;
+    finding.got = got;
+    finding.level = expectation_.profile;
+    for (const cases::Profile p : {cases::Profile::practice, cases::Profile::vulkan}) {
+        if (p < expectation_.profile &&
+            !reference(p).explains(index, id, capture_.color[index], witness)) {
+            finding.level = p;
+        }
+    }
+    return finding;
+}
+
+uint8_t ColorComparison::hits_for_pictures(size_t index) const {
+    const ref::color::Unit unit{case_.target.color->format, expectation_.profile};
+    return unit.allows(unit.cleared(*case_.target.color), capture_.color[index]) ? 0 : 1;
+}
+
+}  // namespace diff

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The colour plane of a capture against what the reference allows.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "diff/attribution.hpp"
+#include "diff/capture.hpp"
+#include "diff/verdict.hpp"
+#include "ref/color.hpp"
+
+namespace diff {
+
+class ColorComparison {
+  public:
+    // All must outlive this object; the case has a colour target.
+    ColorComparison(const cases::Case& c, const ref::Expectation& expectation,
+                    const CaptureView& capture, Attribution& attribution)
+        : case_(c), expectation_(expectation), capture_(capture), attribution_(attribution) {}
+
+    // The finding at a sample that was drawn, if any. `writer`: with instruments, the triangle that
+    // wrote last (any value if there are no hits).
+    std::optional<Finding> judge(size_t index, ref::SampleId id, std::optional<uint32_t> writer);
+
+    // How often a sample was hit, as far as its colour tells: 0 if it holds what it was cleared to.
+    // For pictures of targets without instruments.
+    uint8_t hits_for_pictures(size_t index) const;
+
+  private:
+    ref::ColorReference& reference(cases::Profile profile);
+    std::optional<ref::ColorWitness> witness_of(size_t index, std::optional<uint32_t> writer) const;
+    Finding finding_of(size_t index, ref::SampleId id, const ref::ColorVerdict& verdict,
+                       const std::optional<ref::ColorWitness>& witness);
+
+    const cases::Case& case_;
+    const ref::Expectation& expectation_;
+    const CaptureView& capture_;
+    Attribution& attribution_;
+    std::array<std::unique_ptr<ref::ColorReference>, 3> references_;  // by profile
+};
+
+}  // namespace diff

@@ -1,0 +1,444 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/blend.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+namespace ref::color {
+
+namespace {
+
+using cases::BlendFactor;
+using cases::BlendOp;
+using cases::ComponentKind;
+
+mpz_class floor_of(const mpq_class& x) {
+    mpz_class out;
+    mpz_fdiv_q(out.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
+    return out;
+}
+
+mpz_class ceil_of(const mpq_class& x) {
+    mpz_class out;
+    mpz_cdiv_q(out.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
+    return out;
+}
+
+mpq_class power_of_two(long exponent) {
+    mpq_class out(1);
+    if (exponent >= 0) {
+        mpq_mul_2exp(out.get_mpq_t(), out.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+    } else {
+        mpq_div_2exp(out.get_mpq_t(), out.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+    }
+    return out;
+}
+
+// A binary floating-point format: `fraction` stored bits, exponents from `least` (of the smallest
+// normal number) to `most`.
+struct Floating {
+    long fraction, least, most;
+};
+constexpr Floating kHalf = {10, -14, 15};
+constexpr Floating kBinary32 = {23, -126, 127};
+
+// The spacing of the format's numbers around x != 0.
+mpq_class spacing(const Floating& format, const mpq_class& x) {
+    const mpq_class size = abs(x);
+    // 2^e <= size < 2^(e+1); the difference of the lengths is e or e + 1.
+    long e = static_cast<long>(mpz_sizeinbase(size.get_num_mpz_t(), 2)) -
+             static_cast<long>(mpz_sizeinbase(size.get_den_mpz_t(), 2));
+    if (power_of_two(e) > size) {
+        --e;
+    }
+    return power_of_two(std::max(e, format.least) - format.fraction);
+}
+
+mpq_class round_to(const Floating& format, const mpq_class& x, bool upwards) {
+    const mpq_class largest = power_of_two(format.most + 1) - power_of_two(format.most - format.fraction);
+    if (sgn(x) == 0 || abs(x) > largest) {
+        return x;
+    }
+    const mpq_class step = spacing(format, x);
+    const mpq_class count = x / step;
+    return (upwards ? mpq_class(ceil_of(count)) : mpq_class(floor_of(count))) * step;
+}
+
+// The Khronos Data Format Specification, "sRGB transfer functions": code / 255 to linear.
+double linear_of(uint32_t code) {
+    const double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+const std::vector<mpq_class>& srgb_values() {
+    static const std::vector<mpq_class> values = [] {
+        std::vector<mpq_class> out;
+        for (uint32_t code = 0; code < 256; ++code) {
+            out.emplace_back(linear_of(code));
+        }
+        return out;
+    }();
+    return values;
+}
+
+mpq_class value_of_floating(const Floating& format, uint32_t code, bool& is_number) {
+    const uint32_t fraction_bits = static_cast<uint32_t>(format.fraction);
+    const uint32_t exponent_bits = fraction_bits == 10 ? 5 : 8;
+    const uint32_t fraction = code & ((1U << fraction_bits) - 1);
+    const uint32_t exponent = code >> fraction_bits & ((1U << exponent_bits) - 1);
+    const bool is_negative = (code >> (fraction_bits + exponent_bits) & 1U) != 0;
+    is_number = exponent != (1U << exponent_bits) - 1;
+    const uint32_t whole = exponent == 0 ? fraction : fraction | 1U << fraction_bits;
+    const long scale = (exponent == 0 ? format.least : format.least + static_cast<long>(exponent) - 1) -
+                       format.fraction;
+    const mpq_class size = mpq_class(whole) * power_of_two(scale);
+    return is_negative ? mpq_class(-size) : size;
+}
+
+Interval complement(const Interval& v) {
+    return {1 - v.high, 1 - v.low};
+}
+
+Interval product(const Interval& a, const Interval& b) {
+    const std::array<mpq_class, 4> ends = {a.low * b.low, a.low * b.high, a.high * b.low,
+                                           a.high * b.high};
+    return {*std::min_element(ends.begin(), ends.end()),
+            *std::max_element(ends.begin(), ends.end())};
+}
+
+Interval smaller(const Interval& a, const Interval& b) {
+    return {std::min(a.low, b.low), std::min(a.high, b.high)};
+}
+
+Interval larger(const Interval& a, const Interval& b) {
+    return {std::max(a.low, b.low), std::max(a.high, b.high)};
+}
+
+// Table "Blend Factors". `k`: the component, 3 alpha.
+Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Color& destination,
+                   const Color& constants) {
+    switch (factor) {
+        case BlendFactor::zero:
+            return point(0);
+        case BlendFactor::one:
+            return point(1);
+        case BlendFactor::src_color:
+            return source[k];
+        case BlendFactor::one_minus_src_color:
+            return complement(source[k]);
+        case BlendFactor::dst_color:
+            return destination[k];
+        case BlendFactor::one_minus_dst_color:
+            return complement(destination[k]);
+        case BlendFactor::src_alpha:
+            return source[3];
+        case BlendFactor::one_minus_src_alpha:
+            return complement(source[3]);
+        case BlendFactor::dst_alpha:
+            return destination[3];
+        case BlendFactor::one_minus_dst_alpha:
+            return complement(destination[3]);
+        case BlendFactor::constant_color:
+            return constants[k];
+        case BlendFactor::one_minus_constant_color:
+            return complement(constants[k]);
+        case BlendFactor::constant_alpha:
+            return constants[3];
+        case BlendFactor::one_minus_constant_alpha:
+            return complement(constants[3]);
+        case BlendFactor::src_alpha_saturate:
+            break;
+    }
+    return k == 3 ? point(1) : smaller(source[3], complement(destination[3]));
+}
+
+}  // namespace
+
+Interval point(const mpq_class& value) {
+    return {value, value};
+}
+
+Interval clamped(const Interval& v) {
+    const auto clamp = [](const mpq_class& x) -> mpq_class {
+        return x < 0 ? mpq_class(0) : x > 1 ? mpq_class(1) : x;
+    };
+    return {clamp(v.low), clamp(v.high)};
+}
+
+mpq_class Component::units() const {
+    return power_of_two(static_cast<long>(format_.bits)) - 1;
+}
+
+bool Component::is_fixed_point() const {
+    return format_.kind == ComponentKind::unorm || format_.kind == ComponentKind::srgb;
+}
+
+mpq_class Component::down(const mpq_class& x) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return floor_of(x * units()) / units();
+        case ComponentKind::srgb: {
+            // A value within kSrgbError of a code's is that code.
+            const auto& values = srgb_values();
+            const auto above =
+                std::upper_bound(values.begin(), values.end(), mpq_class(x + kSrgbError));
+            return above == values.begin() ? x : *(above - 1);
+        }
+        case ComponentKind::half:
+            return round_to(kHalf, x, false);
+        case ComponentKind::binary32:
+            return round_to(kBinary32, x, false);
+        case ComponentKind::uint:
+            break;
+    }
+    return x;
+}
+
+mpq_class Component::up(const mpq_class& x) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return ceil_of(x * units()) / units();
+        case ComponentKind::srgb: {
+            const auto& values = srgb_values();
+            const auto at =
+                std::lower_bound(values.begin(), values.end(), mpq_class(x - kSrgbError));
+            return at == values.end() ? x : *at;
+        }
+        case ComponentKind::half:
+            return round_to(kHalf, x, true);
+        case ComponentKind::binary32:
+            return round_to(kBinary32, x, true);
+        case ComponentKind::uint:
+            break;
+    }
+    return x;
+}
+
+Interval Component::stored(const Interval& v, cases::Profile profile, bool is_blended) const {
+    if (!is_fixed_point()) {
+        return either(v);
+    }
+    const Interval in = clamped(v);
+    if (format_.kind == ComponentKind::unorm && profile == cases::Profile::direct3d &&
+        !is_blended) {
+        const mpq_class slack(3, 5);  // of a unit on the integer side
+        const mpq_class low = ceil_of(in.low * units() - slack) / units();
+        const mpq_class high = floor_of(in.high * units() + slack) / units();
+        return clamped({low, high});
+    }
+    return either(in);
+}
+
+bool Component::value_of(uint32_t code, mpq_class& value) const {
+    bool is_number = true;
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            value = mpq_class(code) / units();
+            break;
+        case ComponentKind::srgb:
+            is_number = code < 256;
+            value = srgb_values()[is_number ? code : 0];
+            break;
+        case ComponentKind::half:
+            value = value_of_floating(kHalf, code, is_number);
+            break;
+        case ComponentKind::binary32:
+            value = value_of_floating(kBinary32, code, is_number);
+            break;
+        case ComponentKind::uint:
+            value = code;
+            break;
+    }
+    return is_number;
+}
+
+uint32_t Component::code_of(const mpq_class& value) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return static_cast<uint32_t>(
+                floor_of(value * units() + mpq_class(1, 2)).get_ui());
+        case ComponentKind::srgb: {
+            const auto& values = srgb_values();
+            const auto at = std::lower_bound(values.begin(), values.end(), value);
+            return static_cast<uint32_t>(std::min<std::ptrdiff_t>(at - values.begin(), 255));
+        }
+        case ComponentKind::half: {
+            const mpq_class grid = down(value);
+            const mpq_class size = abs(grid);
+            const uint32_t sign = grid < 0 ? 0x8000U : 0U;
+            if (size < power_of_two(kHalf.least)) {
+                return sign | static_cast<uint32_t>(mpz_class(size / power_of_two(-24)).get_ui());
+            }
+            const mpq_class step = spacing(kHalf, size);
+            uint32_t exponent = 1;
+            while (power_of_two(kHalf.least - kHalf.fraction + static_cast<long>(exponent) - 1) <
+                   step) {
+                ++exponent;
+            }
+            const auto whole = static_cast<uint32_t>(mpz_class(size / step).get_ui());
+            return sign | exponent << 10 | (whole & 0x3ffU);
+        }
+        case ComponentKind::binary32:  // of the grid: exact
+            return std::bit_cast<uint32_t>(static_cast<float>(down(value).get_d()));
+        case ComponentKind::uint:
+            break;
+    }
+    return static_cast<uint32_t>(floor_of(value).get_ui());
+}
+
+std::string Component::text_of(const Interval& v) const {
+    const auto text = [&](const mpq_class& x) -> std::string {
+        switch (format_.kind) {
+            case ComponentKind::unorm:
+                return mpz_class(floor_of(x * units())).get_str();
+            case ComponentKind::srgb: {
+                const auto& values = srgb_values();
+                return std::to_string(std::lower_bound(values.begin(), values.end(), x) -
+                                      values.begin());
+            }
+            default:
+                return fmt::format("{:.9g}", x.get_d());
+        }
+    };
+    const std::string low = text(v.low);
+    const std::string high = text(v.high);
+    return low == high ? low : fmt::format("{} to {}", low, high);
+}
+
+Color Unit::cleared(const cases::ColorTarget& target) const {
+    Color out;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        out[k] = component.exists()
+                     ? component.stored(
+                           point(static_cast<double>(target.clear[static_cast<int>(k)])), profile,
+                           false)
+                     : point(k == 3 ? 1 : 0);
+    }
+    return out;
+}
+
+Color Unit::write(const cases::ColorOutput& output, const Color& source, const Color& before) const {
+    Color out = before;
+    if (!output.blend) {
+        for (uint32_t k = 0; k < 4; ++k) {
+            const Component component(cases::component_of(format, k));
+            if (component.exists() && (output.write_mask >> k & 1U) != 0) {
+                out[k] = component.stored(source[k], profile, false);
+            }
+        }
+        return out;
+    }
+    // Alpha of the source takes part even where the target has none; then it is not rounded.
+    const Component first(cases::component_of(format, 0));
+    Color s = source;
+    Color constants;
+    for (uint32_t k = 0; k < 4; ++k) {
+        constants[k] = point(static_cast<double>(output.blend->constants[static_cast<int>(k)]));
+        const Component component(cases::component_of(format, k));
+        const Component& grid = component.exists() ? component : first;
+        if (first.is_fixed_point()) {
+            s[k] = clamped(s[k]);
+            constants[k] = clamped(constants[k]);
+        }
+        s[k] = grid.either(s[k]);
+        constants[k] = grid.either(constants[k]);
+    }
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        if (!component.exists() || (output.write_mask >> k & 1U) == 0) {
+            continue;
+        }
+        const cases::BlendEquation& equation = k == 3 ? output.blend->alpha : output.blend->color;
+        Interval result;
+        if (equation.op == BlendOp::min) {  // factors are ignored
+            result = smaller(s[k], before[k]);
+        } else if (equation.op == BlendOp::max) {
+            result = larger(s[k], before[k]);
+        } else {
+            const auto scaled = [&](const Interval& value, BlendFactor factor) {
+                return component.either(product(
+                    value, component.either(factor_of(factor, k, s, before, constants))));
+            };
+            const Interval a = scaled(s[k], equation.source);
+            const Interval b = scaled(before[k], equation.destination);
+            switch (equation.op) {
+                case BlendOp::subtract:
+                    result = {a.low - b.high, a.high - b.low};
+                    break;
+                case BlendOp::reverse_subtract:
+                    result = {b.low - a.high, b.high - a.low};
+                    break;
+                default:
+                    result = {a.low + b.low, a.high + b.high};
+                    break;
+            }
+        }
+        out[k] = component.stored(result, profile, true);
+    }
+    return out;
+}
+
+std::array<uint32_t, 4> Unit::codes_of(const Color& color) const {
+    std::array<uint32_t, 4> out{};
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        if (component.exists()) {
+            out[k] = component.code_of((color[k].low + color[k].high) / 2);
+        }
+    }
+    return out;
+}
+
+bool Unit::allows(const Color& color, const std::array<uint32_t, 4>& codes) const {
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        if (!component.exists()) {
+            continue;
+        }
+        mpq_class value;
+        if (!component.value_of(codes[k], value) || value < color[k].low || value > color[k].high) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::string Unit::text_of(const Color& color) const {
+    std::string out;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        if (component.exists()) {
+            out += fmt::format("{}{} {}", out.empty() ? "" : ", ", "rgba"[k],
+                               component.text_of(color[k]));
+        }
+    }
+    return out;
+}
+
+std::string Unit::text_of(const std::array<uint32_t, 4>& codes) const {
+    std::string out;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const cases::ComponentFormat c = cases::component_of(format, k);
+        if (c.bits == 0) {
+            continue;
+        }
+        out += fmt::format("{}{} ", out.empty() ? "" : ", ", "rgba"[k]);
+        mpq_class value;
+        if (c.kind != ComponentKind::half && c.kind != ComponentKind::binary32) {
+            out += std::to_string(codes[k]);
+        } else if (Component(c).value_of(codes[k], value)) {
+            out += fmt::format("{:.9g} (0x{:0{}x})", value.get_d(), codes[k], c.bits / 4);
+        } else {
+            out += fmt::format("no number (0x{:0{}x})", codes[k], c.bits / 4);
+        }
+    }
+    return out;
+}
+
+}  // namespace ref::color

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Right and wrong colour planes: what is accepted, what is told, at which level.
+#include <gmock/gmock.h>
+
+#include "diff/verdict.hpp"
+#include "perfect_capture.hpp"
+#include "ref/color.hpp"
+
+namespace diff {
+namespace {
+
+using cases::ColorFormat;
+using cases::Profile;
+
+// Two overlapping triangles in two draws; colours of draws are set by the caller.
+cases::Case two_draws(ColorFormat format, glm::vec4 clear) {
+    cases::Case c = pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}});
+    cases::Case other = pixel_case(8, 8, {{0, 0}, {8, 8}, {0, 8}});
+    c.draws.push_back(other.draws[0]);
+    c.target.color = {format, clear};
+    c.target.has_instruments = false;
+    c.target.has_depth = false;
+    return c;
+}
+
+struct Drawn {
+    cases::Case c;
+    ref::Expectation expectation;
+    Capture capture;
+
+    explicit Drawn(cases::Case the_case, Profile profile = Profile::direct3d)
+        : c(std::move(the_case)), expectation(ref::expect(c, ref::Limits{8}, profile)) {
+        ref::ColorReference reference(c, expectation);
+        capture.target = c.target;
+        capture.color.resize(capture.sample_count());
+        for (uint32_t y = 0; y < 8; ++y) {
+            for (uint32_t x = 0; x < 8; ++x) {
+                capture.color[y * 8 + x] = reference.codes(y * 8 + x, {x, y, 0}, std::nullopt);
+            }
+        }
+    }
+    Verdict judge() const { return compare(c, expectation, capture); }
+    ColorCodes& at(uint32_t x, uint32_t y) { return capture.color[y * 8 + x]; }
+};
+
+cases::Case additive() {
+    cases::Case c = two_draws(ColorFormat::rgba8_unorm, {0, 0, 0, 0});
+    for (cases::Draw& draw : c.draws) {
+        draw.color.value = {0.25F, 1, 0, 0.5F};
+        draw.color.blend = cases::Blend{
+            {cases::BlendFactor::one, cases::BlendFactor::one, cases::BlendOp::add},
+            {cases::BlendFactor::one, cases::BlendFactor::one, cases::BlendOp::add}};
+    }
+    return c;
+}
+
+TEST(Color, TheReferenceItselfIsRight) {
+    const Drawn drawn(additive());
+    const Verdict verdict = drawn.judge();
+    EXPECT_TRUE(verdict.ok()) << verdict.error;
+    EXPECT_EQ(drawn.capture.color[0 * 8 + 5][1], 255U);  // first alone
+    EXPECT_EQ(drawn.capture.color[7 * 8 + 0][3], 255U);  // both: 0.5 twice
+    EXPECT_EQ(drawn.capture.color[5 * 8 + 6], (ColorCodes{0, 0, 0, 0}));
+}
+
+TEST(Color, ABlackPictureFails) {
+    Drawn drawn(additive());
+    std::fill(drawn.capture.color.begin(), drawn.capture.color.end(), ColorCodes{});
+    const Verdict verdict = drawn.judge();
+    EXPECT_GT(verdict.counts[static_cast<size_t>(FindingKind::missing)], 20U);
+    EXPECT_EQ(verdict.level, Profile::vulkan);
+}
+
+TEST(Color, PoisonIsAnError) {
+    Drawn drawn(additive());
+    drawn.at(3, 3) = {kPoison, kPoison, kPoison, kPoison};
+    EXPECT_THAT(drawn.judge().error, testing::HasSubstr("was not copied"));
+}
+
+TEST(Color, MissingExtraTwiceAndOtherColours) {
+    const auto only = [](Drawn& drawn) {
+        const Verdict verdict = drawn.judge();
+        EXPECT_EQ(verdict.findings.size(), 1U);
+        return verdict.findings.empty() ? Finding() : verdict.findings[0];
+    };
+    {
+        Drawn drawn(additive());
+        drawn.at(5, 0) = {0, 0, 0, 0};
+        EXPECT_EQ(only(drawn).kind, FindingKind::missing);
+        EXPECT_EQ(only(drawn).rule, "cover.inside");
+    }
+    {
+        Drawn drawn(additive());
+        drawn.at(6, 5) = drawn.at(5, 0);
+        EXPECT_EQ(only(drawn).kind, FindingKind::extra);
+        EXPECT_EQ(only(drawn).rule, "cover.outside");
+    }
+    {
+        Drawn drawn(additive());
+        drawn.at(5, 0) = {128, 255, 0, 255};
+        EXPECT_EQ(only(drawn).kind, FindingKind::double_hit);
+    }
+    {
+        Drawn drawn(additive());
+        drawn.at(5, 0)[2] = 9;
+        const Finding finding = only(drawn);
+        EXPECT_EQ(finding.kind, FindingKind::value);
+        EXPECT_EQ(finding.rule, "blend.equation");
+        EXPECT_EQ(finding.expected, "r 63 to 64, g 255, b 0, a 127 to 128");
+        EXPECT_EQ(finding.level, Profile::vulkan);
+    }
+}
+
+TEST(Color, AWrongOrderIsToldAsOne) {
+    cases::Case c = two_draws(ColorFormat::rgba32_float, {0, 0, 0, 0});
+    c.draws[0].color.value = {1, 0, 0, 1};
+    c.draws[1].color.value = {0, 1, 0, 1};
+    Drawn drawn(c);
+    EXPECT_TRUE(drawn.judge().ok());
+    drawn.at(0, 7) = drawn.at(5, 0);
+    const Verdict verdict = drawn.judge();
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    EXPECT_EQ(verdict.findings[0].kind, FindingKind::missing);  // without blending it looks so
+    for (cases::Draw& draw : c.draws) {
+        draw.color.value.w = 0.5F;
+        draw.color.blend =
+            cases::Blend{{cases::BlendFactor::src_alpha, cases::BlendFactor::one_minus_src_alpha,
+                          cases::BlendOp::add},
+                         {cases::BlendFactor::one, cases::BlendFactor::zero, cases::BlendOp::add}};
+    }
+    Drawn blended(c);
+    EXPECT_TRUE(blended.judge().ok());
+    std::swap(blended.at(0, 7)[0], blended.at(0, 7)[1]);
+    ASSERT_EQ(blended.judge().findings.size(), 1U);
+    EXPECT_EQ(blended.judge().findings[0].kind, FindingKind::order);
+    EXPECT_EQ(blended.judge().findings[0].rule, "order.primitive");
+}
+
+TEST(Color, TruncationIsAFindingAtDirect3dAlone) {
+    cases::Case c = two_draws(ColorFormat::rgba8_unorm, {0, 0, 0, 0});
+    c.draws[0].color.value = {0.25F, 1, 0, 1};  // r = 63.75
+    c.draws[1].color.value = {0.25F, 1, 0, 1};
+    Drawn drawn(c);
+    EXPECT_EQ(drawn.at(5, 0)[0], 64U);
+    drawn.at(5, 0)[0] = 63;
+    const Verdict verdict = drawn.judge();
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    EXPECT_EQ(verdict.findings[0].rule, "store.unorm");
+    EXPECT_EQ(verdict.findings[0].level, Profile::direct3d);
+    drawn.at(5, 0)[0] = 62;
+    EXPECT_EQ(drawn.judge().findings[0].level, Profile::vulkan);
+}
+
+}  // namespace
+}  // namespace diff

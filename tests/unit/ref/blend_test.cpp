@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The intervals of ref/blend.hpp hold what every legal blend unit computes (an integer unit of the
+// destination's width, binary32, binary64), by hand and by property; and little more.
+#include "ref/blend.hpp"
+
+#include <gmock/gmock.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+namespace ref::color {
+namespace {
+
+using cases::BlendFactor;
+using cases::BlendOp;
+using cases::ColorFormat;
+using cases::Profile;
+
+Color color_of(const std::array<double, 4>& values) {
+    return {point(values[0]), point(values[1]), point(values[2]), point(values[3])};
+}
+
+cases::ColorOutput alpha_blend() {
+    cases::ColorOutput out;
+    out.blend = cases::Blend{
+        {BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha, BlendOp::add},
+        {BlendFactor::one, BlendFactor::one_minus_src_alpha, BlendOp::add}};
+    return out;
+}
+
+TEST(Store, UnormIsOneOfTheTwoNearestCodes) {
+    const Component eight({cases::ComponentKind::unorm, 8});
+    const auto codes = [&](double value, Profile profile) {
+        return eight.text_of(eight.stored(point(value), profile, false));
+    };
+    EXPECT_EQ(codes(0, Profile::vulkan), "0");
+    EXPECT_EQ(codes(1, Profile::vulkan), "255");
+    EXPECT_EQ(codes(-3, Profile::vulkan), "0");
+    EXPECT_EQ(codes(7, Profile::vulkan), "255");
+    EXPECT_EQ(codes(0.5, Profile::vulkan), "127 to 128");    // r = 127.5
+    EXPECT_EQ(codes(0.5, Profile::direct3d), "127 to 128");  // both within 0.6
+    EXPECT_EQ(codes(0.25, Profile::vulkan), "63 to 64");     // r = 63.75
+    EXPECT_EQ(codes(0.25, Profile::direct3d), "64");
+    // The trap: 100/255 in binary32 is 100.00000056.../255.
+    const double trap = static_cast<double>(100.0F / 255.0F);
+    EXPECT_EQ(codes(trap, Profile::vulkan), "100 to 101");
+    EXPECT_EQ(codes(trap, Profile::direct3d), "100");
+}
+
+TEST(Store, HalvesAndFloats) {
+    const Component half({cases::ComponentKind::half, 16});
+    EXPECT_EQ(half.either(point(1)), point(1));
+    EXPECT_EQ(half.either(point(mpq_class(1, 3))),
+              (Interval{mpq_class(1365, 4096), mpq_class(683, 2048)}));
+    EXPECT_EQ(half.either(point(mpq_class(-1, 3))),
+              (Interval{mpq_class(-683, 2048), mpq_class(-1365, 4096)}));
+    EXPECT_EQ(half.either(point(mpq_class(3, 1 << 25))),  // below the smallest denormal, 2^-24
+              (Interval{mpq_class(1, 1 << 24), mpq_class(1, 1 << 23)}));
+    mpq_class value;
+    EXPECT_TRUE(half.value_of(0xc000, value));
+    EXPECT_EQ(value, -2);
+    EXPECT_TRUE(half.value_of(0x0001, value));
+    EXPECT_EQ(value, mpq_class(1, 1 << 24));
+    EXPECT_FALSE(half.value_of(0x7c00, value));
+    EXPECT_FALSE(half.value_of(0x7e00, value));
+    const Component binary32({cases::ComponentKind::binary32, 32});
+    EXPECT_FALSE(binary32.value_of(0x7fc00000, value));
+    rc::check("every binary32 is its own neighbour and its code means it", [&](uint32_t bits) {
+        const auto f = std::bit_cast<float>(bits);
+        RC_PRE(std::isfinite(f));
+        mpq_class v;
+        RC_ASSERT(binary32.value_of(bits, v));
+        RC_ASSERT(v == mpq_class(static_cast<double>(f)));
+        RC_ASSERT(binary32.either(point(v)) == point(v));
+        // Between neighbours only they are allowed.
+        const float next = std::nextafter(f, 1e38F);
+        if (f < next && std::isfinite(next)) {
+            const mpq_class w(static_cast<double>(next));
+            RC_ASSERT((binary32.either(point((v + w) / 2)) == Interval{v, w}));
+        }
+    });
+}
+
+TEST(Store, SrgbEncodesColourAndNotAlpha) {
+    const Unit unit{ColorFormat::rgba8_srgb, Profile::vulkan};
+    const Color before = unit.cleared({ColorFormat::rgba8_srgb, {0, 0, 0, 0}});
+    const Color out = unit.write({}, color_of({0.5, 0, 1, 0.5}), before);
+    // 255 * (1.055 * 0.5^(1/2.4) - 0.055) = 187.52; alpha 127.5.
+    EXPECT_EQ(unit.text_of(out), "r 187 to 188, g 0, b 255, a 127 to 128");
+    for (uint32_t code = 0; code < 256; ++code) {
+        const Component srgb({cases::ComponentKind::srgb, 8});
+        mpq_class value;
+        ASSERT_TRUE(srgb.value_of(code, value));
+        EXPECT_EQ(srgb.either(point(value)), point(value)) << code;
+    }
+}
+
+TEST(Blend, ByHand) {
+    // 8 bits: 0.5 over white. Source 0 * a + 1 * (1 - a) with a = 127.5/255: 127 or 128 of 255.
+    const Unit unit{ColorFormat::rgba8_unorm, Profile::vulkan};
+    const Color white = unit.cleared({ColorFormat::rgba8_unorm, {1, 1, 1, 1}});
+    EXPECT_EQ(unit.text_of(unit.write(alpha_blend(), color_of({0, 1, 0.5, 0.5}), white)),
+              "r 127 to 128, g 254 to 255, b 190 to 192, a 254 to 255");
+    // binary32: exact where every step is representable.
+    const Unit exact{ColorFormat::rgba32_float, Profile::vulkan};
+    const Color before = exact.cleared({ColorFormat::rgba32_float, {0.5F, 4, -2, 1}});
+    EXPECT_EQ(exact.text_of(exact.write(alpha_blend(), color_of({1, 8, 2, 0.25}), before)),
+              "r 0.625, g 5, b -1, a 1");
+}
+
+TEST(Blend, MaskedComponentsAndMissingOnes) {
+    const Unit unit{ColorFormat::r5g6b5_unorm, Profile::vulkan};
+    const Color before = unit.cleared({ColorFormat::r5g6b5_unorm, {0, 1, 0, 0}});
+    cases::ColorOutput output;
+    output.write_mask = 0b101;
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 1, 0}), before)),
+              "r 31, g 63, b 31");
+    // A target without alpha has destination alpha 1.
+    output.write_mask = 0xf;
+    output.blend = cases::Blend{{BlendFactor::dst_alpha, BlendFactor::zero, BlendOp::add}, {}};
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 1, 0}), before)),
+              "r 31, g 0, b 31");
+}
+
+TEST(Blend, MinAndMaxIgnoreFactors) {
+    const Unit unit{ColorFormat::rgba8_unorm, Profile::vulkan};
+    const Color before = unit.cleared({ColorFormat::rgba8_unorm, {0, 1, 0, 1}});
+    cases::ColorOutput output;
+    output.blend = cases::Blend{{BlendFactor::zero, BlendFactor::zero, BlendOp::max},
+                                {BlendFactor::zero, BlendFactor::zero, BlendOp::min}};
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 0, 0}), before)),
+              "r 255, g 255, b 0, a 0");
+}
+
+// A blend unit written for this test: numbers of type T, rounded after every step by `round`.
+template <class T, class Round>
+std::array<T, 4> simulate(const cases::Blend& blend, std::array<T, 4> s, std::array<T, 4> d,
+                          std::array<T, 4> c, bool clamps, Round round) {
+    const auto fit = [&](T v) { return round(clamps ? std::clamp(v, T(0), T(1)) : v); };
+    for (size_t k = 0; k < 4; ++k) {
+        s[k] = fit(s[k]);
+        c[k] = fit(c[k]);
+    }
+    const auto factor = [&](BlendFactor f, size_t k) -> T {
+        const std::array<T, 7> of = {0, s[k], d[k], s[3], d[3], c[k], c[3]};
+        const auto number = static_cast<size_t>(f);
+        if (f == BlendFactor::src_alpha_saturate) {
+            return k == 3 ? T(1) : std::min(s[3], round(T(1) - d[3]));
+        }
+        const T value = of[number / 2];
+        return number % 2 == 0 ? value : round(T(1) - value);
+    };
+    // zero, one, then pairs (value, one minus value): 2k is the value of kind k, but 0 is zero.
+    std::array<T, 4> out{};
+    for (size_t k = 0; k < 4; ++k) {
+        const cases::BlendEquation& e = k == 3 ? blend.alpha : blend.color;
+        const T a = round(s[k] * factor(e.source, k));
+        const T b = round(d[k] * factor(e.destination, k));
+        switch (e.op) {
+            case BlendOp::add:
+                out[k] = fit(a + b);
+                break;
+            case BlendOp::subtract:
+                out[k] = fit(a - b);
+                break;
+            case BlendOp::reverse_subtract:
+                out[k] = fit(b - a);
+                break;
+            case BlendOp::min:
+                out[k] = std::min(s[k], d[k]);
+                break;
+            case BlendOp::max:
+                out[k] = std::max(s[k], d[k]);
+                break;
+        }
+    }
+    return out;
+}
+
+cases::Blend any_blend() {
+    cases::Blend blend;
+    for (cases::BlendEquation* e : {&blend.color, &blend.alpha}) {
+        e->source = static_cast<BlendFactor>(*rc::gen::inRange(0, 15));
+        e->destination = static_cast<BlendFactor>(*rc::gen::inRange(0, 15));
+        e->op = static_cast<BlendOp>(*rc::gen::inRange(0, 5));
+    }
+    for (int k = 0; k < 4; ++k) {
+        blend.constants[k] = static_cast<float>(*rc::gen::inRange(-64, 320)) / 256.0F;
+    }
+    return blend;
+}
+
+std::array<float, 4> any_color() {
+    std::array<float, 4> out{};
+    for (float& v : out) {
+        v = static_cast<float>(*rc::gen::inRange(-100, 1200)) / 1000.0F;
+    }
+    return out;
+}
+
+RC_GTEST_PROP(Blend, AllowsEveryEightBitUnit, ()) {
+    const Unit unit{ColorFormat::rgba8_unorm, Profile::direct3d};
+    const cases::Blend blend = any_blend();
+    const std::array<float, 4> source = any_color();
+    std::array<uint32_t, 4> codes{};
+    std::array<double, 4> d{}, s{}, c{};
+    cases::ColorTarget target;
+    Color before;
+    for (size_t k = 0; k < 4; ++k) {
+        codes[k] = static_cast<uint32_t>(*rc::gen::inRange(0, 256));
+        d[k] = codes[k] / 255.0;
+        before[k] = point(mpq_class(codes[k]) / 255);
+        s[k] = static_cast<double>(source[k]);
+        c[k] = static_cast<double>(blend.constants[static_cast<int>(k)]);
+    }
+    cases::ColorOutput output;
+    output.blend = blend;
+    const Color allowed =
+        unit.write(output, color_of({s[0], s[1], s[2], s[3]}), before);
+    // Units that round each step to nearest, down, up, or not at all. A whole number of units that
+    // binary64 misses by its rounding is that number.
+    const std::array<double (*)(double), 4> roundings = {
+        [](double v) { return std::nearbyint(v * 255) / 255; },
+        [](double v) { return std::floor(v * 255 + 1e-9) / 255; },
+        [](double v) { return std::ceil(v * 255 - 1e-9) / 255; }, [](double v) { return v; }};
+    for (const auto& round : roundings) {
+        const auto out = simulate<double>(blend, s, d, c, true, round);
+        std::array<uint32_t, 4> got{};
+        for (size_t k = 0; k < 4; ++k) {
+            got[k] = static_cast<uint32_t>(std::nearbyint(out[k] * 255));
+        }
+        RC_ASSERT(unit.allows(allowed, got));
+    }
+    // And little more: at most three units either way of the exact result.
+    const auto exact = simulate<double>(blend, s, d, c, true, roundings[3]);
+    for (size_t k = 0; k < 4; ++k) {
+        RC_ASSERT(allowed[k].low.get_d() * 255 >= exact[k] * 255 - 5);
+        RC_ASSERT(allowed[k].high.get_d() * 255 <= exact[k] * 255 + 5);
+    }
+}
+
+RC_GTEST_PROP(Blend, AllowsBinary32UnitsAndNothingFarFromThem, ()) {
+    const Unit unit{ColorFormat::rgba32_float, Profile::direct3d};
+    const cases::Blend blend = any_blend();
+    const std::array<float, 4> s = any_color();
+    const std::array<float, 4> d = any_color();
+    std::array<float, 4> c{};
+    Color before, source;
+    for (size_t k = 0; k < 4; ++k) {
+        c[k] = blend.constants[static_cast<int>(k)];
+        before[k] = point(static_cast<double>(d[k]));
+        source[k] = point(static_cast<double>(s[k]));
+    }
+    cases::ColorOutput output;
+    output.blend = blend;
+    const Color allowed = unit.write(output, source, before);
+    const auto got = simulate<float>(blend, s, d, c, false, [](float v) { return v; });
+    std::array<uint32_t, 4> codes{};
+    for (size_t k = 0; k < 4; ++k) {
+        codes[k] = std::bit_cast<uint32_t>(got[k]);
+    }
+    RC_ASSERT(unit.allows(allowed, codes));
+    for (size_t k = 0; k < 4; ++k) {
+        auto wrong = codes;
+        wrong[k] = std::bit_cast<uint32_t>(got[k] + 0x1p-18F);
+        RC_ASSERT(!unit.allows(allowed, wrong));
+    }
+}
+
+}  // namespace
+}  // namespace ref::color

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/attachments.hpp"
+
+#include <algorithm>
+
+#include "cases/color.hpp"
+#include "diff/capture.hpp"
+#include "vk_harness/case_check.hpp"
+#include "vk_harness/readback.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+VkClearValue clear_color(float r, float g, float b, float a) {
+    VkClearValue clear{};
+    clear.color.float32[0] = r;
+    clear.color.float32[1] = g;
+    clear.color.float32[2] = b;
+    clear.color.float32[3] = a;
+    return clear;
+}
+
+VkClearValue clear_all(float value) {
+    return clear_color(value, value, value, value);
+}
+
+uint32_t texel_bytes(cases::ColorFormat format) {
+    switch (format) {
+        case cases::ColorFormat::r5g6b5_unorm:
+            return 2;
+        case cases::ColorFormat::rgba16_unorm:
+        case cases::ColorFormat::rgba16_float:
+            return 8;
+        case cases::ColorFormat::rgba32_float:
+            return 16;
+        default:
+            return 4;
+    }
+}
+
+Attachment color_attachment(const cases::ColorTarget& target) {
+    Attachment out;
+    out.role = Role::color;
+    out.format = to_vulkan(target.format);
+    out.texel_bytes = texel_bytes(target.format);
+    out.sample_bytes = std::max(out.texel_bytes, 4U);
+    if (is_integer(target.format)) {
+        for (int k = 0; k < 4; ++k) {
+            out.clear.color.uint32[k] = static_cast<uint32_t>(target.clear[k]);
+        }
+    } else {
+        out.clear = clear_color(target.clear.x, target.clear.y, target.clear.z, target.clear.w);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<Attachment> attachments_of(const cases::Case& c) {
+    std::vector<Attachment> out;
+    const bool other = c.variation.other_clears;
+    if (c.target.has_instruments) {
+        const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
+        const VkClearValue value = clear_all(other ? diff::kOtherClearValue : diff::kClearValue);
+        out.push_back({Role::hits, kColorFormat, clear_color(0.0F, 0.0F, guard, guard)});
+        out.push_back(
+            {Role::writer, kColorFormat, clear_all(other ? kOtherClearIdAsFloat : kClearIdAsFloat)});
+        out.push_back({Role::frag_coord, kColorFormat, value});
+        for (uint32_t k = 0; k < attribute_count(c); ++k) {
+            out.push_back({Role::attribute, kColorFormat, value});
+        }
+    }
+    if (c.target.color) {
+        out.push_back(color_attachment(*c.target.color));
+    }
+    if (c.target.has_depth) {
+        VkClearValue clear{};
+        clear.depthStencil = {
+            c.variation.other_depth_clear ? diff::kOtherClearDepth : c.target.depth_clear, 0};
+        const uint32_t texel = c.target.depth_format == cases::DepthFormat::d16_unorm ? 2 : 4;
+        out.push_back({Role::depth, depth_format(c.target.depth_format), clear, texel, 4});
+    }
+    return out;
+}
+
+uint32_t color_count(const std::vector<Attachment>& attachments) {
+    return static_cast<uint32_t>(std::count_if(attachments.begin(), attachments.end(),
+                                               [](const auto& a) { return !a.is_depth(); }));
+}
+
+VkFormat to_vulkan(cases::ColorFormat format) {
+    switch (format) {
+        case cases::ColorFormat::rgba8_unorm:
+            return VK_FORMAT_R8G8B8A8_UNORM;
+        case cases::ColorFormat::bgra8_unorm:
+            return VK_FORMAT_B8G8R8A8_UNORM;
+        case cases::ColorFormat::rgba8_srgb:
+            return VK_FORMAT_R8G8B8A8_SRGB;
+        case cases::ColorFormat::rgb10a2_unorm:
+            return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
+        case cases::ColorFormat::r5g6b5_unorm:
+            return VK_FORMAT_R5G6B5_UNORM_PACK16;
+        case cases::ColorFormat::rgba16_unorm:
+            return VK_FORMAT_R16G16B16A16_UNORM;
+        case cases::ColorFormat::rgba16_float:
+            return VK_FORMAT_R16G16B16A16_SFLOAT;
+        case cases::ColorFormat::rgba32_float:
+            return VK_FORMAT_R32G32B32A32_SFLOAT;
+        case cases::ColorFormat::r32_float:
+            return VK_FORMAT_R32_SFLOAT;
+        case cases::ColorFormat::r32_uint:
+            return VK_FORMAT_R32_UINT;
+        case cases::ColorFormat::rgba8_uint:
+            break;
+    }
+    return VK_FORMAT_R8G8B8A8_UINT;
+}
+
+VkFormat bits_format(VkFormat format) {
+    switch (format) {
+        case VK_FORMAT_R5G6B5_UNORM_PACK16:
+            return VK_FORMAT_R16_UINT;
+        case VK_FORMAT_R16G16B16A16_UNORM:
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+            return VK_FORMAT_R32G32_UINT;
+        case VK_FORMAT_R32G32B32A32_SFLOAT:
+            return VK_FORMAT_R32G32B32A32_UINT;
+        default:
+            return VK_FORMAT_R32_UINT;
+    }
+}
+
+}  // namespace vk_harness

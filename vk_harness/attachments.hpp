@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which attachments a case is drawn to: one list that images, pipelines, commands and read-back go
+// by.
+#pragma once
+
+#include <vector>
+
+#include "cases/case.hpp"
+#include "vk_harness/device.hpp"
+
+namespace vk_harness {
+
+enum class Role : uint8_t { hits, writer, frag_coord, attribute, color, depth };
+
+struct Attachment {
+    Role role = Role::hits;
+    VkFormat format = kColorFormat;
+    VkClearValue clear{};        // a value that no case can draw, diff/capture.hpp
+    uint32_t texel_bytes = 16;   // of a single-sampled copy
+    uint32_t sample_bytes = 16;  // of a sample in a multisampled copy: whole words
+    bool is_depth() const { return role == Role::depth; }
+    // Bytes of one sample in read-back memory.
+    uint32_t copied_bytes(uint32_t samples) const {
+        return samples > 1 ? sample_bytes : texel_bytes;
+    }
+};
+
+// In the order of shader locations: hits, writer, frag_coord, attributes, color; depth, which has
+// no location, last. Without instruments only color, if any, and depth, if any.
+std::vector<Attachment> attachments_of(const cases::Case& c);
+
+// How many of them are colour attachments.
+uint32_t color_count(const std::vector<Attachment>& attachments);
+
+VkFormat to_vulkan(cases::ColorFormat format);
+// The unsigned format through which single samples of a colour format are read, so that no bit can
+// change on the way.
+VkFormat bits_format(VkFormat format);
+
+}  // namespace vk_harness
