@@ -40,7 +40,8 @@ void add_single(HitBounds& b, const TriangleSetup& t, bool is_must) {
     }
 }
 
-// From `least` to `most` of `front` + `back` triangles.
+// From `least` to `most` of some triangles, at most `front` of them as front and `back` as back
+// faces.
 void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t least, uint32_t most) {
     const auto beyond = [](uint32_t n, uint32_t others) { return n > others ? n - others : 0; };
     const uint32_t front_max = std::min(front, most);
@@ -521,15 +522,16 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
     uint32_t first = 0;  // nothing before it can have written last
     for (const Fixed& set : sets) {
         uint32_t front = 0;
+        uint32_t back = 0;
         for (const uint32_t m : set.members) {
             is_counted[m] = true;
             front += setups_[hits[m].triangle].can_be_front ? 1U : 0U;
+            back += setups_[hits[m].triangle].can_be_back ? 1U : 0U;
             if (set.count == 0) {
                 coverage[m] = Coverage::must_not;
             }
         }
-        const auto size = static_cast<uint32_t>(set.members.size());
-        add_set(out.hits, front, size - front, set.least, set.count);
+        add_set(out.hits, front, back, set.least, set.count);
         if (set.least > 0) {
             first = std::max(first, set.members[set.least - 1]);
         }

@@ -107,7 +107,7 @@ TEST(LoadClip, Mistakes) {
               "f:9:12: error: a clip_distance is -4.33681e-19; write 0 or a number of magnitude "
               "2^-60 to 2^60");
     EXPECT_EQ(clip("half_space = [1,2,3]\n"),
-              "f:9:14: error: half_space has 3 numbers; write 4");
+              "f:9:14: error: half_space has 3 numbers instead of 4");
     EXPECT_EQ(clip("normal = [1,2,3]\n"),
               "f:9:1: error: [[draw.clip_distance]] has no key \"normal\"; its keys are values, "
               "constant, plane, half_space, negate\n"
@@ -117,7 +117,7 @@ TEST(LoadClip, Mistakes) {
               "f:10:10: error: negate is the number 1; write true or false");
     const std::string one = "[[draw.clip_distance]]\nconstant = 1\n";
     EXPECT_EQ(errors_of(kTriangle + one + one + one + one + one),
-              "f:8:3: error: a draw has 1 to 4 of clip_distance, not 5");
+              "f:8:1: error: a draw has 1 to 4 of clip_distance, not 5");
     EXPECT_EQ(errors_of("space = \"clip\"\nvertices = [[0,0,0,1],[1,0,0,0],[0,1,0,1]]\n"
                         "[[draw.cull_distance]]\nplane = \"x\"\n"),
               "f:10:9: error: plane has no x and y at vertex 1, whose w is 0; write half_space");
