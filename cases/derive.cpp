@@ -27,9 +27,13 @@ std::string_view rule_of(RelationKind kind) {
     return "repeat.attachments";
 }
 
-// Depth writes of the case decide nothing else, so they may be left out.
+// Depth writes of the case decide nothing else, so they may be left out; and depth is cleared as
+// usual, in a format that holds the other clear value.
 bool depth_is_only_written(const Case& c) {
-    return std::all_of(c.draws.begin(), c.draws.end(),
+    const bool is_usual = c.target.depth_format == DepthFormat::d32_float &&
+                          c.target.depth_clear >= kDepthClear &&
+                          c.target.depth_clear <= kDepthClear;
+    return is_usual && std::all_of(c.draws.begin(), c.draws.end(),
                        [](const Draw& draw) { return draw.depth.compare == CompareOp::always; });
 }
 

@@ -74,6 +74,9 @@ uint32_t clear_word(uint32_t plane, uint32_t word, const cases::Variation& varia
 // their guards exactly, so moving a guard moves every count by as much.
 uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, SampleState state,
                      const cases::Variation& variation) {
+    if (plane == kDepthPlane && !variation.other_depth_clear && !variation.masks_depth) {
+        return base;  // whatever the case clears depth to
+    }
     if (is_masked(variation, plane) || (state == SampleState::clear && plane != kColorPlane)) {
         return clear_word(plane, word, variation);
     }
