@@ -138,6 +138,7 @@ bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, 
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:
+        case Kind::probe:
             break;
     }
     return true;
@@ -163,6 +164,7 @@ float nominal_number(const Fragment& f, const Quantity& q) {
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:
+        case Kind::probe:
             break;
     }
     return 0;
@@ -191,6 +193,7 @@ std::string allowed_text(const Fragment& f, const Quantity& q) {
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:
+        case Kind::probe:
             break;
     }
     return {};
