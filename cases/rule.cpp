@@ -248,6 +248,43 @@ constexpr std::array kRules = {
     Rule{"depth.write", Profile::vulkan, "Depth is written where the test passes and writes are on",
          "A fragment that fails, or whose draw does not write depth, leaves the older depth.",
          "fragops-depth-write", "17.12", "ref/depth_test.hpp"},
+    Rule{"interp.at-offset", Profile::practice, "interpolateAtOffset evaluates at centre + offset",
+         "The offset may be rounded to subPixelInterpolationOffsetBits fraction bits, in either "
+         "direction; multiples of 1/16 need no rounding.",
+         "limits-subPixelInterpolationOffsetBits", "16.5", "ref/value_probe.hpp"},
+    Rule{"interp.at-sample", Profile::practice, "interpolateAtSample evaluates at that sample",
+         "At the location of the given sample, whatever the qualifier of the input; at the centre "
+         "with one sample a pixel.",
+         "shaders-interpolation-decorations", "16.5", "ref/value_probe.hpp"},
+    Rule{"interp.at-centroid", Profile::practice,
+         "interpolateAtCentroid evaluates where a centroid input is",
+         "A point of the pixel and of the primitive; at the centre with one sample a pixel.",
+         "shaders-interpolation-decorations", "16.5", "ref/value_places.hpp"},
+    Rule{"derivative.fine", Profile::practice,
+         "A fine derivative is the difference inside the pixel's own row or column",
+         "P(x+1) - P(x) or P(x) - P(x-1), as the pixel lies in its quad, which may begin at any "
+         "pixel; one quad explains all derivatives of a fragment. Binary32 budgets of both values.",
+         "shaders-derivative-operations", "22.5", "ref/value_probe.hpp"},
+    Rule{"derivative.coarse", Profile::practice,
+         "A coarse derivative is a difference inside the pixel's quad",
+         "Any row (dFdx) or column (dFdy) of the quad. Binary32 budgets of both values.",
+         "shaders-derivative-operations", "22.5", "ref/value_probe.hpp"},
+    Rule{"derivative.plain", Profile::practice,
+         "dFdx and dFdy are both coarse or both fine derivatives",
+         "Which of the two is free, but it \"must\" be chosen consistently between x and y.",
+         "shaders-derivative-operations", "22.5", "ref/value_probe.hpp"},
+    Rule{"lod.query", Profile::practice, "A level of detail follows from the quad's differences",
+         "log2 rho with max(m) <= rho <= sqrt(2) sum(m), to mipmapPrecisionBits bits, of the "
+         "differences of any row and column of the quad.",
+         "textures-lod-and-scale-factor", "7.18", "ref/value_probe.hpp"},
+    Rule{"barycentric.value", Profile::practice,
+         "Barycentric built-ins interpolate the unit vectors",
+         "With perspective or, BaryCoordNoPersp, linearly; binary32 budget.",
+         "primsrast-barycentric", "", "ref/value.hpp"},
+    Rule{"barycentric.order", Profile::practice, "Barycentric vertex order follows the topology",
+         "The triangle's vertices turned so that the provoking vertex is the first (or the last, "
+         "with the last vertex convention), as the tables for lists, strips and fans say.",
+         "primsrast-barycentric", "", "ref/value_setup.cpp"},
 };
 
 }  // namespace

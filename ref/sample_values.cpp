@@ -143,6 +143,7 @@ bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, 
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:
+        case Kind::probe:
             break;
     }
     return true;
@@ -168,6 +169,7 @@ float nominal_number(const Fragment& f, const Quantity& q) {
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:
+        case Kind::probe:
             break;
     }
     return 0;
@@ -196,6 +198,7 @@ std::string allowed_text(const Fragment& f, const Quantity& q) {
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:
+        case Kind::probe:
             break;
     }
     return {};

@@ -39,4 +39,12 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
                     const Places& places, const FragmentValues& device, double factor,
                     double& worst_ratio);
 
+struct ProbePlace;
+
+// The same for the probes (Kind::probe), at one sample a pixel: one arrangement of the quad
+// explains all of them. `worst_ratio` grows to their largest error in budgets.
+bool filter_accepts_probes(const Filter& filter, std::span<const Quantity> quantities,
+                           const ProbePlace& place, const FragmentValues& device, double factor,
+                           double& worst_ratio);
+
 }  // namespace ref::value

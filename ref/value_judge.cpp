@@ -17,8 +17,10 @@
 #include "ref/sample.hpp"
 #include "ref/sample_values.hpp"
 #include "ref/value.hpp"
+#include "ref/value_describe.hpp"
 #include "ref/value_filter.hpp"
 #include "ref/value_places.hpp"
+#include "ref/value_probe.hpp"
 #include "ref/value_promise.hpp"
 #include "ref/value_wide.hpp"
 
@@ -74,17 +76,6 @@ std::string bits_of(float f) {
     return fmt::format("{:.9g} (0x{:08x})", f, std::bit_cast<uint32_t>(f));
 }
 
-value::Valued<mpq_class> exact_value(const value::Basis<mpq_class>& basis, const Quantity& q,
-                                     const value::Evaluation<mpq_class>& place) {
-    const mpq_class factor(kBudgetFactor);
-    const auto site = make_site(basis, basis.planes[value::kPlaneInvW],
-                                q.at_sample     ? place.sample
-                                : q.at_centroid ? place.centroid.front()
-                                                : place.attributes.front(),
-                                factor);
-    return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
-}
-
 // Depth that is stored as it is interpolated: the filters know no other.
 bool is_plain_depth(const value::Primitive& primitive) {
     const cases::DepthState& depth = primitive.draw->depth;
@@ -114,12 +105,6 @@ std::string_view depth_rule(const value::Primitive& primitive, double z) {
         return "depth.bias";
     }
     return primitive.depth_format == cases::DepthFormat::d32_float ? "depth.linear" : "depth.store";
-}
-
-// p/q if it is short enough to be read.
-std::string exact_text(const mpq_class& q) {
-    const std::string text = q.get_str();
-    return text.size() <= 40 ? text : std::string();
 }
 
 }  // namespace
@@ -221,6 +206,13 @@ struct ValueReference::Impl {
         return f;
     }
 
+    value::ProbePlace probe_place(uint32_t t, SampleId id, Profile at) const {
+        return {id, &c.target, &c.draws[triangles[t].draw], limits, at};
+    }
+
+    // Whether one of the two nominal bases is proven to explain all numbers of the fragment.
+    bool filter(uint32_t t, SampleId id, const FragmentValues& device, FragmentVerdict& out);
+
     // The unsnapped basis in rationals, for texts; the last one is kept.
     const value::Basis<mpq_class>& exact_basis(uint32_t t) {
         if (text_triangle != t || !text_basis) {
@@ -273,7 +265,8 @@ struct ValueReference::Impl {
         if (set.is_known) {
             value::WideVerdict verdict =
                 judge_wide(set, std::span<const Quantity>(q), primitive.is_projectable,
-                           value::evaluations<Ball>(fragment(t, id, at), at), device, only);
+                           value::evaluations<Ball>(fragment(t, id, at), at),
+                           probe_place(t, id, at), device, only);
             if (verdict.is_known) {
                 return verdict;
             }
@@ -281,7 +274,8 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(fragment(t, id, at), at), device, only);
+                          value::evaluations<mpq_class>(fragment(t, id, at), at),
+                          probe_place(t, id, at), device, only);
     }
 
     // The oracle: rationals only, no filter.
@@ -296,8 +290,8 @@ struct ValueReference::Impl {
         const value::WideSet<mpq_class>& exact = rationals.get(
             t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
         return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(fragment(t, id, at, true), at), device,
-                          only);
+                          value::evaluations<mpq_class>(fragment(t, id, at, true), at),
+                          probe_place(t, id, at), device, only);
     }
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
@@ -433,10 +427,19 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         m.got = bits_of(got);
         m.ratio = verdict.ratios[k];
         double reach = 0;
+        if (q.kind == Kind::probe) {
+            m.expected = value::probe_text(basis, q, probe_place(t, id, profile));
+            out.mismatches.push_back(std::move(m));
+            continue;
+        }
+        if (q.rule == "barycentric.value" &&
+            value::is_other_vertex(basis, q, all, place, static_cast<double>(got))) {
+            m.rule = "barycentric.order";
+        }
         if (basis.orientation != 0) {
-            const auto v = exact_value(basis, q, place);
+            const auto v = value::exact_value(basis, q, place);
             if (v.exists == Answer::yes) {
-                const std::string text = exact_text(v.value);
+                const std::string text = value::exact_text(v.value);
                 m.expected =
                     fmt::format("{:.9g}{} within {} x {:.3g}", v.value.get_d(),
                                 text.empty() ? "" : " = " + text, kBudgetFactor, v.budget.get_d());
@@ -459,11 +462,50 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
         const bool is_moved = (q.attribute == -2 || q.plane == value::kPlaneDepth) &&
                               !is_plain_depth(primitive);
-        if (!std::isfinite(got) || (!is_moved && (g < low || g > high))) {
+        if (q.rule != "barycentric.value" &&
+            (!std::isfinite(got) || (!is_moved && (g < low || g > high)))) {
             m.rule = "interp.hull";
         }
         out.mismatches.push_back(std::move(m));
     }
+}
+
+bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues& device,
+                                  FragmentVerdict& out) {
+    const Loaded& triangle = load(t);
+    const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
+    const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
+    const value::Point<double> sample{
+        static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
+        static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)};
+    value::Places places{centre, sample, centre};
+    if (c.target.samples > 1) {
+        // The likeliest alternative; the others are left to the next stage.
+        const auto nominal =
+            value::evaluations<Ball>(fragment(t, id, Profile::direct3d), Profile::direct3d)
+                .front();
+        places = {{nominal.attributes[0].x.v, nominal.attributes[0].y.v},
+                  sample,
+                  {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
+    }
+    const std::span<const Quantity> all(quantities_of(t));
+    const value::ProbePlace place = probe_place(t, id, profile);
+    const auto accepts = [&](const value::Filter& filter, double& ratio) {
+        return filter_accepts(filter, all, places, device, kBudgetFactor, ratio) &&
+               filter_accepts_probes(filter, all, place, device, kBudgetFactor, ratio);
+    };
+    double ratio = 0;
+    bool is_decided = accepts(triangle.unsnapped, ratio);
+    out.worst_ratio = ratio;
+    if (triangle.has_snapped && !(is_decided && ratio <= 1)) {
+        double snapped_ratio = 0;
+        if (accepts(triangle.snapped, snapped_ratio) && (!is_decided || snapped_ratio < ratio)) {
+            is_decided = true;
+            out.basis = Basis::snapped;
+            out.worst_ratio = snapped_ratio;
+        }
+    }
+    return is_decided;
 }
 
 FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const FragmentValues& device,
@@ -482,38 +524,8 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
     if (part != FragmentPart::depth) {
         judge_samples(t, id, device, exact_only, out);
     }
-    bool is_decided = false;
-    if (!exact_only && part == FragmentPart::all && is_plain_depth(triangle.primitive)) {
-        const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
-        const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
-        const value::Point<double> sample{
-            static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
-            static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)};
-        value::Places places{centre, sample, centre};
-        if (c.target.samples > 1) {
-            // The likeliest alternative; the others are left to the next stage.
-            const auto nominal =
-                value::evaluations<Ball>(fragment(t, id, Profile::direct3d), Profile::direct3d)
-                    .front();
-            places = {{nominal.attributes[0].x.v, nominal.attributes[0].y.v},
-                      sample,
-                      {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
-        }
-        double ratio = 0;
-        const std::span<const Quantity> span(all);
-        is_decided = filter_accepts(triangle.unsnapped, span, places, device, kBudgetFactor, ratio);
-        out.worst_ratio = ratio;
-        if (triangle.has_snapped && !(is_decided && ratio <= 1)) {
-            double snapped_ratio = 0;
-            if (filter_accepts(triangle.snapped, span, places, device, kBudgetFactor,
-                               snapped_ratio) &&
-                (!is_decided || snapped_ratio < ratio)) {
-                is_decided = true;
-                out.basis = Basis::snapped;
-                out.worst_ratio = snapped_ratio;
-            }
-        }
-    }
+    const bool is_decided = !exact_only && part == FragmentPart::all &&
+                            is_plain_depth(triangle.primitive) && filter(t, id, device, out);
     // Accepted, but above one budget: another basis may explain it better.
     if (!is_decided || out.worst_ratio > 1) {
         const value::WideVerdict verdict =
@@ -638,7 +650,12 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
             if (basis.orientation == 0 || !impl_->promises(t)[index].is_number) {
                 continue;
             }
-            const auto v = exact_value(basis, q, place);
+            if (q.kind == Kind::probe) {
+                value::add_expected_probe(primitive, basis, q,
+                                          impl_->probe_place(t, sample, impl_->profile), out);
+                continue;
+            }
+            const auto v = value::exact_value(basis, q, place);
             if (v.exists != Answer::yes) {
                 continue;
             }

@@ -103,9 +103,11 @@ ShadingRate shading_rate(const cases::Draw& draw, uint32_t samples) {
 }
 
 bool has_centroid(const cases::Draw& draw) {
-    return std::any_of(
-        draw.attributes.begin(), draw.attributes.end(),
-        [](const cases::Attribute& a) { return a.auxiliary == cases::Auxiliary::centroid; });
+    return std::any_of(draw.attributes.begin(), draw.attributes.end(),
+                       [](const cases::Attribute& a) {
+                           return a.auxiliary == cases::Auxiliary::centroid ||
+                                  a.probe == cases::Probe::at_centroid;
+                       });
 }
 
 template <class T>

@@ -19,7 +19,7 @@ constexpr double kLargest = 0x1p126;
 // results", Vulkan, "Floating-Point Computation"): 1/w of a vertex (w = 0 has no value at all,
 // a denormal w may be flushed to 0), z/w, f/w of a smooth value or f itself.
 bool is_unpromised(const Primitive& primitive, const Quantity& q) {
-    if (q.kind != Kind::linear && q.kind != Kind::perspective) {
+    if (!has_plane(q)) {
         return false;
     }
     Triple<float> values{1, 1, 1};
@@ -31,10 +31,10 @@ bool is_unpromised(const Primitive& primitive, const Quantity& q) {
     for (size_t i = 0; i < 3; ++i) {
         const double f = std::fabs(static_cast<double>(values[i]));
         const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
-        const bool is_quotient = q.attribute < 0 || q.kind == Kind::perspective;
+        const bool is_divided = q.attribute < 0 || is_quotient(q);
         // Products with a power of two: exact.
         if (!std::isfinite(f) || w * kLargest < 1 || f > kLargest ||
-            (is_quotient && f > w * kLargest)) {
+            (is_divided && f > w * kLargest)) {
             return true;
         }
     }
@@ -70,7 +70,7 @@ bool is_attribute_beyond(const Primitive& primitive, const Quantity& q) {
     for (size_t i = 0; i < 3; ++i) {
         const double f = std::fabs(static_cast<double>(values[i]));
         const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
-        if (f > kGuaranteed || (q.kind == Kind::perspective && w > 0 && f > kGuaranteed * w)) {
+        if (f > kGuaranteed || (is_quotient(q) && w > 0 && f > kGuaranteed * w)) {
             return true;
         }
     }
@@ -83,7 +83,7 @@ std::vector<Promise> promises_of(const Primitive& primitive, std::span<const Qua
     const bool is_everything = is_position_beyond(primitive);
     std::vector<Promise> out;
     for (const Quantity& q : quantities) {
-        const bool is_numeric = q.kind == Kind::linear || q.kind == Kind::perspective;
+        const bool is_numeric = has_plane(q);
         const bool is_beyond =
             is_numeric &&
             (is_everything || (q.attribute >= 0 && is_attribute_beyond(primitive, q)));

@@ -110,6 +110,46 @@ bool set_sample_source(cases::Source source, Quantity& q) {
 
 }  // namespace
 
+// at-centroid is an input that is evaluated elsewhere, all others are functions of their own.
+void set_probe(const cases::Attribute& attribute, bool multisampled, Quantity& q) {
+    switch (attribute.probe) {
+        case cases::Probe::value:
+            return;
+        case cases::Probe::at_centroid:
+            q.at_sample = false;
+            q.at_centroid = multisampled;
+            q.rule = "interp.at-centroid";
+            return;
+        case cases::Probe::at_sample:
+            q.rule = "interp.at-sample";
+            break;
+        case cases::Probe::at_offset:
+            q.rule = "interp.at-offset";
+            break;
+        case cases::Probe::dx:
+        case cases::Probe::dy:
+        case cases::Probe::width:
+            q.rule = "derivative.plain";
+            break;
+        case cases::Probe::dx_fine:
+        case cases::Probe::dy_fine:
+        case cases::Probe::width_fine:
+            q.rule = "derivative.fine";
+            break;
+        case cases::Probe::dx_coarse:
+        case cases::Probe::dy_coarse:
+        case cases::Probe::width_coarse:
+            q.rule = "derivative.coarse";
+            break;
+        case cases::Probe::lod:
+            q.rule = "lod.query";
+            break;
+    }
+    q.is_perspective = q.kind == Kind::perspective;
+    q.kind = Kind::probe;
+    q.probe = attribute.probe;
+}
+
 float Quantity::get(const FragmentValues& device) const {
     const auto c = static_cast<glm::vec4::length_type>(component);
     if (attribute == -2) {
@@ -165,6 +205,12 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
                 q.at_centroid = attribute.auxiliary == cases::Auxiliary::centroid;
                 q.rule = q.at_sample ? "interp.sample" : q.at_centroid ? "interp.centroid" : q.rule;
             }
+            if (q.kind != Kind::flat) {
+                set_probe(attribute, multisampled, q);
+            }
+            if (attribute.source == cases::Source::barycentric) {
+                q.rule = "barycentric.value";
+            }
             all.push_back(std::move(q));
         }
     }
@@ -191,7 +237,30 @@ Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
     return p;
 }
 
+// The barycentric built-ins interpolate unit vectors: vertex k of the order has a 1 in component k.
+// The order is the triangle's, turned so that the provoking vertex is its first, or its last with
+// the last vertex convention (Vulkan specification, "Barycentric Interpolation", the tables for
+// list, strip and fan).
+Triple<float> barycentric_values(const Primitive& primitive, uint32_t component) {
+    const Triangle& t = primitive.triangle;
+    uint32_t provoking = 0;
+    for (uint32_t i = 0; i < 3; ++i) {
+        if (t.vertex[i] == t.provoking) {
+            provoking = i;
+            break;
+        }
+    }
+    const bool is_last = primitive.draw->provoking == cases::ProvokingVertex::last;
+    const uint32_t first = (provoking + (is_last ? 1U : 0U)) % 3;
+    Triple<float> out{};
+    out[(first + component) % 3] = 1.0F;
+    return out;
+}
+
 Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, uint32_t component) {
+    if (primitive.draw->attributes[attribute].source == cases::Source::barycentric) {
+        return barycentric_values(primitive, component);
+    }
     Triple<float> out{};
     for (size_t i = 0; i < 3; ++i) {
         out[i] = primitive.draw->attributes[attribute]
@@ -255,7 +324,7 @@ std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
         }
     }
     for (const Quantity& q : quantities) {
-        if (q.attribute < 0 || (q.kind != Kind::linear && q.kind != Kind::perspective)) {
+        if (q.attribute < 0 || !has_plane(q)) {
             continue;
         }
         Triple<float> f =
@@ -265,7 +334,7 @@ std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
         }
         PlaneInput<T> plane;
         for (size_t i = 0; i < 3; ++i) {
-            plane.h[i] = q.kind == Kind::perspective
+            plane.h[i] = is_quotient(q)
                              ? from_float<T>(f[i])
                              : T(from_float<T>(f[i]) * from_float<T>(primitive.clip[i].w));
         }

@@ -34,6 +34,7 @@ enum class Kind : uint8_t {
     sample_mask,   // gl_SampleMaskIn
     sample_id,
     sample_position,
+    probe,  // made of an input by a function (value_probe.hpp)
 };
 
 // One scalar of a fragment.
@@ -46,8 +47,18 @@ struct Quantity {
     std::string name;       // "attribute 1.x", "depth", "frag_coord.w"
     std::string_view rule;  // of a mismatch that stays inside the hull
     bool at_centroid = false;
+    cases::Probe probe = cases::Probe::value;  // of Kind::probe
+    bool is_perspective = false;               // likewise: of the input that it looks at
     float get(const FragmentValues& device) const;
 };
+
+// Whether a plane of its own belongs to it, and whether that plane's value is a quotient by 1/w.
+inline bool has_plane(const Quantity& q) {
+    return q.kind == Kind::linear || q.kind == Kind::perspective || q.kind == Kind::probe;
+}
+inline bool is_quotient(const Quantity& q) {
+    return q.kind == Kind::perspective || (q.kind == Kind::probe && q.is_perspective);
+}
 
 // All quantities of a draw, in the order in which mismatches are told.
 std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target);

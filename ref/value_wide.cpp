@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "ref/one_point.hpp"
+#include "ref/value_probe.hpp"
 
 namespace ref::value {
 
@@ -445,7 +446,10 @@ void judge_value(const Reach<T>& reach, size_t index, double device, const Store
 template <class T>
 WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
-                       const FragmentValues& device, std::span<const size_t> only) {
+                       const ProbePlace& place, const FragmentValues& device,
+                       std::span<const size_t> only) {
+    const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
+                                        [](const Quantity& q) { return q.kind == Kind::probe; });
     WideVerdict best;
     bool is_first = true;
     const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
@@ -476,6 +480,13 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                 }
                 judge_value(reaches[i], i, static_cast<double>(quantities[i].get(device)),
                             store_of(set, quantities[i]), verdict);
+                if (!verdict.is_known) {
+                    return verdict;
+                }
+            }
+            if (has_probes) {
+                judge_probes(set, std::span(set.candidates).subspan(first, last - first),
+                             quantities, is_projectable, where, place, device, only, verdict);
                 if (!verdict.is_known) {
                     return verdict;
                 }
@@ -581,10 +592,11 @@ template WideRange<mpq_class> range_wide<mpq_class>(const WideSet<mpq_class>&,
                                                     const std::vector<Evaluation<mpq_class>>&,
                                                     size_t);
 template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
-                                      const std::vector<Evaluation<Ball>>&, const FragmentValues&,
-                                      std::span<const size_t>);
+                                      const std::vector<Evaluation<Ball>>&, const ProbePlace&,
+                                      const FragmentValues&, std::span<const size_t>);
 template WideVerdict judge_wide<mpq_class>(const WideSet<mpq_class>&, std::span<const Quantity>,
                                            bool, const std::vector<Evaluation<mpq_class>>&,
-                                           const FragmentValues&, std::span<const size_t>);
+                                           const ProbePlace&, const FragmentValues&,
+                                           std::span<const size_t>);
 
 }  // namespace ref::value

@@ -67,6 +67,8 @@ template <class T>
 DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool is_projectable,
                              const Point<T>& sample);
 
+struct ProbePlace;
+
 struct WideVerdict {
     bool is_known = true;
     bool ok = false;
@@ -76,11 +78,13 @@ struct WideVerdict {
     std::vector<double> ratios;   // of the failing ones
 };
 
+// `place`: what interpolateAt*, derivatives and levels of detail depend on (value_probe.hpp).
 // `only`: judges these quantities (indices) and no others, unless it is empty.
 template <class T>
 WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
-                       const FragmentValues& device, std::span<const size_t> only);
+                       const ProbePlace& place, const FragmentValues& device,
+                       std::span<const size_t> only);
 
 // Everything that a quantity may be, whichever candidate and place the device uses.
 template <class T>

@@ -16,6 +16,7 @@
 #include "mutants/depth.hpp"
 #include "mutants/multisample.hpp"
 #include "mutants/planes.hpp"
+#include "mutants/probes.hpp"
 #include "mutants/tiles.hpp"
 
 namespace mutants {
@@ -350,6 +351,17 @@ void DrawCommand::rasterize(const Primitive& primitive) {
             const bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat &&
                               device_.fault != Fault::flat_smooth &&
                               device_.fault != Fault::clip_flat_piece;
+            if (draw_.attributes[a].source == cases::Source::barycentric) {
+                // Turned so that the provoking vertex is the first, or the last.
+                const auto provoking =
+                    static_cast<size_t>(std::find(primitive.vertex.begin(), primitive.vertex.end(),
+                                                  primitive.provoking) -
+                                        primitive.vertex.begin());
+                size_t turn = draw_.provoking == cases::ProvokingVertex::last ? 2 : 3;
+                turn += device_.fault == Fault::barycentric_rotated ? 1 : 0;
+                const size_t number = (k + 3 - provoking + turn) % 3;
+                triangle[k].values[a][static_cast<glm::vec4::length_type>(number)] = 1;
+            }
             if (draw_.attributes[a].source == cases::Source::vertex) {
                 triangle[k].values[a] = draw_.attributes[a].values[flat ? primitive.provoking : v];
             }
@@ -669,7 +681,9 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
         if (samples_.size() > 1 && (is_sample || is_centroid)) {
             place = is_sample ? invocation.sample : invocation.centroid;
         }
-        glm::vec4 value = flat ? first.values[a] : planes.attribute(a, place.x, place.y);
+        glm::vec4 value = flat
+                              ? first.values[a]
+                              : probe(draw_, device_, planes, samples_, a, i, j, place, invocation);
         if (fault == Fault::one_over_w_cached && !flat &&
             draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
             value *= planes.inverse_w(place.x, place.y) / inverse_w;

@@ -139,6 +139,12 @@ enum class Fault : uint8_t {
     frag_coord_corner,    // FragCoord.xy without the half
     frag_coord_w,         // w instead of 1/w
     planes_of_last,       // planes are kept while the first vertex stays the same
+    // probes
+    derivative_partial,   // the limit instead of a difference between pixels
+    derivative_y_up,      // dFdy with the opposite sign
+    offset_ignored,       // interpolateAtOffset at the centre
+    lod_one_less,         // one level too fine
+    barycentric_rotated,  // vertex order turned by one
     perspective_spans,    // one 1/w for each span of 8 pixels
     // depth
     depth_test_ignored,  // every fragment passes

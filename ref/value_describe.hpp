@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the reference expects, as numbers and words for reports. No verdict rests on it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ref/value.hpp"
+#include "ref/value_probe.hpp"
+#include "ref/value_wide.hpp"
+
+namespace ref::value {
+
+// A linear or perspective value at its first place.
+Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
+                              const Evaluation<mpq_class>& place);
+
+// p/q if it is short enough to be read, else nothing.
+std::string exact_text(const mpq_class& q);
+
+// What a probe is expected to be: the number of the likeliest quad, and what it is made of.
+std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const ProbePlace& place);
+
+// Whether a barycentric component holds what another component of the attribute ought to.
+bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
+                     std::span<const Quantity> all, const Evaluation<mpq_class>& place,
+                     double device);
+
+// Appends the expected value of a probe; of a derivative also Brown's partials (ref/partials.hpp),
+// called "partial x of attribute 0.x", "total differential of ...".
+void add_expected_probe(const Primitive& primitive, const Basis<mpq_class>& basis,
+                        const Quantity& q, const ProbePlace& place,
+                        std::vector<ExpectedValue>& out);
+
+}  // namespace ref::value
