@@ -168,10 +168,11 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
         return -1;
     }
     if (found->source != Source::vertex || found->probe != Probe::value) {
-        context.error(value.where,
-                      fmt::format("the colour cannot be the attribute \"{}\", which is not a value from "
-                                  "the vertices alone",
-                                  *name));
+        context.error(
+            value.where,
+            fmt::format("the colour cannot be the attribute \"{}\", which is not a value from "
+                        "the vertices alone",
+                        *name));
         return -1;
     }
     if (is_integer(target.format)) {

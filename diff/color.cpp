@@ -53,7 +53,7 @@ std::optional<Finding> ColorComparison::judge(size_t index, ref::SampleId id,
     }
     if (!case_.target.has_instruments && case_.target.has_depth &&
         !reference(expectation_.profile)
-             .explains_depth(index, id, capture_.depth[index], kClearDepth)) {
+             .explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
         Finding finding;
         finding.kind = FindingKind::value;
         finding.x = id.x;
@@ -64,7 +64,7 @@ std::optional<Finding> ColorComparison::judge(size_t index, ref::SampleId id,
         finding.level = expectation_.profile;
         for (const cases::Profile p : {cases::Profile::practice, cases::Profile::vulkan}) {
             if (p < expectation_.profile &&
-                !reference(p).explains_depth(index, id, capture_.depth[index], kClearDepth)) {
+                !reference(p).explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
                 finding.level = p;
             }
         }

@@ -280,6 +280,13 @@ bool ColorReference::is_constant_depth(uint32_t triangle, float depth) const {
 }
 
 bool ColorReference::explains_depth(size_t index, SampleId id, float depth, float clear) {
+    // Only the plain write is judged here; depth tests, bias and clamping need the instruments.
+    const bool is_plain = std::all_of(case_.draws.begin(), case_.draws.end(), [](const auto& d) {
+        return d.depth == cases::DepthState{};
+    });
+    if (!is_plain || case_.target.depth_format != cases::DepthFormat::d32_float) {
+        return true;
+    }
     const std::vector<Sequence> sets = allowed(index, std::nullopt);
     return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
                if (sequence.empty()) {

@@ -59,7 +59,8 @@ class ColorReference {
     std::array<uint32_t, 4> codes(size_t index, SampleId id,
                                   const std::optional<ColorWitness>& witness);
     // Whether depth may be what the last of an allowed set of fragments left, for targets without
-    // instruments; `clear`: what it holds where nothing was drawn.
+    // instruments; `clear`: what it holds where nothing was drawn. Only for D32 and draws that write
+    // depth without a test, bias or clamp; true otherwise.
     bool explains_depth(size_t index, SampleId id, float depth, float clear);
 
     // More open fragments at a sample than this are not tried out.

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Right and wrong colour planes: what is accepted, what is told, at which level.
+#include "ref/color.hpp"
+
 #include <gmock/gmock.h>
 
 #include "diff/verdict.hpp"
 #include "perfect_capture.hpp"
-#include "ref/color.hpp"
 
 namespace diff {
 namespace {
@@ -49,9 +50,9 @@ cases::Case additive() {
     cases::Case c = two_draws(ColorFormat::rgba8_unorm, {0, 0, 0, 0});
     for (cases::Draw& draw : c.draws) {
         draw.color.value = {0.25F, 1, 0, 0.5F};
-        draw.color.blend = cases::Blend{
-            {cases::BlendFactor::one, cases::BlendFactor::one, cases::BlendOp::add},
-            {cases::BlendFactor::one, cases::BlendFactor::one, cases::BlendOp::add}};
+        draw.color.blend =
+            cases::Blend{{cases::BlendFactor::one, cases::BlendFactor::one, cases::BlendOp::add},
+                         {cases::BlendFactor::one, cases::BlendFactor::one, cases::BlendOp::add}};
     }
     return c;
 }

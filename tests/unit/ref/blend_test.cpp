@@ -26,9 +26,9 @@ Color color_of(const std::array<double, 4>& values) {
 
 cases::ColorOutput alpha_blend() {
     cases::ColorOutput out;
-    out.blend = cases::Blend{
-        {BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha, BlendOp::add},
-        {BlendFactor::one, BlendFactor::one_minus_src_alpha, BlendOp::add}};
+    out.blend =
+        cases::Blend{{BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha, BlendOp::add},
+                     {BlendFactor::one, BlendFactor::one_minus_src_alpha, BlendOp::add}};
     return out;
 }
 
@@ -117,13 +117,11 @@ TEST(Blend, MaskedComponentsAndMissingOnes) {
     const Color before = unit.cleared({ColorFormat::r5g6b5_unorm, {0, 1, 0, 0}});
     cases::ColorOutput output;
     output.write_mask = 0b101;
-    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 1, 0}), before)),
-              "r 31, g 63, b 31");
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 1, 0}), before)), "r 31, g 63, b 31");
     // A target without alpha has destination alpha 1.
     output.write_mask = 0xf;
     output.blend = cases::Blend{{BlendFactor::dst_alpha, BlendFactor::zero, BlendOp::add}, {}};
-    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 1, 0}), before)),
-              "r 31, g 0, b 31");
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 1, 0}), before)), "r 31, g 0, b 31");
 }
 
 TEST(Blend, MinAndMaxIgnoreFactors) {
@@ -219,8 +217,7 @@ RC_GTEST_PROP(Blend, AllowsEveryEightBitUnit, ()) {
     }
     cases::ColorOutput output;
     output.blend = blend;
-    const Color allowed =
-        unit.write(output, color_of({s[0], s[1], s[2], s[3]}), before);
+    const Color allowed = unit.write(output, color_of({s[0], s[1], s[2], s[3]}), before);
     // Units that round each step to nearest, down, up, or not at all. A whole number of units that
     // binary64 misses by its rounding is that number.
     const std::array<double (*)(double), 4> roundings = {
