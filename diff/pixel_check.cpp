@@ -26,17 +26,21 @@ struct Fragment {
 
 const ref::Triangle* triangle_of(const ref::Expectation& e, const CaptureView& capture,
                                  const ref::SampleExpectation& expected, const Writer& writer) {
+    // Without gl_PrimitiveID triangles with the same provoking vertex cannot be told apart.
+    const ref::Triangle* found = nullptr;
     for (uint32_t k = 0; k < expected.writers_count; ++k) {
         const ref::Triangle& t = e.triangles[e.writers[expected.writers_begin + k]];
         if (writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
             (!capture.has_primitive || writer.primitive == t.primitive)) {
-            return &t;
+            if (found != nullptr) {
+                return nullptr;
+            }
+            found = &t;
         }
     }
-    return nullptr;
+    return found;
 }
 
-// Only where each sample of it was hit by this triangle alone can invocations be counted.
 std::vector<Fragment> fragments_of(const ref::Expectation& e, const CaptureView& capture,
                                    size_t first) {
     std::vector<Fragment> out;
