@@ -19,7 +19,8 @@ constexpr double kFlushed = 0x1p-126;
 template <class T>
 struct Accepted {
     Range<T> range;
-    double value = 0, budget = 0;  // of the first basis, rounded, for reports
+    Range<double> values;  // without the reach, rounded, for reports
+    double budget = 0;     // of the first basis, likewise
     bool is_known = true;
     bool is_undefined = false;
     bool is_first = true;
@@ -46,10 +47,12 @@ Accepted<T> value_over(const WideSet<T>& set, std::span<const Candidate<T>> cand
                 const T high = v.value + v.reach;
                 if (out.is_first) {
                     out.range = {low, high};
-                    out.value = nearest_double(v.value);
+                    out.values = {nearest_double(v.value), nearest_double(v.value)};
                     out.budget = nearest_double(v.budget);
                     out.is_first = false;
                 }
+                out.values.low = std::min(out.values.low, nearest_double(v.value));
+                out.values.high = std::max(out.values.high, nearest_double(v.value));
                 out.range.low = smaller(out.range.low, low);
                 out.range.high = larger(out.range.high, high);
             }
@@ -64,7 +67,7 @@ template <class T>
 void round_once(Accepted<T>& a) {
     a.range.low = a.range.low - T(kUnitRoundoff) * magnitude(a.range.low) - T(kFlushed);
     a.range.high = a.range.high + T(kUnitRoundoff) * magnitude(a.range.high) + T(kFlushed);
-    a.budget += kUnitRoundoff * std::fabs(a.value);
+    a.budget += kUnitRoundoff * std::max(std::fabs(a.values.low), std::fabs(a.values.high));
 }
 
 template <class T>
@@ -78,7 +81,7 @@ template <class T>
 Accepted<T> difference(Accepted<T> plus, const Accepted<T>& minus) {
     merge_flags(plus, minus);
     plus.range = {T(plus.range.low - minus.range.high), T(plus.range.high - minus.range.low)};
-    plus.value -= minus.value;
+    plus.values = {plus.values.low - minus.values.high, plus.values.high - minus.values.low};
     round_once(plus);
     return plus;
 }
@@ -90,6 +93,9 @@ Range<T> magnitudes(const Range<T>& r) {
     return {larger(zero, larger(r.low, T(zero - r.high))),
             larger(T(magnitude(r.low)), T(magnitude(r.high)))};
 }
+Range<double> magnitudes(const Range<double>& r) {
+    return {std::max({0.0, r.low, -r.high}), std::max(std::fabs(r.low), std::fabs(r.high))};
+}
 
 template <class T>
 Accepted<T> width(const Accepted<T>& x, const Accepted<T>& y) {
@@ -99,7 +105,9 @@ Accepted<T> width(const Accepted<T>& x, const Accepted<T>& y) {
     const Range<T> a = magnitudes(x.range);
     const Range<T> b = magnitudes(y.range);
     out.range = {T(a.low + b.low), T(a.high + b.high)};
-    out.value = std::fabs(x.value) + std::fabs(y.value);
+    const Range<double> c = magnitudes(x.values);
+    const Range<double> d = magnitudes(y.values);
+    out.values = {c.low + d.low, c.high + d.high};
     round_once(out);
     return out;
 }
@@ -240,7 +248,8 @@ class Prober {
         const T v(device);
         const Answer low = is_at_most(accepted.range.low, v);
         const Answer high = is_at_most(v, accepted.range.high);
-        const double distance = std::fabs(device - accepted.value);
+        const double distance =
+            std::max({0.0, accepted.values.low - device, device - accepted.values.high});
         const double ratio = accepted.budget > 0 ? distance / accepted.budget : 0;
         if (low == Answer::no || high == Answer::no) {
             return {Answer::no, ratio};

@@ -77,6 +77,49 @@ TEST(Validation, NothingToSayAboutAnyState) {
     EXPECT_THAT(renderer->render(last, {}).front().messages, ::testing::IsEmpty());
 }
 
+// Every probe, auxiliary qualifier and built-in, with one sample and with four; cases that the device
+// does not support say so.
+TEST(Validation, NothingToSayAboutProbesAndSources) {
+    auto renderer = Renderer::create(with_validation());
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    std::vector<cases::Case> batch;
+    const auto add = [&](uint32_t samples, const cases::Attribute& attribute) {
+        cases::Case c = make_case({16, 16, samples}, half_square());
+        c.draws[0].attributes = {attribute};
+        batch.push_back(std::move(c));
+    };
+    for (const uint32_t samples : {1U, 4U}) {
+        for (uint8_t probe = 0; probe <= static_cast<uint8_t>(cases::Probe::lod); ++probe) {
+            cases::Attribute a = constant(cases::Interpolation::smooth, 3);
+            a.probe = static_cast<cases::Probe>(probe);
+            a.components = 2;
+            a.texture_size = {64, 16};
+            add(samples, a);
+        }
+        for (const auto auxiliary : {cases::Auxiliary::centroid, cases::Auxiliary::sample}) {
+            cases::Attribute a = constant(cases::Interpolation::noperspective, 3);
+            a.auxiliary = auxiliary;
+            add(samples, a);
+        }
+        for (const auto source : {cases::Source::barycentric, cases::Source::sample_mask_in,
+                                  cases::Source::sample_id, cases::Source::sample_position}) {
+            cases::Attribute a;
+            a.name = "built-in";
+            a.source = source;
+            add(samples, a);
+        }
+    }
+    size_t drawn = 0;
+    for (const Rendered& rendered : renderer->render(batch, {})) {
+        EXPECT_TRUE(rendered.status == Rendered::Status::drawn ||
+                    rendered.status == Rendered::Status::unsupported)
+            << rendered.reason;
+        EXPECT_THAT(rendered.messages, ::testing::IsEmpty());
+        drawn += rendered.status == Rendered::Status::drawn ? 1U : 0U;
+    }
+    EXPECT_GT(drawn, 10U);
+}
+
 TEST(Validation, MisuseIsHeard) {
     auto instance = Instance::create(with_validation());
     ASSERT_TRUE(instance) << instance.error().message;
