@@ -35,6 +35,8 @@ inline float float_distance(const glm::vec4& p, ClipPlane plane) {
             return p.z;
         case ClipPlane::z_high:
             return p.w - p.z;
+        default:
+            break;  // no plane of the default view volume
     }
     return 0;
 }
