@@ -42,8 +42,8 @@ std::vector<Plane> planes_of(const cases::Draw& draw, const Device& device) {
         band_y = guard_band(draw.viewport.height, draw.viewport.y);
     }
     std::vector<Plane> planes{{0, 1, band_x}, {0, -1, band_x}, {1, 1, band_y}, {1, -1, band_y}};
-    const bool clips_depth = draw.depth.clip.value_or(!draw.depth.clamp) ||
-                             device.fault == Fault::depth_clamp_clips;
+    const bool clips_depth =
+        draw.depth.clip.value_or(!draw.depth.clamp) || device.fault == Fault::depth_clamp_clips;
     const bool is_symmetric =
         draw.depth.negative_one_to_one && device.fault != Fault::depth_volume_ignored;
     if (clips_depth && device.fault != Fault::clip_no_near) {

@@ -18,7 +18,7 @@ using Values = std::array<glm::vec4, cases::kMaxAttributes>;
 struct ClipVertex {
     glm::vec4 position{};
     Values values{};
-    uint32_t source = 0;  // number of the vertex that it came from
+    uint32_t source = 0;   // number of the vertex that it came from
     glm::vec4 distance{};  // clip distances
 };
 

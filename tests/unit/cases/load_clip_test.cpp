@@ -13,8 +13,9 @@ namespace cases {
 
 namespace {
 
-const std::string kHead = "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n"
-                          "[target]\nsize = [8, 8]\n[[draw]]\n";
+const std::string kHead =
+    "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n"
+    "[target]\nsize = [8, 8]\n[[draw]]\n";
 const std::string kTriangle = "vertices = [[0,0],[8,0],[0,8]]\n";
 
 Draw draw_of(const std::string& text) {

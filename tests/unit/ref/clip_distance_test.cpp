@@ -42,7 +42,7 @@ TEST(ClipDistance, FastIsTheOracle) {
     uint64_t open = 0;
     uint64_t decided = 0;
     uint64_t pairs = 0;
-    for (uint64_t seed = 1; seed <= 1500; ++seed) {
+    for (uint64_t seed = 1; seed <= 400; ++seed) {
         RandomCases random(seed);
         const Setting s = setting(random);
         cases::Case c = random.integer(0, 9) == 0 ? random.mesh() : random.triangles();
@@ -62,9 +62,9 @@ TEST(ClipDistance, FastIsTheOracle) {
         open += fast.either_samples;
         decided += fast.must_samples;
     }
-    EXPECT_GT(open, 1000U);
-    EXPECT_GT(decided, 20000U);
-    EXPECT_GT(pairs, 300U);
+    EXPECT_GT(open, 300U);
+    EXPECT_GT(decided, 5000U);
+    EXPECT_GT(pairs, 80U);
 }
 
 // c at a sample: N = sum b_i d_i/w_i over the whole triangle, and whether the sample is strictly
@@ -95,7 +95,8 @@ Truth truth_of(const cases::Draw& d, uint32_t i, uint32_t j) {
         const size_t b = (v + 2) % 3;
         const mpq_class bary = cross(x[b] - x[a], y[b] - y[a], px - x[a], py - y[a]) / area;
         out.side = bary < 0 ? -1 : (bary == 0 && out.side > 0 ? 0 : out.side);
-        out.numerator += bary * exact_number(d.distances.clip[v].x) / exact_number(d.positions[v].w);
+        out.numerator +=
+            bary * exact_number(d.distances.clip[v].x) / exact_number(d.positions[v].w);
     }
     return out;
 }
@@ -164,11 +165,12 @@ struct Tested {
             fx[v] = static_cast<float>(x[v]);
             fy[v] = static_cast<float>(y[v]);
         }
-        const float det =
-            (fx[1] - fx[0]) * (fy[2] - fy[0]) - (fx[2] - fx[0]) * (fy[1] - fy[0]);
+        const float det = (fx[1] - fx[0]) * (fy[2] - fy[0]) - (fx[2] - fx[0]) * (fy[1] - fy[0]);
         const float inverse = 1.0F / det;
-        const float dx = ((g[1] - g[0]) * (fy[2] - fy[0]) - (g[2] - g[0]) * (fy[1] - fy[0])) * inverse;
-        const float dy = ((g[2] - g[0]) * (fx[1] - fx[0]) - (g[1] - g[0]) * (fx[2] - fx[0])) * inverse;
+        const float dx =
+            ((g[1] - g[0]) * (fy[2] - fy[0]) - (g[2] - g[0]) * (fy[1] - fy[0])) * inverse;
+        const float dy =
+            ((g[2] - g[0]) * (fx[1] - fx[0]) - (g[1] - g[0]) * (fx[2] - fx[0])) * inverse;
         const float origin = g[0] - (fx[0] * dx + fy[0] * dy);
         return origin + px * dx + py * dy >= 0;
     }
@@ -205,8 +207,10 @@ TEST(ClipDistance, AllowsADeviceThatTestsEachSample) {
                     }
                     for (const Tested& device : {unsnapped, snapped}) {
                         const bool is_drawn = device.is_drawn(d, i, j);
-                        ASSERT_FALSE(hits.total_min > 0 && !is_drawn) << seed << " " << i << "," << j;
-                        ASSERT_FALSE(hits.total_max == 0 && is_drawn) << seed << " " << i << "," << j;
+                        ASSERT_FALSE(hits.total_min > 0 && !is_drawn)
+                            << seed << " " << i << "," << j;
+                        ASSERT_FALSE(hits.total_max == 0 && is_drawn)
+                            << seed << " " << i << "," << j;
                         open_and_drawn += hits.total_min != hits.total_max && is_drawn ? 1U : 0U;
                     }
                 }
@@ -230,8 +234,10 @@ TEST(ClipDistance, OnThePlaneIsOpenForOneDrawAndClosedForTwo) {
         both.draws.push_back(negated(c.draws[0]));
         const Expectation two = expect(both, {8}, profile);
         EXPECT_EQ(count_hits(two).once, 64U);
-        // Other distances: no complement.
-        both.draws[1].distances.clip[1].x = -17.0F;
+        // The same plane, but not the negated distances: no complement.
+        for (glm::vec4& v : both.draws[1].distances.clip) {
+            v *= 2.0F;
+        }
         EXPECT_EQ(hits_at(expect(both, {8}, profile), 3, 2).total_max, 2U);
     }
 }
