@@ -62,7 +62,7 @@ TEST(Color, TheReferenceItselfIsRight) {
     const Verdict verdict = drawn.judge();
     EXPECT_TRUE(verdict.ok()) << verdict.error;
     EXPECT_EQ(drawn.capture.color[0 * 8 + 5][1], 255U);  // first alone
-    EXPECT_EQ(drawn.capture.color[7 * 8 + 0][3], 255U);  // both: 0.5 twice
+    EXPECT_GE(drawn.capture.color[5 * 8 + 1][3], 254U);  // both: 0.5 twice
     EXPECT_EQ(drawn.capture.color[5 * 8 + 6], (ColorCodes{0, 0, 0, 0}));
 }
 
@@ -120,7 +120,7 @@ TEST(Color, AWrongOrderIsToldAsOne) {
     c.draws[1].color.value = {0, 1, 0, 1};
     Drawn drawn(c);
     EXPECT_TRUE(drawn.judge().ok());
-    drawn.at(0, 7) = drawn.at(5, 0);
+    drawn.at(1, 5) = drawn.at(5, 0);
     const Verdict verdict = drawn.judge();
     ASSERT_EQ(verdict.findings.size(), 1U);
     EXPECT_EQ(verdict.findings[0].kind, FindingKind::missing);  // without blending it looks so
@@ -133,7 +133,7 @@ TEST(Color, AWrongOrderIsToldAsOne) {
     }
     Drawn blended(c);
     EXPECT_TRUE(blended.judge().ok());
-    std::swap(blended.at(0, 7)[0], blended.at(0, 7)[1]);
+    std::swap(blended.at(1, 5)[0], blended.at(1, 5)[1]);
     ASSERT_EQ(blended.judge().findings.size(), 1U);
     EXPECT_EQ(blended.judge().findings[0].kind, FindingKind::order);
     EXPECT_EQ(blended.judge().findings[0].rule, "order.primitive");
