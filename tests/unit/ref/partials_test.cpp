@@ -60,7 +60,7 @@ TEST(Partials, ADifferenceIsThePartialTimesTheRatioOfDenominators) {
             continue;
         }
         EXPECT_EQ(p->u, here.n / here.d);
-        for (const mpq_class h : {mpq_class(1), mpq_class(-1), mpq_class(1, 1 << 20)}) {
+        for (const mpq_class& h : {mpq_class(1), mpq_class(-1), mpq_class(1, 1 << 20)}) {
             const Quotient right = quotient(v, mpq_class(x + h), y);
             const Quotient below = quotient(v, x, mpq_class(y + h));
             if (sgn(right.d) != 0) {

@@ -246,7 +246,7 @@ TEST(ValueProbe, FilterAgreesWithTheOracle) {
                                  Probe::dx_coarse, Probe::dy_coarse, Probe::width,
                                  Probe::width_fine, Probe::width_coarse};
     uint64_t accepted = 0, rejected = 0;
-    for (int n = 0; n < 200; ++n) {
+    for (int n = 0; n < 36; ++n) {
         auto s = value_test::random_case(rng, 64, static_cast<value_test::Shape>(n % 3),
                                          n % 4 < 2 ? 0 : 8);
         for (cases::Attribute& a : s.c.draws[0].attributes) {
@@ -259,7 +259,7 @@ TEST(ValueProbe, FilterAgreesWithTheOracle) {
         ref::ValueReference reference(s.c, ref::Limits{}, profile);
         const ref::SampleId id = s.inside.front();
         const auto expected = reference.expected(0, id);
-        for (int k = 0; k < 12; ++k) {
+        for (int k = 0; k < 8; ++k) {
             ref::FragmentValues device = value_test::rounded(expected);
             for (const ref::ExpectedValue& e : expected) {
                 if (e.quantity.starts_with("attribute ") && !e.is_flat && k > 0) {
@@ -278,8 +278,8 @@ TEST(ValueProbe, FilterAgreesWithTheOracle) {
             rejected += exact.ok ? 0U : 1U;
         }
     }
-    EXPECT_GT(accepted, 400U);
-    EXPECT_GT(rejected, 200U);
+    EXPECT_GT(accepted, 60U);
+    EXPECT_GT(rejected, 30U);
 }
 
 }  // namespace
