@@ -63,13 +63,14 @@ class Shader {
         products_ = device.w_bits == 0 ? w_products(w) : block_w_products(w, device.w_bits);
     }
 
-    void shade(uint32_t i, uint32_t j, const Point& p, FragmentValues& out) const {
-        const Areas areas = areas_at(corners_, p);
+    // Values at the pixel's centre (Direct3D 11), depth at the sample.
+    void shade(uint32_t i, uint32_t j, const Point& sample, FragmentValues& out) const {
+        const Areas areas = areas_at(corners_, sample_of(i, j, {kPixel / 2, kPixel / 2}));
         const float inv_w = device_.linear(areas, inv_w_);
         const float z = device_.linear(areas, z_);
         out.frag_coord = {static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F, z, inv_w};
         const auto [low, high] = std::minmax(draw_.viewport.min_depth, draw_.viewport.max_depth);
-        out.depth = std::clamp(z, low, high);
+        out.depth = std::clamp(device_.linear(areas_at(corners_, sample), z_), low, high);
         for (size_t a = 0; a < draw_.attributes.size(); ++a) {
             const cases::Attribute& attribute = draw_.attributes[a];
             glm::vec4& value = out.attributes[a];
