@@ -100,11 +100,11 @@ TEST(Store, SrgbEncodesColourAndNotAlpha) {
 }
 
 TEST(Blend, ByHand) {
-    // 8 bits: 0.5 over white. Source 0 * a + 1 * (1 - a) with a = 127.5/255: 127 or 128 of 255.
+    // 8 bits: 0.5 over white; a is 127 or 128 of 255. Blue: 128 * 128 / 255 = 64.25, so at most 65 + 128.
     const Unit unit{ColorFormat::rgba8_unorm, Profile::vulkan};
     const Color white = unit.cleared({ColorFormat::rgba8_unorm, {1, 1, 1, 1}});
     EXPECT_EQ(unit.text_of(unit.write(alpha_blend(), color_of({0, 1, 0.5, 0.5}), white)),
-              "r 127 to 128, g 254 to 255, b 190 to 192, a 254 to 255");
+              "r 127 to 128, g 254 to 255, b 190 to 193, a 254 to 255");
     // binary32: exact where every step is representable.
     const Unit exact{ColorFormat::rgba32_float, Profile::vulkan};
     const Color before = exact.cleared({ColorFormat::rgba32_float, {0.5F, 4, -2, 1}});
