@@ -27,12 +27,11 @@ std::optional<ref::ColorWitness> ColorComparison::witness_of(size_t index,
         return std::nullopt;
     }
     ref::ColorWitness witness;
-    witness.hits =
-        static_cast<uint32_t>(capture_.hits[index].x) + static_cast<uint32_t>(capture_.hits[index].y);
+    witness.hits = static_cast<uint32_t>(capture_.hits[index].x) +
+                   static_cast<uint32_t>(capture_.hits[index].y);
     if (witness.hits > 0 && writer) {
         witness.writer = *writer;
-        const int32_t attribute =
-            case_.draws[expectation_.triangles[*writer].draw].color.attribute;
+        const int32_t attribute = case_.draws[expectation_.triangles[*writer].draw].color.attribute;
         if (attribute >= 0) {
             const glm::vec4& written = capture_.attributes[static_cast<size_t>(attribute)][index];
             const bool finite = std::isfinite(written.x) && std::isfinite(written.y) &&
@@ -64,7 +63,8 @@ std::optional<Finding> ColorComparison::judge(size_t index, ref::SampleId id,
         finding.level = expectation_.profile;
         for (const cases::Profile p : {cases::Profile::practice, cases::Profile::vulkan}) {
             if (p < expectation_.profile &&
-                !reference(p).explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
+                !reference(p).explains_depth(index, id, capture_.depth[index],
+                                             case_.target.depth_clear)) {
                 finding.level = p;
             }
         }
@@ -123,9 +123,18 @@ Finding ColorComparison::finding_of(size_t index, ref::SampleId id,
     return finding;
 }
 
-uint8_t ColorComparison::hits_for_pictures(size_t index) const {
+uint8_t ColorComparison::hits_for_pictures(size_t index) {
+    const std::array<uint32_t, 4>& codes = capture_.color[index];
+    if (codes == last_clear_) {
+        return 0;
+    }
+    if (codes == last_drawn_) {
+        return 1;
+    }
     const ref::color::Unit unit{case_.target.color->format, expectation_.profile};
-    return unit.allows(unit.cleared(*case_.target.color), capture_.color[index]) ? 0 : 1;
+    const bool is_clear = unit.allows(unit.cleared(*case_.target.color), codes);
+    (is_clear ? last_clear_ : last_drawn_) = codes;
+    return is_clear ? 0 : 1;
 }
 
 }  // namespace diff

@@ -27,7 +27,7 @@ class ColorComparison {
 
     // How often a sample was hit, as far as its colour tells: 0 if it holds what it was cleared to.
     // For pictures of targets without instruments.
-    uint8_t hits_for_pictures(size_t index) const;
+    uint8_t hits_for_pictures(size_t index);
 
   private:
     ref::ColorReference& reference(cases::Profile profile);
@@ -40,6 +40,9 @@ class ColorComparison {
     const CaptureView& capture_;
     Attribution& attribution_;
     std::array<std::unique_ptr<ref::ColorReference>, 3> references_;  // by profile
+    // Neighbours mostly hold the same: the last colours that were the clear colour, and that were
+    // not.
+    std::optional<std::array<uint32_t, 4>> last_clear_, last_drawn_;
 };
 
 }  // namespace diff
