@@ -10,6 +10,7 @@
 #include "cases/color.hpp"
 #include "vk_harness/pipeline_key.hpp"
 #include "vk_harness/target.hpp"
+#include "vk_harness/viewports.hpp"
 
 namespace vk_harness {
 
@@ -324,6 +325,12 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
     if (c.draws.size() >= kMaxId) {
         return unsupported(fmt::format("the case has {} draws, the harness tells {} apart",
                                        c.draws.size(), kMaxId - 1));
+    }
+    if (const uint32_t viewports = viewport_count(c); viewports > capabilities.max_viewports) {
+        return unsupported(fmt::format(
+            "the case chooses from {} viewports by gl_ViewportIndex, the device from {} (features "
+            "multiViewport and shaderOutputViewportIndex)",
+            viewports, capabilities.max_viewports));
     }
     for (const cases::Draw& draw : c.draws) {
         const PipelineKey key = pipeline_key(c, draw);
