@@ -27,7 +27,6 @@ cases::Case alone(const cases::Case& c, const Triangle& t, SampleId sample) {
     single.depth.negative_one_to_one = draw.depth.negative_one_to_one;
     single.front_face = draw.front_face;
     single.multisample = draw.multisample;
-    single.depth = draw.depth;
     single.distances.clip_count = draw.distances.clip_count;
     single.distances.cull_count = draw.distances.cull_count;
     for (const uint32_t v : t.vertex) {

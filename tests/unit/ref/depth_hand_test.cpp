@@ -207,8 +207,10 @@ TEST(DepthHand, UnitOfFixedPoint) {
     for (const Profile profile : cases::kProfiles) {
         EXPECT_TRUE(accepts(c, step(32768 + 1000), profile));
         EXPECT_TRUE(accepts(c, step(32768 + 2000), profile));
-        EXPECT_FALSE(accepts(c, step(32768 + 2010), profile));
-        EXPECT_FALSE(accepts(c, step(32768 - 10), profile));
+        // A few steps; at profile vulkan 1e-5 for each of some operations is tens of them.
+        const double slack = profile == Profile::vulkan ? 100 : 3;
+        EXPECT_FALSE(accepts(c, step(32768 + 2000 + slack), profile));
+        EXPECT_FALSE(accepts(c, step(32768 - slack), profile));
     }
 }
 
@@ -236,7 +238,7 @@ TEST(DepthHand, SlopeBetweenTheNorms) {
 }
 
 TEST(DepthHand, ClampIsExactAndAfterTheBias) {
-    cases::Case c = case_of({half_plane(0.5)});
+    cases::Case c = case_of({half_plane(0.4)});  // 3/4 - 0.4/2 = 0.55: e = -1
     c.draws[0].viewport.min_depth = 0.75F;
     c.draws[0].viewport.max_depth = 0.25F;
     c.draws[0].depth.clamp = true;
@@ -277,6 +279,7 @@ TEST(DepthHand, ExplanationNamesTheTest) {
     c.draws[1].depth.compare = CompareOp::less;
     const SampleExplanation s = explain_sample(c, Limits{}, Profile::direct3d, {0, 0, 0});
     ASSERT_EQ(s.triangles.size(), 2U);
+    ASSERT_EQ(s.triangles[1].coverage, Coverage::must) << s.triangles[1].reason;
     EXPECT_EQ(s.triangles[1].depth, DepthOutcome::fails);
     EXPECT_EQ(s.triangles[1].depth_text.rfind("fails the depth test LESS, depth 0.7", 0), 0U)
         << s.triangles[1].depth_text;
