@@ -23,7 +23,8 @@ class RandomDepth {
     // A multiple of 2^-bits, so that ties are frequent.
     double dyadic(double low, double high, int bits) {
         const double steps = std::ldexp(high - low, bits);
-        return low + std::ldexp(static_cast<double>(integer(0, static_cast<int64_t>(steps))), -bits);
+        return low +
+               std::ldexp(static_cast<double>(integer(0, static_cast<int64_t>(steps))), -bits);
     }
     bool one_in(int64_t n) { return integer(1, n) == 1; }
 
@@ -53,9 +54,9 @@ class RandomDepth {
         depth.compare = static_cast<cases::CompareOp>(integer(0, 7));
         depth.write = !one_in(4);
         if (one_in(2)) {
-            depth.bias = cases::DepthBias{static_cast<float>(integer(-3, 3)),
-                                          one_in(4) ? 0.0625F : 0.0F,
-                                          one_in(2) ? static_cast<float>(integer(-1, 1)) : 0.0F};
+            depth.bias =
+                cases::DepthBias{static_cast<float>(integer(-3, 3)), one_in(4) ? 0.0625F : 0.0F,
+                                 one_in(2) ? static_cast<float>(integer(-1, 1)) : 0.0F};
         }
     }
     cases::Draw draw() {
@@ -76,7 +77,8 @@ class RandomDepth {
             for (int v = 0; v < 3; ++v) {
                 const double w = one_in(3) ? dyadic(0.5, 4, 1) : 1;
                 d.positions.push_back(value_test::clip_of(dyadic(0, 8, bits), dyadic(0, 8, bits),
-                                                          is_level ? level : dyadic(0, 1, 4), w, 8));
+                                                          is_level ? level : dyadic(0, 1, 4), w,
+                                                          8));
             }
         }
         return d;
@@ -149,7 +151,8 @@ TEST(DepthOracle, VerdictsAgree) {
                     continue;
                 }
                 const size_t pixel = k / c.target.samples;
-                const SampleId id{static_cast<uint32_t>(pixel % 8), static_cast<uint32_t>(pixel / 8),
+                const SampleId id{static_cast<uint32_t>(pixel % 8),
+                                  static_cast<uint32_t>(pixel / 8),
                                   static_cast<uint32_t>(k % c.target.samples)};
                 const uint32_t t = e.writers[s.writers_begin];
                 FragmentValues device = value_test::rounded(fast.expected(t, id));
