@@ -33,8 +33,9 @@ bool depth_is_only_written(const Case& c) {
     const bool is_usual = c.target.depth_format == DepthFormat::d32_float &&
                           c.target.depth_clear >= kDepthClear &&
                           c.target.depth_clear <= kDepthClear;
-    return is_usual && std::all_of(c.draws.begin(), c.draws.end(),
-                       [](const Draw& draw) { return draw.depth.compare == CompareOp::always; });
+    return is_usual && std::all_of(c.draws.begin(), c.draws.end(), [](const Draw& draw) {
+               return draw.depth.compare == CompareOp::always;
+           });
 }
 
 void drop_attributes(Case& c) {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kFormats = {"d32-float", "d24-unorm", "d16-unorm"};
 constexpr std::array<std::string_view, 8> kCompare = {
-    "never",   "less",      "equal",            "less-or-equal",
-    "greater", "not-equal", "greater-or-equal", "always"};
+    "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
+    "always"};
 
 DepthBias read_bias(LeafContext& context, const TomlValue& value) {
     DepthBias bias;

@@ -31,7 +31,8 @@ constexpr std::array<std::string_view, 4> kCull = {"none", "front", "back", "fro
 constexpr std::array<std::string_view, 2> kFrontFace = {"counter-clockwise", "clockwise"};
 constexpr std::array<std::string_view, 2> kProvoking = {"first", "last"};
 constexpr std::array<std::string_view, 2> kDepthVolume = {"zero-to-one", "negative-one-to-one"};
-constexpr float kViewportLow = -32768;  // pixels; what common devices take
+constexpr float kViewportLow = -32768;     // pixels; what common devices take
+constexpr int64_t kMaxViewportIndex = 15;  // maxViewports is at least 16 with multiViewport
 constexpr float kViewportHigh = 32767;
 
 class DrawLoader {
@@ -48,6 +49,7 @@ class DrawLoader {
                              "indices",
                              "viewport",
                              "scissor",
+                             "viewport_index",
                              "cull",
                              "front_face",
                              "provoking",
@@ -74,6 +76,10 @@ class DrawLoader {
         draw_.multisample = load_multisample(context_, table_);
         read_viewport();
         read_scissor();
+        if (const TomlValue* value = table_.find("viewport_index")) {
+            draw_.viewport_index = static_cast<uint32_t>(
+                context_.integer(*value, "viewport_index", 0, kMaxViewportIndex).value_or(0));
+        }
         if (const TomlValue* depth = table_.find("depth")) {
             draw_.depth = read_depth_state(context_, *depth);
         }

@@ -107,8 +107,8 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
     return std::nullopt;
 }
 
-// A hit too many of a triangle that must fail the depth test, or one too few of a triangle that must
-// pass it; the number alone does not tell which, so the last one that fits is named.
+// A hit too many of a triangle that must fail the depth test, or one too few of a triangle that
+// must pass it; the number alone does not tell which, so the last one that fits is named.
 std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExplanation& s,
                                     bool is_missing) {
     const ref::DepthOutcome asked =
@@ -118,10 +118,9 @@ std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExpla
     };
     const auto it = std::find_if(s.triangles.rbegin(), s.triangles.rend(), fits);
     // Without a test nothing can have been lost to it.
-    const bool is_tested = std::any_of(
-        s.triangles.begin(), s.triangles.end(), [&](const auto& t) {
-            return t.depth && c.draws[t.triangle.draw].depth.compare != cases::CompareOp::always;
-        });
+    const bool is_tested = std::any_of(s.triangles.begin(), s.triangles.end(), [&](const auto& t) {
+        return t.depth && c.draws[t.triangle.draw].depth.compare != cases::CompareOp::always;
+    });
     if (it == s.triangles.rend() || !is_tested) {
         return std::nullopt;
     }

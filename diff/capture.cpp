@@ -49,8 +49,7 @@ bool is_all_clear(const CaptureView& capture, size_t index) {
     static const glm::vec4 kCleared(kClearValue);
     bool clear = same_bits(capture.hits[index], kNoHits) && capture.writers[index] == Writer{} &&
                  same_bits(capture.frag_coord[index], kCleared) &&
-                 (capture.depth.empty() ||
-                  is_clear_depth(capture.target, capture.depth[index]));
+                 (capture.depth.empty() || is_clear_depth(capture.target, capture.depth[index]));
     clear = clear && (capture.color.empty() || !is_poison(capture.color[index]));
     for (uint32_t a = 0; clear && a < capture.attribute_count; ++a) {
         clear = same_bits(capture.attributes[a][index], kCleared);

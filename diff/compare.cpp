@@ -280,15 +280,13 @@ class Comparison {
         finding.expected = expected.depth_may_be_clear ? "the clear value" : "";
         for (uint32_t k = 0; k < expected.depth_count; ++k) {
             const uint32_t t = expectation_.depth_writers[expected.depth_begin + k];
-            const ref::FragmentVerdict v =
-                values_.judge(t, id, device, ref::FragmentPart::depth);
+            const ref::FragmentVerdict v = values_.judge(t, id, device, ref::FragmentPart::depth);
             if (v.ok) {
                 return;
             }
             const ref::ValueMismatch& m = v.mismatches.front();
-            finding.level = k == 0 && !expected.depth_may_be_clear
-                                ? m.level
-                                : std::max(finding.level, m.level);
+            finding.level =
+                k == 0 && !expected.depth_may_be_clear ? m.level : std::max(finding.level, m.level);
             finding.expected += (finding.expected.empty() ? "" : ", or ") + m.expected;
             finding.ratio = m.ratio;
         }

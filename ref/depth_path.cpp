@@ -77,8 +77,8 @@ Range<T> unit_of(const Primitive& primitive, cases::Profile profile) {
         const int bits = format == cases::DepthFormat::d24_unorm ? 24 : 16;
         return {T(0.0), T(std::ldexp(2.0, -bits))};
     }
-    // z_f of a vertex is off by at most five roundings (value_setup.cpp) of terms up to 1; relative to
-    // the largest z that may be a few more when near and far cancel, and 16 leaves room.
+    // z_f of a vertex is off by at most five roundings (value_setup.cpp) of terms up to 1; relative
+    // to the largest z that may be a few more when near and far cancel, and 16 leaves room.
     const mpq_class slack =
         profile == cases::Profile::vulkan ? mpq_class(16, 100000) : mpq_class(16, 16777216);
     const std::vector<mpq_class> depths = largest_depths(primitive);
@@ -195,8 +195,8 @@ double nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>& ba
     const double m = std::max(std::fabs(form.x.get_d()), std::fabs(form.y.get_d()));
     const bool is_float = path.format == cases::DepthFormat::d32_float;
     const double r = is_float ? path.unit.high.get_d() : path.unit.high.get_d() / 2;
-    const double o = m * static_cast<double>(path.bias->slope) +
-                     r * static_cast<double>(path.bias->constant);
+    const double o =
+        m * static_cast<double>(path.bias->slope) + r * static_cast<double>(path.bias->constant);
     const auto clamp = static_cast<double>(path.bias->clamp);
     return clamp > 0 ? std::min(o, clamp) : clamp < 0 ? std::max(o, clamp) : o;
 }

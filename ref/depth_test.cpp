@@ -88,9 +88,7 @@ Outcome opposite(const Outcome& o) {
 template <class T>
 Outcome is_less(const Span<T>& a, const Span<T>& b) {
     const auto negated = [](Answer answer) {
-        return answer == Answer::yes  ? Answer::no
-               : answer == Answer::no ? Answer::yes
-                                      : answer;
+        return answer == Answer::yes ? Answer::no : answer == Answer::no ? Answer::yes : answer;
     };
     return outcome_of(negated(is_at_most(b.low, a.high)), is_at_most(b.high, a.low));
 }
@@ -105,7 +103,7 @@ Outcome is_equal(const Span<T>& a, const Span<T>& b) {
     // Points that are equal: neither side reaches beyond the other.
     const Answer up = is_at_most(a.high, b.low);
     const Answer down = is_at_most(b.high, a.low);
-    const Answer same = up == Answer::no || down == Answer::no                ? Answer::no
+    const Answer same = up == Answer::no || down == Answer::no     ? Answer::no
                         : up == Answer::yes && down == Answer::yes ? Answer::yes
                                                                    : Answer::unknown;
     if (same == Answer::yes) {
@@ -150,12 +148,11 @@ Outcome compare(CompareOp op, const Span<T>& fragment, const Span<T>& stored) {
 
 // The outcome if the sign of fragment - stored is known.
 DepthOutcome compare_sign(CompareOp op, int sign) {
-    const bool passes = op == CompareOp::always || (op == CompareOp::less && sign < 0) ||
-                        (op == CompareOp::less_or_equal && sign <= 0) ||
-                        (op == CompareOp::equal && sign == 0) ||
-                        (op == CompareOp::not_equal && sign != 0) ||
-                        (op == CompareOp::greater_or_equal && sign >= 0) ||
-                        (op == CompareOp::greater && sign > 0);
+    const bool passes =
+        op == CompareOp::always || (op == CompareOp::less && sign < 0) ||
+        (op == CompareOp::less_or_equal && sign <= 0) || (op == CompareOp::equal && sign == 0) ||
+        (op == CompareOp::not_equal && sign != 0) ||
+        (op == CompareOp::greater_or_equal && sign >= 0) || (op == CompareOp::greater && sign > 0);
     return passes ? DepthOutcome::passes : DepthOutcome::fails;
 }
 
@@ -366,7 +363,7 @@ struct DepthTest::Impl {
         const auto high = static_cast<double>(std::max(v.min_depth, v.max_depth));
         const Answer above = is_positive(T(span->low - T(low)));
         const Answer below = is_positive(T(T(high) - span->high));
-        return above == Answer::no || below == Answer::no                ? Answer::no
+        return above == Answer::no || below == Answer::no     ? Answer::no
                : above == Answer::yes && below == Answer::yes ? Answer::yes
                                                               : Answer::unknown;
     }
@@ -460,15 +457,14 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
                        candidates[static_cast<size_t>(k)].one_of == one_of;
             };
             const bool is_excluded =
-                excludes(now.one_of) ||
-                (since != kClear && k != since &&
-                 excludes(candidates[static_cast<size_t>(since)].one_of));
+                excludes(now.one_of) || (since != kClear && k != since &&
+                                         excludes(candidates[static_cast<size_t>(since)].one_of));
             if (k < since || is_excluded) {
                 continue;
             }
-            const int t =
-                k == kClear ? kClear
-                            : static_cast<int>(candidates[static_cast<size_t>(k)].triangle);
+            const int t = k == kClear
+                              ? kClear
+                              : static_cast<int>(candidates[static_cast<size_t>(k)].triangle);
             const DepthOutcome o = impl_->outcome(t, now.triangle, p, out.reasons.back());
             passes = passes || o != DepthOutcome::fails;
             fails = fails || o != DepthOutcome::passes;

@@ -27,7 +27,6 @@ cases::Case alone(const cases::Case& c, const Triangle& t, SampleId sample) {
     single.depth.negative_one_to_one = draw.depth.negative_one_to_one;
     single.front_face = draw.front_face;
     single.multisample = draw.multisample;
-    single.depth = draw.depth;
     single.distances.clip_count = draw.distances.clip_count;
     single.distances.cull_count = draw.distances.cull_count;
     for (const uint32_t v : t.vertex) {
@@ -198,8 +197,8 @@ std::string reason_for(const TriangleExplanation& t) {
 }
 
 constexpr std::string_view kCompareNames[] = {
-    "NEVER",   "LESS",      "EQUAL",            "LESS_OR_EQUAL",
-    "GREATER", "NOT_EQUAL", "GREATER_OR_EQUAL", "ALWAYS"};
+    "NEVER", "LESS", "EQUAL", "LESS_OR_EQUAL", "GREATER", "NOT_EQUAL", "GREATER_OR_EQUAL",
+    "ALWAYS"};
 
 std::string depth_text(DepthOutcome outcome, DepthReason reason, std::string_view op,
                        const std::string& range) {
@@ -236,9 +235,9 @@ void explain_depth(const cases::Case& c, const std::vector<Triangle>& triangles,
         const cases::CompareOp op = c.draws[t.triangle.draw].depth.compare;
         t.depth = r.outcomes[k];
         t.depth_reason = r.reasons[k];
-        t.depth_text = depth_text(r.outcomes[k], r.reasons[k],
-                                  kCompareNames[static_cast<size_t>(op)],
-                                  test.range_text(t.index, out.position));
+        t.depth_text =
+            depth_text(r.outcomes[k], r.reasons[k], kCompareNames[static_cast<size_t>(op)],
+                       test.range_text(t.index, out.position));
     }
 }
 

@@ -488,35 +488,8 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
     for (size_t m = 0; m < hits.size(); ++m) {
         coverage[m] = hits[m].coverage;
     }
-    if (depth_ != nullptr) {
-        const DepthResolution depth = resolve_depth(p, hits, sets);
-        for (size_t m = 0; m < hits.size(); ++m) {
-            if (depth.outcomes[m] == DepthOutcome::fails) {
-                coverage[m] = Coverage::must_not;
-            } else if (depth.outcomes[m] == DepthOutcome::open) {
-                coverage[m] = Coverage::either;
-            }
-        }
-        // A set of which some may fail the test no longer has a fixed number of hits.
-        std::erase_if(sets, [&](const Fixed& set) {
-            const bool is_whole =
-                set.count == 0 || std::all_of(set.members.begin(), set.members.end(), [&](auto m) {
-                    return depth.outcomes[m] == DepthOutcome::passes;
-                });
-            for (const uint32_t m : set.members) {
-                const bool is_sure = set.count == set.members.size();
-                if (!is_whole && is_sure && depth.outcomes[m] == DepthOutcome::passes) {
-                    coverage[m] = Coverage::must;
-                }
-            }
-            return !is_whole;
-        });
-        out.depth_begin = static_cast<uint32_t>(depth_writers.size());
-        for (const uint32_t m : depth.stored) {
-            depth_writers.push_back(hits[m].triangle);
-        }
-        out.depth_count = static_cast<uint32_t>(depth.stored.size());
-        out.depth_may_be_clear = depth.may_be_clear;
+    if (depth_ != nullptr && !hits.empty()) {
+        apply_depth(p, hits, sets, coverage, depth_writers, out);
     }
     std::vector<bool> is_counted(hits.size(), false);
     uint32_t first = 0;  // nothing before it can have written last

@@ -446,10 +446,10 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
                 reach = v.reach.get_d();
                 if (q.attribute == -2 && !is_plain_depth(primitive)) {
                     m.rule = depth_rule(primitive, v.value.get_d());
-                    m.expected = fmt::format(
-                        "{:.9g} or near it (plane {:.9g} within {} x {:.3g})",
-                        nominal_depth(primitive, basis, v.value.get_d(), profile),
-                        v.value.get_d(), kBudgetFactor, v.budget.get_d());
+                    m.expected =
+                        fmt::format("{:.9g} or near it (plane {:.9g} within {} x {:.3g})",
+                                    nominal_depth(primitive, basis, v.value.get_d(), profile),
+                                    v.value.get_d(), kBudgetFactor, v.budget.get_d());
                 }
             }
         }
@@ -460,8 +460,8 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         const double g = static_cast<double>(got);
         const double low = hull.low.v - hull.low.e - reach * (1 + 0x1p-30);
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
-        const bool is_moved = (q.attribute == -2 || q.plane == value::kPlaneDepth) &&
-                              !is_plain_depth(primitive);
+        const bool is_moved =
+            (q.attribute == -2 || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
         if (q.rule != "barycentric.value" &&
             (!std::isfinite(got) || (!is_moved && (g < low || g > high)))) {
             m.rule = "interp.hull";
@@ -482,8 +482,7 @@ bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues&
     if (c.target.samples > 1) {
         // The likeliest alternative; the others are left to the next stage.
         const auto nominal =
-            value::evaluations<Ball>(fragment(t, id, Profile::direct3d), Profile::direct3d)
-                .front();
+            value::evaluations<Ball>(fragment(t, id, Profile::direct3d), Profile::direct3d).front();
         places = {{nominal.attributes[0].x.v, nominal.attributes[0].y.v},
                   sample,
                   {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
@@ -572,9 +571,9 @@ ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
             return {true, 0, 0};
         }
         if (a.interpolation == cases::Interpolation::flat) {
-            const auto v = static_cast<double>(
-                a.values[primitive.triangle.provoking]
-                        [static_cast<glm::vec4::length_type>(component)]);
+            const auto v =
+                static_cast<double>(a.values[primitive.triangle.provoking]
+                                            [static_cast<glm::vec4::length_type>(component)]);
             return {std::isfinite(v), v, v};
         }
     }
@@ -596,10 +595,10 @@ ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
     value::WideRange<Ball> range;
     range.is_known = false;
     if (balls.is_known) {
-        range = value::range_wide(balls, span, primitive.is_projectable,
-                                  value::evaluations<Ball>(
-                                      impl_->fragment(t, sample, impl_->profile), impl_->profile),
-                                  index);
+        range = value::range_wide(
+            balls, span, primitive.is_projectable,
+            value::evaluations<Ball>(impl_->fragment(t, sample, impl_->profile), impl_->profile),
+            index);
     }
     if (range.is_known) {
         out = {!range.is_free, range.range.low.v - range.range.low.e,
@@ -608,11 +607,11 @@ ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
         const auto& exact = impl_->rationals.get(t, impl_->profile, [&] {
             return value::make_wide_set<mpq_class>(primitive, span, impl_->limits, impl_->profile);
         });
-        const auto wide = value::range_wide(
-            exact, span, primitive.is_projectable,
-            value::evaluations<mpq_class>(impl_->fragment(t, sample, impl_->profile),
-                                          impl_->profile),
-            index);
+        const auto wide =
+            value::range_wide(exact, span, primitive.is_projectable,
+                              value::evaluations<mpq_class>(
+                                  impl_->fragment(t, sample, impl_->profile), impl_->profile),
+                              index);
         out = {!wide.is_free, wide.range.low.get_d(), wide.range.high.get_d()};
     }
     // Outwards: a subtraction rounds by half an ulp, get_d truncates by less than one.

@@ -158,9 +158,9 @@ void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
         out.note(device, nearest_double(most), nearest_double(v.budget));
         widest = larger(widest, v.reach);
         // Adding the bias is one more rounding.
-        const T sum = set.depth.bias ? T(factor * T(kUnitRoundoff) *
-                                         larger(magnitude(least), magnitude(most)))
-                                     : T{};
+        const T sum = set.depth.bias
+                          ? T(factor * T(kUnitRoundoff) * larger(magnitude(least), magnitude(most)))
+                          : T{};
         const T low = least - v.reach - sum;
         const T high = most + v.reach + sum;
         if (is_depth(q) && set.any_of_all && !set.depth.is_clamped) {
@@ -180,8 +180,9 @@ struct Store {
     bool may_clamp = false;   // to the viewport's range
     bool must_clamp = false;  // depthClampEnable
     Range<double> viewport;
-    double steps = 0;     // 2^n - 1; 0 for binary32
-    double rounding = 1;  // of a store, in steps: less than 1 is either neighbour of a number between
+    double steps = 0;  // 2^n - 1; 0 for binary32
+    double rounding =
+        1;  // of a store, in steps: less than 1 is either neighbour of a number between
 };
 
 template <class T>
@@ -208,7 +209,7 @@ Answer may_store(const Range<T>& range, double device, const Store& store) {
     if (store.steps <= 0) {
         const Answer low = is_at_most(range.low, T(device));
         const Answer high = is_at_most(T(device), range.high);
-        return low == Answer::no || high == Answer::no                ? Answer::no
+        return low == Answer::no || high == Answer::no     ? Answer::no
                : low == Answer::yes && high == Answer::yes ? Answer::yes
                                                            : Answer::unknown;
     }
@@ -222,13 +223,13 @@ Answer may_store(const Range<T>& range, double device, const Store& store) {
     if (store.rounding < 1) {
         const Answer below = is_at_most(low, T(code + store.rounding));
         const Answer above = is_at_most(T(code - store.rounding), high);
-        return below == Answer::no || above == Answer::no                ? Answer::no
+        return below == Answer::no || above == Answer::no     ? Answer::no
                : below == Answer::yes && above == Answer::yes ? Answer::yes
                                                               : Answer::unknown;
     }
     const Answer below = is_positive(T(T(code + 1) - low));
     const Answer above = is_positive(T(high - T(code - 1)));
-    return below == Answer::no || above == Answer::no                ? Answer::no
+    return below == Answer::no || above == Answer::no     ? Answer::no
            : below == Answer::yes && above == Answer::yes ? Answer::yes
                                                           : Answer::unknown;
 }
@@ -257,8 +258,7 @@ Fit fit(const Reach<T>& reach, double device, const Store& store) {
         return {};
     }
     const double step = store.steps > 0 ? store.rounding / store.steps : 0;
-    const double distance =
-        std::max(0.0, Reach<T>::distance(device, reach.low, reach.high) - step);
+    const double distance = std::max(0.0, Reach<T>::distance(device, reach.low, reach.high) - step);
     const double ratio = reach.budget > 0 ? distance / reach.budget
                          : distance > 0   ? std::numeric_limits<double>::infinity()
                                           : 0.0;

@@ -10,6 +10,7 @@
 #include "cases/color.hpp"
 #include "vk_harness/pipeline_key.hpp"
 #include "vk_harness/target.hpp"
+#include "vk_harness/viewports.hpp"
 
 namespace vk_harness {
 
@@ -60,20 +61,17 @@ std::optional<Rejection> check_depth_format(const Capabilities& c, const cases::
     }
     const char* name =
         t.depth_format == cases::DepthFormat::d24_unorm ? "X8_D24_UNORM_PACK32" : "D16_UNORM";
-    const VkSampleCountFlags counts =
-        c.depth_sample_counts.at(static_cast<size_t>(t.depth_format));
+    const VkSampleCountFlags counts = c.depth_sample_counts.at(static_cast<size_t>(t.depth_format));
     if (counts == 0) {
-        return unsupported(
-            fmt::format("the device cannot draw to and read back format {}", name));
+        return unsupported(fmt::format("the device cannot draw to and read back format {}", name));
     }
     if (t.samples > 1 && t.depth_format == cases::DepthFormat::d24_unorm) {
         // A shader reads binary32; the conversion may be off by a step of 2^-24.
         return unsupported("single samples of X8_D24_UNORM_PACK32 cannot be read exactly");
     }
     if ((counts & t.samples) == 0) {
-        return unsupported(
-            fmt::format("the device does not draw {} samples a pixel with format {}", t.samples,
-                        name));
+        return unsupported(fmt::format("the device does not draw {} samples a pixel with format {}",
+                                       t.samples, name));
     }
     return std::nullopt;
 }
@@ -197,7 +195,8 @@ std::optional<Rejection> check_depth(const Capabilities& c, const cases::DepthSt
         return unsupported("the device lacks the feature depthClamp");
     }
     if (depth.clip && !c.depth_clip_enable) {
-        return unsupported("the device lacks the feature depthClipEnable of VK_EXT_depth_clip_enable");
+        return unsupported(
+            "the device lacks the feature depthClipEnable of VK_EXT_depth_clip_enable");
     }
     if (depth.bias && std::abs(depth.bias->clamp) > 0.0F && !c.depth_bias_clamp) {
         return unsupported("the device lacks the feature depthBiasClamp");
@@ -324,6 +323,12 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
     if (c.draws.size() >= kMaxId) {
         return unsupported(fmt::format("the case has {} draws, the harness tells {} apart",
                                        c.draws.size(), kMaxId - 1));
+    }
+    if (const uint32_t viewports = viewport_count(c); viewports > capabilities.max_viewports) {
+        return unsupported(fmt::format(
+            "the case chooses from {} viewports by gl_ViewportIndex, the device from {} (features "
+            "multiViewport and shaderOutputViewportIndex)",
+            viewports, capabilities.max_viewports));
     }
     for (const cases::Draw& draw : c.draws) {
         const PipelineKey key = pipeline_key(c, draw);

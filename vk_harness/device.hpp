@@ -33,6 +33,7 @@ struct Capabilities {
     std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     bool triangle_fans = true;
+    uint32_t max_viewports = 1;  // that gl_ViewportIndex can choose from
     ClipSupport clip;
     bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
     bool portability_subset = false;

@@ -7,6 +7,7 @@
 
 #include "cases/color.hpp"
 #include "vk_harness/case_check.hpp"
+#include "vk_harness/viewports.hpp"
 
 namespace vk_harness {
 
@@ -56,6 +57,8 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
             key.attributes[k].interpolation = cases::Interpolation::flat;
         }
     }
+    key.viewports = viewport_count(c);
+    key.viewport_index = key.viewports > 1;
     key.clip_count = draw.distances.clip_count;
     key.cull_count = draw.distances.cull_count;
     key.negative_one_to_one = draw.depth.negative_one_to_one;

@@ -43,6 +43,7 @@ struct PipelineKey {
     // Vertex stage.
     uint32_t clip_count = 0, cull_count = 0;
     bool layer = false, viewport_index = false;
+    uint32_t viewports = 1;            // that are bound; viewport_index: more than one
     bool negative_one_to_one = false;  // depth clip control
     cases::ProvokingVertex provoking = cases::ProvokingVertex::first;
     // Multisampling.

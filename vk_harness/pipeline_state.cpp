@@ -52,8 +52,8 @@ void rasterization_state(const PipelineKey& key, RasterizationState& state) {
 
 void viewport_state(const PipelineKey& key, ViewportState& state) {
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-    state.info.viewportCount = 1;
-    state.info.scissorCount = 1;
+    state.info.viewportCount = key.viewports;
+    state.info.scissorCount = key.viewports;
     if (key.negative_one_to_one) {
         state.depth_clip_control.sType =
             VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT;

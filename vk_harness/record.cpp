@@ -9,6 +9,7 @@
 
 #include "vk_harness/case_check.hpp"
 #include "vk_harness/sample_locations.hpp"
+#include "vk_harness/viewports.hpp"
 
 namespace vk_harness {
 
@@ -163,10 +164,6 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.layout(), 0,
                                    1, &plan.texture, 0, nullptr);
     }
-    const VkViewport viewport = {draw.viewport.x,         draw.viewport.y,
-                                 draw.viewport.width,     draw.viewport.height,
-                                 draw.viewport.min_depth, draw.viewport.max_depth};
-    vk.vkCmdSetViewport(commands, 0, 1, &viewport);
     vk.vkCmdSetCullMode(commands, to_vulkan(draw.cull));
     vk.vkCmdSetFrontFace(commands, to_vulkan(draw.front_face));
     vk.vkCmdSetPrimitiveTopology(commands, to_vulkan(draw.topology));
@@ -204,7 +201,7 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         vk.vkCmdBindIndexBuffer(commands, vertices, plan.indices, VK_INDEX_TYPE_UINT32);
     }
     for (const VkRect2D& scissor : scissors_of(draw, test)) {
-        vk.vkCmdSetScissor(commands, 0, 1, &scissor);
+        bind_viewports(device, commands, test, draw, scissor);
         if (draw.indices) {
             vk.vkCmdDrawIndexed(commands, count, 1, 0, 0, 0);
         } else {

@@ -147,27 +147,27 @@ enum class Fault : uint8_t {
     barycentric_rotated,  // vertex order turned by one
     perspective_spans,    // one 1/w for each span of 8 pixels
     // depth
-    depth_test_ignored,  // every fragment passes
-    depth_operands_swapped,  // the stored depth is compared with the fragment's
-    depth_less_or_equal,  // LESS passes equal depths
-    depth_write_ignored,  // depth is written although the draw does not
+    depth_test_ignored,       // every fragment passes
+    depth_operands_swapped,   // the stored depth is compared with the fragment's
+    depth_less_or_equal,      // LESS passes equal depths
+    depth_write_ignored,      // depth is written although the draw does not
     depth_write_before_test,  // a fragment that fails leaves its depth
-    depth_store_scale,  // fixed point by 2^n instead of 2^n - 1
-    depth_clamp_ignored,  // no depth clamp
-    depth_clamp_unit,  // clamped to 0..1 instead of the viewport's range
-    depth_clamp_unordered,  // a reversed range is not put in order before the clamp
+    depth_store_scale,        // fixed point by 2^n instead of 2^n - 1
+    depth_clamp_ignored,      // no depth clamp
+    depth_clamp_unit,         // clamped to 0..1 instead of the viewport's range
+    depth_clamp_unordered,    // a reversed range is not put in order before the clamp
     depth_clamp_before_bias,  // the bias is added after the clamp
-    depth_clamp_clips,  // near and far plane clip in spite of depth clamp
-    bias_ignored,  // no depth bias
-    bias_sign,  // the bias is subtracted
-    bias_exponent,  // r is 2^(e-24)
+    depth_clamp_clips,        // near and far plane clip in spite of depth clamp
+    bias_ignored,             // no depth bias
+    bias_sign,                // the bias is subtracted
+    bias_exponent,            // r is 2^(e-24)
     bias_exponent_of_sample,  // e of the fragment's own depth
-    bias_unit_doubled,  // r of fixed point is four steps
-    bias_slope_x_only,  // the slope is that along x
-    bias_slope_signed,  // the slope keeps its sign
-    bias_slope_sum,  // the slope is the sum of both
-    bias_clamp_ignored,  // no depthBiasClamp
-    bias_clamp_both_ends,  // depthBiasClamp limits both ends
+    bias_unit_doubled,        // r of fixed point is four steps
+    bias_slope_x_only,        // the slope is that along x
+    bias_slope_signed,        // the slope keeps its sign
+    bias_slope_sum,           // the slope is the sum of both
+    bias_clamp_ignored,       // no depthBiasClamp
+    bias_clamp_both_ends,     // depthBiasClamp limits both ends
 };
 
 // One line of the table of faults.

@@ -122,6 +122,8 @@ TEST(Blend, MaskedComponentsAndMissingOnes) {
     output.write_mask = 0xf;
     output.blend = cases::Blend{{BlendFactor::dst_alpha, BlendFactor::zero, BlendOp::add}, {}};
     EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 1, 0}), before)), "r 31, g 0, b 31");
+    output.write_mask = 0b010;
+    EXPECT_EQ(unit.text_of(unit.write(output, color_of({1, 0, 1, 0}), before)), "r 0, g 0, b 0");
 }
 
 TEST(Blend, MinAndMaxIgnoreFactors) {

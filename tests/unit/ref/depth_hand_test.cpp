@@ -81,13 +81,11 @@ TEST(DepthHand, EveryCompareOperation) {
         CompareOp op;
         bool in_front, behind;
     };
-    for (const Row& row : {Row{CompareOp::never, false, false}, Row{CompareOp::less, true, false},
-                           Row{CompareOp::equal, false, false},
-                           Row{CompareOp::less_or_equal, true, false},
-                           Row{CompareOp::greater, false, true},
-                           Row{CompareOp::not_equal, true, true},
-                           Row{CompareOp::greater_or_equal, false, true},
-                           Row{CompareOp::always, true, true}}) {
+    for (const Row& row :
+         {Row{CompareOp::never, false, false}, Row{CompareOp::less, true, false},
+          Row{CompareOp::equal, false, false}, Row{CompareOp::less_or_equal, true, false},
+          Row{CompareOp::greater, false, true}, Row{CompareOp::not_equal, true, true},
+          Row{CompareOp::greater_or_equal, false, true}, Row{CompareOp::always, true, true}}) {
         for (const DepthFormat format :
              {DepthFormat::d32_float, DepthFormat::d24_unorm, DepthFormat::d16_unorm}) {
             for (const double z : {0.25, 0.75}) {
@@ -107,10 +105,10 @@ TEST(DepthHand, ClampedDepthsAreEqual) {
         CompareOp op;
         bool equal;
     };
-    for (const Row& row : {Row{CompareOp::less, false}, Row{CompareOp::equal, true},
-                           Row{CompareOp::less_or_equal, true}, Row{CompareOp::greater, false},
-                           Row{CompareOp::not_equal, false},
-                           Row{CompareOp::greater_or_equal, true}}) {
+    for (const Row& row :
+         {Row{CompareOp::less, false}, Row{CompareOp::equal, true},
+          Row{CompareOp::less_or_equal, true}, Row{CompareOp::greater, false},
+          Row{CompareOp::not_equal, false}, Row{CompareOp::greater_or_equal, true}}) {
         for (const DepthFormat format :
              {DepthFormat::d32_float, DepthFormat::d24_unorm, DepthFormat::d16_unorm}) {
             cases::Case c = case_of({half_plane(0.5), half_plane(0.5)}, format);
@@ -141,8 +139,8 @@ TEST(DepthHand, EqualPlanesOfDifferentTrianglesAreOpen) {
 
 // 1/4 + 0.4 steps and 1/4 + 0.9 steps of D16 have a code in common.
 TEST(DepthHand, WithinAStepOfFixedPointIsOpen) {
-    cases::Case c = case_of({half_plane(16384.4 / 65535), half_plane(16384.9 / 65535)},
-                            DepthFormat::d16_unorm);
+    cases::Case c =
+        case_of({half_plane(16384.4 / 65535), half_plane(16384.9 / 65535)}, DepthFormat::d16_unorm);
     c.draws[1].depth.compare = CompareOp::greater;
     uint32_t most = 0;
     EXPECT_EQ(hits(c, Profile::direct3d, &most), 1U);
@@ -161,7 +159,8 @@ TEST(DepthHand, TheSameTriangleAgainIsEqual) {
         c.target.depth_clear = 1;
         const uint32_t count = op == CompareOp::less ? 1 : 2;
         expect_hits(c, count, count);
-        // Nothing is promised with fixed point (the stored depth is rounded), nor if the state differs.
+        // Nothing is promised with fixed point (the stored depth is rounded), nor if the state
+        // differs.
         c.target.depth_format = DepthFormat::d16_unorm;
         expect_hits(c, 1, 2);
         c.target.depth_format = DepthFormat::d32_float;
@@ -207,8 +206,10 @@ TEST(DepthHand, UnitOfFixedPoint) {
     for (const Profile profile : cases::kProfiles) {
         EXPECT_TRUE(accepts(c, step(32768 + 1000), profile));
         EXPECT_TRUE(accepts(c, step(32768 + 2000), profile));
-        EXPECT_FALSE(accepts(c, step(32768 + 2010), profile));
-        EXPECT_FALSE(accepts(c, step(32768 - 10), profile));
+        // A few steps; at profile vulkan 1e-5 for each of some operations is tens of them.
+        const double slack = profile == Profile::vulkan ? 100 : 3;
+        EXPECT_FALSE(accepts(c, step(32768 + 2000 + slack), profile));
+        EXPECT_FALSE(accepts(c, step(32768 - slack), profile));
     }
 }
 
@@ -236,7 +237,7 @@ TEST(DepthHand, SlopeBetweenTheNorms) {
 }
 
 TEST(DepthHand, ClampIsExactAndAfterTheBias) {
-    cases::Case c = case_of({half_plane(0.5)});
+    cases::Case c = case_of({half_plane(0.4)});  // 3/4 - 0.4/2 = 0.55: e = -1
     c.draws[0].viewport.min_depth = 0.75F;
     c.draws[0].viewport.max_depth = 0.25F;
     c.draws[0].depth.clamp = true;
@@ -277,6 +278,7 @@ TEST(DepthHand, ExplanationNamesTheTest) {
     c.draws[1].depth.compare = CompareOp::less;
     const SampleExplanation s = explain_sample(c, Limits{}, Profile::direct3d, {0, 0, 0});
     ASSERT_EQ(s.triangles.size(), 2U);
+    ASSERT_EQ(s.triangles[1].coverage, Coverage::must) << s.triangles[1].reason;
     EXPECT_EQ(s.triangles[1].depth, DepthOutcome::fails);
     EXPECT_EQ(s.triangles[1].depth_text.rfind("fails the depth test LESS, depth 0.7", 0), 0U)
         << s.triangles[1].depth_text;

@@ -23,7 +23,8 @@ class RandomDepth {
     // A multiple of 2^-bits, so that ties are frequent.
     double dyadic(double low, double high, int bits) {
         const double steps = std::ldexp(high - low, bits);
-        return low + std::ldexp(static_cast<double>(integer(0, static_cast<int64_t>(steps))), -bits);
+        return low +
+               std::ldexp(static_cast<double>(integer(0, static_cast<int64_t>(steps))), -bits);
     }
     bool one_in(int64_t n) { return integer(1, n) == 1; }
 
@@ -53,9 +54,9 @@ class RandomDepth {
         depth.compare = static_cast<cases::CompareOp>(integer(0, 7));
         depth.write = !one_in(4);
         if (one_in(2)) {
-            depth.bias = cases::DepthBias{static_cast<float>(integer(-3, 3)),
-                                          one_in(4) ? 0.0625F : 0.0F,
-                                          one_in(2) ? static_cast<float>(integer(-1, 1)) : 0.0F};
+            depth.bias =
+                cases::DepthBias{static_cast<float>(integer(-3, 3)), one_in(4) ? 0.0625F : 0.0F,
+                                 one_in(2) ? static_cast<float>(integer(-1, 1)) : 0.0F};
         }
     }
     cases::Draw draw() {
@@ -76,7 +77,8 @@ class RandomDepth {
             for (int v = 0; v < 3; ++v) {
                 const double w = one_in(3) ? dyadic(0.5, 4, 1) : 1;
                 d.positions.push_back(value_test::clip_of(dyadic(0, 8, bits), dyadic(0, 8, bits),
-                                                          is_level ? level : dyadic(0, 1, 4), w, 8));
+                                                          is_level ? level : dyadic(0, 1, 4), w,
+                                                          8));
             }
         }
         return d;
@@ -86,7 +88,7 @@ class RandomDepth {
 
 TEST(DepthOracle, ExpectationsAgree) {
     uint64_t must = 0, open = 0, failed = 0;
-    for (uint64_t seed = 1; seed <= 300; ++seed) {
+    for (uint64_t seed = 1; seed <= 150; ++seed) {
         RandomDepth random(seed);
         const cases::Case c = random.next();
         cases::Case untested = c;
@@ -110,14 +112,14 @@ TEST(DepthOracle, ExpectationsAgree) {
             }
         }
     }
-    EXPECT_GT(must, 5000U);  // the cases are about something
-    EXPECT_GT(open, 500U);
-    EXPECT_GT(failed, 5000U);
+    EXPECT_GT(must, 2500U);  // the cases are about something
+    EXPECT_GT(open, 250U);
+    EXPECT_GT(failed, 2500U);
 }
 
 // Whatever a looser profile is sure of, a stricter one is sure of too.
 TEST(DepthOracle, ProfilesNest) {
-    for (uint64_t seed = 1; seed <= 300; ++seed) {
+    for (uint64_t seed = 1; seed <= 150; ++seed) {
         RandomDepth random(seed + 1000);
         const cases::Case c = random.next();
         const Expectation loose = expect(c, Limits{}, cases::Profile::vulkan);
@@ -135,7 +137,7 @@ TEST(DepthOracle, ProfilesNest) {
 
 TEST(DepthOracle, VerdictsAgree) {
     uint64_t accepted = 0, rejected = 0;
-    for (uint64_t seed = 1; seed <= 120; ++seed) {
+    for (uint64_t seed = 1; seed <= 60; ++seed) {
         RandomDepth random(seed);
         const cases::Case c = random.next();
         std::mt19937_64 noise(seed);
@@ -143,13 +145,14 @@ TEST(DepthOracle, VerdictsAgree) {
         for (const cases::Profile profile : cases::kProfiles) {
             ValueReference fast(c, Limits{}, profile);
             ValueReference slow(c, Limits{}, profile);
-            for (size_t k = 0; k < e.samples.size(); k += 11) {
+            for (size_t k = 0; k < e.samples.size(); k += 4) {
                 const SampleExpectation& s = e.samples[k];
                 if (s.writers_count == 0) {
                     continue;
                 }
                 const size_t pixel = k / c.target.samples;
-                const SampleId id{static_cast<uint32_t>(pixel % 8), static_cast<uint32_t>(pixel / 8),
+                const SampleId id{static_cast<uint32_t>(pixel % 8),
+                                  static_cast<uint32_t>(pixel / 8),
                                   static_cast<uint32_t>(k % c.target.samples)};
                 const uint32_t t = e.writers[s.writers_begin];
                 FragmentValues device = value_test::rounded(fast.expected(t, id));
@@ -169,8 +172,8 @@ TEST(DepthOracle, VerdictsAgree) {
             }
         }
     }
-    EXPECT_GT(accepted, 2000U);
-    EXPECT_GT(rejected, 500U);
+    EXPECT_GT(accepted, 1000U);
+    EXPECT_GT(rejected, 300U);
 }
 
 }  // namespace

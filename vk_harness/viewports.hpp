@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Several viewports: all of a case are bound at once, and each draw picks its own by
+// gl_ViewportIndex.
+#pragma once
+
+#include <span>
+
+#include "cases/case.hpp"
+#include "vk_harness/device.hpp"
+
+namespace vk_harness {
+
+// How many viewports a case binds: one more than the largest index of its draws.
+uint32_t viewport_count(const cases::Case& c);
+
+// The largest number that vertex shaders of the device can choose from; 1 without the features
+// multiViewport and shaderOutputViewportIndex.
+uint32_t query_max_viewports(VkPhysicalDevice physical);
+
+// Asks for those features; chained to `features`, which must not hold the Vulkan 1.2 ones yet.
+void enable_viewports(VkPhysicalDeviceFeatures2& features,
+                      VkPhysicalDeviceVulkan12Features& features12);
+
+// Binds the viewport and scissor of each draw at its index, those of `own` at the last; what no draw
+// has is a viewport of one pixel. `own_scissor` is bound instead of the scissor of `own`.
+void bind_viewports(const Device& device, VkCommandBuffer commands, const cases::Case& c,
+                    const cases::Draw& own, const VkRect2D& own_scissor);
+
+}  // namespace vk_harness
