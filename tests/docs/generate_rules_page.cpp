@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Prints docs/rules.md: every rule, where the specification has it, the code that decides it, and
-// the case files that exercise it.
+// Prints docs/rules.md: every statement of the specifications, every rule, where the specification
+// has it, the code that decides it, and the case files that exercise it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,69 @@
 
 #include "cases/loader.hpp"
 #include "cases/rule.hpp"
+#include "cases/statement.hpp"
+
+namespace {
+
+using LeavesOfRule = std::map<std::string, size_t>;
+
+std::string link_to(std::string_view rule) {
+    std::string anchor(rule);
+    anchor.erase(std::remove(anchor.begin(), anchor.end(), '.'), anchor.end());
+    return fmt::format("[`{}`](#{})", rule, anchor);
+}
+
+// The table of statements; false if one of them is judged by no case and does not say why.
+bool print_statements(const LeavesOfRule& leaves) {
+    bool is_complete = true;
+    fmt::print(
+        "\n## What the specifications say\n\n"
+        "Every statement of Vulkan 1.4 and Direct3D 11.3 on filled triangles, how strict it is, "
+        "and what holds a device to it. *exact*: one answer a sample; *tolerance*: a bound that "
+        "the text states; *free*: the device's choice among several answers; *undefined*: any "
+        "value, but no harm to anything else; *unclear*: the text contradicts itself or is "
+        "silent.\n\n"
+        "| # | statement | Vulkan | Direct3D | a finding from | how it is judged | rules | "
+        "reference code |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    for (const cases::Statement& statement : cases::all_statements()) {
+        std::string rules, code;
+        cases::Profile profile = cases::Profile::direct3d;
+        for (const std::string_view id : statement.rules) {
+            if (id.empty()) {
+                continue;
+            }
+            const cases::Rule* rule = cases::find_rule(id);
+            const auto count = leaves.find(std::string(id));
+            const bool is_met = count != leaves.end() || id == "write.consistent";
+            if (rule == nullptr || !is_met) {
+                fmt::print(stderr, "error: statement {} names the rule {}, which {}\n",
+                           statement.number, id,
+                           rule == nullptr ? "does not exist" : "has no case");
+                is_complete = false;
+                continue;
+            }
+            profile = std::min(profile, rule->profile);
+            rules += (rules.empty() ? "" : " ") + link_to(id);
+            const std::string file = fmt::format("`{}`", rule->code);
+            if (code.find(file) == std::string::npos) {
+                code += (code.empty() ? "" : " ") + file;
+            }
+        }
+        if (rules.empty() && statement.reason.empty()) {
+            fmt::print(stderr, "error: statement {} has neither a rule nor a reason\n",
+                       statement.number);
+            is_complete = false;
+        }
+        fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", statement.number, statement.topic,
+                   to_string(statement.vulkan), to_string(statement.direct3d),
+                   rules.empty() ? "not judged" : to_string(profile),
+                   rules.empty() ? statement.reason : statement.judged, rules, code);
+    }
+    return is_complete;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     if (argc != 2) {
@@ -45,15 +108,10 @@ int main(int argc, char** argv) {
         "not conformant.\n\n"
         "| rule | profile | demands | leaves |\n| --- | --- | --- | --- |\n");
     for (const cases::Rule& rule : cases::all_rules()) {
-        fmt::print(
-            "| [`{}`](#{}) | {} | {} | {} |\n", rule.id,
-            [&] {
-                std::string anchor(rule.id);
-                anchor.erase(std::remove(anchor.begin(), anchor.end(), '.'), anchor.end());
-                return anchor;
-            }(),
-            to_string(rule.profile), rule.title, leaves_of_rule[std::string(rule.id)]);
+        fmt::print("| {} | {} | {} | {} |\n", link_to(rule.id), to_string(rule.profile), rule.title,
+                   leaves_of_rule[std::string(rule.id)]);
     }
+    const bool is_complete = print_statements(leaves_of_rule);
     for (const cases::Rule& rule : cases::all_rules()) {
         fmt::print("\n## {}\n{}. {}\n\n", rule.id, rule.title, rule.text);
         if (!rule.anchor.empty()) {
@@ -73,5 +131,5 @@ int main(int argc, char** argv) {
         fmt::print("{}\n",
                    files.empty() ? " none; it is found by the comparison in every case" : "");
     }
-    return 0;
+    return is_complete ? 0 : 3;
 }

@@ -27,18 +27,20 @@ TEST(DecodeId, IntegersBelow2To24) {
 TEST(DecodeId, MarkersAndPoison) {
     EXPECT_EQ(decode_id(bits(-1.0F)), diff::kClearId);
     EXPECT_EQ(decode_id(bits(-2.0F)), diff::kNoPrimitive);
+    EXPECT_EQ(decode_id(bits(kOtherClearIdAsFloat)), diff::kOtherClearId);
     EXPECT_EQ(decode_id(diff::kPoison), diff::kPoison);
 }
 
 TEST(DecodeId, NothingElseLooksLikeAnId) {
-    for (const float value : {0.5F, -0.0F, -3.0F, 0x1p24F, 1e30F, INFINITY, -INFINITY,
+    for (const float value : {0.5F, -0.0F, -4.0F, 0x1p24F, 1e30F, INFINITY, -INFINITY,
                               std::bit_cast<float>(1U), diff::kClearValue}) {
         EXPECT_EQ(decode_id(bits(value)), kMalformedId) << value;
     }
     EXPECT_TRUE(rc::check("a word is the binary32 of the id that it decodes to", [](uint32_t word) {
         const uint32_t id = decode_id(word);
-        RC_ASSERT(id == kMalformedId || id == diff::kClearId || id == diff::kNoPrimitive ||
-                  id == diff::kPoison || (id < (1U << 24) && bits(static_cast<float>(id)) == word));
+        RC_ASSERT(id == kMalformedId || id == diff::kClearId || id == diff::kOtherClearId ||
+                  id == diff::kNoPrimitive || id == diff::kPoison ||
+                  (id < (1U << 24) && bits(static_cast<float>(id)) == word));
     }));
 }
 
