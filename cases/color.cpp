@@ -251,6 +251,11 @@ std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlVal
     return out;
 }
 
+std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& value) {
+    const std::optional<size_t> word = context.word(value, "the colour format", kFormats);
+    return word ? std::optional(static_cast<ColorFormat>(*word)) : std::nullopt;
+}
+
 ColorOutput read_color_output(LeafContext& context, const TomlValue& value,
                               const ColorTarget& target, const std::vector<Attribute>& attributes) {
     ColorOutput out;

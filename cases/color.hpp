@@ -26,6 +26,9 @@ ComponentFormat component_of(ColorFormat format, uint32_t k);
 // Whole numbers; never blended.
 bool is_integer(ColorFormat format);
 
+// The word of a format.
+std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& value);
+
 // The table [target.color].
 std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlValue& value);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cases/blit.hpp"
 #include "cases/field_reader.hpp"
 #include "cases/load_draw.hpp"
 #include "cases/load_relations.hpp"
@@ -33,7 +34,7 @@ class CaseLoader {
         c_.where = {root_.where.file, 1, 1};
         context_.known_keys(root_, "a case file",
                             {"format", "description", "catches", "rules", "links", "matrix",
-                             "target", "draw", "expect", "relations"});
+                             "target", "draw", "blit", "expect", "relations"});
         if (const TomlValue* format = required("format", "write format = 1")) {
             const std::optional<Number> n = context_.number(*format, "format");
             if (n && n->value != 1) {
@@ -54,7 +55,11 @@ class CaseLoader {
             read_links(*value);
         }
         read_target();
-        read_draws();
+        if (const TomlValue* value = root_.find("blit")) {
+            read_blit(*value);
+        } else {
+            read_draws();
+        }
         if (const TomlValue* value = root_.find("relations")) {
             c_.relations = load_relations(context_, *value, c_);
         }
@@ -137,6 +142,26 @@ class CaseLoader {
             return;
         }
         c_.target = load_target(context_, *target);
+    }
+
+    void read_blit(const TomlValue& value) {
+        if (!context_.table(value, "blit")) {
+            return;
+        }
+        for (const char* key : {"draw", "expect"}) {
+            if (const TomlValue* other = root_.find(key)) {
+                context_.error(other->where,
+                               fmt::format("a case with [blit] has no {}; leave it out", key));
+            }
+        }
+        if (c_.target.samples != 1 || c_.target.layers != 1) {
+            context_.error(value.where, "a blit writes to one sample a pixel and to one layer");
+        }
+        c_.target.has_instruments = false;
+        c_.target.has_depth = false;
+        if (c_.target.width != 0 && c_.target.height != 0) {
+            c_.blit = load_blit(context_, value, c_.target);
+        }
     }
 
     void read_draws() {

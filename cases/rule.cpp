@@ -164,11 +164,13 @@ constexpr std::array kRules = {
          "Linear in framebuffer space; binary32 budget.", "interfaces-builtin-variables-fragcoord",
          "", "ref/value.hpp"},
     Rule{"store.unorm", Profile::vulkan, "A colour is stored as one of the two nearest codes",
-         "r = f (2^b - 1) of the clamped value; a whole r is stored as it is, otherwise one of its two "
+         "r = f (2^b - 1) of the clamped value; a whole r is stored as it is, otherwise one of its "
+         "two "
          "neighbours. Direct3D allows 0.6 of a unit.",
          "fundamentals-fpfixedconv", "3.2.3.6", "ref/blend.hpp"},
     Rule{"store.srgb", Profile::vulkan, "An sRGB target stores one of the two nearest codes",
-         "The linear value is encoded by the sRGB transfer function and stored as a neighbouring code.",
+         "The linear value is encoded by the sRGB transfer function and stored as a neighbouring "
+         "code.",
          "fundamentals-fpfixedconv", "3.2.3.6", "ref/blend.hpp"},
     Rule{"store.half", Profile::vulkan, "A half holds one of the two neighbours of a value",
          "The rounding direction is not defined; what a half can represent is kept.",
@@ -178,8 +180,10 @@ constexpr std::array kRules = {
     Rule{"store.integer", Profile::vulkan, "An integer target holds what the shader wrote",
          "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2", "ref/blend.hpp"},
     Rule{"blend.equation", Profile::vulkan, "Blending follows its equation",
-         "As if in floating point, with a precision no lower than the destination's: every intermediate "
-         "may be rounded to a neighbour in the destination's format. Fixed-point targets clamp source, "
+         "As if in floating point, with a precision no lower than the destination's: every "
+         "intermediate "
+         "may be rounded to a neighbour in the destination's format. Fixed-point targets clamp "
+         "source, "
          "factors and result. What is representable throughout is exact.",
          "framebuffer-blending", "17.5", "ref/blend.hpp"},
     Rule{"blend.write-mask", Profile::vulkan, "A masked component keeps its value",
@@ -219,12 +223,14 @@ constexpr std::array kRules = {
          "it in so many words; every known device does it.",
          "invariance", "", "diff/consistency.cpp"},
     Rule{"depth.store", Profile::vulkan, "Fixed-point depth is stored as either neighbour",
-         "z (2^n - 1) rounds down or up; a whole number of steps is stored as it is. Direct3D rounds "
+         "z (2^n - 1) rounds down or up; a whole number of steps is stored as it is. Direct3D "
+         "rounds "
          "within 0.6 of a step.",
          "fundamentals-fpfixedconv", "3.2.3.6", "ref/value_wide.cpp"},
     Rule{"depth.bias", Profile::vulkan, "Depth bias is m slope + r constant, clamped",
          "m lies between the larger gradient and their Euclidean norm (Direct3D: the larger). r is "
-         "2^(e-23) with binary32 depth, e the exponent of the primitive's largest z, clipped or not; "
+         "2^(e-23) with binary32 depth, e the exponent of the primitive's largest z, clipped or "
+         "not; "
          "at most 2 2^-n with n bits of fixed point. The clamp is exact. FragCoord.z may have the "
          "bias or not.",
          "primsrast-depthbias-computation", "15.10", "ref/depth_path.hpp"},
@@ -237,14 +243,16 @@ constexpr std::array kRules = {
          "the smaller, after the bias; near and far planes clip nothing.",
          "fragops-depth", "17.10", "ref/depth_path.hpp"},
     Rule{"depth.compare", Profile::vulkan, "A fragment is drawn if its depth compares as asked",
-         "Exact where the ranges that binary32 may compute are apart or both are one number. Nothing "
+         "Exact where the ranges that binary32 may compute are apart or both are one number. "
+         "Nothing "
          "says that fixed-point depth is rounded before it is compared: outcomes within a step are "
          "free.",
          "fragops-depth-comparison", "17.11", "ref/depth_test.hpp"},
-    Rule{"depth.repeat", Profile::vulkan, "The same triangle has the same depth again",
-         "Drawn twice by the same state with binary32 depth, it is equal to itself in every sample: "
-         "LESS_OR_EQUAL passes, LESS fails, wherever it is covered.",
-         "invariance", "", "ref/depth_test.hpp"},
+    Rule{
+        "depth.repeat", Profile::vulkan, "The same triangle has the same depth again",
+        "Drawn twice by the same state with binary32 depth, it is equal to itself in every sample: "
+        "LESS_OR_EQUAL passes, LESS fails, wherever it is covered.",
+        "invariance", "", "ref/depth_test.hpp"},
     Rule{"depth.write", Profile::vulkan, "Depth is written where the test passes and writes are on",
          "A fragment that fails, or whose draw does not write depth, leaves the older depth.",
          "fragops-depth-write", "17.12", "ref/depth_test.hpp"},
@@ -285,6 +293,21 @@ constexpr std::array kRules = {
          "The triangle's vertices turned so that the provoking vertex is the first (or the last, "
          "with the last vertex convention), as the tables for lists, strips and fans say.",
          "primsrast-barycentric", "", "ref/value_setup.cpp"},
+    Rule{
+        "blit.nearest", Profile::vulkan, "A blit copies the texel whose area holds u",
+        "u = (i + 1/2 - d0) (s1 - s0) / (d1 - d0) + s0, likewise v. At 1:1, mirrored and scaled up "
+        "by a whole number exactly one texel qualifies; where u is on a border within the derived "
+        "error of the coordinate, either side. Same format: bit for bit from practice on; else "
+        "either neighbouring code.",
+        "copies-imagescaling", "", "ref/blit.hpp"},
+    Rule{"blit.linear", Profile::vulkan, "A filtered blit weighs the four nearest texels",
+         "Weights of the fractions of u - 1/2 and v - 1/2 within a step of subTexelPrecisionBits, "
+         "the edge clamped at the image or at the region, the filter at the source's precision or "
+         "better.",
+         "copies-imagescaling", "", "ref/blit.hpp"},
+    Rule{"blit.outside", Profile::vulkan, "A blit leaves everything outside its region alone",
+         "Texels outside the destination region keep their bits.", "copies-imagescaling", "",
+         "ref/blit.hpp"},
 };
 
 }  // namespace

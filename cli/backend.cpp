@@ -8,6 +8,7 @@
 
 #include "diff/capture.hpp"
 #include "diff/consistency.hpp"
+#include "ref/blit.hpp"
 #include "ref/expectation.hpp"
 #include "ref/value.hpp"
 
@@ -143,7 +144,26 @@ float* value_slot(diff::Capture& capture, size_t index, const std::string& quant
 
 }  // namespace
 
+namespace {
+
+diff::Capture blit_by_reference(const cases::Case& c) {
+    const ref::BlitReference reference(c);
+    diff::Capture capture;
+    capture.target = c.target;
+    for (uint32_t y = 0; y < c.target.height; ++y) {
+        for (uint32_t x = 0; x < c.target.width; ++x) {
+            capture.color.push_back(reference.nominal(x, y));
+        }
+    }
+    return capture;
+}
+
+}  // namespace
+
 diff::Capture draw_by_reference(const cases::Case& c) {
+    if (c.blit) {
+        return blit_by_reference(c);
+    }
     const ref::Limits limits;
     const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
     ref::ValueReference values(c, limits, cases::Profile::direct3d);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cases/rule.hpp"
+#include "ref/blit.hpp"
 #include "ref/explain.hpp"
 
 namespace cli {
@@ -83,8 +84,12 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
 
 std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
                          ref::SampleId sample) {
-    const ref::SampleExplanation s = ref::explain_sample(c, limits, profile, sample);
     std::string text = fmt::format("{}\n    {}\n", c.id, c.description);
+    if (c.blit) {
+        return text + fmt::format("\ntexel ({}, {}): {}\n", sample.x, sample.y,
+                                  ref::BlitReference(c).explain(sample.x, sample.y));
+    }
+    const ref::SampleExplanation s = ref::explain_sample(c, limits, profile, sample);
     for (const std::string& id : c.rules) {
         if (const cases::Rule* rule = cases::find_rule(id)) {
             text +=

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "cli/frame.hpp"
+#include "diff/blit.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation.hpp"
 
@@ -77,8 +78,8 @@ void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& ca
            std::span<const diff::Consistency> consistency, const ref::Limits& limits,
            cases::Profile profile, KeepPictures pictures) {
     try {
-        const ref::Expectation expectation = ref::expect(c, limits, profile);
-        diff::Verdict verdict = diff::compare(c, expectation, capture);
+        diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
+                                       : diff::compare(c, ref::expect(c, limits, profile), capture);
         if (verdict.error.empty()) {
             diff::add_differences(c, cases::derivations(c), consistency, verdict);
         }

@@ -176,6 +176,11 @@ int render_command(const Program& program, const RenderOptions& options) {
     if (!c) {
         return report_stop(c.error());
     }
+    if (c->blit) {
+        std::fputs("edgecase: 'render' draws triangles; ask 'explain' about a texel of a blit\n",
+                   stderr);
+        return report::kExitUsage;
+    }
     ref::Limits limits;
     limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
     Reference r{*c, ref::expect(*c, limits, options.profile),

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cases/color.hpp"
+#include "vk_harness/blit.hpp"
 #include "vk_harness/pipeline_key.hpp"
 #include "vk_harness/target.hpp"
 #include "vk_harness/viewports.hpp"
@@ -317,7 +318,7 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             return invalid("a draw's colour comes from an attribute that it does not have");
         }
     }
-    if (auto rejection = check_color(capabilities, c)) {
+    if (auto rejection = c.blit ? check_blit(capabilities, c) : check_color(capabilities, c)) {
         return rejection;
     }
     if (c.draws.size() >= kMaxId) {

@@ -4,9 +4,11 @@
 // One case as commands: upload, draw, copy.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "vk_harness/blit.hpp"
 #include "vk_harness/pipeline_cache.hpp"
 #include "vk_harness/readback.hpp"
 #include "vk_harness/target.hpp"
@@ -31,6 +33,7 @@ struct CasePlan {
     std::vector<Attachment> attachments;
     std::vector<const Image*> images;  // one an attachment
     std::vector<DrawPlan> draws;
+    std::shared_ptr<BlitImages> blit;  // instead of images and draws
     ReadbackLayout readback;
 };
 

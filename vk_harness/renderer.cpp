@@ -86,6 +86,15 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         plan.draws.push_back(item);
     }
     plan.attachments = attachments_of(test);
+    if (test.blit) {
+        auto blit = BlitImages::create(*device_, test);
+        if (!blit) {
+            reject(result, blit.error());
+            return false;
+        }
+        plan.blit = std::make_shared<BlitImages>(std::move(*blit));
+        return true;
+    }
     auto images = targets_.get(test.target, plan.attachments);
     if (!images) {
         reject(result, images.error());
@@ -138,6 +147,13 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
         }
     }
     for (const CasePlan& plan : plans) {
+        if (plan.blit != nullptr) {
+            plan.blit->record(*device_, *commands, *plan.test, plan.attachments.front().clear.color,
+                              read_back ? readback->get() : VK_NULL_HANDLE,
+                              plan.readback.offset.front());
+            append(results[plan.slot].messages, instance_.messages().take());
+            continue;
+        }
         record_draws(*device_, pipelines_, *commands, plan, (*vertices)->get(), read_back);
         if (read_back) {
             std::vector<VkDescriptorSet> sets;

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/blit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/color.hpp"
+#include "ref/blit.hpp"
+
+namespace diff {
+
+namespace {
+
+using cases::Profile;
+using cases::TexelCodes;
+
+// The codes of the components that the format has.
+std::string show(const TexelCodes& codes, cases::ColorFormat format) {
+    std::string text;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const cases::ComponentFormat component = cases::component_of(format, k);
+        if (component.bits == 0) {
+            continue;
+        }
+        const bool is_float = component.kind == cases::ComponentKind::half ||
+                              component.kind == cases::ComponentKind::binary32;
+        text += text.empty() ? "codes (" : ", ";
+        text += is_float ? fmt::format("{:#x}", codes[k]) : fmt::format("{}", codes[k]);
+    }
+    return text + ")";
+}
+
+class BlitComparison {
+  public:
+    BlitComparison(const cases::Case& c, Profile profile, const CaptureView& capture)
+        : case_(c), reference_(c), capture_(capture) {
+        verdict_.profile = profile;
+        verdict_.level = profile;
+    }
+
+    Verdict run() {
+        const size_t count = capture_.sample_count();
+        if (capture_.target != case_.target || capture_.color.size() != count) {
+            verdict_.error = fmt::format(
+                "the capture has another size than the case's {}x{} target, or no colour",
+                case_.target.width, case_.target.height);
+            return std::move(verdict_);
+        }
+        verdict_.expected_hits.resize(count);
+        verdict_.device_hits.resize(count);
+        verdict_.marks.assign(count, SampleMark::ok);
+        for (uint32_t y = 0; y < case_.target.height; ++y) {
+            for (uint32_t x = 0; x < case_.target.width; ++x) {
+                judge(x, y);
+            }
+        }
+        if (verdict_.error.empty() && verdict_.must_samples == 0) {
+            verdict_.error = "the blit writes no texel, so an empty picture would pass";
+        }
+        return std::move(verdict_);
+    }
+
+  private:
+    void judge(uint32_t x, uint32_t y) {
+        const size_t index = size_t{y} * case_.target.width + x;
+        const TexelCodes& got = capture_.color[index];
+        if (sample_state(capture_, index) == SampleState::not_copied) {
+            verdict_.error = fmt::format(
+                "texel ({}, {}) was not copied from the device: it still holds the read-back "
+                "memory's fill pattern",
+                x, y);
+            return;
+        }
+        const bool inside = reference_.is_inside(x, y);
+        const bool is_clear = got == reference_.clear_codes();
+        verdict_.expected_hits[index] = inside ? 1 : 0;
+        verdict_.device_hits[index] = is_clear ? 0 : 1;
+        verdict_.must_samples += inside ? 1 : 0;
+        ++verdict_.compared_samples;
+        if (reference_.has_freedom(x, y, verdict_.profile)) {
+            verdict_.marks[index] = SampleMark::either;
+            ++verdict_.either_samples;
+        }
+        if (reference_.allows(x, y, got, verdict_.profile)) {
+            return;
+        }
+        Finding finding;
+        finding.x = x;
+        finding.y = y;
+        finding.level = level_of(x, y, got);
+        finding.kind = !inside    ? FindingKind::extra
+                       : is_clear ? FindingKind::missing
+                                  : FindingKind::value;
+        finding.rule = !inside                                           ? "blit.outside"
+                       : case_.blit->filter == cases::BlitFilter::linear ? "blit.linear"
+                                                                         : "blit.nearest";
+        finding.quantity = finding.kind == FindingKind::value ? "texel" : "";
+        finding.expected = show(reference_.nominal(x, y), case_.target.color->format);
+        finding.got = show(got, case_.target.color->format);
+        finding.why = reference_.explain(x, y);
+        add(std::move(finding), index);
+    }
+
+    // The loosest profile at which the codes are wrong.
+    Profile level_of(uint32_t x, uint32_t y, const TexelCodes& got) const {
+        for (const Profile profile : {Profile::vulkan, Profile::practice}) {
+            if (profile < verdict_.profile && !reference_.allows(x, y, got, profile)) {
+                return profile;
+            }
+        }
+        return verdict_.profile;
+    }
+
+    void add(Finding finding, size_t index) {
+        const bool first = verdict_.ok();
+        verdict_.min_x = first ? finding.x : std::min(verdict_.min_x, finding.x);
+        verdict_.min_y = first ? finding.y : std::min(verdict_.min_y, finding.y);
+        verdict_.max_x = first ? finding.x : std::max(verdict_.max_x, finding.x);
+        verdict_.max_y = first ? finding.y : std::max(verdict_.max_y, finding.y);
+        verdict_.level = first ? finding.level : std::min(verdict_.level, finding.level);
+        ++verdict_.counts[static_cast<size_t>(finding.kind)];
+        verdict_.marks[index] = finding.kind == FindingKind::extra     ? SampleMark::extra
+                                : finding.kind == FindingKind::missing ? SampleMark::missing
+                                                                       : SampleMark::value;
+        if (verdict_.findings.size() < kMaxFindings) {
+            verdict_.findings.push_back(std::move(finding));
+        }
+    }
+
+    const cases::Case& case_;
+    ref::BlitReference reference_;
+    const CaptureView& capture_;
+    Verdict verdict_;
+};
+
+}  // namespace
+
+Verdict compare_blit(const cases::Case& c, Profile profile, const CaptureView& capture) {
+    return BlitComparison(c, profile, capture).run();
+}
+
+}  // namespace diff
