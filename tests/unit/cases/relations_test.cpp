@@ -71,16 +71,16 @@ TEST(Relations, EveryRuleIsOneOfTheList) {
 
 TEST(Relations, EverySentence) {
     const std::vector<std::pair<std::string, std::string>> table = {
-        {file("1"), "f:4:13: error: relations is an integer; write an array"},
+        {file("1"), "f:4:13: error: relations is the number 1; write an array"},
         {file(R"(["twice"])"),
          R"(f:4:14: error: a relation is "twice"; write "same-twice", "other-clears", )"
          R"("write-masks", "fewer-attributes" or "more-attributes")"},
         {file(R"([{ tiles = [1, 2] }])"),
-         R"(f:4:16: error: a relation has no key "tiles"; did you mean "scissor-tiles"?)"},
+         R"(f:4:16: error: a relation has no key "tiles"; its keys are scissor-tiles)"},
         {file(R"([{ scissor-tiles = [1] }])"),
          "f:4:32: error: scissor-tiles has 1 numbers; write [width, height]"},
         {file(R"([{ scissor-tiles = [0, 1] }])"),
-         "f:4:33: error: a tile's side is 0; it must be in 1 to 16384"},
+         "f:4:33: error: a tile's side is not an integer from 1 to 16384"},
         {file(R"(["same-twice", "same-twice"])"),
          "f:4:28: error: the relation same-twice stands twice"},
         {file(R"(["fewer-attributes"])"),
