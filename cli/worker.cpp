@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "cases/color.hpp"
 #include "cli/backend.hpp"
 #include "cli/derived.hpp"
 #include "cli/fault.hpp"
@@ -59,8 +60,25 @@ void print_noise() {
     std::fflush(stdout);
 }
 
+// Another colour in the middle of a target that counts no hits: the second highest bit of red.
+void flip_color(Rendered& rendered) {
+    const cases::Target& target = rendered.capture.target;
+    std::span<diff::ColorCodes> codes(rendered.capture.color);
+    if (!rendered.placed.empty()) {  // colours come first where there are no instruments
+        codes = std::span(reinterpret_cast<diff::ColorCodes*>(rendered.placed.data()),
+                          rendered.capture.sample_count());
+    }
+    if (target.color && !codes.empty()) {
+        codes[codes.size() / 2][0] ^= 1U << (cases::component_of(target.color->format, 0).bits - 2);
+    }
+}
+
 // One hit more at the first drawn sample from the middle of the target on: a double hit.
 void flip_pixel(Rendered& rendered) {
+    if (!rendered.capture.target.has_instruments) {
+        flip_color(rendered);
+        return;
+    }
     std::span<glm::vec4> planes(rendered.capture.hits);
     if (!rendered.placed.empty()) {  // the hits come first
         planes = std::span(reinterpret_cast<glm::vec4*>(rendered.placed.data()),

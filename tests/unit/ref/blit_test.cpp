@@ -76,9 +76,9 @@ TEST(BlitReference, OneToOneAndMirroredAllowOneTexelAtEveryProfile) {
                 for (uint32_t x = 0; x < 10; ++x) {
                     const bool inside = x >= 3 && x < 9 && y >= 1 && y < 5;
                     ASSERT_EQ(reference.is_inside(x, y), inside);
-                    size_t allowed = reference.allows(x, y, {0, 0, 0, 0}, profile) ? 1 : 0;
+                    size_t allowed = reference.allows(x, y, {0, 0, 0, 0}, profile) ? 1U : 0U;
                     for (const TexelCodes& texel : cases::blit_source(*c.blit)) {
-                        allowed += reference.allows(x, y, texel, profile) ? 1 : 0;
+                        allowed += reference.allows(x, y, texel, profile) ? 1U : 0U;
                     }
                     EXPECT_EQ(allowed, 1U) << x << "," << y;
                     EXPECT_TRUE(reference.allows(x, y, reference.nominal(x, y), profile));
@@ -99,7 +99,7 @@ TEST(BlitReference, WholeUpscalesAllowOneTexel) {
             for (uint32_t x = 0; x < 40; ++x) {
                 size_t allowed = 0;
                 for (const TexelCodes& texel : cases::blit_source(*c.blit)) {
-                    allowed += reference.allows(x, y, texel, profile) ? 1 : 0;
+                    allowed += reference.allows(x, y, texel, profile) ? 1U : 0U;
                 }
                 ASSERT_EQ(allowed, 1U) << x << "," << y;
                 ASSERT_EQ(reference.nominal(x, y), source_at(c, x / 8, (y - 5) / 7));
@@ -215,18 +215,19 @@ TEST(BlitReference, TheFilterAgreesWithTheRationals) {
             const auto y = static_cast<uint32_t>(below(static_cast<uint64_t>(target)));
             TexelCodes codes = reference.nominal(x, y);
             for (uint32_t& code : codes) {
-                code = std::min(255U, code + static_cast<uint32_t>(below(7)));
-                code = code < 3 ? 0 : code - 3;
+                const uint32_t off = trial % 2 == 0 ? 2 : 20;
+                code = std::min(255U, code + static_cast<uint32_t>(below(2 * off + 1)));
+                code = code < off ? 0 : code - off;
             }
             for (const Profile profile : kProfiles) {
                 const bool allowed = reference.allows_exact(x, y, codes, profile);
                 ASSERT_EQ(reference.allows(x, y, codes, profile), allowed);
-                accepted += allowed ? 1 : 0;
+                accepted += allowed ? 1U : 0U;
             }
         }
     }
-    EXPECT_GT(accepted, 100U);
-    EXPECT_LT(accepted, 3500U);
+    EXPECT_GT(accepted, 1000U);
+    EXPECT_LT(accepted, 3300U);
 }
 
 }  // namespace ref
