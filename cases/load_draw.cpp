@@ -41,33 +41,19 @@ class DrawLoader {
         : context_(context), table_(table), target_(target) {}
 
     Draw load(const std::string& name, std::vector<std::string>& notes) {
-        context_.known_keys(table_, "[[draw]]",
-                            {"topology",
-                             "space",
-                             "vertices",
-                             "generate",
-                             "indices",
-                             "viewport",
-                             "scissor",
-                             "viewport_index",
-                             "cull",
-                             "front_face",
-                             "provoking",
-                             "depth",
-                             "depth_volume",
-                             "clip_distance",
-                             "cull_distance",
-                             "attribute",
-                             "mirror",
-                             "rotate",
-                             "offset",
-                             "winding",
-                             "first",
-                             "order",
-                             "color",
-                             "sample_mask",
-                             "shader_mask",
-                             "min_sample_shading"});
+        context_.known_keys(table_, "[[draw]]", {"topology",      "space",
+                                                 "vertices",      "generate",
+                                                 "indices",       "viewport",
+                                                 "scissor",       "viewport_index",
+                                                 "cull",          "front_face",
+                                                 "provoking",     "depth",
+                                                 "depth_volume",  "clip_distance",
+                                                 "cull_distance", "attribute",
+                                                 "mirror",        "rotate",
+                                                 "offset",        "winding",
+                                                 "first",         "order",
+                                                 "color",         "sample_mask",
+                                                 "shader_mask",   "min_sample_shading"});
         draw_.where = table_.where;
         draw_.topology = enumerated("topology", kTopology, Topology::triangle_list);
         draw_.cull = enumerated("cull", kCull, CullMode::none);

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "cases/color.hpp"
-
 #include "cases/load_depth.hpp"
 
 namespace cases {
@@ -82,8 +81,7 @@ void read_attachments(LeafContext& context, const TomlValue& table, Target& targ
     target.has_instruments = *word == 0;
     target.has_depth = *word != 1;
     if (*word != 0 && !target.color) {
-        context.error(value->where,
-                      "attachments leaves nothing to draw to; write [target.color]");
+        context.error(value->where, "attachments leaves nothing to draw to; write [target.color]");
     }
 }
 
@@ -91,9 +89,9 @@ void read_attachments(LeafContext& context, const TomlValue& table, Target& targ
 
 Target load_target(LeafContext& context, const TomlValue& table) {
     Target target;
-    context.known_keys(table, "[target]",
-                       {"size", "samples", "sample_locations", "depth", "depth_clear", "color",
-                        "attachments"});
+    context.known_keys(
+        table, "[target]",
+        {"size", "samples", "sample_locations", "depth", "depth_clear", "color", "attachments"});
     read_depth_target(context, table, target);
     read_samples(context, table, target);
     read_locations(context, table, target);

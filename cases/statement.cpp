@@ -263,9 +263,9 @@ constexpr Statement kStatements[] = {
      "Exactly, where every sum is representable.",
      {"blend.equation", "store.float"}, ""},
     {77, "stencil operations", exact, exact,
-     "",
-     {}, "Hits are counted by blending, front and back apart; a stencil buffer would tell the "
-     "same once more."},
+     "A stencil that counts up for front and down for back faces holds their difference, "
+     "modulo 256.",
+     {"stencil.count"}, ""},
     {78, "primitive order", exact, exact,
      "The last one drawn stays, and blending runs in drawing order.",
      {"order.primitive", "blend.equation"}, ""},

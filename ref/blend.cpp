@@ -60,7 +60,8 @@ mpq_class spacing(const Floating& format, const mpq_class& x) {
 }
 
 mpq_class round_to(const Floating& format, const mpq_class& x, bool upwards) {
-    const mpq_class largest = power_of_two(format.most + 1) - power_of_two(format.most - format.fraction);
+    const mpq_class largest =
+        power_of_two(format.most + 1) - power_of_two(format.most - format.fraction);
     if (sgn(x) == 0 || abs(x) > largest) {
         return x;
     }
@@ -94,8 +95,9 @@ mpq_class value_of_floating(const Floating& format, uint32_t code, bool& is_numb
     const bool is_negative = (code >> (fraction_bits + exponent_bits) & 1U) != 0;
     is_number = exponent != (1U << exponent_bits) - 1;
     const uint32_t whole = exponent == 0 ? fraction : fraction | 1U << fraction_bits;
-    const long scale = (exponent == 0 ? format.least : format.least + static_cast<long>(exponent) - 1) -
-                       format.fraction;
+    const long scale =
+        (exponent == 0 ? format.least : format.least + static_cast<long>(exponent) - 1) -
+        format.fraction;
     const mpq_class size = mpq_class(whole) * power_of_two(scale);
     return is_negative ? mpq_class(-size) : size;
 }
@@ -260,8 +262,7 @@ bool Component::value_of(uint32_t code, mpq_class& value) const {
 uint32_t Component::code_of(const mpq_class& value) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
-            return static_cast<uint32_t>(
-                floor_of(value * units() + mpq_class(1, 2)).get_ui());
+            return static_cast<uint32_t>(floor_of(value * units() + mpq_class(1, 2)).get_ui());
         case ComponentKind::srgb: {
             const auto& values = srgb_values();
             const auto at = std::lower_bound(values.begin(), values.end(), value);
@@ -314,16 +315,17 @@ Color Unit::cleared(const cases::ColorTarget& target) const {
     Color out;
     for (uint32_t k = 0; k < 4; ++k) {
         const Component component(cases::component_of(format, k));
-        out[k] = component.exists()
-                     ? component.stored(
-                           point(static_cast<double>(target.clear[static_cast<int>(k)])), profile,
-                           false)
-                     : point(k == 3 ? 1 : 0);
+        out[k] =
+            component.exists()
+                ? component.stored(point(static_cast<double>(target.clear[static_cast<int>(k)])),
+                                   profile, false)
+                : point(k == 3 ? 1 : 0);
     }
     return out;
 }
 
-Color Unit::write(const cases::ColorOutput& output, const Color& source, const Color& before) const {
+Color Unit::write(const cases::ColorOutput& output, const Color& source,
+                  const Color& before) const {
     Color out = before;
     if (!output.blend) {
         for (uint32_t k = 0; k < 4; ++k) {
@@ -362,8 +364,8 @@ Color Unit::write(const cases::ColorOutput& output, const Color& source, const C
             result = larger(s[k], before[k]);
         } else {
             const auto scaled = [&](const Interval& value, BlendFactor factor) {
-                return component.either(product(
-                    value, component.either(factor_of(factor, k, s, before, constants))));
+                return component.either(
+                    product(value, component.either(factor_of(factor, k, s, before, constants))));
             };
             const Interval a = scaled(s[k], equation.source);
             const Interval b = scaled(before[k], equation.destination);

@@ -79,10 +79,10 @@ std::vector<ColorReference::Sequence> ColorReference::allowed(
                 sequence.push_back(hit.triangle);
             }
         }
-        const bool fits = witness ? sequence.size() == witness->hits &&
-                                        (sequence.empty() || sequence.back() == witness->writer)
-                                  : sequence.size() >= bounds.total_min &&
-                                        sequence.size() <= bounds.total_max;
+        const bool fits =
+            witness ? sequence.size() == witness->hits &&
+                          (sequence.empty() || sequence.back() == witness->writer)
+                    : sequence.size() >= bounds.total_min && sequence.size() <= bounds.total_max;
         if (fits) {
             out.push_back(std::move(sequence));
         }
@@ -199,8 +199,13 @@ ColorVerdict ColorReference::judge(size_t index, SampleId id, const std::array<u
         if (is_constant_) {
             const HitBounds& bounds = expectation_.samples[index].hits;
             const std::span<const PossibleHit> hits = hits_at(index);
-            accepted = {true,  {hits.begin(), hits.end()}, bounds.total_min, bounds.total_max,
-                        codes, witness ? witness->hits : 0, witness ? witness->writer : 0};
+            accepted = {true,
+                        {hits.begin(), hits.end()},
+                        bounds.total_min,
+                        bounds.total_max,
+                        codes,
+                        witness ? witness->hits : 0,
+                        witness ? witness->writer : 0};
         }
         return verdict;
     }
@@ -281,9 +286,8 @@ bool ColorReference::is_constant_depth(uint32_t triangle, float depth) const {
 
 bool ColorReference::explains_depth(size_t index, SampleId id, float depth, float clear) {
     // Only the plain write is judged here; depth tests, bias and clamping need the instruments.
-    const bool is_plain = std::all_of(case_.draws.begin(), case_.draws.end(), [](const auto& d) {
-        return d.depth == cases::DepthState{};
-    });
+    const bool is_plain = std::all_of(case_.draws.begin(), case_.draws.end(),
+                                      [](const auto& d) { return d.depth == cases::DepthState{}; });
     if (!is_plain || case_.target.depth_format != cases::DepthFormat::d32_float) {
         return true;
     }

@@ -22,7 +22,7 @@ namespace ref {
 // What a device tells of a sample besides its colour, if it has instruments.
 struct ColorWitness {
     uint32_t hits = 0;
-    uint32_t writer = 0;           // the triangle that wrote last, if hits > 0
+    uint32_t writer = 0;                 // the triangle that wrote last, if hits > 0
     const glm::vec4* written = nullptr;  // what its fragment wrote, if that was captured
 };
 
@@ -59,8 +59,8 @@ class ColorReference {
     std::array<uint32_t, 4> codes(size_t index, SampleId id,
                                   const std::optional<ColorWitness>& witness);
     // Whether depth may be what the last of an allowed set of fragments left, for targets without
-    // instruments; `clear`: what it holds where nothing was drawn. Only for D32 and draws that write
-    // depth without a test, bias or clamp; true otherwise.
+    // instruments; `clear`: what it holds where nothing was drawn. Only for D32 and draws that
+    // write depth without a test, bias or clamp; true otherwise.
     bool explains_depth(size_t index, SampleId id, float depth, float clear);
 
     // More open fragments at a sample than this are not tried out.
@@ -80,9 +80,9 @@ class ColorReference {
     color::Unit unit_;
     color::Color cleared_;
     ValueReference values_;
-    std::vector<color::Color> constants_;            // by draw, of those with a constant colour
-    std::map<Sequence, color::Color> by_draws_;      // sequences of draws with constant colours
-    std::map<uint32_t, color::Color> sources_;       // by triangle, of the sample at hand
+    std::vector<color::Color> constants_;        // by draw, of those with a constant colour
+    std::map<Sequence, color::Color> by_draws_;  // sequences of draws with constant colours
+    std::map<uint32_t, color::Color> sources_;   // by triangle, of the sample at hand
     SampleId at_;
 
     // Neighbours mostly have the same fragments and the same codes: what was accepted last, of

@@ -77,8 +77,8 @@ struct ValueRange {
 inline constexpr int32_t kDepthAttribute = -2;
 
 // Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
-// Which values of a fragment are judged: the depth plane may hold an older fragment than the others,
-// if the last one does not write depth.
+// Which values of a fragment are judged: the depth plane may hold an older fragment than the
+// others, if the last one does not write depth.
 enum class FragmentPart : uint8_t { all, all_but_depth, depth };
 
 class ValueReference {

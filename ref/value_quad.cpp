@@ -138,7 +138,8 @@ bool is_lod(const Range<double>& lambda, uint32_t component, uint32_t levels,
     }
     // d' = clamp(lambda, 0, levels - 1), to mipmap_bits again.
     const double last = levels - 1;
-    const double most = place.profile == cases::Profile::vulkan ? std::max(lambda.high, last) : last;
+    const double most =
+        place.profile == cases::Profile::vulkan ? std::max(lambda.high, last) : last;
     const double slack = std::ldexp(1.0, -place.limits.mipmap_bits);
     return device >= std::clamp(lambda.low, 0.0, last) - slack &&
            device <= std::clamp(lambda.high, 0.0, most) + slack && device >= 0 && device <= most;

@@ -170,7 +170,8 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     vk.vkCmdSetPrimitiveRestartEnable(commands, draw.primitive_restart ? VK_TRUE : VK_FALSE);
     const cases::DepthState& depth = draw.depth;
     vk.vkCmdSetDepthCompareOp(commands, static_cast<VkCompareOp>(depth.compare));
-    vk.vkCmdSetDepthWriteEnable(commands, depth.write && !test.variation.masks_depth ? VK_TRUE : VK_FALSE);
+    vk.vkCmdSetDepthWriteEnable(commands,
+                                depth.write && !test.variation.masks_depth ? VK_TRUE : VK_FALSE);
     const cases::DepthBias bias = depth.bias.value_or(cases::DepthBias{});
     vk.vkCmdSetDepthBiasEnable(commands, depth.bias ? VK_TRUE : VK_FALSE);
     vk.vkCmdSetDepthBias(commands, bias.constant, bias.clamp, bias.slope);

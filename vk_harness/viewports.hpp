@@ -23,8 +23,8 @@ uint32_t query_max_viewports(VkPhysicalDevice physical);
 void enable_viewports(VkPhysicalDeviceFeatures2& features,
                       VkPhysicalDeviceVulkan12Features& features12);
 
-// Binds the viewport and scissor of each draw at its index, those of `own` at the last; what no draw
-// has is a viewport of one pixel. `own_scissor` is bound instead of the scissor of `own`.
+// Binds the viewport and scissor of each draw at its index, those of `own` at the last; what no
+// draw has is a viewport of one pixel. `own_scissor` is bound instead of the scissor of `own`.
 void bind_viewports(const Device& device, VkCommandBuffer commands, const cases::Case& c,
                     const cases::Draw& own, const VkRect2D& own_scissor);
 

@@ -315,9 +315,8 @@ bool DrawCommand::is_distance_culled(const Primitive& primitive) const {
     }
     bool is_culled = false;
     for (uint32_t k = 0; k < d.cull_count; ++k) {
-        const auto count =
-            std::count_if(primitive.vertex.begin(), primitive.vertex.end(),
-                          [&](uint32_t v) { return is_out(v, k); });
+        const auto count = std::count_if(primitive.vertex.begin(), primitive.vertex.end(),
+                                         [&](uint32_t v) { return is_out(v, k); });
         switch (device_.fault) {
             case Fault::cull_distance_any:
                 is_culled = is_culled || count > 0;

@@ -54,8 +54,7 @@ class Prober {
             const float v = d.y * static_cast<float>(attribute.texture_size[1]);
             rho = std::max(rho, std::sqrt(u * u + v * v));
         }
-        const float lambda =
-            std::log2(rho) - (device_.fault == Fault::lod_one_less ? 1.0F : 0.0F);
+        const float lambda = std::log2(rho) - (device_.fault == Fault::lod_one_less ? 1.0F : 0.0F);
         const auto levels =
             std::bit_width(std::max(attribute.texture_size[0], attribute.texture_size[1]));
         return {std::clamp(lambda, 0.0F, static_cast<float>(levels - 1)), lambda, 0, 0};
@@ -94,8 +93,7 @@ glm::vec4 probe(const cases::Draw& draw, const Device& device, const TrianglePla
         }
         case Probe::at_offset: {
             const auto on_grid = [&](float offset) {
-                return device.fault == Fault::offset_ignored ? 0.0F
-                                                             : std::floor(offset * 16) / 16;
+                return device.fault == Fault::offset_ignored ? 0.0F : std::floor(offset * 16) / 16;
             };
             return planes.attribute(
                 a, static_cast<float>(i) + 0.5F + on_grid(attribute.probe_offset[0]),

@@ -100,7 +100,8 @@ TEST(Store, SrgbEncodesColourAndNotAlpha) {
 }
 
 TEST(Blend, ByHand) {
-    // 8 bits: 0.5 over white; a is 127 or 128 of 255. Blue: 128 * 128 / 255 = 64.25, so at most 65 + 128.
+    // 8 bits: 0.5 over white; a is 127 or 128 of 255. Blue: 128 * 128 / 255 = 64.25, so at most 65
+    // + 128.
     const Unit unit{ColorFormat::rgba8_unorm, Profile::vulkan};
     const Color white = unit.cleared({ColorFormat::rgba8_unorm, {1, 1, 1, 1}});
     EXPECT_EQ(unit.text_of(unit.write(alpha_blend(), color_of({0, 1, 0.5, 0.5}), white)),

@@ -106,11 +106,12 @@ TEST(Partials, EqualWHasConstantPartials) {
 }
 
 // Vertices (0,0), (4,0), (0,4) with w 1, 1/2, 1 and u 0, 8, 0 have
-// 1/w = 1 + x/4 and u/w = 4 x there, so u = 16 x / (4 + x), du/dx = 64 / (4 + x)^2 = 64/25 at x = 1.
+// 1/w = 1 + x/4 and u/w = 4 x there, so u = 16 x / (4 + x), du/dx = 64 / (4 + x)^2 = 64/25 at x
+// = 1.
 TEST(Partials, ByHand) {
-    const std::array<PartialVertex, 3> v = {
-        PartialVertex{0, 0, 1, 0}, PartialVertex{4, 0, mpq_class(1, 2), 8},
-        PartialVertex{0, 4, 1, 0}};
+    const std::array<PartialVertex, 3> v = {PartialVertex{0, 0, 1, 0},
+                                            PartialVertex{4, 0, mpq_class(1, 2), 8},
+                                            PartialVertex{0, 4, 1, 0}};
     const auto p = partials_at(v, 1, 1, 2);
     ASSERT_TRUE(p);
     EXPECT_EQ(p->u, mpq_class(16, 5));

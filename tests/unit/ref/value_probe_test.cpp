@@ -241,9 +241,9 @@ TEST(ValueProbe, BarycentricOrderByTopologyAndProvokingVertex) {
 // Random triangles, probes and deviations up to a few budgets: both ways agree on every fragment.
 TEST(ValueProbe, FilterAgreesWithTheOracle) {
     std::mt19937_64 rng(21);
-    constexpr Probe kProbes[] = {Probe::at_sample, Probe::at_offset, Probe::dx,
-                                 Probe::dy,        Probe::dx_fine,   Probe::dy_fine,
-                                 Probe::dx_coarse, Probe::dy_coarse, Probe::width,
+    constexpr Probe kProbes[] = {Probe::at_sample,  Probe::at_offset,   Probe::dx,
+                                 Probe::dy,         Probe::dx_fine,     Probe::dy_fine,
+                                 Probe::dx_coarse,  Probe::dy_coarse,   Probe::width,
                                  Probe::width_fine, Probe::width_coarse};
     uint64_t accepted = 0, rejected = 0;
     for (int n = 0; n < 36; ++n) {
@@ -265,9 +265,10 @@ TEST(ValueProbe, FilterAgreesWithTheOracle) {
                 if (e.quantity.starts_with("attribute ") && !e.is_flat && k > 0) {
                     const double off =
                         e.budget * 0.5 * k * (static_cast<double>(rng() % 2001) / 1000 - 1);
-                    auto& value = device.attributes[static_cast<size_t>(e.quantity[10] - '0')]
-                                                   [static_cast<glm::vec4::length_type>(
-                                                       std::string("xyzw").find(e.quantity.back()))];
+                    auto& value =
+                        device.attributes[static_cast<size_t>(e.quantity[10] - '0')]
+                                         [static_cast<glm::vec4::length_type>(
+                                             std::string("xyzw").find(e.quantity.back()))];
                     value = static_cast<float>(e.nearest + off);
                 }
             }

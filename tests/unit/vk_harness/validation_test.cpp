@@ -77,8 +77,8 @@ TEST(Validation, NothingToSayAboutAnyState) {
     EXPECT_THAT(renderer->render(last, {}).front().messages, ::testing::IsEmpty());
 }
 
-// Every probe, auxiliary qualifier and built-in, with one sample and with four; cases that the device
-// does not support say so.
+// Every probe, auxiliary qualifier and built-in, with one sample and with four; cases that the
+// device does not support say so.
 TEST(Validation, NothingToSayAboutProbesAndSources) {
     auto renderer = Renderer::create(with_validation());
     ASSERT_TRUE(renderer) << renderer.error().message;
