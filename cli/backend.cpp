@@ -35,6 +35,9 @@ class VulkanBackend : public Backend {
 
 // Moves the planes of a capture to where the store wants them, if anywhere.
 void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t slot) {
+    if (!store) {
+        return;
+    }
     diff::Capture& c = rendered.capture;
     rendered.placed = store(slot, diff::plane_bytes(c.target, c.attribute_count));
     if (rendered.placed.empty()) {
