@@ -143,7 +143,7 @@ uint8_t read_write_mask(LeafContext& context, const TomlValue& value) {
     uint8_t mask = 0;
     for (const char letter : text.value_or("")) {
         const size_t k = std::string_view("rgba").find(letter);
-        if (k == std::string_view::npos || (mask >> k & 1U) != 0) {
+        if (k == std::string_view::npos || (static_cast<unsigned>(mask) >> k & 1U) != 0) {
             context.error(value.where, fmt::format("write_mask is \"{}\"; write each of the "
                                                    "letters r, g, b and a at most once",
                                                    *text));
