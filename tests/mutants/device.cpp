@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "diff/resolve.hpp"
 #include "mutants/assembly.hpp"
 #include "mutants/clipper.hpp"
 #include "mutants/depth.hpp"
@@ -315,9 +316,8 @@ bool DrawCommand::is_distance_culled(const Primitive& primitive) const {
     }
     bool is_culled = false;
     for (uint32_t k = 0; k < d.cull_count; ++k) {
-        const auto count =
-            std::count_if(primitive.vertex.begin(), primitive.vertex.end(),
-                          [&](uint32_t v) { return is_out(v, k); });
+        const auto count = std::count_if(primitive.vertex.begin(), primitive.vertex.end(),
+                                         [&](uint32_t v) { return is_out(v, k); });
         switch (device_.fault) {
             case Fault::cull_distance_any:
                 is_culled = is_culled || count > 0;
@@ -738,6 +738,7 @@ diff::Capture render(const cases::Case& c, const Device& device) {
         out.attributes[a].assign(count, glm::vec4(diff::kClearValue));
     }
     if (device.fault == Fault::draws_nothing) {
+        diff::add_dependent_planes(out);
         return out;
     }
     const auto draws = static_cast<uint32_t>(c.draws.size());
@@ -745,6 +746,7 @@ diff::Capture render(const cases::Case& c, const Device& device) {
         const bool reversed = device.fault == Fault::draws_reversed;
         DrawCommand(c, reversed ? draws - 1 - d : d, device, out).run();
     }
+    diff::add_dependent_planes(out);
     return out;
 }
 
