@@ -216,6 +216,9 @@ struct Draw {
     SourceLocation where;
 };
 
+// How the samples of a pixel become one value at the end of rendering (VkResolveModeFlagBits).
+enum class Resolve : uint8_t { none, sample_zero, average, min, max };
+
 struct Target {
     uint32_t width = 0, height = 0;  // pixels
     uint32_t samples = 1;
@@ -229,6 +232,11 @@ struct Target {
     bool has_instruments = true;
     bool has_depth = true;
     float depth_clear = kDepthClear;  // what the depth attachment is cleared to, 0..1
+    // With several samples: average of numbers, sample_zero of integers; any of depth.
+    Resolve color_resolve = Resolve::none, depth_resolve = Resolve::none;
+    // An 8-bit stencil beside D32, cleared to 0: front faces add one, back faces subtract one,
+    // modulo 256.
+    bool has_stencil = false;
     friend bool operator==(const Target&, const Target&) = default;
 };
 

@@ -85,13 +85,62 @@ void read_attachments(LeafContext& context, const TomlValue& table, Target& targ
     }
 }
 
+void read_resolve(LeafContext& context, const TomlValue& table, const char* key, uint32_t samples,
+                  Resolve& to) {
+    constexpr std::array<std::string_view, 5> kModes = {"none", "sample-zero", "average", "min",
+                                                        "max"};
+    const TomlValue* value = table.find(key);
+    if (value == nullptr) {
+        return;
+    }
+    to = static_cast<Resolve>(context.word(*value, key, kModes).value_or(0));
+    if (to != Resolve::none && samples < 2) {
+        context.error(value->where,
+                      fmt::format("{} needs several samples; write samples = 4", key));
+    }
+}
+
+void read_resolves(LeafContext& context, const TomlValue& table, Target& target) {
+    read_resolve(context, table, "resolve", target.samples, target.color_resolve);
+    read_resolve(context, table, "depth_resolve", target.samples, target.depth_resolve);
+    if (target.color_resolve != Resolve::none) {
+        const SourceLocation& where = table.find("resolve")->where;
+        if (!target.color) {
+            context.error(where, "resolve needs a colour target; write [target.color]");
+        } else if (target.color_resolve !=
+                   (is_integer(target.color->format) ? Resolve::sample_zero : Resolve::average)) {
+            context.error(where,
+                          "Vulkan resolves colours of integers by sample-zero and all others by "
+                          "average; write that one");
+        }
+    }
+    if (target.depth_resolve != Resolve::none && !target.has_depth) {
+        context.error(table.find("depth_resolve")->where,
+                      "depth_resolve needs a depth attachment; leave out attachments");
+    }
+}
+
+void read_stencil(LeafContext& context, const TomlValue& table, Target& target) {
+    const TomlValue* value = table.find("stencil");
+    if (value == nullptr) {
+        return;
+    }
+    target.has_stencil = context.boolean(*value, "stencil").value_or(false);
+    if (target.has_stencil &&
+        (!target.has_instruments || target.depth_format != DepthFormat::d32_float)) {
+        context.error(value->where,
+                      "stencil is judged by the hit counter and lies beside d32-float; leave out "
+                      "attachments and depth");
+    }
+}
+
 }  // namespace
 
 Target load_target(LeafContext& context, const TomlValue& table) {
     Target target;
-    context.known_keys(
-        table, "[target]",
-        {"size", "samples", "sample_locations", "depth", "depth_clear", "color", "attachments"});
+    context.known_keys(table, "[target]",
+                       {"size", "samples", "sample_locations", "depth", "depth_clear", "color",
+                        "attachments", "resolve", "depth_resolve", "stencil"});
     read_depth_target(context, table, target);
     read_samples(context, table, target);
     read_locations(context, table, target);
@@ -99,6 +148,8 @@ Target load_target(LeafContext& context, const TomlValue& table) {
         target.color = read_color_target(context, *color);
     }
     read_attachments(context, table, target);
+    read_resolves(context, table, target);
+    read_stencil(context, table, target);
     const TomlValue* size = table.find("size");
     if (size == nullptr) {
         context.error(table.where, "[target] has no size; write size = [width, height]");

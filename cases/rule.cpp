@@ -285,6 +285,17 @@ constexpr std::array kRules = {
          "log2 rho with max(m) <= rho <= sqrt(2) sum(m), to mipmapPrecisionBits bits, of the "
          "differences of any row and column of the quad.",
          "textures-lod-and-scale-factor", "7.18", "ref/value_probe.hpp"},
+    Rule{"stencil.count", Profile::vulkan, "The stencil counts as the fragments do",
+         "Where stencil and depth test pass, front faces add one and back faces subtract one, "
+         "modulo 256: (front - back) mod 256 of the hit counter, and 0 where nothing hit.",
+         "fragops-stencil", "17.12", "diff/resolve.hpp"},
+    Rule{"resolve.select", Profile::vulkan, "Resolving by selection takes a sample as it is",
+         "SAMPLE_ZERO, MIN and MAX leave one of the pixel's samples, bit for bit.",
+         "renderpass-resolve-operations", "", "diff/resolve.hpp"},
+    Rule{"resolve.average", Profile::vulkan, "Resolving by average stays among the samples",
+         "Between the least and the greatest sample of the pixel; from profile practice on the "
+         "mean, within one step of the format.",
+         "renderpass-resolve-operations", "", "diff/resolve.hpp"},
     Rule{"barycentric.value", Profile::practice,
          "Barycentric built-ins interpolate the unit vectors",
          "With perspective or, BaryCoordNoPersp, linearly; binary32 budget.",

@@ -174,6 +174,9 @@ void write(Writer& w, const Target& target) {
     w.flag(target.has_instruments);
     w.flag(target.has_depth);
     w.real(target.depth_clear);
+    w.number(target.color_resolve);
+    w.number(target.depth_resolve);
+    w.flag(target.has_stencil);
 }
 
 Target read_target(Reader& r) {
@@ -196,6 +199,9 @@ Target read_target(Reader& r) {
     target.has_instruments = r.flag();
     target.has_depth = r.flag();
     target.depth_clear = r.real();
+    target.color_resolve = r.enumerator(Resolve::max);
+    target.depth_resolve = r.enumerator(Resolve::max);
+    target.has_stencil = r.flag();
     return target;
 }
 

@@ -8,6 +8,7 @@
 
 #include "diff/capture.hpp"
 #include "diff/consistency.hpp"
+#include "diff/resolve.hpp"
 #include "ref/blit.hpp"
 #include "ref/expectation.hpp"
 #include "ref/value.hpp"
@@ -57,6 +58,9 @@ void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t
     }
     move(c.color);
     move(c.depth);
+    move(c.stencil);
+    move(c.resolved_color);
+    move(c.resolved_depth);
 }
 
 // Draws without a driver: with an algorithm, or as the reference expects it.
@@ -98,6 +102,7 @@ class ReferenceBackend : public Backend {
             results[k].status = Rendered::Status::drawn;
             results[k].capture = algorithm_ != nullptr ? draw_by_algorithm(batch[k], *algorithm_)
                                                        : draw_by_reference(batch[k]);
+            diff::add_dependent_planes(results[k].capture);
             move_planes(results[k], store, k);
         }
         step("readback");

@@ -131,6 +131,9 @@ uint64_t capture_bits(const diff::CaptureView& capture) {
         add(raw(attribute));
     }
     add(raw(capture.color));
+    add(raw(capture.stencil));
+    add(raw(capture.resolved_color));
+    add(raw(capture.resolved_depth));
     return sum;
 }
 

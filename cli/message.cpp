@@ -241,6 +241,9 @@ std::string encode_result(const CaseResult& result) {
         out.plane(attribute);
     }
     out.plane(c.color);
+    out.plane(c.stencil);
+    out.plane(c.resolved_color);
+    out.plane(c.resolved_depth);
     return out.take();
 }
 
@@ -276,6 +279,9 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
             in.plane(attribute);
         }
         in.plane(c.color);
+        in.plane(c.stencil);
+        in.plane(c.resolved_color);
+        in.plane(c.resolved_depth);
     }
     if (!in.finished() || status > static_cast<uint32_t>(Rendered::Status::error) ||
         c.attribute_count > cases::kMaxAttributes) {

@@ -92,6 +92,9 @@ struct Capture {
     std::vector<float> depth;           // of the last writer whose draw writes depth
     std::array<std::vector<glm::vec4>, cases::kMaxAttributes> attributes;  // of the last writer
     std::vector<ColorCodes> color;                                         // Target::color
+    std::vector<uint32_t> stencil;           // Target::has_stencil; 0..255 or kPoison
+    std::vector<ColorCodes> resolved_color;  // one a pixel: Target::color_resolve
+    std::vector<float> resolved_depth;       // one a pixel: Target::depth_resolve
 
     size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
 };
@@ -107,6 +110,9 @@ struct CaptureView {
     std::span<const float> depth;
     std::array<std::span<const glm::vec4>, cases::kMaxAttributes> attributes;
     std::span<const ColorCodes> color;
+    std::span<const uint32_t> stencil;
+    std::span<const ColorCodes> resolved_color;
+    std::span<const float> resolved_depth;
 
     CaptureView() = default;
     CaptureView(const Capture& c)  // not explicit: a capture is a view of itself
@@ -117,7 +123,10 @@ struct CaptureView {
           writers(c.writers),
           frag_coord(c.frag_coord),
           depth(c.depth),
-          color(c.color) {
+          color(c.color),
+          stencil(c.stencil),
+          resolved_color(c.resolved_color),
+          resolved_depth(c.resolved_depth) {
         for (size_t a = 0; a < attributes.size(); ++a) {
             attributes[a] = c.attributes[a];
         }
@@ -125,16 +134,28 @@ struct CaptureView {
     size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
 };
 
+inline bool resolves_color(const cases::Target& target) {
+    return target.color_resolve != cases::Resolve::none;
+}
+inline bool resolves_depth(const cases::Target& target) {
+    return target.depth_resolve != cases::Resolve::none;
+}
+
 // Bytes of all planes of a capture, one after the other: hits, writers, frag_coord, attributes,
-// color, depth; those that the target has.
+// color, depth, stencil, resolved colour and depth; those that the target has.
 inline uint64_t plane_bytes(const cases::Target& target, uint32_t attribute_count) {
     const uint64_t samples = uint64_t{target.width} * target.height * target.samples;
     const uint64_t instruments =
         target.has_instruments
             ? sizeof(glm::vec4) * (2 + uint64_t{attribute_count}) + sizeof(Writer)
             : 0;
-    return samples * (instruments + (target.color ? sizeof(ColorCodes) : 0) +
-                      (target.has_depth ? sizeof(float) : 0));
+    const uint64_t pixels = uint64_t{target.width} * target.height;
+    const auto size_if = [](bool present, uint64_t bytes) { return present ? bytes : 0; };
+    return samples * (instruments + size_if(target.color.has_value(), sizeof(ColorCodes)) +
+                      size_if(target.has_depth, sizeof(float)) +
+                      size_if(target.has_stencil, sizeof(uint32_t))) +
+           pixels * (size_if(resolves_color(target), sizeof(ColorCodes)) +
+                     size_if(resolves_depth(target), sizeof(float)));
 }
 
 // The capture whose planes lie at `planes`: plane_bytes() bytes, aligned to 16.
@@ -146,10 +167,11 @@ inline CaptureView view_planes(const cases::Target& target, bool has_primitive,
     view.attribute_count = attribute_count;
     const size_t count = view.sample_count();
     // Storage of bytes holds whatever objects were written there (C++20, implicit object creation).
-    const auto take = [&]<class T>(std::span<const T>& plane) {
-        plane = std::span(reinterpret_cast<const T*>(planes), count);
-        planes += count * sizeof(T);
+    const auto take_some = [&]<class T>(std::span<const T>& plane, size_t entries) {
+        plane = std::span(reinterpret_cast<const T*>(planes), entries);
+        planes += entries * sizeof(T);
     };
+    const auto take = [&](auto& plane) { take_some(plane, count); };
     if (target.has_instruments) {
         take(view.hits);
         take(view.writers);
@@ -164,17 +186,31 @@ inline CaptureView view_planes(const cases::Target& target, bool has_primitive,
     if (target.has_depth) {
         take(view.depth);
     }
+    if (target.has_stencil) {
+        take(view.stencil);
+    }
+    const size_t pixels = size_t{target.width} * target.height;
+    if (resolves_color(target)) {
+        take_some(view.resolved_color, pixels);
+    }
+    if (resolves_depth(target)) {
+        take_some(view.resolved_depth, pixels);
+    }
     return view;
 }
 
-// True if the planes are those that the target has, one entry a sample.
+// True if the planes are those that the target has, one entry a sample or resolved pixel.
 inline bool has_all_planes(const CaptureView& c) {
     const size_t count = c.sample_count();
+    const size_t pixels = size_t{c.target.width} * c.target.height;
     const size_t instruments = c.target.has_instruments ? count : 0;
     bool fits = c.hits.size() == instruments && c.writers.size() == instruments &&
                 c.frag_coord.size() == instruments &&
                 c.color.size() == (c.target.color ? count : 0) &&
-                c.depth.size() == (c.target.has_depth ? count : 0);
+                c.depth.size() == (c.target.has_depth ? count : 0) &&
+                c.stencil.size() == (c.target.has_stencil ? count : 0) &&
+                c.resolved_color.size() == (resolves_color(c.target) ? pixels : 0) &&
+                c.resolved_depth.size() == (resolves_depth(c.target) ? pixels : 0);
     for (uint32_t a = 0; a < c.attribute_count; ++a) {
         fits = fits && c.attributes[a].size() == instruments;
     }

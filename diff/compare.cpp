@@ -8,6 +8,7 @@
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
 #include "diff/pixel_check.hpp"
+#include "diff/resolve.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {
@@ -61,6 +62,12 @@ class Comparison {
                 }
             }
         }
+        verdict_.error =
+            judge_dependent_planes(capture_, expectation_.profile, [this](Finding finding) {
+                const size_t pixel = size_t{finding.y} * case_.target.width + finding.x;
+                const size_t at = pixel * case_.target.samples + finding.sample;
+                add(std::move(finding), at);
+            });
         return std::move(verdict_);
     }
 

@@ -56,6 +56,31 @@ Attachment color_attachment(const cases::ColorTarget& target) {
     return out;
 }
 
+// What is resolved into is first cleared to something that is neither the clear value nor the same
+// as any drawn value everywhere, so that a resolve that never happens does not look like an older
+// one of the same case.
+void append_resolved(const cases::Target& target, std::vector<Attachment>& out) {
+    constexpr float kNeverResolved = 0.8125F;
+    if (diff::resolves_color(target)) {
+        Attachment a = color_attachment(*target.color);
+        a.role = Role::resolved_color;
+        if (is_integer(target.color->format)) {
+            a.clear.color.uint32[0] ^= 0x5aU;
+        } else {
+            a.clear = clear_all(kNeverResolved);
+        }
+        out.push_back(a);
+    }
+    if (diff::resolves_depth(target)) {
+        const auto depth = std::find_if(out.begin(), out.end(),
+                                        [](const auto& a) { return a.role == Role::depth; });
+        Attachment a = *depth;
+        a.role = Role::resolved_depth;
+        a.clear.depthStencil.depth = kNeverResolved;
+        out.push_back(a);
+    }
+}
+
 }  // namespace
 
 std::vector<Attachment> attachments_of(const cases::Case& c) {
@@ -80,14 +105,21 @@ std::vector<Attachment> attachments_of(const cases::Case& c) {
         clear.depthStencil = {
             c.variation.other_depth_clear ? diff::kOtherClearDepth : c.target.depth_clear, 0};
         const uint32_t texel = c.target.depth_format == cases::DepthFormat::d16_unorm ? 2 : 4;
-        out.push_back({Role::depth, depth_format(c.target.depth_format), clear, texel, 4});
+        const VkFormat format =
+            c.target.has_stencil ? kDepthStencilFormat : depth_format(c.target.depth_format);
+        out.push_back({Role::depth, format, clear, texel, 4});
+        if (c.target.has_stencil) {
+            out.push_back({Role::stencil, format, clear, 1, 4});
+        }
     }
+    append_resolved(c.target, out);
     return out;
 }
 
 uint32_t color_count(const std::vector<Attachment>& attachments) {
-    return static_cast<uint32_t>(std::count_if(attachments.begin(), attachments.end(),
-                                               [](const auto& a) { return !a.is_depth(); }));
+    return static_cast<uint32_t>(
+        std::count_if(attachments.begin(), attachments.end(),
+                      [](const auto& a) { return a.role <= Role::color; }));
 }
 
 VkFormat to_vulkan(cases::ColorFormat format) {

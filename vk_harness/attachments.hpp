@@ -12,7 +12,17 @@
 
 namespace vk_harness {
 
-enum class Role : uint8_t { hits, writer, frag_coord, attribute, color, depth };
+enum class Role : uint8_t {
+    hits,
+    writer,
+    frag_coord,
+    attribute,
+    color,
+    depth,
+    stencil,         // the other aspect of the depth attachment's image
+    resolved_color,  // single-sampled: what `color` and `depth` are resolved into
+    resolved_depth
+};
 
 struct Attachment {
     Role role = Role::hits;
@@ -20,15 +30,23 @@ struct Attachment {
     VkClearValue clear{};        // a value that no case can draw, diff/capture.hpp
     uint32_t texel_bytes = 16;   // of a single-sampled copy
     uint32_t sample_bytes = 16;  // of a sample in a multisampled copy: whole words
-    bool is_depth() const { return role == Role::depth; }
+    bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
+    bool is_resolved() const {
+        return role == Role::resolved_color || role == Role::resolved_depth;
+    }
+    // Its own sample count on a target of so many samples.
+    uint32_t samples_of(const cases::Target& target) const {
+        return is_resolved() ? 1 : target.samples;
+    }
     // Bytes of one sample in read-back memory.
     uint32_t copied_bytes(uint32_t samples) const {
         return samples > 1 ? sample_bytes : texel_bytes;
     }
 };
 
-// In the order of shader locations: hits, writer, frag_coord, attributes, color; depth, which has
-// no location, last. Without instruments only color, if any, and depth, if any.
+// In the order of shader locations: hits, writer, frag_coord, attributes, color; then depth, which
+// has no location, stencil and what is resolved. Without instruments only color, if any, and depth,
+// if any.
 std::vector<Attachment> attachments_of(const cases::Case& c);
 
 // How many of them are colour attachments.

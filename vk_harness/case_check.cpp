@@ -10,6 +10,7 @@
 #include "cases/color.hpp"
 #include "vk_harness/blit.hpp"
 #include "vk_harness/pipeline_key.hpp"
+#include "vk_harness/resolve.hpp"
 #include "vk_harness/target.hpp"
 #include "vk_harness/viewports.hpp"
 
@@ -320,6 +321,9 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
     }
     if (auto rejection = c.blit ? check_blit(capabilities, c) : check_color(capabilities, c)) {
         return rejection;
+    }
+    if (auto missing = missing_resolve_or_stencil(capabilities, c.target)) {
+        return unsupported(std::move(*missing));
     }
     if (c.draws.size() >= kMaxId) {
         return unsupported(fmt::format("the case has {} draws, the harness tells {} apart",

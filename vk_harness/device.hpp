@@ -70,6 +70,7 @@ class Device {
 // Formats of the attachments (diff/capture.hpp).
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat kDepthStencilFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
 constexpr VkFormat depth_format(cases::DepthFormat format) {
     switch (format) {
         case cases::DepthFormat::d24_unorm:

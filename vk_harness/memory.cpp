@@ -166,8 +166,9 @@ VkImageCreateFlags color_flags(uint32_t samples) {
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
                             uint32_t samples, VkImageCreateFlags flags) {
     const VolkDeviceTable& vk = device.vk();
-    const bool depth = format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_X8_D24_UNORM_PACK32 ||
-                       format == VK_FORMAT_D16_UNORM;
+    const bool stencil = format == kDepthStencilFormat;
+    const bool depth = stencil || format == VK_FORMAT_D32_SFLOAT ||
+                       format == VK_FORMAT_X8_D24_UNORM_PACK32 || format == VK_FORMAT_D16_UNORM;
     const bool multisampled = samples > 1;
     const VkImageUsageFlags attachment =
         depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
@@ -196,6 +197,9 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     Image image;
     image.image_ = Handle<VkImage>(device.get(), handle, vk.vkDestroyImage);
     image.aspect_ = depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    if (stencil) {
+        image.aspect_ |= VK_IMAGE_ASPECT_STENCIL_BIT;
+    }
 
     VkMemoryRequirements needs{};
     vk.vkGetImageMemoryRequirements(device.get(), handle, &needs);
@@ -231,6 +235,17 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
             return fail(bits.error());
         }
         image.bits_view_ = std::move(*bits);
+    }
+    if (multisampled && stencil) {  // a descriptor names one aspect
+        for (const auto& [aspect, to] :
+             {std::pair(VK_IMAGE_ASPECT_DEPTH_BIT, &image.bits_view_),
+              std::pair(VK_IMAGE_ASPECT_STENCIL_BIT, &image.stencil_view_)}) {
+            auto one = create_view(device, handle, format, aspect, VK_IMAGE_USAGE_SAMPLED_BIT);
+            if (!one) {
+                return fail(one.error());
+            }
+            *to = std::move(*one);
+        }
     }
     return image;
 }

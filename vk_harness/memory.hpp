@@ -52,9 +52,11 @@ class Image {
 
     VkImage get() const { return image_.get(); }
     VkImageView view() const { return view_.get(); }
-    // To read single samples: unsigned view of colour, the view itself of depth.
+    // To read single samples: unsigned view of colour, a view of depth alone.
     VkImageView sample_view() const { return bits_view_ ? bits_view_.get() : view_.get(); }
-    VkImageAspectFlags aspect() const { return aspect_; }
+    // To read single samples of the stencil, if there is one.
+    VkImageView stencil_view() const { return stencil_view_.get(); }
+    VkImageAspectFlags aspect() const { return aspect_; }  // all that it has
     VkDeviceSize memory_size() const { return memory_size_; }
 
   private:
@@ -62,6 +64,7 @@ class Image {
     Handle<VkImage> image_;
     Handle<VkImageView> view_;
     Handle<VkImageView> bits_view_;
+    Handle<VkImageView> stencil_view_;
     VkImageAspectFlags aspect_ = VK_IMAGE_ASPECT_COLOR_BIT;
     VkDeviceSize memory_size_ = 0;
 };

@@ -74,6 +74,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
     key.depth_clamp = draw.depth.clamp;
     key.depth_clip = draw.depth.clip;
     key.has_depth = c.target.has_depth;
+    key.has_stencil = c.target.has_stencil;
     key.instruments = c.target.has_instruments;
     if (c.target.color) {
         key.color = cases::is_integer(c.target.color->format) ? shaders::ColorKind::integer

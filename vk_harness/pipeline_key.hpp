@@ -56,6 +56,7 @@ struct PipelineKey {
     bool depth_clamp = false;
     std::optional<bool> depth_clip = {};
     bool has_depth = true;
+    bool has_stencil = false;
     // Colour output.
     shaders::ColorKind color = shaders::ColorKind::none;
     int32_t color_attribute = -1;

@@ -85,6 +85,17 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
         return depth;
     }
     depth.depthTestEnable = VK_TRUE;  // without the test there is no depth write
+    if (key.has_stencil) {            // counts front faces up and back faces down
+        depth.stencilTestEnable = VK_TRUE;
+        depth.front.failOp = VK_STENCIL_OP_KEEP;
+        depth.front.depthFailOp = VK_STENCIL_OP_KEEP;
+        depth.front.passOp = VK_STENCIL_OP_INCREMENT_AND_WRAP;
+        depth.front.compareOp = VK_COMPARE_OP_ALWAYS;
+        depth.front.compareMask = 0xff;
+        depth.front.writeMask = 0xff;
+        depth.back = depth.front;
+        depth.back.passOp = VK_STENCIL_OP_DECREMENT_AND_WRAP;
+    }
     // Compare operation and writes are dynamic.
     return depth;
 }

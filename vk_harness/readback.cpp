@@ -72,11 +72,35 @@ void decode_writers(std::span<const diff::Writer> from, diff::Writer* to) {
     }
 }
 
+// Stencil as the capture holds it: copied texels are bytes, with several samples a shader has
+// written words. A quarter of the poison is a stencil like any other; a copy that never happened
+// leaves it everywhere.
+void decode_stencil(const cases::Target& target, std::span<const std::byte> from, uint32_t* to) {
+    const size_t count = size_t{target.width} * target.height * target.samples;
+    const auto* words = reinterpret_cast<const uint32_t*>(from.data());
+    if (target.samples > 1) {
+        std::copy(words, words + count, to);
+        return;
+    }
+    const bool is_copied = !std::all_of(words, words + (count + 3) / 4,
+                                        [](uint32_t word) { return word == diff::kPoison; });
+    std::transform(
+        from.begin(), from.begin() + static_cast<ptrdiff_t>(count), to,
+        [&](std::byte b) { return is_copied ? std::to_integer<uint32_t>(b) : diff::kPoison; });
+}
+
+// The shape of what a target is resolved into.
+cases::Target shape_of(const Attachment& attachment, const cases::Target& target) {
+    cases::Target shape = target;
+    shape.samples = attachment.samples_of(target);
+    return shape;
+}
+
 }  // namespace
 
 ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attachment>& attachments,
                            VkDeviceSize begin, VkDeviceSize alignment) {
-    const VkDeviceSize samples = VkDeviceSize{target.width} * target.height * target.samples;
+    const VkDeviceSize pixels = VkDeviceSize{target.width} * target.height;
     const auto align = [alignment](VkDeviceSize offset) {
         return (offset + alignment - 1) & ~(alignment - 1);
     };
@@ -84,7 +108,8 @@ ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attach
     VkDeviceSize offset = align(begin);
     for (const Attachment& attachment : attachments) {
         layout.offset.push_back(offset);
-        offset = align(offset + samples * attachment.copied_bytes(target.samples));
+        const uint32_t samples = attachment.samples_of(target);
+        offset = align(offset + pixels * samples * attachment.copied_bytes(samples));
     }
     layout.end = offset;
     return layout;
@@ -193,6 +218,20 @@ diff::Capture read_capture(const cases::Target& target, const std::vector<Attach
                 capture.depth.resize(count);
                 decode_depth(target, memory.subspan(at), capture.depth.data());
                 break;
+            case Role::stencil:
+                capture.stencil.resize(count);
+                decode_stencil(target, memory.subspan(at), capture.stencil.data());
+                break;
+            case Role::resolved_color:
+                capture.resolved_color.resize(size_t{target.width} * target.height);
+                decode_color(shape_of(attachments[k], target), attachments[k], memory.data() + at,
+                             capture.resolved_color.data());
+                break;
+            case Role::resolved_depth:
+                capture.resolved_depth.resize(size_t{target.width} * target.height);
+                decode_depth(shape_of(attachments[k], target), memory.subspan(at),
+                             capture.resolved_depth.data());
+                break;
         }
     }
     return capture;
@@ -201,20 +240,26 @@ diff::Capture read_capture(const cases::Target& target, const std::vector<Attach
 void read_planes(const cases::Target& target, const std::vector<Attachment>& attachments,
                  const ReadbackLayout& layout, std::span<const std::byte> memory,
                  std::span<std::byte> planes) {
-    const size_t count = size_t{target.width} * target.height * target.samples;
     std::byte* to = planes.data();
     for (size_t k = 0; k < attachments.size(); ++k) {
+        const cases::Target shape = shape_of(attachments[k], target);
+        const size_t count = size_t{shape.width} * shape.height * shape.samples;
         const std::byte* from = memory.data() + layout.offset[k];
         if (attachments[k].role == Role::writer) {
             decode_writers(std::span(reinterpret_cast<const diff::Writer*>(from), count),
                            reinterpret_cast<diff::Writer*>(to));
             to += count * sizeof(diff::Writer);
-        } else if (attachments[k].role == Role::color) {
-            decode_color(target, attachments[k], from, reinterpret_cast<diff::ColorCodes*>(to));
+        } else if (attachments[k].role == Role::color ||
+                   attachments[k].role == Role::resolved_color) {
+            decode_color(shape, attachments[k], from, reinterpret_cast<diff::ColorCodes*>(to));
             to += count * sizeof(diff::ColorCodes);
         } else if (attachments[k].is_depth()) {
-            decode_depth(target, memory.subspan(layout.offset[k]), reinterpret_cast<float*>(to));
+            decode_depth(shape, memory.subspan(layout.offset[k]), reinterpret_cast<float*>(to));
             to += count * sizeof(float);
+        } else if (attachments[k].role == Role::stencil) {
+            decode_stencil(target, memory.subspan(layout.offset[k]),
+                           reinterpret_cast<uint32_t*>(to));
+            to += count * sizeof(uint32_t);
         } else {
             const size_t bytes = count * attachments[k].texel_bytes;
             std::memcpy(to, from, bytes);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "vk_harness/case_check.hpp"
+#include "vk_harness/resolve.hpp"
 #include "vk_harness/sample_locations.hpp"
 #include "vk_harness/viewports.hpp"
 
@@ -92,13 +93,14 @@ struct Access {
 // One barrier for all attachments of the case.
 void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
              const Access& color_before, const Access& color_after, const Access& depth_before,
-             const Access& depth_after) {
+             const Access& depth_after, const Access* after_resolve = nullptr) {
     // A depth image made for sample locations is told them whenever its layout changes.
     const std::vector<VkSampleLocationEXT> places =
         sample_places(plan.test->target.sample_locations);
     const VkSampleLocationsInfoEXT locations = sample_locations_info(places);
     std::vector<VkImageMemoryBarrier2> barriers;
-    const auto add = [&](const Image& image, const Access& before, const Access& after) {
+    const auto add = [&](const Image& image, bool resolved, const Access& before,
+                         const Access& after) {
         VkImageMemoryBarrier2 b{};
         b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
         b.srcStageMask = before.stage;
@@ -110,15 +112,23 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
         b.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
         b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
         b.image = image.get();
-        if (!places.empty() && image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT) {
+        if (!places.empty() && !resolved && (image.aspect() & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) {
             b.pNext = &locations;
         }
         b.subresourceRange = {image.aspect(), 0, 1, 0, 1};
         barriers.push_back(b);
     };
     for (size_t k = 0; k < plan.images.size(); ++k) {
-        const bool depth = plan.attachments[k].is_depth();
-        add(*plan.images[k], depth ? depth_before : color_before,
+        const Attachment& attachment = plan.attachments[k];
+        if (attachment.role == Role::stencil) {
+            continue;  // goes with depth
+        }
+        const bool depth = attachment.is_depth();
+        if (attachment.is_resolved() && after_resolve) {
+            add(*plan.images[k], true, depth ? depth_before : color_before, *after_resolve);
+            continue;
+        }
+        add(*plan.images[k], attachment.is_resolved(), depth ? depth_before : color_before,
             depth ? depth_after : color_after);
     }
     VkDependencyInfo info{};
@@ -133,8 +143,10 @@ constexpr Access kColorDrawn = {
     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
 constexpr Access kDepthDrawn = {
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
+        VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,  // where depth is resolved
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+        VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
     VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
 // The previous user of the attachments, if any: a draw (render_bare) or a copy. Contents are
 // dropped.
@@ -148,6 +160,44 @@ constexpr Access kCopied = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_R
 constexpr Access kSampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                              VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+
+// Clears what is resolved into, by a rendering without draws, and waits for it.
+void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
+    const VolkDeviceTable& vk = device.vk();
+    const cases::Target& target = plan.test->target;
+    std::optional<VkRenderingAttachmentInfo> color, depth;
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        const Attachment& a = plan.attachments[k];
+        if (a.is_resolved()) {
+            (a.is_depth() ? depth : color) =
+                attachment(plan.images[k]->view(),
+                           a.is_depth() ? kDepthDrawn.layout : kColorDrawn.layout, a.clear);
+        }
+    }
+    if (!color && !depth) {
+        return;
+    }
+    VkRenderingInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+    rendering.renderArea = {{0, 0}, {target.width, target.height}};
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = color ? 1 : 0;
+    rendering.pColorAttachments = color ? &*color : nullptr;
+    rendering.pDepthAttachment = depth ? &*depth : nullptr;
+    vk.vkCmdBeginRendering(commands, &rendering);
+    vk.vkCmdEndRendering(commands);
+    VkMemoryBarrier2 cleared{};
+    cleared.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    cleared.srcStageMask = kDepthDrawn.stage;
+    cleared.srcAccessMask = kDepthDrawn.access;
+    cleared.dstStageMask = kDepthDrawn.stage;
+    cleared.dstAccessMask = kDepthDrawn.access;
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &cleared;
+    vk.vkCmdPipelineBarrier2(commands, &info);
+}
 
 void record_draw(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                  const DrawPlan& plan, const cases::Case& test, uint32_t draw_index,
@@ -265,14 +315,28 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
     const cases::Target& target = plan.test->target;
     barrier(device, commands, plan, kReused, kColorDrawn, kReused, kDepthDrawn);
 
+    clear_resolved(device, commands, plan);
     std::vector<VkRenderingAttachmentInfo> colors;
-    std::optional<VkRenderingAttachmentInfo> depth;
+    std::optional<VkRenderingAttachmentInfo> depth, stencil;
     for (size_t k = 0; k < plan.images.size(); ++k) {
         const Attachment& a = plan.attachments[k];
-        if (a.is_depth()) {
-            depth = attachment(plan.images[k]->view(), kDepthDrawn.layout, a.clear);
-        } else {
-            colors.push_back(attachment(plan.images[k]->view(), kColorDrawn.layout, a.clear));
+        VkImageView view = plan.images[k]->view();
+        switch (a.role) {
+            case Role::depth:
+                depth = attachment(view, kDepthDrawn.layout, a.clear);
+                break;
+            case Role::stencil:
+                stencil = attachment(view, kDepthDrawn.layout, a.clear);
+                break;
+            case Role::resolved_color:  // the last colour attachment is the colour target
+                resolve_into(view, kColorDrawn.layout, target.color_resolve, colors.back());
+                break;
+            case Role::resolved_depth:
+                resolve_into(view, kDepthDrawn.layout, target.depth_resolve, *depth);
+                break;
+            default:
+                colors.push_back(attachment(view, kColorDrawn.layout, a.clear));
+                break;
         }
     }
     VkRenderingInfo rendering{};
@@ -282,6 +346,7 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
     rendering.colorAttachmentCount = static_cast<uint32_t>(colors.size());
     rendering.pColorAttachments = colors.data();
     rendering.pDepthAttachment = depth ? &*depth : nullptr;
+    rendering.pStencilAttachment = stencil ? &*stencil : nullptr;
     vk.vkCmdBeginRendering(commands, &rendering);
     for (uint32_t k = 0; k < plan.draws.size(); ++k) {
         record_draw(device, pipelines, commands, plan.draws[k], *plan.test, k, 1 + plan.input_count,
@@ -291,7 +356,7 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
 
     if (for_copies) {
         const Access& after = target.samples > 1 ? kSampled : kCopied;
-        barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after);
+        barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after, &kCopied);
     }
 }
 
@@ -300,15 +365,23 @@ void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
                    VkBuffer readback, std::span<const VkDescriptorSet> sets) {
     const VolkDeviceTable& vk = device.vk();
     const cases::Target& target = plan.test->target;
-    if (target.samples == 1) {
-        VkBufferImageCopy region{};
-        region.imageExtent = {target.width, target.height, 1};
-        for (size_t k = 0; k < plan.images.size(); ++k) {
-            region.bufferOffset = plan.readback.offset[k];
-            region.imageSubresource = {plan.images[k]->aspect(), 0, 0, 1};
-            vk.vkCmdCopyImageToBuffer(commands, plan.images[k]->get(), kCopied.layout, readback, 1,
-                                      &region);
+    VkBufferImageCopy region{};
+    region.imageExtent = {target.width, target.height, 1};
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        const Attachment& attachment = plan.attachments[k];
+        if (attachment.samples_of(target) > 1) {
+            continue;
         }
+        const VkImageAspectFlags aspect = attachment.role == Role::stencil
+                                              ? VK_IMAGE_ASPECT_STENCIL_BIT
+                                          : attachment.is_depth() ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                  : VK_IMAGE_ASPECT_COLOR_BIT;
+        region.bufferOffset = plan.readback.offset[k];
+        region.imageSubresource = {aspect, 0, 0, 1};
+        vk.vkCmdCopyImageToBuffer(commands, plan.images[k]->get(), kCopied.layout, readback, 1,
+                                  &region);
+    }
+    if (target.samples == 1) {
         return;
     }
     const std::array<uint32_t, kCopyConstants> constants = {target.width, target.height,
@@ -316,6 +389,9 @@ void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
     const uint32_t groups_x = (target.width + kCopyGroupSize - 1) / kCopyGroupSize;
     const uint32_t groups_y = (target.height + kCopyGroupSize - 1) / kCopyGroupSize;
     for (size_t k = 0; k < plan.images.size(); ++k) {
+        if (plan.attachments[k].is_resolved()) {
+            continue;
+        }
         if (k == 0 || pipelines[k] != pipelines[k - 1]) {
             vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[k]);
             vk.vkCmdPushConstants(commands, copy_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,

@@ -172,8 +172,14 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
     const cases::Target& target = plan.test->target;
     const VkDeviceSize samples = VkDeviceSize{target.width} * target.height * target.samples;
     for (uint32_t k = 0; k < count; ++k) {
-        const VkDescriptorImageInfo image_info = {VK_NULL_HANDLE, plan.images[k]->sample_view(),
-                                                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        if (plan.attachments[k].is_resolved()) {
+            continue;  // copied
+        }
+        const bool is_stencil = plan.attachments[k].role == Role::stencil;
+        const VkDescriptorImageInfo image_info = {
+            VK_NULL_HANDLE,
+            is_stencil ? plan.images[k]->stencil_view() : plan.images[k]->sample_view(),
+            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         const VkDescriptorBufferInfo buffer_info = {readback_.get(), plan.readback.offset[k],
                                                     samples * plan.attachments[k].sample_bytes};
         std::array<VkWriteDescriptorSet, 2> writes{};

@@ -39,18 +39,26 @@ Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
                                                    const std::vector<Attachment>& attachments) {
     ++clock_;
     std::vector<const Image*> out;
-    std::map<VkFormat, size_t> taken;
+    cases::Target single = target;  // what is resolved into
+    single.samples = 1;
+    single.sample_locations.clear();
+    std::map<const Shelf*, size_t> taken;
     for (const Attachment& attachment : attachments) {
-        Shelf& from = shelf(attachment.format, target);
+        if (attachment.role == Role::stencil) {  // follows depth
+            out.push_back(out.back());
+            continue;
+        }
+        const cases::Target& shape = attachment.is_resolved() ? single : target;
+        Shelf& from = shelf(attachment.format, shape);
         from.last_use = clock_;
-        const size_t nth = taken[attachment.format]++;
+        const size_t nth = taken[&from]++;
         if (nth == from.images.size()) {
             const VkImageCreateFlags flags =
-                attachment.is_depth() && !target.sample_locations.empty()
+                attachment.is_depth() && !shape.sample_locations.empty()
                     ? VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT}
                     : VkImageCreateFlags{0};
             auto image = Image::create(*device_, attachment.format, {target.width, target.height},
-                                       target.samples, flags);
+                                       shape.samples, flags);
             if (!image) {
                 return fail(image.error());
             }

@@ -62,6 +62,9 @@ Case sample() {
     c.target.has_instruments = false;
     c.target.has_depth = false;
     c.target.depth_clear = 0.75F;
+    c.target.color_resolve = Resolve::average;
+    c.target.depth_resolve = Resolve::max;
+    c.target.has_stencil = true;
     c.draws = {draw, Draw{}};
     c.relations = {{RelationKind::scissor_tiles, {7, 3}}, {RelationKind::more_attributes, {}}};
     c.blit = Blit{ColorFormat::rgb10a2_unorm,

@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/resolve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <optional>
+
+#include "cases/color.hpp"
+
+namespace diff {
+
+namespace {
+
+using cases::ComponentKind;
+using cases::Profile;
+using cases::Resolve;
+
+constexpr double kHalfStep = 0x1p-10;  // of binary16, relative; 2^-24 below 2^-14
+constexpr double kHalfSmallest = 0x1p-24;
+constexpr double kFloatStep = 0x1p-23;
+
+// A stored code as a number: UNORM and integers by their code, halves and floats by their value.
+double number_of(ComponentKind kind, uint32_t code) {
+    switch (kind) {
+        case ComponentKind::half:
+            return glm::unpackHalf1x16(static_cast<uint16_t>(code));
+        case ComponentKind::binary32:
+            return std::bit_cast<float>(code);
+        default:
+            return code;
+    }
+}
+
+struct Range {
+    double min = 0, max = 0;
+};
+
+// What the average of samples may be. At profile vulkan Vulkan's text leaves the precision open
+// ("Render Pass Resolve Operations"), and min..max is all that can be said; from practice on it is
+// the mean, within one step of the format (not of sRGB: the space it is taken in is left open).
+//
+// Floats are added in binary32, in any order: partial sum k of n is at most k * M, M the largest
+// magnitude, and its rounding (even by truncation) errs by k * M * 2^-23 at most. The sum over
+// k = 2..n over n is below M * 2^-23 * (n + 1) / 2; half a step more for the terms of second
+// order. Storing binary16 adds a step of M. The same sum may leave min..max, so it widens that too.
+Range range_of(const std::vector<double>& samples, ComponentKind kind, Profile profile) {
+    const auto [least, greatest] = std::minmax_element(samples.begin(), samples.end());
+    const auto n = static_cast<double>(samples.size());
+    double sum = 0;
+    for (const double sample : samples) {
+        sum += sample;
+    }
+    const double mean = sum / n;
+    if (kind == ComponentKind::half || kind == ComponentKind::binary32) {
+        const double magnitude = std::max(std::abs(*least), std::abs(*greatest));
+        const double storing =
+            kind == ComponentKind::half ? std::max(magnitude * kHalfStep, kHalfSmallest) : 0;
+        const double error = magnitude * kFloatStep * (n + 2) / 2 + storing;
+        return profile == Profile::vulkan ? Range{*least - error, *greatest + error}
+                                          : Range{mean - error, mean + error};
+    }
+    if (profile == Profile::vulkan || kind == ComponentKind::srgb) {
+        return {*least, *greatest};
+    }
+    return {std::max(mean - 1, *least), std::min(mean + 1, *greatest)};
+}
+
+// The loosest profile at which `got` is no average; nothing if it is one.
+std::optional<Profile> wrong_average(const std::vector<double>& samples, double got,
+                                     ComponentKind kind, Profile profile) {
+    for (const Profile p : {Profile::vulkan, Profile::practice}) {
+        const Range range = range_of(samples, kind, p);
+        if (p <= profile && !(got >= range.min && got <= range.max)) {
+            return p;
+        }
+    }
+    return std::nullopt;
+}
+
+double select(const std::vector<double>& samples, Resolve mode) {
+    switch (mode) {
+        case Resolve::min:
+            return *std::min_element(samples.begin(), samples.end());
+        case Resolve::max:
+            return *std::max_element(samples.begin(), samples.end());
+        default:
+            return samples.front();
+    }
+}
+
+std::string to_text(const std::vector<double>& samples) {
+    std::string out;
+    for (const double sample : samples) {
+        out += fmt::format("{}{:.9g}", out.empty() ? "" : ", ", sample);
+    }
+    return out;
+}
+
+// One resolved number against the samples that it comes from.
+std::optional<Finding> judge_number(const std::vector<double>& samples, double got, Resolve mode,
+                                    ComponentKind kind, Profile profile) {
+    Finding finding;
+    finding.kind = FindingKind::value;
+    finding.got = fmt::format("{:.9g}", got);
+    if (mode == Resolve::average) {
+        const auto level = wrong_average(samples, got, kind, profile);
+        if (!level) {
+            return std::nullopt;
+        }
+        const Range range = range_of(samples, kind, *level);
+        finding.rule = "resolve.average";
+        finding.level = *level;
+        finding.expected = fmt::format("{:.9g} .. {:.9g}", range.min, range.max);
+        finding.why =
+            fmt::format("the samples of the pixel, read singly, are {}", to_text(samples));
+        return finding;
+    }
+    const double expected = select(samples, mode);
+    if (std::equal_to<>()(got, expected)) {
+        return std::nullopt;
+    }
+    finding.rule = "resolve.select";
+    finding.level = Profile::vulkan;
+    finding.expected = fmt::format("{:.9g}", expected);
+    finding.why = fmt::format("the samples of the pixel, read singly, are {}", to_text(samples));
+    return finding;
+}
+
+ColorCodes average_codes(std::span<const ColorCodes> samples, cases::ColorFormat format) {
+    ColorCodes out{};
+    for (uint32_t k = 0; k < out.size(); ++k) {
+        const ComponentKind kind = cases::component_of(format, k).kind;
+        double sum = 0;
+        for (const ColorCodes& sample : samples) {
+            sum += number_of(kind, sample.at(k));
+        }
+        const double mean = sum / static_cast<double>(samples.size());
+        out.at(k) = kind == ComponentKind::half ? glm::packHalf1x16(static_cast<float>(mean))
+                    : kind == ComponentKind::binary32
+                        ? std::bit_cast<uint32_t>(static_cast<float>(mean))
+                        : static_cast<uint32_t>(mean + 0.5);
+    }
+    return out;
+}
+
+class Judge {
+  public:
+    Judge(const CaptureView& capture, Profile profile, const std::function<void(Finding)>& add)
+        : capture_(capture), target_(capture.target), profile_(profile), add_(add) {}
+
+    std::string run() {
+        const size_t pixels = size_t{target_.width} * target_.height;
+        for (size_t pixel = 0; pixel < pixels; ++pixel) {
+            if (!judge_pixel(pixel)) {
+                return fmt::format(
+                    "the stencil or resolved pixel ({}, {}) was not copied from the device: it "
+                    "still holds the read-back memory's fill pattern",
+                    pixel % target_.width, pixel / target_.width);
+            }
+        }
+        return {};
+    }
+
+  private:
+    // False if it was not copied.
+    bool judge_pixel(size_t pixel) {
+        const size_t first = pixel * target_.samples;
+        if (target_.has_stencil) {
+            for (uint32_t s = 0; s < target_.samples; ++s) {
+                if (capture_.stencil[first + s] == kPoison) {
+                    return false;
+                }
+                judge_stencil(pixel, s);
+            }
+        }
+        if (resolves_color(target_)) {
+            const ColorCodes& resolved = capture_.resolved_color[pixel];
+            if (resolved == ColorCodes{kPoison, kPoison, kPoison, kPoison}) {
+                return false;
+            }
+            for (uint32_t k = 0; k < resolved.size(); ++k) {
+                judge_color(pixel, k, resolved.at(k));
+            }
+        }
+        if (resolves_depth(target_)) {
+            const float resolved = capture_.resolved_depth[pixel];
+            if (std::bit_cast<uint32_t>(resolved) == kPoison) {
+                return false;
+            }
+            const auto depths = capture_.depth.subspan(first, target_.samples);
+            // UNORM depth is compared by codes: floats of codes are no multiples of each other.
+            const double steps = depth_steps(target_.depth_format);
+            const auto scaled = [steps](float z) {
+                return steps > 0 ? std::round(static_cast<double>(z) * steps)
+                                 : static_cast<double>(z);
+            };
+            std::vector<double> samples;
+            for (const float depth : depths) {
+                samples.push_back(scaled(depth));
+            }
+            report(
+                judge_number(samples, scaled(resolved), target_.depth_resolve,
+                             steps > 0 ? ComponentKind::unorm : ComponentKind::binary32, profile_),
+                pixel, "resolved depth");
+        }
+        return true;
+    }
+
+    void judge_color(size_t pixel, uint32_t component, uint32_t code) {
+        const auto [kind, bits] = cases::component_of(target_.color->format, component);
+        if (bits == 0) {
+            return;
+        }
+        std::vector<double> samples;
+        for (const ColorCodes& codes :
+             capture_.color.subspan(pixel * target_.samples, target_.samples)) {
+            samples.push_back(number_of(kind, codes.at(component)));
+        }
+        report(judge_number(samples, number_of(kind, code), target_.color_resolve, kind, profile_),
+               pixel, fmt::format("resolved color.{}", "rgba"[component]));
+    }
+
+    void report(std::optional<Finding> finding, size_t pixel, std::string quantity) {
+        if (finding) {
+            finding->x = static_cast<uint32_t>(pixel % target_.width);
+            finding->y = static_cast<uint32_t>(pixel / target_.width);
+            finding->quantity = std::move(quantity);
+            add_(std::move(*finding));
+        }
+    }
+
+    void judge_stencil(size_t pixel, uint32_t sample) {
+        const size_t index = pixel * target_.samples + sample;
+        const SampleState state = sample_state(capture_, index);
+        if (state != SampleState::clear && state != SampleState::drawn) {
+            return;
+        }
+        const glm::vec4& hits = capture_.hits[index];
+        const uint32_t expected = stencil_of(hits);
+        const uint32_t got = capture_.stencil[index];
+        if (got == expected) {
+            return;
+        }
+        Finding finding;
+        finding.kind = FindingKind::value;
+        finding.rule = "stencil.count";
+        finding.level = Profile::vulkan;
+        finding.sample = sample;
+        finding.expected = fmt::format("{}", expected);
+        finding.got = fmt::format("{}", got);
+        finding.why = fmt::format(
+            "the hit counter saw {} fragment(s) of front and {} of back faces at this sample",
+            hits.x, hits.y);
+        report(std::move(finding), pixel, "stencil");
+    }
+
+    const CaptureView& capture_;
+    const cases::Target& target_;
+    Profile profile_;
+    const std::function<void(Finding)>& add_;
+};
+
+}  // namespace
+
+uint32_t stencil_of(const glm::vec4& hits) {
+    // Counts are whole and below 2^23 (sample_state); two's complement wraps as the stencil does.
+    return (static_cast<uint32_t>(hits.x) - static_cast<uint32_t>(hits.y)) & 0xffU;
+}
+
+std::string judge_dependent_planes(const CaptureView& capture, Profile profile,
+                                   const std::function<void(Finding)>& add) {
+    const cases::Target& target = capture.target;
+    if (!target.has_stencil && !resolves_color(target) && !resolves_depth(target)) {
+        return {};
+    }
+    return Judge(capture, profile, add).run();
+}
+
+void add_dependent_planes(Capture& capture) {
+    const cases::Target& target = capture.target;
+    const size_t pixels = size_t{target.width} * target.height;
+    if (target.has_stencil) {
+        capture.stencil.resize(capture.sample_count());
+        std::transform(capture.hits.begin(), capture.hits.end(), capture.stencil.begin(),
+                       stencil_of);
+    }
+    capture.resolved_color.resize(resolves_color(target) ? pixels : 0);
+    for (size_t pixel = 0; pixel < capture.resolved_color.size(); ++pixel) {
+        const auto samples =
+            std::span(capture.color).subspan(pixel * target.samples, target.samples);
+        capture.resolved_color[pixel] = target.color_resolve == Resolve::average
+                                            ? average_codes(samples, target.color->format)
+                                            : samples.front();
+    }
+    capture.resolved_depth.resize(resolves_depth(target) ? pixels : 0);
+    for (size_t pixel = 0; pixel < capture.resolved_depth.size(); ++pixel) {
+        const auto depths =
+            std::span(capture.depth).subspan(pixel * target.samples, target.samples);
+        const std::vector<double> samples(depths.begin(), depths.end());
+        double sum = 0;
+        for (const double sample : samples) {
+            sum += sample;
+        }
+        const double mean = sum / target.samples;
+        const double steps = depth_steps(target.depth_format);
+        const auto average = steps > 0 ? depth_of_code(static_cast<uint32_t>(mean * steps + 0.5),
+                                                       target.depth_format)
+                                       : static_cast<float>(mean);
+        capture.resolved_depth[pixel] =
+            target.depth_resolve == Resolve::average
+                ? average
+                : static_cast<float>(select(samples, target.depth_resolve));
+    }
+}
+
+}  // namespace diff

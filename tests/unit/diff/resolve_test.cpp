@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faults planted in the stencil and in what was resolved, against the capture's own samples.
+#include "diff/resolve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <functional>
+#include <limits>
+
+#include "perfect_capture.hpp"
+
+namespace diff {
+
+namespace {
+
+using cases::ColorFormat;
+using cases::Profile;
+using cases::Resolve;
+
+// A capture of 2 x 1 pixels with the planes that are judged here.
+Capture make_capture(uint32_t samples) {
+    Capture c;
+    c.target.width = 2;
+    c.target.height = 1;
+    c.target.samples = samples;
+    const size_t n = c.sample_count();
+    c.hits.assign(n, {0, 0, kHitGuard, kHitGuard});
+    c.writers.assign(n, Writer{});
+    c.frag_coord.assign(n, glm::vec4(kClearValue));
+    c.depth.assign(n, kClearDepth);
+    return c;
+}
+
+void hit(Capture& c, size_t index, float front, float back) {
+    set_hits(c, index, front, back);
+    c.writers[index] = {0, 0, 0, kClearId};
+    c.frag_coord[index] = glm::vec4(0.5F);
+}
+
+Capture colored(ColorFormat format, Resolve mode, std::vector<uint32_t> reds) {
+    Capture c = make_capture(static_cast<uint32_t>(reds.size()));
+    c.target.color.emplace();
+    c.target.color->format = format;
+    c.target.color_resolve = mode;
+    for (uint32_t pixel = 0; pixel < 2; ++pixel) {
+        for (const uint32_t red : reds) {
+            c.color.push_back({red, 0, 0, 0});
+        }
+    }
+    add_dependent_planes(c);
+    return c;
+}
+
+std::vector<Finding> judge(const Capture& c, Profile profile = Profile::direct3d) {
+    std::vector<Finding> findings;
+    const std::string error = judge_dependent_planes(
+        c, profile, [&](Finding finding) { findings.push_back(std::move(finding)); });
+    EXPECT_EQ(error, "");
+    return findings;
+}
+
+TEST(Stencil, CountsFrontLessBackModulo256) {
+    EXPECT_EQ(stencil_of({0, 0, 0, 0}), 0U);
+    EXPECT_EQ(stencil_of({3, 1, 0, 0}), 2U);
+    EXPECT_EQ(stencil_of({0, 1, 0, 0}), 255U);
+    EXPECT_EQ(stencil_of({258, 0, 0, 0}), 2U);
+    EXPECT_EQ(stencil_of({0, 258, 0, 0}), 254U);
+}
+
+TEST(Stencil, EveryOtherValueIsAFinding) {
+    for (const uint32_t samples : {1U, 4U}) {
+        Capture c = make_capture(samples);
+        c.target.has_stencil = true;
+        hit(c, samples, 2, 3);  // the first sample of the second pixel
+        add_dependent_planes(c);
+        EXPECT_TRUE(judge(c).empty());
+        for (const uint32_t wrong :
+             {0U, 1U, 5U, 254U}) {  // lost, exchanged, both added, off by one
+            c.stencil[samples] = wrong;
+            const std::vector<Finding> findings = judge(c, Profile::vulkan);
+            ASSERT_EQ(findings.size(), 1U);
+            EXPECT_EQ(findings[0].rule, "stencil.count");
+            EXPECT_EQ(findings[0].level, Profile::vulkan);
+            EXPECT_EQ(findings[0].x, 1U);
+            EXPECT_EQ(findings[0].sample, 0U);
+            EXPECT_EQ(findings[0].expected, "255");
+        }
+        c.stencil[samples] = 255;
+        c.stencil[samples - 1] = 1;  // where nothing hit
+        EXPECT_EQ(judge(c).size(), 1U);
+    }
+}
+
+TEST(Stencil, NotCopiedIsAnError) {
+    Capture c = make_capture(1);
+    c.target.has_stencil = true;
+    c.stencil = {0, kPoison};
+    EXPECT_NE(judge_dependent_planes(c, Profile::vulkan, [](const Finding&) {}), "");
+}
+
+TEST(Resolve, NotCopiedIsAnError) {
+    Capture c = colored(ColorFormat::rgba8_unorm, Resolve::average, {0, 255});
+    c.resolved_color[1] = {kPoison, kPoison, kPoison, kPoison};
+    EXPECT_NE(judge_dependent_planes(c, Profile::vulkan, [](const Finding&) {}), "");
+    Capture d = make_capture(2);
+    d.target.depth_resolve = Resolve::min;
+    d.resolved_depth.assign(2, std::bit_cast<float>(kPoison));
+    EXPECT_NE(judge_dependent_planes(d, Profile::vulkan, [](const Finding&) {}), "");
+}
+
+// Codes 10, 20, 20, 35: mean 21.25. From practice on 20.25..22.25 may be stored, that is 21 or 22;
+// Vulkan's text allows all from 10 to 35.
+TEST(Resolve, AverageOfUnormWithinAStepOfTheMean) {
+    Capture c = colored(ColorFormat::rgba8_unorm, Resolve::average, {10, 20, 20, 35});
+    EXPECT_EQ(c.resolved_color[0][0], 21U);
+    for (uint32_t code = 0; code < 256; ++code) {
+        c.resolved_color[1][0] = code;
+        const std::vector<Finding> findings = judge(c);
+        const bool vulkan = code < 10 || code > 35;
+        const bool practice = code != 21 && code != 22;
+        ASSERT_EQ(findings.size(), practice ? 1U : 0U) << code;
+        EXPECT_EQ(judge(c, Profile::vulkan).size(), vulkan ? 1U : 0U) << code;
+        if (practice) {
+            EXPECT_EQ(findings[0].rule, "resolve.average");
+            EXPECT_EQ(findings[0].level, vulkan ? Profile::vulkan : Profile::practice);
+            EXPECT_EQ(findings[0].x, 1U);
+        }
+    }
+}
+
+TEST(Resolve, SamplesAlikeStayWhatTheyAre) {
+    Capture c = colored(ColorFormat::rgba16_unorm, Resolve::average, {513, 513, 513, 513});
+    EXPECT_TRUE(judge(c).empty());
+    c.resolved_color[0][0] = 514;
+    EXPECT_EQ(judge(c, Profile::vulkan).size(), 1U);
+}
+
+TEST(Resolve, AverageOfSrgbIsFreeAmongTheSamples) {
+    Capture c = colored(ColorFormat::rgba8_srgb, Resolve::average, {0, 255});
+    c.resolved_color[0][0] = 188;  // the mean of linear numbers
+    EXPECT_TRUE(judge(c).empty());
+    c.resolved_color[0][0] = 128;  // the mean of codes
+    EXPECT_TRUE(judge(c).empty());
+    c.color[0][0] = 129;
+    EXPECT_EQ(judge(c, Profile::vulkan).size(), 1U);
+}
+
+// Every order and rounding of a binary32 sum lies inside; a lost sample or a step of 2^-20 does
+// not.
+TEST(Resolve, AverageOfFloatsWithinTheBoundOfTheSum) {
+    const std::vector<float> values = {0.1F, 0.7F, 0.3F, 0.9F, 0.2F, 0.6F, 0.8F, 0.5F};
+    std::vector<uint32_t> bits;
+    for (const float value : values) {
+        bits.push_back(std::bit_cast<uint32_t>(value));
+    }
+    Capture c = colored(ColorFormat::r32_float, Resolve::average, bits);
+    float forwards = 0;
+    float backwards = 0;
+    float lost = 0;
+    for (size_t k = 0; k < values.size(); ++k) {
+        forwards += values[k];
+        backwards += values[values.size() - 1 - k];
+        lost += k == 3 ? values[2] : values[k];
+    }
+    const auto give = [&](float sum) {
+        c.resolved_color[0][0] = std::bit_cast<uint32_t>(sum / 8);
+        return judge(c).size();
+    };
+    EXPECT_EQ(give(forwards), 0U);
+    EXPECT_EQ(give(backwards), 0U);
+    EXPECT_EQ(give(lost), 1U);
+    EXPECT_EQ(give(forwards + 0x1p-17F), 1U);
+    EXPECT_EQ(give(std::numeric_limits<float>::quiet_NaN()), 1U);
+}
+
+TEST(Resolve, SampleZeroOfIntegersIsExact) {
+    Capture c = colored(ColorFormat::r32_uint, Resolve::sample_zero, {7, 9, 9, 9});
+    EXPECT_EQ(c.resolved_color[0][0], 7U);
+    EXPECT_TRUE(judge(c).empty());
+    for (const uint32_t wrong : {6U, 8U, 9U, 0U}) {  // 8: their average
+        c.resolved_color[0][0] = wrong;
+        const std::vector<Finding> findings = judge(c, Profile::vulkan);
+        ASSERT_EQ(findings.size(), 1U);
+        EXPECT_EQ(findings[0].rule, "resolve.select");
+    }
+}
+
+TEST(Resolve, DepthByEachMode) {
+    for (const auto format : {cases::DepthFormat::d32_float, cases::DepthFormat::d16_unorm}) {
+        const std::vector<float> wishes = {0.5F, 0.25F, 0.75F, 0.625F};
+        const auto stored = [format](float z) {
+            return format == cases::DepthFormat::d32_float ? z : nearest_depth(z, format);
+        };
+        for (const auto& [mode, right] :
+             {std::pair(Resolve::sample_zero, 0.5F), std::pair(Resolve::min, 0.25F),
+              std::pair(Resolve::max, 0.75F), std::pair(Resolve::average, 0.53125F)}) {
+            Capture c = make_capture(4);
+            c.target.depth_format = format;
+            c.target.depth_resolve = mode;
+            for (size_t k = 0; k < c.depth.size(); ++k) {
+                c.depth[k] = stored(wishes[k % 4]);
+            }
+            add_dependent_planes(c);
+            EXPECT_EQ(c.resolved_depth[0], stored(right));
+            EXPECT_TRUE(judge(c).empty());
+            for (const float other : {0.5F, 0.25F, 0.75F, 0.625F, 0.53125F, 0.8125F}) {
+                c.resolved_depth[1] = stored(other);
+                EXPECT_EQ(judge(c).size(), std::equal_to<>()(other, right) ? 0U : 1U) << other;
+            }
+        }
+    }
+}
+
+// Through the whole comparison: a finding reaches the verdict and marks a sample of its pixel.
+TEST(Resolve, TheVerdictHoldsIt) {
+    cases::Case c = pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}});
+    c.target.samples = 4;
+    c.target.depth_resolve = Resolve::max;
+    c.target.has_stencil = true;
+    const ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+    Capture capture = perfect_capture(c, e);
+    EXPECT_FALSE(compare(c, e, capture).ok());  // the planes are missing
+    add_dependent_planes(capture);
+    const Verdict right = compare(c, e, capture);
+    EXPECT_TRUE(right.ok()) << right.error;
+    capture.resolved_depth[63] = 0.8125F;
+    const Verdict wrong = compare(c, e, capture);
+    EXPECT_EQ(wrong.counts[static_cast<size_t>(FindingKind::value)], 1U);
+    EXPECT_EQ(wrong.marks[63 * 4], SampleMark::value);
+    capture.resolved_depth[63] = kClearDepth;
+    capture.stencil[9 * 4 + 2] ^= 1U;
+    EXPECT_EQ(compare(c, e, capture).counts[static_cast<size_t>(FindingKind::value)], 1U);
+}
+
+}  // namespace
+
+}  // namespace diff
