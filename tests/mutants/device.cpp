@@ -11,7 +11,6 @@
 #include <tuple>
 #include <utility>
 
-#include "diff/resolve.hpp"
 #include "mutants/assembly.hpp"
 #include "mutants/clipper.hpp"
 #include "mutants/depth.hpp"
@@ -738,7 +737,6 @@ diff::Capture render(const cases::Case& c, const Device& device) {
         out.attributes[a].assign(count, glm::vec4(diff::kClearValue));
     }
     if (device.fault == Fault::draws_nothing) {
-        diff::add_dependent_planes(out);
         return out;
     }
     const auto draws = static_cast<uint32_t>(c.draws.size());
@@ -746,7 +744,6 @@ diff::Capture render(const cases::Case& c, const Device& device) {
         const bool reversed = device.fault == Fault::draws_reversed;
         DrawCommand(c, reversed ? draws - 1 - d : d, device, out).run();
     }
-    diff::add_dependent_planes(out);
     return out;
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "diff/resolve.hpp"
 #include "ref/color.hpp"
 #include "ref/expectation.hpp"
 
@@ -187,6 +188,7 @@ diff::Verdict judge(const cases::Case& c, const Device& device, cases::Profile p
         capture = render(c, device);
     }
     add_colors(capture, c, expectation);
+    diff::add_dependent_planes(capture);
     drop_unattached(capture, c);
     return diff::compare(c, expectation, capture);
 }
