@@ -415,6 +415,8 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     }
     features.features.independentBlend = VK_TRUE;
     features.features.sampleRateShading = capabilities.has_sample_shading ? VK_TRUE : VK_FALSE;
+    features.features.depthClamp = capabilities.depth_clamp ? VK_TRUE : VK_FALSE;
+    features.features.depthBiasClamp = capabilities.depth_bias_clamp ? VK_TRUE : VK_FALSE;
     features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
 
     VkPhysicalDeviceVulkan12Features features12{};
