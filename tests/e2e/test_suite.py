@@ -28,10 +28,13 @@ class Suite(ProgramTest):
                 self.assertLessEqual(results["totals"]["xfail"], 83)  # each told in cases/expectations
                 self.assertLess(results["worst"]["ratio"], 2)
                 # What is left free must stay the exception: a suite of "either" would judge nothing.
-                free = sum(case["either_samples"] for case in results["cases"])
-                samples = sum(case["compared_samples"] for case in results["cases"])
+                # Triangles with bad numbers are free by their nature.
+                judged = [case for case in results["cases"] if case["status"] != "unsupported"]
+                bounded = [case for case in judged if not case["id"].startswith("bad-numbers/")]
+                free = sum(case["either_samples"] for case in bounded)
+                samples = sum(case["compared_samples"] for case in bounded)
                 self.assertLess(free, samples / {"vulkan": 20, "practice": 100, "direct3d": 500}[profile])
-                for case in results["cases"]:
+                for case in judged:
                     self.assertGreater(case["must_samples"], 0, case["id"])
 
     def test_silent_under_the_validation_layer(self):
