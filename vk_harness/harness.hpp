@@ -84,7 +84,7 @@ class Renderer {
                                  const PlaneStore& store = {});
 
     // As render, without read-back and without capture memory traffic: the bare cost of drawing,
-    // for benchmarks. Returns false if any case could not be drawn.
+    // for benchmarks. Returns false if a case that the device supports could not be drawn.
     bool render_bare(std::span<const cases::Case> batch);
 
   private:

@@ -333,7 +333,8 @@ std::vector<Rendered> Renderer::render(std::span<const cases::Case> batch,
 bool Renderer::render_bare(std::span<const cases::Case> batch) {
     const auto results = impl_->body.render(batch, false, [](std::string_view) {}, {});
     return std::all_of(results.begin(), results.end(), [](const Rendered& result) {
-        return result.status == Rendered::Status::drawn;
+        return result.status == Rendered::Status::drawn ||
+               result.status == Rendered::Status::unsupported;
     });
 }
 
