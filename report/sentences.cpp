@@ -147,7 +147,7 @@ std::string why_it_happened(const CaseRecord& record) {
             text += one_line(f.quantity) + ": ";
         }
         text += fmt::format("expected {}, got {}", one_line(f.expected), one_line(f.got));
-        if (f.kind == diff::FindingKind::value) {
+        if (f.kind == diff::FindingKind::value && f.ratio > 0) {  // exact ones have no budget
             text += fmt::format(", {} budgets off", ratio_text(f.ratio));
         }
         return f.why.empty() ? text : text + "; " + one_line(f.why);

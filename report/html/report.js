@@ -76,7 +76,7 @@ function findingsTable(view) {
     const level = make("td", "level-" + f.level, f.level);
     level.append(make("div", "what", data.meanings[f.level]));
     const got = make("td", "", f.got);
-    if (f.kind === "value") { got.append(" (" + f.ratio + " budgets off)"); }
+    if (f.kind === "value" && f.ratio !== "0") { got.append(" (" + f.ratio + " budgets off)"); }
     add(row, make("td", "number", "(" + f.x + "," + f.y + ")" + (f.sample ? " sample " + f.sample : "")),
       make("td", "", f.kind), add(make("td"), ruleTag(f.rule, false)), level,
       make("td", "", (f.quantity ? f.quantity + ": " : "") + f.expected), got, make("td", "", f.why));
