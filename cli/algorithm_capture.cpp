@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "cli/backend.hpp"
+#include "diff/color_planes.hpp"
+#include "ref/expectation.hpp"
 
 namespace cli {
 
@@ -41,7 +43,10 @@ diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Dev
             capture.attributes[a][index] = is_written ? sample.values.attributes[a] : clear;
         }
     }
-    add_color(capture, c);
+    if (c.target.color) {
+        diff::add_color_plane(capture, c, ref::expect(c, ref::Limits{}, cases::Profile::direct3d));
+    }
+    diff::drop_unattached(capture, c);
     return capture;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "diff/capture.hpp"
+#include "diff/color_planes.hpp"
 #include "diff/consistency.hpp"
 #include "diff/resolve.hpp"
 #include "ref/blit.hpp"
@@ -236,7 +237,8 @@ diff::Capture draw_by_reference(const cases::Case& c) {
             }
         }
     }
-    add_color(capture, c);
+    diff::add_color_plane(capture, c, expectation);
+    diff::drop_unattached(capture, c);
     diff::vary(capture, c.variation);
     return capture;
 }

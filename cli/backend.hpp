@@ -31,9 +31,6 @@ vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& o
 diff::Capture draw_by_reference(const cases::Case& c);
 
 // Draws a case as an algorithm does; only without a ref::algorithms::unsupported_reason().
-// Adds the colour plane to a capture drawn with instruments, and takes away what the target lacks.
-void add_color(diff::Capture& capture, const cases::Case& c);
-
 diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Device& device);
 
 }  // namespace cli

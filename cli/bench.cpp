@@ -101,16 +101,25 @@ uint64_t sample_count(const std::vector<cases::Case>& cases) {
 
 constexpr size_t kBatch = 16;  // cases in one submission, as `run` does it
 
-// Draws all cases once; seconds, or nothing if one could not be drawn.
-std::optional<double> draw_bare(vk_harness::Renderer& renderer,
-                                const std::vector<cases::Case>& cases) {
+// Draws all cases that the device supports once; seconds.
+vk_harness::Result<double> draw_bare(vk_harness::Renderer& renderer,
+                                     const std::vector<cases::Case>& cases) {
     const Clock::time_point begin = Clock::now();
-    bool ok = true;
+    size_t drawn = 0;
     for (size_t k = 0; k < cases.size(); k += kBatch) {
         const size_t count = std::min(kBatch, cases.size() - k);
-        ok = renderer.render_bare(std::span(cases).subspan(k, count)) && ok;
+        const auto batch = renderer.render_bare(std::span(cases).subspan(k, count));
+        if (!batch) {
+            return tl::unexpected<vk_harness::Failure>(batch.error());
+        }
+        drawn += *batch;
     }
-    return ok ? std::optional(seconds_since(begin)) : std::nullopt;
+    if (drawn == 0) {
+        vk_harness::Failure nothing;
+        nothing.message = "this device supports none of the selected cases; select others";
+        return tl::unexpected<vk_harness::Failure>(std::move(nothing));
+    }
+    return seconds_since(begin);
 }
 
 // The child: one line "cold warm", seconds of the first and the second pass over all cases.
@@ -128,12 +137,12 @@ int bare_command(const Program& program, const BenchOptions& options) {
         fmt::print(stderr, "edgecase: {}\n", renderer.error().message);
         return report::kExitDevice;
     }
-    const std::optional<double> cold = draw_bare(*renderer, cases);
+    const vk_harness::Result<double> cold = draw_bare(*renderer, cases);
     // A second pass only when asked: the whole process is what the parent times.
     const bool twice = std::getenv("EDGECASE_BENCH_TWICE") != nullptr;
-    const std::optional<double> warm = twice ? draw_bare(*renderer, cases) : cold;
+    const vk_harness::Result<double> warm = twice ? draw_bare(*renderer, cases) : cold;
     if (!cold || !warm) {
-        fmt::print(stderr, "edgecase: this device cannot draw every selected case; select fewer\n");
+        fmt::print(stderr, "edgecase: {}\n", (cold ? warm : cold).error().message);
         return report::kExitAllSkipped;
     }
     fmt::print("{} {}\n", *cold, *warm);

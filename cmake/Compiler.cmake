@@ -8,6 +8,10 @@ target_compile_options(edgecase_warnings INTERFACE
     -Wfloat-equal -Wold-style-cast -Wundef $<$<BOOL:${EDGECASE_WERROR}>:-Werror>)
 add_compile_options(-ffp-contract=off -fno-fast-math)
 if(EDGECASE_SANITIZE)
+    # The arithmetic is optimised, the rest compiles twice as fast without.
+    foreach(room ref diff)
+        set(EDGECASE_OPTIMISE_${room} -O1)
+    endforeach()
     # GCC's manual: instrumentation makes this warning report false positives (12.2 does, in <regex>).
     target_compile_options(edgecase_warnings INTERFACE -Wno-maybe-uninitialized)
     add_compile_options(-fsanitize=${EDGECASE_SANITIZE} -fno-omit-frame-pointer)
@@ -21,3 +25,11 @@ find_program(EDGECASE_MOLD mold)
 if(EDGECASE_MOLD)
     add_link_options(-fuse-ld=mold)
 endif()
+
+# Headers that most files include, compiled once for the target; only in presets that ask for it.
+function(edgecase_precompile target)
+    if(EDGECASE_PRECOMPILE)
+        target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <fmt/format.h> <functional>
+                                  <gmpxx.h> <map> <memory> <optional> <set> <sstream> <string> <vector> ${ARGN})
+    endif()
+endfunction()

@@ -20,7 +20,10 @@ edgecase_header_only(vulkan_headers vulkan/vulkan.h)
 edgecase_header_only(tomlplusplus toml++/toml.h)
 
 # Static where Debian has an archive: the program then starts faster and runs under another C library.
-add_library(edgecase::fmt ALIAS fmt::fmt-header-only)
+get_target_property(EDGECASE_FMT_INCLUDE fmt::fmt-header-only INTERFACE_INCLUDE_DIRECTORIES)
+add_library(edgecase_fmt STATIC ${CMAKE_SOURCE_DIR}/cmake/fmt/fmt.cpp)
+target_include_directories(edgecase_fmt SYSTEM PUBLIC ${EDGECASE_FMT_INCLUDE})
+add_library(edgecase::fmt ALIAS edgecase_fmt)
 find_library(EDGECASE_GMPXX libgmpxx.a REQUIRED)
 find_library(EDGECASE_GMP libgmp.a REQUIRED)
 add_library(edgecase_gmp INTERFACE)

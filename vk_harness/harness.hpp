@@ -84,8 +84,9 @@ class Renderer {
                                  const PlaneStore& store = {});
 
     // As render, without read-back and without capture memory traffic: the bare cost of drawing,
-    // for benchmarks. Returns false if a case that the device supports could not be drawn.
-    bool render_bare(std::span<const cases::Case> batch);
+    // for benchmarks. Returns how many cases were drawn (those that the device does not support are
+    // left out), or why one that it supports could not be drawn.
+    Result<size_t> render_bare(std::span<const cases::Case> batch);
 
   private:
     struct Impl;

@@ -330,12 +330,18 @@ std::vector<Rendered> Renderer::render(std::span<const cases::Case> batch,
         batch, true, step ? step : [](std::string_view) {}, store);
 }
 
-bool Renderer::render_bare(std::span<const cases::Case> batch) {
-    const auto results = impl_->body.render(batch, false, [](std::string_view) {}, {});
-    return std::all_of(results.begin(), results.end(), [](const Rendered& result) {
-        return result.status == Rendered::Status::drawn ||
-               result.status == Rendered::Status::unsupported;
-    });
+Result<size_t> Renderer::render_bare(std::span<const cases::Case> batch) {
+    size_t drawn = 0;
+    for (const Rendered& result : impl_->body.render(batch, false, [](std::string_view) {}, {})) {
+        if (result.status == Rendered::Status::drawn) {
+            ++drawn;
+        } else if (result.status != Rendered::Status::unsupported) {
+            Failure failure;
+            failure.message = result.reason;
+            return fail(std::move(failure));
+        }
+    }
+    return drawn;
 }
 
 }  // namespace vk_harness

@@ -11,70 +11,11 @@
 #include <utility>
 
 #include "diff/blit.hpp"
+#include "diff/color_planes.hpp"
 #include "diff/resolve.hpp"
-#include "ref/color.hpp"
 #include "ref/expectation.hpp"
 
 namespace mutants {
-
-namespace {
-
-// The colour target. The device has no blend unit of its own: the fragments that it drew are
-// blended as the reference does, so that what it draws wrongly shows in the colours, too. A blit
-// leaves everything as it was cleared.
-void add_colors(diff::Capture& capture, const cases::Case& c, const ref::Expectation& expectation) {
-    if (!c.target.color) {
-        return;
-    }
-    const size_t n = capture.sample_count();
-    const ref::color::Unit unit{c.target.color->format, expectation.profile};
-    const std::array<uint32_t, 4> cleared = unit.codes_of(unit.cleared(*c.target.color));
-    capture.color.assign(n, cleared);
-    if (c.blit) {
-        return;
-    }
-    ref::ColorReference reference(c, expectation);
-    for (size_t index = 0; index < n; ++index) {
-        ref::ColorWitness witness;
-        witness.hits = static_cast<uint32_t>(capture.hits[index].x + capture.hits[index].y);
-        if (witness.hits == 0) {
-            continue;
-        }
-        const size_t pixel = index / c.target.samples;
-        const ref::SampleId id{static_cast<uint32_t>(pixel % c.target.width),
-                               static_cast<uint32_t>(pixel / c.target.width),
-                               static_cast<uint32_t>(index % c.target.samples)};
-        const diff::Writer& writer = capture.writers[index];
-        for (uint32_t t = 0; t < expectation.triangles.size(); ++t) {
-            const ref::Triangle& triangle = expectation.triangles[t];
-            if (triangle.draw == writer.draw && triangle.primitive == writer.primitive) {
-                witness.writer = t;
-            }
-        }
-        const int32_t attribute = c.draws[writer.draw].color.attribute;
-        if (attribute >= 0) {
-            witness.written = &capture.attributes[static_cast<size_t>(attribute)][index];
-        }
-        capture.color[index] = reference.codes(index, id, witness);
-    }
-}
-
-// Takes away what the case does not attach.
-void drop_unattached(diff::Capture& capture, const cases::Case& c) {
-    if (!c.target.has_instruments) {
-        capture.hits.clear();
-        capture.writers.clear();
-        capture.frag_coord.clear();
-        for (auto& attribute : capture.attributes) {
-            attribute.clear();
-        }
-    }
-    if (!c.target.has_depth) {
-        capture.depth.clear();
-    }
-}
-
-}  // namespace
 
 std::vector<LegalDevice> legal_devices() {
     using cases::Profile;
@@ -185,13 +126,14 @@ diff::Verdict judge(const cases::Case& c, const Device& device, cases::Profile p
     diff::Capture capture;
     if (c.blit) {  // the device has no blits: the target stays as it was cleared
         capture.target = c.target;
-        add_colors(capture, c, expectation);
+        diff::add_color_plane(capture, c, expectation);
         return diff::compare_blit(c, profile, capture);
     }
     capture = render(c, device);
-    add_colors(capture, c, expectation);
+    // The device has no blend unit of its own: what it drew wrongly shows in the colours, too.
+    diff::add_color_plane(capture, c, expectation);
     diff::add_dependent_planes(capture);
-    drop_unattached(capture, c);
+    diff::drop_unattached(capture, c);
     return diff::compare(c, expectation, capture);
 }
 

@@ -364,9 +364,15 @@ TEST(Render, StepsComeInOrder) {
 
 TEST(Render, BareDrawsTheSameCases) {
     std::vector<cases::Case> batch = {make_case(k64, half_square())};
-    EXPECT_TRUE(renderer().render_bare(batch));
+    EXPECT_EQ(renderer().render_bare(batch).value_or(99), 1U);
+    // What the device does not support is left out; what is wrong is an error.
+    batch.push_back(batch[0]);
     batch[0].target.width = 1U << 20;
-    EXPECT_FALSE(renderer().render_bare(batch));
+    EXPECT_EQ(renderer().render_bare(batch).value_or(99), 1U);
+    batch[1].draws[0].indices = {{0, 1, 3}};
+    const auto wrong = renderer().render_bare(batch);
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().message, "index 3 is beyond the 3 vertices of its draw");
 }
 
 TEST(Render, RejectedCasesStandBesideDrawnOnes) {
