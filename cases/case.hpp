@@ -102,10 +102,20 @@ struct Attribute {
     friend bool operator==(const Attribute&, const Attribute&) = default;
 };
 
-// As vkCmdSetDepthBias. constant in units of r, slope in units of the maximum depth slope, clamp 0:
-// none.
+// What the unit r of a constant depth bias is (VkDepthBiasRepresentationEXT): the least step of the
+// attachment's format, a constant for the whole attachment even if it is floating point, or 1.
+enum class DepthBiasRepresentation { format, force_unorm, floating };
+
+// As vkCmdSetDepthBias2EXT. constant in units of r, slope in units of the maximum depth slope,
+// clamp 0: none. is_exact: a constant r is 2^-n and not scaled (depthBiasExact).
 struct DepthBias {
     float constant = 0, clamp = 0, slope = 0;
+    DepthBiasRepresentation representation = DepthBiasRepresentation::format;
+    bool is_exact = false;
+    // Whether VK_EXT_depth_bias_control is needed.
+    bool is_controlled() const {
+        return representation != DepthBiasRepresentation::format || is_exact;
+    }
     friend bool operator==(const DepthBias&, const DepthBias&) = default;
 };
 

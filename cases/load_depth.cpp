@@ -10,6 +10,7 @@ namespace cases {
 namespace {
 
 constexpr std::array<std::string_view, 3> kFormats = {"d32-float", "d24-unorm", "d16-unorm"};
+constexpr std::array<std::string_view, 3> kRepresentations = {"format", "force-unorm", "float"};
 constexpr std::array<std::string_view, 8> kCompare = {
     "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
     "always"};
@@ -19,7 +20,7 @@ DepthBias read_bias(LeafContext& context, const TomlValue& value) {
     if (!context.table(value, "bias")) {
         return bias;
     }
-    context.known_keys(value, "bias", {"constant", "slope", "clamp"});
+    context.known_keys(value, "bias", {"constant", "slope", "clamp", "representation", "exact"});
     const auto read = [&](const char* key, float& member) {
         if (const TomlValue* number = value.find(key)) {
             member = context.binary32(*number, key).value_or(0.0F);
@@ -28,6 +29,13 @@ DepthBias read_bias(LeafContext& context, const TomlValue& value) {
     read("constant", bias.constant);
     read("slope", bias.slope);
     read("clamp", bias.clamp);
+    if (const TomlValue* word = value.find("representation")) {
+        bias.representation = static_cast<DepthBiasRepresentation>(
+            context.word(*word, "representation", kRepresentations).value_or(0));
+    }
+    if (const TomlValue* exact = value.find("exact")) {
+        bias.is_exact = context.boolean(*exact, "exact").value_or(false);
+    }
     return bias;
 }
 

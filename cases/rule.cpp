@@ -231,7 +231,8 @@ constexpr std::array kRules = {
          "m lies between the larger gradient and their Euclidean norm (Direct3D: the larger). r is "
          "2^(e-23) with binary32 depth, e the exponent of the primitive's largest z, clipped or "
          "not; "
-         "at most 2 2^-n with n bits of fixed point. The clamp is exact. FragCoord.z may have the "
+         "at most 2 2^-n with n bits of fixed point, 2^-n with depthBiasExact, 1 with the "
+         "representation float. The clamp is exact. FragCoord.z may have the "
          "bias or not.",
          "primsrast-depthbias-computation", "15.10", "ref/depth_path.hpp"},
     Rule{"depth.distinct", Profile::vulkan, "Planes that are r apart stay distinct",

@@ -55,6 +55,8 @@ void write(Writer& w, const DepthState& depth) {
         w.real(depth.bias->constant);
         w.real(depth.bias->clamp);
         w.real(depth.bias->slope);
+        w.number(depth.bias->representation);
+        w.flag(depth.bias->is_exact);
     }
     w.flag(depth.clamp);
     w.flag(depth.clip.has_value());
@@ -71,6 +73,8 @@ DepthState read_depth(Reader& r) {
         depth.bias->constant = r.real();
         depth.bias->clamp = r.real();
         depth.bias->slope = r.real();
+        depth.bias->representation = r.enumerator(DepthBiasRepresentation::floating);
+        depth.bias->is_exact = r.flag();
     }
     depth.clamp = r.flag();
     const bool has_clip = r.flag();

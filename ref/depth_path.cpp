@@ -70,12 +70,29 @@ double unit_at(const mpq_class& z) {
     return std::ldexp(1.0, std::ilogb(d) - 23);
 }
 
+// Whether r is a step of fixed point, one for the whole attachment.
+bool has_constant_unit(cases::DepthFormat format, const cases::DepthBias& bias) {
+    using Representation = cases::DepthBiasRepresentation;
+    return bias.representation == Representation::force_unorm ||
+           (bias.representation == Representation::format &&
+            format != cases::DepthFormat::d32_float);
+}
+
+// 2^-n; n: bits of the format, "or the number of mantissa bits plus one" of a floating-point one.
+double constant_unit(cases::DepthFormat format) {
+    return format == cases::DepthFormat::d16_unorm ? 0x1p-16 : 0x1p-24;
+}
+
 template <class T>
 Range<T> unit_of(const Primitive& primitive, cases::Profile profile) {
     const cases::DepthFormat format = primitive.depth_format;
-    if (format != cases::DepthFormat::d32_float) {
-        const int bits = format == cases::DepthFormat::d24_unorm ? 24 : 16;
-        return {T(0.0), T(std::ldexp(2.0, -bits))};
+    const cases::DepthBias& bias = *primitive.draw->depth.bias;
+    if (bias.representation == cases::DepthBiasRepresentation::floating) {
+        return {T(1.0), T(1.0)};
+    }
+    if (has_constant_unit(format, bias)) {
+        const double least = constant_unit(format);
+        return bias.is_exact ? Range<T>{T(least), T(least)} : Range<T>{T(0.0), T(2 * least)};
     }
     // z_f of a vertex is off by at most five roundings (value_setup.cpp) of terms up to 1; relative
     // to the largest z that may be a few more when near and far cancel, and 16 leaves room.
@@ -193,8 +210,8 @@ double nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>& ba
     }
     const Form<mpq_class>& form = basis.planes[kPlaneDepth].form;
     const double m = std::max(std::fabs(form.x.get_d()), std::fabs(form.y.get_d()));
-    const bool is_float = path.format == cases::DepthFormat::d32_float;
-    const double r = is_float ? path.unit.high.get_d() : path.unit.high.get_d() / 2;
+    const double r = has_constant_unit(path.format, *path.bias) ? constant_unit(path.format)
+                                                                : path.unit.high.get_d();
     const double o =
         m * static_cast<double>(path.bias->slope) + r * static_cast<double>(path.bias->constant);
     const auto clamp = static_cast<double>(path.bias->clamp);

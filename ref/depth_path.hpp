@@ -10,7 +10,8 @@
 // the largest z of the primitive (clipped or not: not said), and at most 2 2^-n with n bits of
 // fixed point, more than 0 because planes r apart have to stay distinct. Direct3D 11.3, 15.10: m =
 // max(|zx|, |zy|). Its r of one step is reported and not judged: drivers that take two are many,
-// and Vulkan allows it.
+// and Vulkan allows it. With VK_EXT_depth_bias_control r is 1 (representation float), as with fixed
+// point of 24 bits (forced UNORM on binary32: "mantissa bits plus one"), and 2^-n (depthBiasExact).
 #pragma once
 
 #include <optional>

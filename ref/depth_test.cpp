@@ -328,7 +328,10 @@ struct DepthTest::Impl {
         x.bias = y.bias = std::nullopt;
         y.compare = x.compare;
         y.write = x.write;
-        const bool is_shifted = x == y && !(p.slope < q.slope) && !(p.slope > q.slope) &&
+        // "the smallest difference ... guaranteed to remain distinct" is said of r as the format
+        // has it, without depthBiasExact.
+        const bool is_shifted = x == y && !p.is_controlled() && !q.is_controlled() &&
+                                !(p.slope < q.slope) && !(p.slope > q.slope) &&
                                 !(std::fabs(p.clamp) > 0) && !(std::fabs(q.clamp) > 0);
         const float apart = q.constant - p.constant;
         const float least = steps > 0 ? 2.0F : 1.0F;

@@ -203,6 +203,11 @@ std::optional<Rejection> check_depth(const Capabilities& c, const cases::DepthSt
     if (depth.bias && std::abs(depth.bias->clamp) > 0.0F && !c.depth_bias_clamp) {
         return unsupported("the device lacks the feature depthBiasClamp");
     }
+    if (depth.bias) {
+        if (auto missing = missing_depth_bias_support(c.depth_bias, *depth.bias)) {
+            return unsupported(std::move(*missing));
+        }
+    }
     return std::nullopt;
 }
 

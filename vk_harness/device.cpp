@@ -141,6 +141,7 @@ void query_depth_features(Capabilities& c) {
         query(&clip);
         c.depth_clip_enable = clip.depthClipEnable == VK_TRUE;
     }
+    c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
 }
 
 // Sample locations in sixteenths of a pixel, one grid cell a pixel.
@@ -425,6 +426,8 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     }
     ClipFeatures clip;
     enable_clip_features(capabilities.clip, features, extensions, clip);
+    DepthBiasControlFeatures bias_control;
+    enable_depth_bias_control(capabilities.depth_bias, features, extensions, bias_control);
 
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
@@ -442,12 +445,17 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     device.table_ = std::make_unique<VolkDeviceTable>();
     volkLoadDeviceTable(device.table_.get(), device.device_);
     device.capabilities_ = std::make_unique<Capabilities>(capabilities);
+    if (capabilities.depth_bias.control) {
+        device.set_depth_bias2_ = reinterpret_cast<SetDepthBias2>(
+            vkGetDeviceProcAddr(device.device_, "vkCmdSetDepthBias2EXT"));
+    }
     device.vk().vkGetDeviceQueue(device.device_, capabilities.queue_family, 0, &device.queue_);
     return device;
 }
 
 Device::Device(Device&& other) noexcept
-    : device_(std::exchange(other.device_, VK_NULL_HANDLE)),
+    : set_depth_bias2_(other.set_depth_bias2_),
+      device_(std::exchange(other.device_, VK_NULL_HANDLE)),
       queue_(other.queue_),
       table_(std::move(other.table_)),
       capabilities_(std::move(other.capabilities_)) {}

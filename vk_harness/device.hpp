@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vk_harness/clip_support.hpp"
+#include "vk_harness/depth_bias_control.hpp"
 #include "vk_harness/instance.hpp"
 
 namespace vk_harness {
@@ -32,6 +33,7 @@ struct Capabilities {
     // got the format.
     std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
+    DepthBiasSupport depth_bias;
     bool triangle_fans = true;
     uint32_t max_viewports = 1;  // that gl_ViewportIndex can choose from
     ClipSupport clip;
@@ -59,8 +61,12 @@ class Device {
     const VolkDeviceTable& vk() const { return *table_; }
     const Capabilities& capabilities() const { return *capabilities_; }
 
+    // Null unless the device has depthBiasControl.
+    SetDepthBias2 set_depth_bias2() const { return set_depth_bias2_; }
+
   private:
     Device() = default;
+    SetDepthBias2 set_depth_bias2_ = nullptr;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::unique_ptr<VolkDeviceTable> table_;  // stable addresses: resources keep a pointer

@@ -224,7 +224,11 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
                                 depth.write && !test.variation.masks_depth ? VK_TRUE : VK_FALSE);
     const cases::DepthBias bias = depth.bias.value_or(cases::DepthBias{});
     vk.vkCmdSetDepthBiasEnable(commands, depth.bias ? VK_TRUE : VK_FALSE);
-    vk.vkCmdSetDepthBias(commands, bias.constant, bias.clamp, bias.slope);
+    if (bias.is_controlled()) {
+        record_controlled_bias(device.set_depth_bias2(), commands, bias);
+    } else {
+        vk.vkCmdSetDepthBias(commands, bias.constant, bias.clamp, bias.slope);
+    }
     shaders::DrawConstants constants;
     constants.index = draw_index;
     constants.layer = draw.layer;

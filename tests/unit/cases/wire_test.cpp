@@ -40,7 +40,7 @@ Case sample() {
     draw.provoking = ProvokingVertex::last;
     draw.depth.compare = CompareOp::less_or_equal;
     draw.depth.write = false;
-    draw.depth.bias = DepthBias{2, -0.25F, 1.5F};
+    draw.depth.bias = DepthBias{2, -0.25F, 1.5F, DepthBiasRepresentation::force_unorm, true};
     draw.depth.clamp = true;
     draw.depth.clip = true;
     draw.depth.negative_one_to_one = true;

@@ -213,6 +213,46 @@ TEST(DepthHand, UnitOfFixedPoint) {
     }
 }
 
+// VK_EXT_depth_bias_control: r is 1; 2^-24 or up to twice that for binary32 forced to UNORM; 2^-n
+// exactly.
+TEST(DepthHand, UnitsThatTheApplicationChooses) {
+    using Representation = cases::DepthBiasRepresentation;
+    cases::Case c = case_of({half_plane(0.015625)});
+    std::optional<cases::DepthBias>& bias = c.draws[0].depth.bias;
+    for (const Profile profile : cases::kProfiles) {
+        bias = cases::DepthBias{0.25F, 0, 0, Representation::floating, false};
+        EXPECT_TRUE(accepts(c, 0.015625 + 0.25, profile));
+        EXPECT_FALSE(accepts(c, 0.015625, profile));
+        EXPECT_FALSE(accepts(c, 0.015625 + 0.5, profile));
+        bias = cases::DepthBias{0x1p16F, 0, 0, Representation::force_unorm, true};
+        EXPECT_TRUE(accepts(c, 0.015625 + 0x1p-8, profile));
+        EXPECT_FALSE(accepts(c, 0.015625 + 0x1p-7, profile));
+        EXPECT_FALSE(accepts(c, 0.015625 + 0x1p-13, profile));  // 2^(e-23)
+        bias->is_exact = false;
+        EXPECT_TRUE(accepts(c, 0.015625 + 0x1p-7, profile));
+        EXPECT_FALSE(accepts(c, 0.015625 + 0x1p-6, profile));
+    }
+    c.target.depth_format = DepthFormat::d16_unorm;
+    bias = cases::DepthBias{0x1p12F, 0, 0, Representation::format, true};
+    EXPECT_TRUE(
+        accepts(c, 5120.0 / 65535, Profile::direct3d));  // (2^-6 + 2^-4) (2^16 - 1) = 5119.9
+    EXPECT_FALSE(accepts(c, 9215.0 / 65535, Profile::direct3d));
+    bias->is_exact = false;
+    EXPECT_TRUE(
+        accepts(c, 9216.0 / 65535, Profile::direct3d));  // (2^-6 + 2^-3) (2^16 - 1) = 9215.9
+}
+
+// With an exact r nothing is promised of planes r apart.
+TEST(DepthHand, ExactUnitsNeedNotBeDistinct) {
+    const cases::Draw d = half_plane(0.3, 0.013, 0.007);
+    cases::Case c = case_of({d, d});
+    c.draws[1].depth.bias = cases::DepthBias{2, 0, 0};
+    c.draws[1].depth.compare = CompareOp::less;
+    expect_hits(c, 1, 1);
+    c.draws[1].depth.bias->is_exact = true;
+    expect_hits(c, 1, 2);
+}
+
 // Gradients 3/64 and 4/64: the larger is 1/16, the Euclidean norm 5/64.
 TEST(DepthHand, SlopeBetweenTheNorms) {
     cases::Case c = case_of({half_plane(0.25, 3.0 / 64, 4.0 / 64)});
