@@ -17,6 +17,13 @@ namespace {
 // Greedy matching with backtracking over "*" and "**"; the pattern's other characters stand for
 // themselves. "**" followed by "/" also matches nothing ("a/**/b" matches "a/b").
 bool match(std::string_view pattern, std::string_view text) {
+    // Most patterns differ from most ids before their first star.
+    const size_t plain = std::min(pattern.find('*'), pattern.size());
+    if (!text.starts_with(pattern.substr(0, plain))) {
+        return false;
+    }
+    pattern.remove_prefix(plain);
+    text.remove_prefix(plain);
     // reachable[i]: the pattern so far can match the first i characters.
     std::vector<bool> reachable(text.size() + 1, false);
     reachable[0] = true;
