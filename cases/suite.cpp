@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -29,13 +30,17 @@ Expected<std::string> read_file(const fs::path& file) {
     }
     std::ifstream stream(file, std::ios::binary);
     std::string text;
-    // One byte more than is allowed is enough to say that the file is too large.
-    text.resize(kMaxFileSize + 1);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    // Pieces: most files are small. One byte more than is allowed is enough to say that the file is
+    // too large.
+    std::array<char, 16384> piece;
+    while (stream && text.size() <= kMaxFileSize) {
+        stream.read(piece.data(), piece.size());
+        text.append(piece.data(), static_cast<size_t>(stream.gcount()));
+    }
     if (stream.bad() || !(stream.eof() || stream.good())) {
         return tl::unexpected(Error{where, "the file cannot be read"});
     }
-    text.resize(static_cast<size_t>(stream.gcount()));
+    text.resize(std::min(text.size(), kMaxFileSize + 1));
     return text;
 }
 

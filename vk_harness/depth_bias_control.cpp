@@ -35,8 +35,8 @@ DepthBiasSupport query_depth_bias_support(VkPhysicalDevice physical,
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &control;
     vkGetPhysicalDeviceFeatures2(physical, &features);
-    return {control.control == VK_TRUE, control.force_unorm == VK_TRUE,
-            control.floating == VK_TRUE, control.exact == VK_TRUE};
+    return {control.control == VK_TRUE, control.force_unorm == VK_TRUE, control.floating == VK_TRUE,
+            control.exact == VK_TRUE};
 }
 
 void enable_depth_bias_control(const DepthBiasSupport& support, VkPhysicalDeviceFeatures2& features,
