@@ -68,7 +68,8 @@ enum class Probe : uint8_t {
 
 inline constexpr float kDepthClear = 0.375F;  // unless the case says otherwise
 inline constexpr uint32_t kMaxAttributes = 4;
-inline constexpr uint32_t kMaxTargetSize = 16384;       // pixels a side
+inline constexpr uint32_t kMaxTargetSize = 16384;  // pixels a side
+inline constexpr uint32_t kMaxLayers = 256;  // every device with layered rendering has as many
 inline constexpr uint32_t kRestartIndex = 0xffffffffU;  // primitive restart, 32-bit indices
 inline constexpr float kMaxAttributeMagnitude =
     0x1p126F;  // larger ones could look like the clear value
@@ -221,7 +222,7 @@ struct Draw {
     ClipDistances distances;
     Multisample multisample;
     ColorOutput color;   // if the target has a colour target
-    uint32_t layer = 0;  // of a target with several layers
+    uint32_t layer = 0;  // below Target::layers; gl_Layer of all its primitives
     uint32_t viewport_index = 0;
     SourceLocation where;
 };
@@ -232,7 +233,7 @@ enum class Resolve : uint8_t { none, sample_zero, average, min, max };
 struct Target {
     uint32_t width = 0, height = 0;  // pixels
     uint32_t samples = 1;
-    uint32_t layers = 1;
+    uint32_t layers = 1;  // 1..kMaxLayers, all of one size
     DepthFormat depth_format = DepthFormat::d32_float;
     // Custom sample locations in 1/16 pixel, one a sample; empty: the standard ones.
     std::vector<std::array<uint8_t, 2>> sample_locations = {};
@@ -247,6 +248,8 @@ struct Target {
     // An 8-bit stencil beside D32, cleared to 0: front faces add one, back faces subtract one,
     // modulo 256.
     bool has_stencil = false;
+    // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
+    uint32_t rows() const { return height * layers; }
     friend bool operator==(const Target&, const Target&) = default;
 };
 

@@ -185,6 +185,23 @@ class CaseLoader {
             c_.draws.push_back(
                 load_draw(context_, table, c_.target, c_.draws.size() + 1, c_.notes));
         }
+        check_layers(*draws);
+    }
+
+    // The shaders that write gl_Layer have no clip and cull distances.
+    void check_layers(const TomlValue& draws) {
+        const bool is_named = std::any_of(c_.draws.begin(), c_.draws.end(),
+                                          [](const Draw& draw) { return draw.layer > 0; });
+        for (const TomlValue& table : draws.array) {
+            for (const char* key : {"clip_distance", "cull_distance"}) {
+                if (const TomlValue* value = is_named ? table.find(key) : nullptr) {
+                    context_.error(value->where,
+                                   fmt::format("{} does not go with draws to several layers; leave "
+                                               "out layer",
+                                               key));
+                }
+            }
+        }
     }
 
     const TomlValue& root_;
@@ -244,15 +261,26 @@ std::optional<ExpectedHits> read_hits(LeafContext& context, const TomlValue& tab
         return std::nullopt;
     }
     ExpectedHits expected{{}, hits->where};
-    if (target.samples == 1) {
+    const uint32_t pictures = target.samples * target.layers;
+    if (pictures == 1) {
         return read_picture(context, *hits, "hits", target, expected.rows)
                    ? std::optional(std::move(expected))
                    : std::nullopt;
     }
-    if (!hits->is(Kind::array) || hits->array.size() != target.samples) {
-        context.error(hits->where, fmt::format("the target has {} samples a pixel, so hits is an "
-                                               "array of {} pictures, sample 0 first",
-                                               target.samples, target.samples));
+    if (!hits->is(Kind::array) || hits->array.size() != pictures) {
+        context.error(
+            hits->where,
+            target.layers == 1
+                ? fmt::format("the target has {} samples a pixel, so hits is an array of {} "
+                              "pictures, sample 0 first",
+                              target.samples, pictures)
+            : target.samples == 1
+                ? fmt::format("the target has {} layers, so hits is an array of {} pictures, layer "
+                              "0 first",
+                              target.layers, pictures)
+                : fmt::format("the target has {} layers of {} samples a pixel, so hits is an array "
+                              "of {} pictures, all samples of layer 0 first",
+                              target.layers, target.samples, pictures));
         return std::nullopt;
     }
     for (size_t s = 0; s < hits->array.size(); ++s) {

@@ -41,19 +41,16 @@ class DrawLoader {
         : context_(context), table_(table), target_(target) {}
 
     Draw load(const std::string& name, std::vector<std::string>& notes) {
-        context_.known_keys(table_, "[[draw]]", {"topology",      "space",
-                                                 "vertices",      "generate",
-                                                 "indices",       "viewport",
-                                                 "scissor",       "viewport_index",
-                                                 "cull",          "front_face",
-                                                 "provoking",     "depth",
-                                                 "depth_volume",  "clip_distance",
-                                                 "cull_distance", "attribute",
-                                                 "mirror",        "rotate",
-                                                 "offset",        "winding",
-                                                 "first",         "order",
-                                                 "color",         "sample_mask",
-                                                 "shader_mask",   "min_sample_shading"});
+        context_.known_keys(table_, "[[draw]]",
+                            {"topology",      "space",          "vertices",
+                             "generate",      "indices",        "viewport",
+                             "scissor",       "viewport_index", "layer",
+                             "cull",          "front_face",     "provoking",
+                             "depth",         "depth_volume",   "clip_distance",
+                             "cull_distance", "attribute",      "mirror",
+                             "rotate",        "offset",         "winding",
+                             "first",         "order",          "color",
+                             "sample_mask",   "shader_mask",    "min_sample_shading"});
         draw_.where = table_.where;
         draw_.topology = enumerated("topology", kTopology, Topology::triangle_list);
         draw_.cull = enumerated("cull", kCull, CullMode::none);
@@ -66,6 +63,7 @@ class DrawLoader {
             draw_.viewport_index = static_cast<uint32_t>(
                 context_.integer(*value, "viewport_index", 0, kMaxViewportIndex).value_or(0));
         }
+        read_layer();
         if (const TomlValue* depth = table_.find("depth")) {
             draw_.depth = read_depth_state(context_, *depth);
         }
@@ -182,6 +180,27 @@ class DrawLoader {
                 context_.binary32((*numbers)[i], rect->array[i].where, "viewport").value_or(1.0F);
         }
         check_viewport(*rect);
+    }
+
+    // "If the Layer value is ... greater than or equal to the number of layers in the framebuffer,
+    // then ... the framebuffer values for all layers are undefined" (Vulkan specification,
+    // "Built-In Variables", Layer).
+    void read_layer() {
+        const TomlValue* value = table_.find("layer");
+        if (value == nullptr) {
+            return;
+        }
+        const std::optional<int64_t> layer = context_.integer(*value, "layer", 0, kMaxLayers - 1);
+        if (layer && *layer >= target_.layers) {
+            context_.error(value->where,
+                           target_.layers == 1
+                               ? std::string("the target has one layer; write layers = N in "
+                                             "[target]")
+                               : fmt::format("the target has {} layers, 0 to {}", target_.layers,
+                                             target_.layers - 1));
+            return;
+        }
+        draw_.layer = static_cast<uint32_t>(layer.value_or(0));
     }
 
     void read_depth(const TomlValue& depth) {

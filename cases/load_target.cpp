@@ -36,6 +36,13 @@ void read_samples(LeafContext& context, const TomlValue& table, Target& target) 
     }
 }
 
+void read_layers(LeafContext& context, const TomlValue& table, Target& target) {
+    if (const TomlValue* layers = table.find("layers")) {
+        target.layers =
+            static_cast<uint32_t>(context.integer(*layers, "layers", 1, kMaxLayers).value_or(1));
+    }
+}
+
 void read_locations(LeafContext& context, const TomlValue& table, Target& target) {
     const TomlValue* locations = table.find("sample_locations");
     if (locations == nullptr || !context.array(*locations, "sample_locations")) {
@@ -103,6 +110,14 @@ void read_resolve(LeafContext& context, const TomlValue& table, const char* key,
 void read_resolves(LeafContext& context, const TomlValue& table, Target& target) {
     read_resolve(context, table, "resolve", target.samples, target.color_resolve);
     read_resolve(context, table, "depth_resolve", target.samples, target.depth_resolve);
+    for (const char* key : {"resolve", "depth_resolve"}) {
+        const bool is_on =
+            (key[0] == 'r' ? target.color_resolve : target.depth_resolve) != Resolve::none;
+        if (is_on && target.layers > 1) {
+            context.error(table.find(key)->where,
+                          fmt::format("{} does not go with several layers; leave out layers", key));
+        }
+    }
     if (target.color_resolve != Resolve::none) {
         const SourceLocation& where = table.find("resolve")->where;
         if (!target.color) {
@@ -139,10 +154,11 @@ void read_stencil(LeafContext& context, const TomlValue& table, Target& target) 
 Target load_target(LeafContext& context, const TomlValue& table) {
     Target target;
     context.known_keys(table, "[target]",
-                       {"size", "samples", "sample_locations", "depth", "depth_clear", "color",
-                        "attachments", "resolve", "depth_resolve", "stencil"});
+                       {"size", "samples", "layers", "sample_locations", "depth", "depth_clear",
+                        "color", "attachments", "resolve", "depth_resolve", "stencil"});
     read_depth_target(context, table, target);
     read_samples(context, table, target);
+    read_layers(context, table, target);
     read_locations(context, table, target);
     if (const TomlValue* color = table.find("color")) {
         target.color = read_color_target(context, *color);
@@ -169,7 +185,7 @@ Target load_target(LeafContext& context, const TomlValue& table) {
     };
     target.width = side(0, "the target's width");
     target.height = side(1, "the target's height");
-    if (uint64_t{target.width} * target.height * target.samples > kMaxPixels) {
+    if (uint64_t{target.width} * target.height * target.layers * target.samples > kMaxPixels) {
         context.error(size->where, target.samples == 1
                                        ? "the target has more than 2^26 pixels; make it smaller"
                                        : "the target has more than 2^26 samples; make it smaller");

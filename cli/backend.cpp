@@ -208,10 +208,7 @@ diff::Capture draw_by_reference(const cases::Case& c) {
         const ref::Triangle& triangle = expectation.triangles[t];
         capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                                   diff::kClearId};
-        const size_t pixel = index / c.target.samples;
-        const ref::SampleId id{static_cast<uint32_t>(pixel % c.target.width),
-                               static_cast<uint32_t>(pixel / c.target.width),
-                               static_cast<uint32_t>(index % c.target.samples)};
+        const ref::SampleId id = ref::sample_at(c.target, index);
         capture.frag_coord[index] =
             glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
         const size_t attributes = c.draws[triangle.draw].attributes.size();

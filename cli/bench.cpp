@@ -94,7 +94,7 @@ std::vector<cases::Case> selected_cases(LoadedSuite& suite) {
 uint64_t sample_count(const std::vector<cases::Case>& cases) {
     uint64_t count = 0;
     for (const cases::Case& c : cases) {
-        count += uint64_t{c.target.width} * c.target.height * c.target.samples;
+        count += uint64_t{c.target.width} * c.target.rows() * c.target.samples;
     }
     return count;
 }

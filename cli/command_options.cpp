@@ -256,6 +256,8 @@ void define_others(CLI::App& app, AllOptions& all) {
         ->type_name("X,Y")
         ->required();
     explain->add_option("--sample", all.explain.sample, "the sample in it [0]")->type_name("S");
+    explain->add_option("--layer", all.explain.layer, "the layer of the target [0]")
+        ->type_name("L");
     add_profile(explain, all.explain.profile);
     add_subpixel_bits(explain, all.explain.subpixel_bits);
 

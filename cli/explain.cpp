@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cases/rule.hpp"
+#include "diff/verdict.hpp"
 #include "ref/blit.hpp"
 #include "ref/explain.hpp"
 
@@ -96,13 +97,16 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
                 fmt::format("    {} ({}): {}\n", rule->id, to_string(rule->profile), rule->title);
         }
     }
-    text += fmt::format("\npixel ({}, {}), sample {} at ({}, {}); profile {}, {} subpixel bits\n",
-                        sample.x, sample.y, sample.sample, ref::to_text(s.position.x),
-                        ref::to_text(s.position.y), to_string(profile), limits.subpixel_bits);
-    if (!s.in_scissor) {
+    text +=
+        fmt::format("\n{}, sample {} at ({}, {}); profile {}, {} subpixel bits\n",
+                    diff::pixel_text(c.target, sample), sample.sample, ref::to_text(s.position.x),
+                    ref::to_text(s.position.y), to_string(profile), limits.subpixel_bits);
+    if (!s.in_layer) {
+        text += "    no draw goes to this layer\n";
+    } else if (!s.in_scissor) {
         text += "    it lies outside every scissor rectangle\n";
     }
-    if (!s.in_viewport) {
+    if (s.in_layer && !s.in_viewport) {
         text += "    it lies outside every viewport\n";
     }
     // The interesting ones first: those that may cover the sample, then the near misses.

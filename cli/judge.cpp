@@ -38,9 +38,10 @@ uint32_t window_begin(uint32_t lo, uint32_t hi, uint32_t size) {
 report::Pictures cut_pictures(const diff::Verdict& verdict, const cases::Target& target) {
     report::Pictures p;
     p.width = std::min(target.width, kPictureSide);
-    p.height = std::min(target.height, kPictureSide);
+    p.height = std::min(target.rows(), kPictureSide);
     p.left = window_begin(verdict.min_x, verdict.max_x, target.width);
-    p.top = window_begin(verdict.min_y, verdict.max_y, target.height);
+    p.top = window_begin(verdict.min_y, verdict.max_y, target.rows());
+    p.layer_height = target.layers > 1 ? target.height : 0;
     const size_t row = size_t{p.width} * target.samples;
     const auto add_row = [&](std::vector<uint8_t>& to, const auto& from, size_t begin) {
         for (size_t k = begin; k < begin + row && k < from.size(); ++k) {

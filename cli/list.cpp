@@ -188,18 +188,22 @@ int explain_command(const Program& program, const ExplainOptions& options) {
     }
     const cases::Target& target = c->target;
     if (options.x >= target.width || options.y >= target.height ||
-        options.sample >= target.samples) {
+        options.sample >= target.samples || options.layer >= target.layers) {
+        const bool layered = target.layers > 1 || options.layer > 0;
         return report_stop(
             {report::kExitUsage,
              {"pixel " + std::to_string(options.x) + "," + std::to_string(options.y) + " sample " +
-              std::to_string(options.sample) + " is outside the target of " +
-              std::to_string(target.width) + " x " + std::to_string(target.height) +
-              " pixels with " + std::to_string(target.samples) + " sample(s)"}});
+              std::to_string(options.sample) +
+              (layered ? " layer " + std::to_string(options.layer) : "") +
+              " is outside the target of " + std::to_string(target.width) + " x " +
+              std::to_string(target.height) + " pixels with " + std::to_string(target.samples) +
+              " sample(s)" +
+              (layered ? " and " + std::to_string(target.layers) + " layer(s)" : "")}});
     }
     ref::Limits limits;
     limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
-    const std::string text =
-        explain_text(*c, limits, options.profile, {options.x, options.y, options.sample});
+    const std::string text = explain_text(*c, limits, options.profile,
+                                          {options.x, options.y, options.sample, options.layer});
     std::printf("%s%s", text.c_str(), text.ends_with('\n') ? "" : "\n");
     return report::kExitOk;
 }

@@ -71,7 +71,7 @@ struct LintOptions {
 
 struct ExplainOptions {
     SuiteOptions suite;  // exactly one selector, one case
-    uint32_t x = 0, y = 0, sample = 0;
+    uint32_t x = 0, y = 0, sample = 0, layer = 0;
     cases::Profile profile = cases::Profile::direct3d;
     uint32_t subpixel_bits = 8;
 };

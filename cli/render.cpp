@@ -27,12 +27,7 @@ struct Reference {
     ref::Expectation expectation;
     ref::ValueReference values;
 
-    ref::SampleId id(size_t index) const {
-        const size_t pixel = index / c.target.samples;
-        return {static_cast<uint32_t>(pixel % c.target.width),
-                static_cast<uint32_t>(pixel / c.target.width),
-                static_cast<uint32_t>(index % c.target.samples)};
-    }
+    ref::SampleId id(size_t index) const { return ref::sample_at(c.target, index); }
 };
 
 const char* class_name(const ref::HitBounds& hits) {
@@ -86,6 +81,7 @@ std::string to_json(Reference& r) {
         samples.push_back({{"x", id.x},
                            {"y", id.y},
                            {"sample", id.sample},
+                           {"layer", id.layer},
                            {"class", class_name(s.hits)},
                            {"front", {s.hits.front_min, s.hits.front_max}},
                            {"back", {s.hits.back_min, s.hits.back_max}},
@@ -99,6 +95,7 @@ std::string to_json(Reference& r) {
                       {"width", r.c.target.width},
                       {"height", r.c.target.height},
                       {"samples_per_pixel", r.c.target.samples},
+                      {"layers", r.c.target.layers},
                       {"must_samples", e.must_samples},
                       {"either_samples", e.either_samples},
                       {"note", "samples that must not be covered are left out"},
@@ -126,7 +123,7 @@ report::Image values_image(Reference& r) {
             }
         }
     }
-    report::Image image{target.width, target.height, {}, {}};
+    report::Image image{target.width, target.rows(), {}, {}};  // layers stacked
     const size_t per_sample = 2 + quantities.size();
     for (uint32_t s = 0; s < target.samples; ++s) {
         const std::string prefix = target.samples > 1 ? "sample" + std::to_string(s) + "." : "";
@@ -157,8 +154,8 @@ report::Image values_image(Reference& r) {
 // To look at: white must be covered, black must not, grey may; the samples of a pixel are averaged.
 report::Image coverage_image(const Reference& r) {
     const cases::Target& target = r.c.target;
-    report::Image image{target.width, target.height, {"R", "G", "B"}, {}};
-    for (size_t pixel = 0; pixel < size_t{target.width} * target.height; ++pixel) {
+    report::Image image{target.width, target.rows(), {"R", "G", "B"}, {}};
+    for (size_t pixel = 0; pixel < size_t{target.width} * target.rows(); ++pixel) {
         float sum = 0;
         for (uint32_t s = 0; s < target.samples; ++s) {
             const ref::HitBounds& hits = r.expectation.samples[pixel * target.samples + s].hits;

@@ -306,6 +306,9 @@ void RunLoop::on_judged(size_t k, CaseRecord record) {
         if (cases_[k].data.target.samples > 1) {
             record.explain += " --sample " + std::to_string(f.sample);
         }
+        if (cases_[k].data.target.layers > 1) {
+            record.explain += " --layer " + std::to_string(f.layer.value_or(0));
+        }
     }
     const bool unexpected = record.status != Status::pass && is_unexpected(k, record.status);
     if (schedule_.judged(k, unexpected)) {

@@ -176,7 +176,7 @@ bool WorkerClient::find_planes(CaseResult& result) const {
     }
     if (region_ == nullptr || result.offset < region_->offset || result.offset % 16 != 0 ||
         c.target.width > cases::kMaxTargetSize || c.target.height > cases::kMaxTargetSize ||
-        c.target.samples > 64) {
+        c.target.samples > 64 || c.target.layers > cases::kMaxLayers) {
         return false;
     }
     const uint64_t at = result.offset - region_->offset;

@@ -43,7 +43,7 @@ struct Ties {
 Ties ties_of(const ref::SampleExplanation& s) {
     Ties ties;
     for (const ref::TriangleExplanation& t : s.triangles) {
-        if (t.on_edge && t.has_area && !t.culled) {
+        if (t.on_edge && t.in_layer && t.has_area && !t.culled) {
             ++ties.edges;
             ties.vertices += t.on_vertex ? 1 : 0;
             ties.first = ties.first ? ties.first : &t;
@@ -66,13 +66,19 @@ struct Cause {
 };
 
 // A triangle that would cover the sample but for scissor, viewport, culling or clipping: why it
-// must not.
+// must not. A draw to another layer comes last: any other cause says more.
 std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
+    std::optional<Cause> other_layer;
     for (const ref::TriangleExplanation& t : s.triangles) {
         const bool negative =
             std::any_of(t.edges.begin(), t.edges.end(), [](const auto& e) { return e.value < 0; });
         const bool outside = negative || (!t.edges.empty() && !t.has_area);
         if (outside || t.coverage != ref::Coverage::must_not) {
+            continue;
+        }
+        if (!t.in_layer) {
+            other_layer = other_layer.value_or(
+                Cause{"layer.select", fmt::format("{}: {}", name_of(t), t.reason)});
             continue;
         }
         if (!t.in_scissor) {
@@ -104,7 +110,7 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
             return Cause{"clip.volume", fmt::format("{} is clipped away here", name_of(t))};
         }
     }
-    return std::nullopt;
+    return other_layer;
 }
 
 // A hit too many of a triangle that must fail the depth test, or one too few of a triangle that
@@ -132,6 +138,9 @@ std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExpla
 
 // Too many hits at a sample that no triangle may cover.
 Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
+    if (!s.in_layer) {
+        return {"layer.select", "no draw goes to this layer"};
+    }
     if (!s.in_scissor) {
         return {"scissor.half-open", "the sample lies outside the scissor rectangle"};
     }
@@ -140,7 +149,7 @@ Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
     }
     if (level == cases::Profile::direct3d) {
         for (const ref::TriangleExplanation& t : s.triangles) {
-            if (t.on_edge && t.in_scissor && t.in_mask && !t.culled) {
+            if (t.on_edge && t.in_layer && t.in_scissor && t.in_mask && !t.culled) {
                 return {t.has_area ? "tie.top-left" : "cover.degenerate",
                         fmt::format("{}: {}", name_of(t), t.reason)};
             }
@@ -226,8 +235,7 @@ const ref::Expectation& Attribution::at(cases::Profile profile) {
 }
 
 size_t Attribution::index_of(const Finding& finding) const {
-    return (size_t{finding.y} * case_.target.width + finding.x) * case_.target.samples +
-           finding.sample;
+    return ref::index_of(case_.target, place_of(finding));
 }
 
 void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
@@ -260,8 +268,8 @@ void Attribution::attribute_writer(Finding& finding,
         return;  // whatever is granted, that triangle cannot have been the last
     }
     // A looser profile lets the writer cover the sample: it is a question of who owns it.
-    const ref::SampleExplanation s = ref::explain_sample(case_, expectation_.limits, finding.level,
-                                                         {finding.x, finding.y, finding.sample});
+    const ref::SampleExplanation s =
+        ref::explain_sample(case_, expectation_.limits, finding.level, place_of(finding));
     const Ties ties = ties_of(s);
     if (ties.first != nullptr) {
         finding.rule = "tie.top-left";
@@ -290,7 +298,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     if (explained_ >= kExplained && earlier != like_.end()) {
         finding.rule = earlier->second.rule;
         finding.quantity = earlier->second.quantity;
-        finding.why = fmt::format("as at pixel ({}, {})", earlier->second.x, earlier->second.y);
+        finding.why = "as at " + pixel_text(case_.target, place_of(earlier->second));
         return;
     }
     explain_hits(finding, asked, front + back);
@@ -300,8 +308,8 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
 
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked,
                                uint32_t total) const {
-    const ref::SampleExplanation s = ref::explain_sample(case_, expectation_.limits, finding.level,
-                                                         {finding.x, finding.y, finding.sample});
+    const ref::SampleExplanation s =
+        ref::explain_sample(case_, expectation_.limits, finding.level, place_of(finding));
     if (finding.kind == FindingKind::value) {
         if (const Ties ties = ties_of(s);
             finding.level == cases::Profile::direct3d && ties.first != nullptr) {

@@ -96,7 +96,7 @@ struct Capture {
     std::vector<ColorCodes> resolved_color;  // one a pixel: Target::color_resolve
     std::vector<float> resolved_depth;       // one a pixel: Target::depth_resolve
 
-    size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
+    size_t sample_count() const { return size_t{target.width} * target.rows() * target.samples; }
 };
 
 // A capture whose planes lie anywhere: in a Capture, or in memory shared with another process.
@@ -131,7 +131,7 @@ struct CaptureView {
             attributes[a] = c.attributes[a];
         }
     }
-    size_t sample_count() const { return size_t{target.width} * target.height * target.samples; }
+    size_t sample_count() const { return size_t{target.width} * target.rows() * target.samples; }
 };
 
 inline bool resolves_color(const cases::Target& target) {
@@ -144,12 +144,12 @@ inline bool resolves_depth(const cases::Target& target) {
 // Bytes of all planes of a capture, one after the other: hits, writers, frag_coord, attributes,
 // color, depth, stencil, resolved colour and depth; those that the target has.
 inline uint64_t plane_bytes(const cases::Target& target, uint32_t attribute_count) {
-    const uint64_t samples = uint64_t{target.width} * target.height * target.samples;
+    const uint64_t samples = uint64_t{target.width} * target.rows() * target.samples;
     const uint64_t instruments =
         target.has_instruments
             ? sizeof(glm::vec4) * (2 + uint64_t{attribute_count}) + sizeof(Writer)
             : 0;
-    const uint64_t pixels = uint64_t{target.width} * target.height;
+    const uint64_t pixels = uint64_t{target.width} * target.rows();
     const auto size_if = [](bool present, uint64_t bytes) { return present ? bytes : 0; };
     return samples * (instruments + size_if(target.color.has_value(), sizeof(ColorCodes)) +
                       size_if(target.has_depth, sizeof(float)) +
@@ -189,7 +189,7 @@ inline CaptureView view_planes(const cases::Target& target, bool has_primitive,
     if (target.has_stencil) {
         take(view.stencil);
     }
-    const size_t pixels = size_t{target.width} * target.height;
+    const size_t pixels = size_t{target.width} * target.rows();
     if (resolves_color(target)) {
         take_some(view.resolved_color, pixels);
     }
@@ -202,7 +202,7 @@ inline CaptureView view_planes(const cases::Target& target, bool has_primitive,
 // True if the planes are those that the target has, one entry a sample or resolved pixel.
 inline bool has_all_planes(const CaptureView& c) {
     const size_t count = c.sample_count();
-    const size_t pixels = size_t{c.target.width} * c.target.height;
+    const size_t pixels = size_t{c.target.width} * c.target.rows();
     const size_t instruments = c.target.has_instruments ? count : 0;
     bool fits = c.hits.size() == instruments && c.writers.size() == instruments &&
                 c.frag_coord.size() == instruments &&

@@ -55,9 +55,7 @@ std::optional<Finding> ColorComparison::judge(size_t index, ref::SampleId id,
              .explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
         Finding finding;
         finding.kind = FindingKind::value;
-        finding.x = id.x;
-        finding.y = id.y;
-        finding.sample = id.sample;
+        place(finding, case_.target, id);
         finding.rule = "depth.linear";
         finding.quantity = "depth";
         finding.level = expectation_.profile;
@@ -80,9 +78,7 @@ Finding ColorComparison::finding_of(size_t index, ref::SampleId id,
                                     const ref::ColorVerdict& verdict,
                                     const std::optional<ref::ColorWitness>& witness) {
     Finding finding;
-    finding.x = id.x;
-    finding.y = id.y;
-    finding.sample = id.sample;
+    place(finding, case_.target, id);
     const ref::color::Unit unit{case_.target.color->format, expectation_.profile};
     const std::string got = unit.text_of(capture_.color[index]);
     const uint32_t hits = verdict.hits;

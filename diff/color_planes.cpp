@@ -38,11 +38,7 @@ void add_color_plane(Capture& capture, const cases::Case& c, const ref::Expectat
         if (attribute >= 0) {
             witness.written = &capture.attributes[static_cast<size_t>(attribute)][index];
         }
-        const size_t pixel = index / c.target.samples;
-        const ref::SampleId id{static_cast<uint32_t>(pixel % c.target.width),
-                               static_cast<uint32_t>(pixel / c.target.width),
-                               static_cast<uint32_t>(index % c.target.samples)};
-        capture.color[index] = reference.codes(index, id, witness);
+        capture.color[index] = reference.codes(index, ref::sample_at(c.target, index), witness);
     }
 }
 

@@ -46,16 +46,19 @@ class Comparison {
         verdict_.marks.assign(count, SampleMark::ok);
         const cases::Target& target = case_.target;
         size_t index = 0;
-        for (uint32_t y = 0; y < target.height; ++y) {
+        for (uint32_t row = 0; row < target.rows(); ++row) {
+            const uint32_t y = row % target.height;
+            const uint32_t layer = row / target.height;
             for (uint32_t x = 0; x < target.width; ++x) {
                 for (uint32_t s = 0; s < target.samples; ++s, ++index) {
-                    judge_sample(index, {x, y, s});
+                    judge_sample(index, {x, y, s, layer});
                     if (!verdict_.error.empty()) {
                         return std::move(verdict_);
                     }
                 }
                 if (has_pixel_rules_) {
-                    for (Finding& finding : check_pixel(case_, expectation_, capture_, x, y)) {
+                    for (Finding& finding :
+                         check_pixel(case_, expectation_, capture_, {x, y, 0, layer})) {
                         const size_t at = index - target.samples + finding.sample;
                         add(std::move(finding), at);
                     }
@@ -64,8 +67,7 @@ class Comparison {
         }
         verdict_.error =
             judge_dependent_planes(capture_, expectation_.profile, [this](Finding finding) {
-                const size_t pixel = size_t{finding.y} * case_.target.width + finding.x;
-                const size_t at = pixel * case_.target.samples + finding.sample;
+                const size_t at = ref::index_of(case_.target, place_of(finding));
                 add(std::move(finding), at);
             });
         return std::move(verdict_);
@@ -76,8 +78,9 @@ class Comparison {
     std::string unusable() const {
         if (capture_.target != case_.target || !has_all_planes(capture_)) {
             return fmt::format(
-                "the capture has another size than the case's {}x{} target with {} sample(s)",
-                case_.target.width, case_.target.height, case_.target.samples);
+                "the capture has another size than the case's {}x{} target with {} sample(s){}",
+                case_.target.width, case_.target.height, case_.target.samples,
+                case_.target.layers > 1 ? fmt::format(" and {} layers", case_.target.layers) : "");
         }
         size_t attributes = 0;
         for (const cases::Draw& draw : case_.draws) {
@@ -120,10 +123,9 @@ class Comparison {
         switch (state) {
             case SampleState::not_copied:
                 verdict_.error = fmt::format(
-                    "sample {} of pixel ({}, {}) was not copied from the device: it still holds "
-                    "the "
-                    "read-back memory's fill pattern",
-                    id.sample, id.x, id.y);
+                    "sample {} of {} was not copied from the device: it still holds the read-back "
+                    "memory's fill pattern",
+                    id.sample, pixel_text(case_.target, id));
                 return;
             case SampleState::inconsistent: {
                 Finding finding = at(FindingKind::value, id);
@@ -245,7 +247,7 @@ class Comparison {
         }
         if (best->worst_ratio > verdict_.worst_ratio) {
             verdict_.worst_ratio = best->worst_ratio;
-            verdict_.worst_quantity = fmt::format("pixel ({}, {})", id.x, id.y);
+            verdict_.worst_quantity = pixel_text(case_.target, id);
         }
         judge_color(index, id, best_triangle);
         for (ref::ValueMismatch& m : best->mismatches) {
@@ -360,21 +362,20 @@ class Comparison {
             });
     }
 
-    static Finding at(FindingKind kind, ref::SampleId id) {
+    Finding at(FindingKind kind, ref::SampleId id) const {
         Finding finding;
         finding.kind = kind;
-        finding.x = id.x;
-        finding.y = id.y;
-        finding.sample = id.sample;
+        place(finding, case_.target, id);
         return finding;
     }
 
     void add(Finding finding, size_t index) {
         const bool first = verdict_.ok();
+        const uint32_t row = place_of(finding).layer * case_.target.height + finding.y;
         verdict_.min_x = first ? finding.x : std::min(verdict_.min_x, finding.x);
-        verdict_.min_y = first ? finding.y : std::min(verdict_.min_y, finding.y);
+        verdict_.min_y = first ? row : std::min(verdict_.min_y, row);
         verdict_.max_x = first ? finding.x : std::max(verdict_.max_x, finding.x);
-        verdict_.max_y = first ? finding.y : std::max(verdict_.max_y, finding.y);
+        verdict_.max_y = first ? row : std::max(verdict_.max_y, row);
         verdict_.level = first ? finding.level : std::min(verdict_.level, finding.level);
         ++verdict_.counts[static_cast<size_t>(finding.kind)];
         switch (finding.kind) {
@@ -411,6 +412,11 @@ class Comparison {
 
 }  // namespace
 
+std::string pixel_text(const cases::Target& target, const ref::SampleId& id) {
+    const std::string layer = target.layers > 1 ? fmt::format("layer {}, ", id.layer) : "";
+    return fmt::format("{}pixel ({}, {})", layer, id.x, id.y);
+}
+
 std::string_view to_string(FindingKind kind) {
     switch (kind) {
         case FindingKind::missing:
@@ -437,14 +443,15 @@ std::string check_expected_hits(const cases::Case& c) {
         return {};
     }
     const ref::Expectation e = ref::expect(c, ref::Limits{8}, cases::Profile::direct3d);
-    // Row s * height + y is row y of sample s.
+    // Row (layer * samples + s) * height + y is row y of sample s of a layer.
     const std::vector<std::string>& rows = c.expected_hits->rows;
     for (size_t row = 0; row < rows.size(); ++row) {
-        const size_t s = row / c.target.height;
-        const size_t y = row % c.target.height;
+        const auto picture = static_cast<uint32_t>(row / c.target.height);
+        ref::SampleId id{0, static_cast<uint32_t>(row % c.target.height),
+                         picture % c.target.samples, picture / c.target.samples};
         for (size_t x = 0; x < c.target.width; ++x) {
-            const ref::HitBounds& b =
-                e.samples[(y * c.target.width + x) * c.target.samples + s].hits;
+            id.x = static_cast<uint32_t>(x);
+            const ref::HitBounds& b = e.samples[ref::index_of(c.target, id)].hits;
             const char drawn = rows[row][x];
             const char reference = b.total_min != b.total_max ? '?'
                                    : b.total_min == 0         ? '.'
@@ -452,8 +459,9 @@ std::string check_expected_hits(const cases::Case& c) {
                                                               : '#';
             if (drawn != reference) {
                 return fmt::format(
-                    "the picture has '{}' at pixel ({}, {}){}, the reference says {} hit(s)", drawn,
-                    x, y, c.target.samples > 1 ? fmt::format(", sample {}", s) : "", to_text(b));
+                    "the picture has '{}' at {}{}, the reference says {} hit(s)", drawn,
+                    pixel_text(c.target, id),
+                    c.target.samples > 1 ? fmt::format(", sample {}", id.sample) : "", to_text(b));
             }
         }
     }

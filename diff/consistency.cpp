@@ -274,14 +274,12 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
             continue;
         }
         for (const Difference& difference : found[k].differences) {
-            const uint64_t pixel = difference.sample / c.target.samples;
             Finding finding;
             finding.kind = FindingKind::value;
             finding.rule = rule->id;
             finding.level = rule->profile;
-            finding.x = static_cast<uint32_t>(pixel % c.target.width);
-            finding.y = static_cast<uint32_t>(pixel / c.target.width % c.target.height);
-            finding.sample = static_cast<uint32_t>(difference.sample % c.target.samples);
+            place(finding, c.target, ref::sample_at(c.target, difference.sample));
+            const uint32_t row = place_of(finding).layer * c.target.height + finding.y;
             finding.quantity = fmt::format("{}, {}", plane_name(difference.plane, difference.word),
                                            derivations[k].name);
             finding.expected = show_bits(difference.plane, difference.expected);
@@ -290,9 +288,9 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
             const bool first = verdict.ok();
             verdict.level = first ? finding.level : std::min(verdict.level, finding.level);
             verdict.min_x = first ? finding.x : std::min(verdict.min_x, finding.x);
-            verdict.min_y = first ? finding.y : std::min(verdict.min_y, finding.y);
+            verdict.min_y = first ? row : std::min(verdict.min_y, row);
             verdict.max_x = first ? finding.x : std::max(verdict.max_x, finding.x);
-            verdict.max_y = first ? finding.y : std::max(verdict.max_y, finding.y);
+            verdict.max_y = first ? row : std::max(verdict.max_y, row);
             ++verdict.counts[static_cast<size_t>(FindingKind::value)];
             if (difference.sample < verdict.marks.size() &&
                 (verdict.marks[difference.sample] == SampleMark::ok ||

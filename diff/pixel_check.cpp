@@ -64,13 +64,13 @@ std::vector<Fragment> fragments_of(const ref::Expectation& e, const CaptureView&
     return out;
 }
 
-Finding finding_at(uint32_t x, uint32_t y, uint32_t s, const ref::Triangle& t) {
+Finding finding_at(const cases::Target& target, ref::SampleId pixel, uint32_t s,
+                   const ref::Triangle& t) {
     Finding finding;
     finding.kind = FindingKind::value;
     finding.level = cases::Profile::vulkan;
-    finding.x = x;
-    finding.y = y;
-    finding.sample = s;
+    pixel.sample = s;
+    place(finding, target, pixel);
     finding.why = fmt::format("triangle {} of draw {}: ", t.primitive, t.draw);
     return finding;
 }
@@ -82,7 +82,7 @@ bool has_distinct_locations(const cases::Target& target) {
 }
 
 std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureView& capture,
-                                         const Fragment& f, size_t first, uint32_t x, uint32_t y) {
+                                         const Fragment& f, size_t first, ref::SampleId pixel) {
     const uint32_t least = ref::value::least_invocations(draw, capture.target.samples);
     const auto rate = ref::value::shading_rate(draw, capture.target.samples);
     const bool is_on =
@@ -100,7 +100,7 @@ std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureV
     if (places.size() >= least) {
         return std::nullopt;
     }
-    Finding finding = finding_at(x, y, f.samples.front(), *f.triangle);
+    Finding finding = finding_at(capture.target, pixel, f.samples.front(), *f.triangle);
     finding.rule = "sample.shading";
     finding.quantity = "invocations";
     finding.expected = fmt::format("at least {} places of FragCoord.xy in the pixel", least);
@@ -111,8 +111,8 @@ std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureV
 
 // gl_SampleMaskIn of two samples: of one invocation, or without a common sample.
 std::optional<Finding> check_masks(const cases::Draw& draw, const CaptureView& capture,
-                                   const Fragment& f, size_t first, uint32_t attribute, uint32_t x,
-                                   uint32_t y) {
+                                   const Fragment& f, size_t first, uint32_t attribute,
+                                   ref::SampleId pixel) {
     const bool is_one =
         ref::value::shading_rate(draw, capture.target.samples) == ref::value::ShadingRate::fragment;
     const auto mask_of = [&](uint32_t s) -> uint32_t {
@@ -127,7 +127,7 @@ std::optional<Finding> check_masks(const cases::Draw& draw, const CaptureView& c
         if (before >= s || mask == other || (!is_one && (mask & other) == 0)) {
             continue;
         }
-        Finding finding = finding_at(x, y, s, *f.triangle);
+        Finding finding = finding_at(capture.target, pixel, s, *f.triangle);
         finding.rule = "sample.mask-in";
         finding.quantity = fmt::format("attribute {}.x", attribute);
         finding.expected = fmt::format("{:#b} as at sample {}{}", other, before,
@@ -152,23 +152,24 @@ bool has_pixel_rules(const cases::Case& c) {
 }
 
 std::vector<Finding> check_pixel(const cases::Case& c, const ref::Expectation& expectation,
-                                 const CaptureView& capture, uint32_t x, uint32_t y) {
+                                 const CaptureView& capture, ref::SampleId pixel) {
     std::vector<Finding> out;
-    const size_t first = (size_t{y} * c.target.width + x) * c.target.samples;
+    pixel.sample = 0;
+    const size_t first = ref::index_of(c.target, pixel);
     for (const Fragment& f : fragments_of(expectation, capture, first)) {
         const cases::Draw& draw = c.draws[f.triangle->draw];
         // Devices may make several fragments of the pieces of a clipped triangle.
         if (ref::value::make_primitive(c, *f.triangle).needs_clipping) {
             continue;
         }
-        if (auto finding = check_invocations(draw, capture, f, first, x, y)) {
+        if (auto finding = check_invocations(draw, capture, f, first, pixel)) {
             out.push_back(std::move(*finding));
         }
         for (uint32_t a = 0; a < draw.attributes.size(); ++a) {
             if (draw.attributes[a].source != cases::Source::sample_mask_in) {
                 continue;
             }
-            if (auto finding = check_masks(draw, capture, f, first, a, x, y)) {
+            if (auto finding = check_masks(draw, capture, f, first, a, pixel)) {
                 out.push_back(std::move(*finding));
             }
         }

@@ -18,11 +18,11 @@ namespace diff {
 // Whether any draw has something to agree on.
 bool has_pixel_rules(const cases::Case& c);
 
-// Findings of pixel (x,y) that no sample shows alone; each names the sample that shows it first.
-// Source: Vulkan specification, "Sample Shading" (at least ceil(minSampleShading x samples)
+// Findings of a pixel (of a layer) that no sample shows alone; each names the sample that shows it
+// first. Source: Vulkan specification, "Sample Shading" (at least ceil(minSampleShading x samples)
 // invocations a fragment; FragCoord.xy is a sample of its invocation) and "Built-In Variables"
 // (SampleMask: each covered sample is set in exactly one invocation).
 std::vector<Finding> check_pixel(const cases::Case& c, const ref::Expectation& expectation,
-                                 const CaptureView& capture, uint32_t x, uint32_t y);
+                                 const CaptureView& capture, ref::SampleId pixel);
 
 }  // namespace diff

@@ -154,7 +154,7 @@ class Judge {
         : capture_(capture), target_(capture.target), profile_(profile), add_(add) {}
 
     std::string run() {
-        const size_t pixels = size_t{target_.width} * target_.height;
+        const size_t pixels = size_t{target_.width} * target_.rows();
         for (size_t pixel = 0; pixel < pixels; ++pixel) {
             if (!judge_pixel(pixel)) {
                 return fmt::format(
@@ -227,8 +227,8 @@ class Judge {
 
     void report(std::optional<Finding> finding, size_t pixel, std::string quantity) {
         if (finding) {
-            finding->x = static_cast<uint32_t>(pixel % target_.width);
-            finding->y = static_cast<uint32_t>(pixel / target_.width);
+            const uint32_t sample = finding->sample;
+            place(*finding, target_, ref::sample_at(target_, pixel * target_.samples + sample));
             finding->quantity = std::move(quantity);
             add_(std::move(*finding));
         }
@@ -283,7 +283,7 @@ std::string judge_dependent_planes(const CaptureView& capture, Profile profile,
 
 void add_dependent_planes(Capture& capture) {
     const cases::Target& target = capture.target;
-    const size_t pixels = size_t{target.width} * target.height;
+    const size_t pixels = size_t{target.width} * target.rows();
     if (target.has_stencil) {
         capture.stencil.resize(capture.sample_count());
         std::transform(capture.hits.begin(), capture.hits.end(), capture.stencil.begin(),

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "diff/capture.hpp"
 #include "ref/expectation.hpp"
 #include "ref/limits.hpp"
+#include "ref/sample.hpp"
 #include "ref/value.hpp"
 
 namespace diff {
@@ -38,9 +40,25 @@ struct Finding {
     std::string quantity;  // value findings: "attribute 0.x", "depth", ...; else ""
     std::string expected;
     std::string got;
-    std::string why;   // one sentence with the exact arithmetic
-    double ratio = 0;  // value findings: error in budgets
+    std::string why;                     // one sentence with the exact arithmetic
+    double ratio = 0;                    // value findings: error in budgets
+    std::optional<uint32_t> layer = {};  // of a target with several layers
 };
+
+// Where a finding is.
+inline ref::SampleId place_of(const Finding& finding) {
+    return {finding.x, finding.y, finding.sample, finding.layer.value_or(0)};
+}
+inline void place(Finding& finding, const cases::Target& target, const ref::SampleId& id) {
+    finding.x = id.x;
+    finding.y = id.y;
+    finding.sample = id.sample;
+    if (target.layers > 1) {
+        finding.layer = id.layer;
+    }
+}
+// "pixel (3, 4)", of a target with several layers "layer 1, pixel (3, 4)".
+std::string pixel_text(const cases::Target& target, const ref::SampleId& id);
 
 // What the comparison saw at a sample, for pictures: one byte a sample.
 enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value, order };
@@ -52,8 +70,8 @@ struct Verdict {
     std::vector<Finding> findings;                    // the first kMaxFindings, in sample order
     std::array<uint64_t, kFindingKinds> counts{};     // of all, capped or not
     cases::Profile level = cases::Profile::direct3d;  // loosest level among all findings
-    uint32_t min_x = 0, min_y = 0, max_x = 0,
-             max_y = 0;  // bounding box of the wrong samples, inclusive
+    // Bounding box of the wrong samples, inclusive; y counts the rows of the stacked layers.
+    uint32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;
     uint64_t must_samples = 0, either_samples = 0, compared_samples = 0, compared_values = 0;
     double worst_ratio = 0;      // largest accepted or rejected error in budgets (K of this case)
     std::string worst_quantity;  // where

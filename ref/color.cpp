@@ -96,7 +96,7 @@ const color::Color& ColorReference::source_of(uint32_t triangle, SampleId id) {
     if (attribute < 0) {
         return constants_[draw];
     }
-    if (at_.x != id.x || at_.y != id.y || at_.sample != id.sample) {
+    if (!(at_ == id)) {
         sources_.clear();
         at_ = id;
     }

@@ -39,11 +39,12 @@ bool HitBounds::is_decided() const {
 
 namespace {
 
-// The spans of each row of pixels, and, one row at a time, the triangles that touch each sample.
+// The spans of each row of pixels of the stacked layers, and, one row at a time, the triangles that
+// touch each sample.
 class HitTable {
   public:
     HitTable(const cases::Target& target, const std::vector<fast::Span>& spans)
-        : samples_(target.samples), row_begin_(size_t{target.height} + 1), sorted_(spans.size()) {
+        : samples_(target.samples), row_begin_(size_t{target.rows()} + 1), sorted_(spans.size()) {
         // A stable counting sort by row: the spans of a sample stay in drawing order.
         for (const fast::Span& s : spans) {
             ++row_begin_[s.y + 1];
@@ -110,7 +111,12 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     std::vector<fast::Span> spans;
     for (uint32_t t = 0; t < out.triangles.size(); ++t) {
         if (setups.may_touch_a_sample(t)) {
+            const size_t first = spans.size();
             fast::scan(setups[t], t, c.target, spans);
+            const uint32_t down = c.draws[out.triangles[t].draw].layer * c.target.height;
+            for (size_t k = first; down > 0 && k < spans.size(); ++k) {
+                spans[k].y += down;
+            }
         }
     }
     HitTable table(c.target, spans);
@@ -121,11 +127,12 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     Narrowing narrowing(c, profile, out.triangles, setups,
                         {fast::is_in_hull, fast::winding, fast::is_inside_whole},
                         depth ? &*depth : nullptr);
-    out.samples.resize(size_t{c.target.width} * c.target.height * c.target.samples);
+    out.samples.resize(size_t{c.target.width} * c.target.rows() * c.target.samples);
     out.writers.reserve(table.size());
     size_t at = 0;
-    for (uint32_t j = 0; j < c.target.height; ++j) {
-        const bool is_touched = table.select_row(j);
+    for (uint32_t row = 0; row < c.target.rows(); ++row) {
+        const uint32_t j = row % c.target.height;
+        const bool is_touched = table.select_row(row);
         size_t k = 0;
         for (uint32_t i = 0; i < c.target.width; ++i) {
             for (uint32_t s = 0; s < c.target.samples; ++s, ++at, ++k) {

@@ -54,7 +54,7 @@ struct Expectation {
     cases::Profile profile = cases::Profile::direct3d;
     cases::Target target;
     std::vector<Triangle> triangles;         // drawing order
-    std::vector<SampleExpectation> samples;  // [(j * width + i) * samples + s]
+    std::vector<SampleExpectation> samples;  // by index_of, sample.hpp
     std::vector<uint32_t> writers;
     std::vector<uint32_t> depth_writers;
     // If the target has a colour: the triangles that must or may cover sample i, in drawing order,

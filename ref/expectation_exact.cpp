@@ -23,13 +23,16 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     }
     Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding, is_inside_whole},
                         depth ? &*depth : nullptr);
-    for (uint32_t j = 0; j < c.target.height; ++j) {
+    for (uint32_t row = 0; row < c.target.rows(); ++row) {
+        const uint32_t j = row % c.target.height;
+        const uint32_t layer = row / c.target.height;
         for (uint32_t i = 0; i < c.target.width; ++i) {
             for (uint32_t s = 0; s < c.target.samples; ++s) {
                 const FixedPoint p = sample_position(i, j, s, c.target);
                 std::vector<Hit> hits;
                 for (uint32_t t = 0; t < out.triangles.size(); ++t) {
-                    if (!is_in_mask(c.draws[out.triangles[t].draw].multisample, s)) {
+                    const cases::Draw& draw = c.draws[out.triangles[t].draw];
+                    if (draw.layer != layer || !is_in_mask(draw.multisample, s)) {
                         continue;
                     }
                     const Coverage coverage = classify(setups[t], p).coverage;

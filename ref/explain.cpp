@@ -21,6 +21,7 @@ cases::Case alone(const cases::Case& c, const Triangle& t, SampleId sample) {
     single.positions = {draw.positions[t.vertex[0]], draw.positions[t.vertex[1]],
                         draw.positions[t.vertex[2]]};
     single.viewport = draw.viewport;
+    single.layer = draw.layer;
     single.cull = draw.cull;
     single.depth.clamp = draw.depth.clamp;
     single.depth.clip = draw.depth.clip;
@@ -48,10 +49,6 @@ cases::Case alone(const cases::Case& c, const Triangle& t, SampleId sample) {
     result.target = c.target;
     result.draws.push_back(std::move(single));
     return result;
-}
-
-size_t index_of(const cases::Target& target, SampleId s) {
-    return (size_t{s.y} * target.width + s.x) * target.samples + s.sample;
 }
 
 mpq_class pixels(int64_t fixed) {
@@ -133,7 +130,10 @@ bool is_near(const cases::Draw& draw, const Triangle& t, FixedPoint p) {
     return px >= x0 - 2 && px <= x1 + 2 && py >= y0 - 2 && py <= y1 + 2;
 }
 
-std::string reason_for(const TriangleExplanation& t) {
+std::string reason_for(const TriangleExplanation& t, const cases::Draw& draw) {
+    if (!t.in_layer) {
+        return fmt::format("the draw goes to layer {}", draw.layer);
+    }
     if (!t.in_mask) {
         return "the sample mask of the draw leaves the sample out";
     }
@@ -286,6 +286,7 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
 
     // The whole case, seen through this pixel's scissor.
     cases::Case window = c;
+    result.in_layer = false;
     result.in_scissor = false;
     result.in_viewport = false;
     std::vector<bool> in_viewport;  // of each draw
@@ -295,7 +296,9 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
         const bool inside =
             x >= draw.scissor.x && x < draw.scissor.x + int64_t{draw.scissor.width} &&
             y >= draw.scissor.y && y < draw.scissor.y + int64_t{draw.scissor.height};
-        result.in_scissor = result.in_scissor || inside;
+        const bool in_layer = draw.layer == sample.layer;
+        result.in_layer = result.in_layer || in_layer;
+        result.in_scissor = result.in_scissor || (in_layer && inside);
         draw.scissor = {static_cast<int32_t>(sample.x), static_cast<int32_t>(sample.y),
                         inside ? 1U : 0U, inside ? 1U : 0U};
         const auto& v = draw.viewport;
@@ -305,7 +308,7 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
         const mpq_class va = v.y, vb = mpq_class(v.y) + mpq_class(v.height);
         in_viewport.push_back(px >= vx0 && px <= vx1 && py >= std::min(va, vb) &&
                               py <= std::max(va, vb));
-        result.in_viewport = result.in_viewport || in_viewport.back();
+        result.in_viewport = result.in_viewport || (in_layer && in_viewport.back());
     }
     const Expectation whole = expect(window, limits, profile);
     result.expectation = whole.samples[index];
@@ -365,10 +368,11 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
             }
             e.on_edge = zero && !negative;
         }
+        e.in_layer = draw.layer == sample.layer;
         e.in_scissor = single.draws[0].scissor.width != 0;
         e.in_viewport = in_viewport[t.draw];
         e.in_mask = is_in_mask(draw.multisample, sample.sample);
-        e.reason = reason_for(e);
+        e.reason = reason_for(e, draw);
         result.triangles.push_back(std::move(e));
     }
     explain_depth(c, triangles, limits, profile, result);

@@ -41,6 +41,7 @@ struct TriangleExplanation {
     Coverage coverage =
         Coverage::must_not;              // under the asked profile, scissor and culling included
     bool culled = false;                 // faces away for every allowed position
+    bool in_layer = true;                // its draw goes to the sample's layer
     bool in_scissor = true;              // of its draw
     bool in_viewport = true;             // of its draw
     bool in_mask = true;                 // of its draw
@@ -64,13 +65,14 @@ struct TriangleExplanation {
 
 struct SampleExplanation {
     FixedPoint position;
-    bool in_scissor = true;                      // of at least one draw
-    bool in_viewport = true;                     // of at least one draw
+    bool in_layer = true;                        // at least one draw goes to its layer
+    bool in_scissor = true;                      // of at least one of these draws
+    bool in_viewport = true;                     // of at least one of them
     SampleExpectation expectation;               // of the whole case
     std::vector<TriangleExplanation> triangles;  // those within two pixels of the sample
 };
 
-// Explains sample (x, y, s) of a case. Pixel coordinates must lie inside the target.
+// Explains a sample of a case. Layer, pixel and sample must lie inside the target.
 SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cases::Profile profile,
                                  SampleId sample);
 

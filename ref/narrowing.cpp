@@ -93,12 +93,12 @@ uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
         // An edge that clip distances cut elsewhere is another edge.
         const glm::vec4 distance =
             d.distances.clip_count > 0 ? d.distances.clip[vertex] : glm::vec4(0);
-        VertexKey key{d.distances.clip_count};
+        VertexKey key{d.distances.clip_count, d.layer};
         const std::array<float, 12> parts = {p.x,        p.y,        p.z,        p.w,
                                              v.x,        v.y,        v.width,    v.height,
                                              distance.x, distance.y, distance.z, distance.w};
         for (size_t k = 0; k < parts.size(); ++k) {
-            key[k + 1] = std::bit_cast<uint32_t>(parts[k]);
+            key[k + 2] = std::bit_cast<uint32_t>(parts[k]);
         }
         const auto next = static_cast<uint32_t>(numbers_.size() + 1);
         numbers[vertex] = numbers_.try_emplace(key, next).first->second;

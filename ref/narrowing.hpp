@@ -4,13 +4,13 @@
 // From the coverage of single triangles to the hits that a sample may show.
 //
 // Exactly one. Take the triangles that may or may not cover sample p, and orient each so that its
-// area is positive. Two that share an edge with bitwise-equal end points in one viewport, p in the
-// band of that edge (the hull of its two boxes), run along it in opposite directions: they lie on
-// either side. Let K be a set of triangles closed under such partnership, in which every edge whose
-// band contains p occurs equally often in both directions. However the vertices are snapped, if
-// equal vertices are snapped alike, the border of the chain sum(K) stays away from p, so its
-// winding number around p, which is the number of triangles of K that cover p, is the same for
-// every snapping; on an edge itself the shared-edge rule (Vulkan specification, "Basic Polygon
+// area is positive. Two that share an edge with bitwise-equal end points in one viewport and layer,
+// p in the band of that edge (the hull of its two boxes), run along it in opposite directions: they
+// lie on either side. Let K be a set of triangles closed under such partnership, in which every
+// edge whose band contains p occurs equally often in both directions. However the vertices are
+// snapped, if equal vertices are snapped alike, the border of the chain sum(K) stays away from p,
+// so its winding number around p, which is the number of triangles of K that cover p, is the same
+// for every snapping; on an edge itself the shared-edge rule (Vulkan specification, "Basic Polygon
 // Rasterization") keeps the number. So p is hit that often by K. At profile
 // direct3d some triangles of K may be decided by themselves, those that do not cover p included;
 // the others share what is left of the number.
@@ -114,8 +114,8 @@ class Narrowing {
         uint64_t edge = 0;
         uint32_t triangle = 0;
     };
-    // What makes two vertices the same: the bits of position, viewport and clip distances.
-    using VertexKey = std::array<uint32_t, 13>;
+    // What makes two vertices the same: layer, the bits of position, viewport and clip distances.
+    using VertexKey = std::array<uint32_t, 14>;
     struct VertexHash {
         size_t operator()(const VertexKey& key) const;
     };
@@ -138,7 +138,7 @@ class Narrowing {
     int count_of(const FixedPoint& p, std::span<const Hit> hits,
                  const std::vector<uint32_t>& members) const;
     int winding_of(const FixedPoint& p, const TriangleSetup& setup, const Outline& outline) const;
-    // Equal for vertices with bitwise-equal position, viewport and clip distances.
+    // Equal for vertices of one layer with bitwise-equal position, viewport and clip distances.
     uint32_t vertex_number(uint32_t draw, uint32_t vertex);
 
     const cases::Case& case_;

@@ -16,6 +16,26 @@ namespace ref {
 inline constexpr int kFixedBits = 16;
 inline constexpr int64_t kFixedOne = int64_t{1} << kFixedBits;  // one pixel
 
+// A sample of a target: of pixel (x, y) of a layer.
+struct SampleId {
+    uint32_t x = 0, y = 0, sample = 0, layer = 0;
+    friend bool operator==(const SampleId&, const SampleId&) = default;
+};
+
+// Where a sample stands in planes, expectations and pictures, and back: the layers are stacked,
+// layer 0 first, ((layer * height + y) * width + x) * samples + s.
+inline size_t index_of(const cases::Target& target, const SampleId& s) {
+    return ((size_t{s.layer} * target.height + s.y) * target.width + s.x) * target.samples +
+           s.sample;
+}
+inline SampleId sample_at(const cases::Target& target, size_t index) {
+    const size_t pixel = index / target.samples;
+    const size_t row = pixel / target.width;
+    return {static_cast<uint32_t>(pixel % target.width), static_cast<uint32_t>(row % target.height),
+            static_cast<uint32_t>(index % target.samples),
+            static_cast<uint32_t>(row / target.height)};
+}
+
 struct FixedPoint {
     int64_t x = 0, y = 0;  // S47.16 pixels
     friend bool operator==(const FixedPoint&, const FixedPoint&) = default;

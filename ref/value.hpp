@@ -21,6 +21,7 @@
 #include "cases/case.hpp"
 #include "cases/profile.hpp"
 #include "ref/limits.hpp"
+#include "ref/sample.hpp"
 #include "ref/triangle.hpp"
 
 namespace ref {
@@ -34,10 +35,6 @@ struct FragmentValues {
     glm::vec4 frag_coord{};
     float depth = 0;
     std::array<glm::vec4, cases::kMaxAttributes> attributes{};
-};
-
-struct SampleId {
-    uint32_t x = 0, y = 0, sample = 0;
 };
 
 // From what the device may have set up its planes.

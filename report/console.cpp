@@ -94,7 +94,9 @@ std::string ascii_picture(const CaseRecord& record, const ConsoleStyle& style) {
     const bool told = !record.findings.empty();
     const auto inside = [](uint32_t at, uint32_t begin) { return at > begin ? at - begin : 0; };
     const uint32_t x = told ? record.findings.front().x : record.min_x;
-    const uint32_t y = told ? record.findings.front().y : record.min_y;
+    const uint32_t y = told ? record.findings.front().layer.value_or(0) * p.layer_height +
+                                  record.findings.front().y
+                            : record.min_y;
     const uint32_t left = window_begin(inside(x, p.left), width, p.width);
     const uint32_t top = window_begin(inside(y, p.top), height, p.height);
 
@@ -103,6 +105,10 @@ std::string ascii_picture(const CaseRecord& record, const ConsoleStyle& style) {
         "V value, O order\n",
         kIndent, p.left + left, p.top + top, p.left + left + width - 1, p.top + top + height - 1);
     for (uint32_t j = top; j < top + height; ++j) {
+        if (p.layer_height > 0 && (j == top || (p.top + j) % p.layer_height == 0)) {
+            text += fmt::format("{}layer {}, from row {}\n", kIndent, (p.top + j) / p.layer_height,
+                                (p.top + j) % p.layer_height);
+        }
         text += kIndent;
         for (uint32_t i = left; i < left + width; ++i) {
             const size_t begin = (size_t{j} * p.width + i) * samples;

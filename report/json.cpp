@@ -40,10 +40,14 @@ Json device_json(const Device& d) {
 }
 
 Json finding_json(const diff::Finding& f) {
+    Json sample{{"x", f.x}, {"y", f.y}, {"index", f.sample}};
+    if (f.layer) {
+        sample["layer"] = *f.layer;
+    }
     return Json{{"kind", diff::to_string(f.kind)},
                 {"rule", printable(f.rule)},
                 {"level", cases::to_string(f.level)},
-                {"sample", Json{{"x", f.x}, {"y", f.y}, {"index", f.sample}}},
+                {"sample", std::move(sample)},
                 {"quantity", printable(f.quantity)},
                 {"expected", printable(f.expected)},
                 {"got", printable(f.got)},
@@ -88,6 +92,9 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
                         {"expected_hits", encode_picture(p.expected_hits)},
                         {"device_hits", encode_picture(p.device_hits)},
                         {"marks", encode_picture(p.marks)}};
+        if (p.layer_height > 0) {
+            pictures["layer_height"] = p.layer_height;
+        }
     }
     return Json{
         {"id", printable(r.id)},

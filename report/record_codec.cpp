@@ -136,17 +136,21 @@ Json encode_texts(const std::vector<std::string>& list) {
 }
 
 Json encode_finding(const diff::Finding& f) {
-    return Json{{"kind", diff::to_string(f.kind)},
-                {"rule", encode_text(f.rule)},
-                {"level", cases::to_string(f.level)},
-                {"x", f.x},
-                {"y", f.y},
-                {"sample", f.sample},
-                {"quantity", encode_text(f.quantity)},
-                {"expected", encode_text(f.expected)},
-                {"got", encode_text(f.got)},
-                {"why", encode_text(f.why)},
-                {"ratio", encode_number(f.ratio)}};
+    Json json{{"kind", diff::to_string(f.kind)},
+              {"rule", encode_text(f.rule)},
+              {"level", cases::to_string(f.level)},
+              {"x", f.x},
+              {"y", f.y},
+              {"sample", f.sample},
+              {"quantity", encode_text(f.quantity)},
+              {"expected", encode_text(f.expected)},
+              {"got", encode_text(f.got)},
+              {"why", encode_text(f.why)},
+              {"ratio", encode_number(f.ratio)}};
+    if (f.layer) {
+        json["layer"] = *f.layer;
+    }
+    return json;
 }
 
 diff::Finding decode_finding(const Json& json) {
@@ -162,17 +166,24 @@ diff::Finding decode_finding(const Json& json) {
     read(json, "got", f.got);
     read(json, "why", f.why);
     read(json, "ratio", f.ratio);
+    if (json.contains("layer")) {
+        read(json, "layer", f.layer.emplace());
+    }
     return f;
 }
 
 Json encode_pictures(const Pictures& p) {
-    return Json{{"width", p.width},
-                {"height", p.height},
-                {"left", p.left},
-                {"top", p.top},
-                {"expected_hits", encode_picture(p.expected_hits)},
-                {"device_hits", encode_picture(p.device_hits)},
-                {"marks", encode_picture(p.marks)}};
+    Json json{{"width", p.width},
+              {"height", p.height},
+              {"left", p.left},
+              {"top", p.top},
+              {"expected_hits", encode_picture(p.expected_hits)},
+              {"device_hits", encode_picture(p.device_hits)},
+              {"marks", encode_picture(p.marks)}};
+    if (p.layer_height > 0) {
+        json["layer_height"] = p.layer_height;
+    }
+    return json;
 }
 
 Pictures decode_pictures(const Json& json) {
@@ -181,6 +192,9 @@ Pictures decode_pictures(const Json& json) {
     read(json, "height", p.height);
     read(json, "left", p.left);
     read(json, "top", p.top);
+    if (json.contains("layer_height")) {
+        read(json, "layer_height", p.layer_height);
+    }
     read(json, "expected_hits", p.expected_hits);
     read(json, "device_hits", p.device_hits);
     read(json, "marks", p.marks);

@@ -65,6 +65,7 @@ struct Device {
 struct Pictures {
     uint32_t width = 0, height = 0;      // pixels of the pictures (a window of the target)
     uint32_t left = 0, top = 0;          // where the window lies in the target
+    uint32_t layer_height = 0;           // rows of each of several layers, stacked; 0: one layer
     std::vector<uint8_t> expected_hits;  // Verdict::expected_hits
     std::vector<uint8_t> device_hits;    // Verdict::device_hits
     std::vector<uint8_t> marks;          // Verdict::marks
@@ -89,7 +90,7 @@ struct CaseRecord {
     std::vector<diff::Finding> findings;
     std::array<uint64_t, diff::kFindingKinds> counts{};
     cases::Profile level = cases::Profile::direct3d;
-    uint32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;
+    uint32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;  // as in diff::Verdict
     uint64_t must_samples = 0, either_samples = 0, compared_samples = 0, compared_values = 0;
     double worst_ratio = 0;
     std::string worst_quantity;

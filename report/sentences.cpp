@@ -70,9 +70,9 @@ std::string_view meaning(cases::Profile level) {
 }
 
 std::string sample_text(const diff::Finding& finding) {
-    return finding.sample == 0
-               ? fmt::format("({},{})", finding.x, finding.y)
-               : fmt::format("({},{}) sample {}", finding.x, finding.y, finding.sample);
+    const std::string layer = finding.layer ? fmt::format("layer {} ", *finding.layer) : "";
+    const std::string pixel = fmt::format("{}({},{})", layer, finding.x, finding.y);
+    return finding.sample == 0 ? pixel : fmt::format("{} sample {}", pixel, finding.sample);
 }
 
 std::string counts_text(const CaseRecord& record) {

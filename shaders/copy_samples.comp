@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Copies every sample of a multisampled attachment to a buffer, word (j * width + i) * samples + s. A
+// Copies every sample of every layer of a multisampled attachment to a buffer, word
+// ((layer * height + j) * width + i) * samples + s. A
 // resolve would combine or choose samples in an implementation-dependent way; this reads each one.
 // Colour is read through an unsigned view of the float image, so that no bit can change on the way.
 // DEPTH, and of colour the WORDS a sample (1, 2 or 4), are defined by the build.
@@ -29,12 +30,12 @@ layout(push_constant) uniform Extent {
 extent;
 
 #if DEPTH
-layout(set = 0, binding = 0) uniform texture2DMS source;
+layout(set = 0, binding = 0) uniform texture2DMSArray source;
 layout(set = 0, binding = 1, std430) writeonly buffer Words {
     uint words[];
 };
 #else
-layout(set = 0, binding = 0) uniform utexture2DMS source;
+layout(set = 0, binding = 0) uniform utexture2DMSArray source;
 layout(set = 0, binding = 1, std430) writeonly buffer Words {
     WORD words[];
 };
@@ -45,12 +46,14 @@ void main() {
     if (pixel.x >= extent.width || pixel.y >= extent.height) {
         return;
     }
-    uint first = (pixel.y * extent.width + pixel.x) * extent.samples;
+    ivec3 texel = ivec3(gl_GlobalInvocationID);  // z: layer
+    uint row = gl_GlobalInvocationID.z * extent.height + pixel.y;
+    uint first = (row * extent.width + pixel.x) * extent.samples;
     for (uint s = 0u; s < extent.samples; ++s) {
 #if DEPTH
-        words[first + s] = floatBitsToUint(texelFetch(source, ivec2(pixel), int(s)).r);
+        words[first + s] = floatBitsToUint(texelFetch(source, texel, int(s)).r);
 #else
-        words[first + s] = TAKE(texelFetch(source, ivec2(pixel), int(s)));
+        words[first + s] = TAKE(texelFetch(source, texel, int(s)));
 #endif
     }
 }

@@ -87,6 +87,19 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
         return unsupported(fmt::format("the target has {} x {} pixels, the device allows {} x {}",
                                        t.width, t.height, c.max_width, c.max_height));
     }
+    if (t.layers == 0 || (t.layers > 1 && (diff::resolves_color(t) || diff::resolves_depth(t)))) {
+        return invalid("a target has at least one layer, and one that is resolved only one");
+    }
+    if (t.layers > c.max_layers) {
+        return unsupported(
+            fmt::format("the target has {} layers, the device allows {} (maxFramebufferLayers)",
+                        t.layers, c.max_layers));
+    }
+    if (names_layers(test) && !c.layer_output) {
+        return unsupported(
+            "the device lacks the feature shaderOutputLayer, by which a vertex shader chooses the "
+            "layer");
+    }
     if (t.samples == 0 || t.samples > 64 || (t.samples & (t.samples - 1)) != 0) {
         return invalid(fmt::format("{} samples a pixel is not a power of two up to 64", t.samples));
     }
@@ -108,7 +121,7 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
         return unsupported(fmt::format("the case needs {} colour attachments, the device has {}",
                                        colors, c.info.max_color_attachments));
     }
-    const VkDeviceSize words = VkDeviceSize{t.width} * t.height * t.samples;
+    const VkDeviceSize words = VkDeviceSize{t.width} * t.rows() * t.samples;
     if (t.samples > 1 && words * 16 > c.limits.maxStorageBufferRange) {
         return unsupported(
             fmt::format("reading {} samples singly exceeds the device's storage buffer range of {} "
@@ -156,7 +169,8 @@ std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& t
         c.physical, to_vulkan(color.format), VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
         color_usage(test.target.samples), color_flags(test.target.samples), &image);
     if (result != VK_SUCCESS || (image.sampleCounts & test.target.samples) == 0 ||
-        image.maxExtent.width < test.target.width || image.maxExtent.height < test.target.height) {
+        image.maxExtent.width < test.target.width || image.maxExtent.height < test.target.height ||
+        image.maxArrayLayers < test.target.layers) {
         return unsupported(fmt::format(
             "the device has no {} x {} target of format {} with {} samples", test.target.width,
             test.target.height, cases::name_of(color.format), test.target.samples));
@@ -341,6 +355,10 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             viewports, capabilities.max_viewports));
     }
     for (const cases::Draw& draw : c.draws) {
+        if (draw.layer >= c.target.layers) {
+            return invalid(
+                fmt::format("a draw goes to layer {} of {}", draw.layer, c.target.layers));
+        }
         const PipelineKey key = pipeline_key(c, draw);
         if (shaders::capture_vertex(vertex_variant(key)).empty() ||
             shaders::capture_fragment(fragment_variant(key)).empty()) {

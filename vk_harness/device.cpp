@@ -201,6 +201,7 @@ void query_features(Capabilities& c) {
         c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
         query_sample_locations(c);
         c.max_viewports = query_max_viewports(c.physical);
+        query_layers(c);
         c.clip = query_clip_support(c.physical, has_device_extension);
         c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
         if (features13.dynamicRendering != VK_TRUE) {
@@ -421,9 +422,7 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
 
     VkPhysicalDeviceVulkan12Features features12{};
-    if (capabilities.max_viewports > 1) {
-        enable_viewports(features, features12);
-    }
+    enable_vertex_outputs(capabilities, features, features12);
     ClipFeatures clip;
     enable_clip_features(capabilities.clip, features, extensions, clip);
     DepthBiasControlFeatures bias_control;

@@ -36,6 +36,8 @@ struct Capabilities {
     DepthBiasSupport depth_bias;
     bool triangle_fans = true;
     uint32_t max_viewports = 1;  // that gl_ViewportIndex can choose from
+    uint32_t max_layers = 1;     // of a target
+    bool layer_output = false;   // shaderOutputLayer: gl_Layer in a vertex shader
     ClipSupport clip;
     bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
     bool portability_subset = false;

@@ -55,8 +55,10 @@ Failure no_memory_type(std::string_view what) {
     return failure;
 }
 
-Result<Handle<VkImageView>> create_view(const Device& device, VkImage image, VkFormat format,
-                                        VkImageAspectFlags aspect, VkImageUsageFlags usage) {
+// Several layers, or samples that copy_samples.comp reads, are seen as an array.
+Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreateInfo& of,
+                                        VkImage image, VkFormat format, VkImageAspectFlags aspect,
+                                        VkImageUsageFlags usage) {
     VkImageViewUsageCreateInfo usage_info{};
     usage_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO;
     usage_info.usage = usage;
@@ -64,9 +66,11 @@ Result<Handle<VkImageView>> create_view(const Device& device, VkImage image, VkF
     info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     info.pNext = &usage_info;
     info.image = image;
-    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.viewType = of.arrayLayers > 1 || of.samples != VK_SAMPLE_COUNT_1_BIT
+                        ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                        : VK_IMAGE_VIEW_TYPE_2D;
     info.format = format;
-    info.subresourceRange = {aspect, 0, 1, 0, 1};
+    info.subresourceRange = {aspect, 0, 1, 0, of.arrayLayers};
     VkImageView view = VK_NULL_HANDLE;
     const VkResult result = device.vk().vkCreateImageView(device.get(), &info, nullptr, &view);
     if (result != VK_SUCCESS) {
@@ -164,7 +168,7 @@ VkImageCreateFlags color_flags(uint32_t samples) {
 }
 
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
-                            uint32_t samples, VkImageCreateFlags flags) {
+                            uint32_t samples, uint32_t layers, VkImageCreateFlags flags) {
     const VolkDeviceTable& vk = device.vk();
     const bool stencil = format == kDepthStencilFormat;
     const bool depth = stencil || format == VK_FORMAT_D32_SFLOAT ||
@@ -178,7 +182,7 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     info.format = format;
     info.extent = {extent.width, extent.height, 1};
     info.mipLevels = 1;
-    info.arrayLayers = 1;
+    info.arrayLayers = layers;
     info.samples = static_cast<VkSampleCountFlagBits>(samples);  // the bits' values are the counts
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage =
@@ -214,6 +218,7 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     }
     image.memory_ = std::move(*allocation);
     image.memory_size_ = needs.size;
+    image.layers_ = layers;
     result = vk.vkBindImageMemory(device.get(), handle, image.memory_.get(), 0);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
@@ -223,13 +228,13 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     if (multisampled && depth) {
         view_usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
     }
-    auto view = create_view(device, handle, format, image.aspect_, view_usage);
+    auto view = create_view(device, info, handle, format, image.aspect_, view_usage);
     if (!view) {
         return fail(view.error());
     }
     image.view_ = std::move(*view);
     if (multisampled && !depth) {
-        auto bits = create_view(device, handle, bits_format(format), image.aspect_,
+        auto bits = create_view(device, info, handle, bits_format(format), image.aspect_,
                                 VK_IMAGE_USAGE_SAMPLED_BIT);
         if (!bits) {
             return fail(bits.error());
@@ -240,7 +245,8 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
         for (const auto& [aspect, to] :
              {std::pair(VK_IMAGE_ASPECT_DEPTH_BIT, &image.bits_view_),
               std::pair(VK_IMAGE_ASPECT_STENCIL_BIT, &image.stencil_view_)}) {
-            auto one = create_view(device, handle, format, aspect, VK_IMAGE_USAGE_SAMPLED_BIT);
+            auto one =
+                create_view(device, info, handle, format, aspect, VK_IMAGE_USAGE_SAMPLED_BIT);
             if (!one) {
                 return fail(one.error());
             }

@@ -47,8 +47,9 @@ class Image {
     Image() = default;
     // samples == 1: can be copied to a buffer. samples > 1: can be read sample by sample in a
     // shader. `flags`: besides those that this needs.
+    // The views show all layers; those of several layers or samples are of an array.
     static Result<Image> create(const Device& device, VkFormat format, VkExtent2D extent,
-                                uint32_t samples, VkImageCreateFlags flags = 0);
+                                uint32_t samples, uint32_t layers, VkImageCreateFlags flags = 0);
 
     VkImage get() const { return image_.get(); }
     VkImageView view() const { return view_.get(); }
@@ -57,6 +58,7 @@ class Image {
     // To read single samples of the stencil, if there is one.
     VkImageView stencil_view() const { return stencil_view_.get(); }
     VkImageAspectFlags aspect() const { return aspect_; }  // all that it has
+    uint32_t layers() const { return layers_; }
     VkDeviceSize memory_size() const { return memory_size_; }
 
   private:
@@ -66,6 +68,7 @@ class Image {
     Handle<VkImageView> bits_view_;
     Handle<VkImageView> stencil_view_;
     VkImageAspectFlags aspect_ = VK_IMAGE_ASPECT_COLOR_BIT;
+    uint32_t layers_ = 1;
     VkDeviceSize memory_size_ = 0;
 };
 

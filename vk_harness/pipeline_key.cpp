@@ -59,6 +59,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
     }
     key.viewports = viewport_count(c);
     key.viewport_index = key.viewports > 1;
+    key.layer = names_layers(c);
     key.clip_count = draw.distances.clip_count;
     key.cull_count = draw.distances.cull_count;
     key.negative_one_to_one = draw.depth.negative_one_to_one;

@@ -23,7 +23,7 @@ std::vector<T> copy_out(std::span<const std::byte> memory, VkDeviceSize offset, 
 // Depth as the capture holds it (diff/capture.hpp). Copied texels of D16 are 2 bytes and of
 // X8_D24 the low 24 bits of a word; with several samples a shader has written binary32.
 void decode_depth(const cases::Target& target, std::span<const std::byte> from, float* to) {
-    const size_t count = size_t{target.width} * target.height * target.samples;
+    const size_t count = size_t{target.width} * target.rows() * target.samples;
     const auto* words = reinterpret_cast<const uint32_t*>(from.data());
     const auto poison_float = std::bit_cast<float>(diff::kPoison);
     if (target.depth_format == cases::DepthFormat::d32_float) {
@@ -76,7 +76,7 @@ void decode_writers(std::span<const diff::Writer> from, diff::Writer* to) {
 // written words. A quarter of the poison is a stencil like any other; a copy that never happened
 // leaves it everywhere.
 void decode_stencil(const cases::Target& target, std::span<const std::byte> from, uint32_t* to) {
-    const size_t count = size_t{target.width} * target.height * target.samples;
+    const size_t count = size_t{target.width} * target.rows() * target.samples;
     const auto* words = reinterpret_cast<const uint32_t*>(from.data());
     if (target.samples > 1) {
         std::copy(words, words + count, to);
@@ -100,7 +100,7 @@ cases::Target shape_of(const Attachment& attachment, const cases::Target& target
 
 ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attachment>& attachments,
                            VkDeviceSize begin, VkDeviceSize alignment) {
-    const VkDeviceSize pixels = VkDeviceSize{target.width} * target.height;
+    const VkDeviceSize pixels = VkDeviceSize{target.width} * target.rows();
     const auto align = [alignment](VkDeviceSize offset) {
         return (offset + alignment - 1) & ~(alignment - 1);
     };
@@ -177,7 +177,7 @@ namespace {
 
 void decode_color(const cases::Target& target, const Attachment& attachment,
                   const std::byte* memory, diff::ColorCodes* to) {
-    const size_t count = size_t{target.width} * target.height * target.samples;
+    const size_t count = size_t{target.width} * target.rows() * target.samples;
     const uint32_t step = attachment.copied_bytes(target.samples);
     for (size_t k = 0; k < count; ++k) {
         to[k] = decode_texel(target.color->format, memory + k * step, step);
@@ -223,12 +223,12 @@ diff::Capture read_capture(const cases::Target& target, const std::vector<Attach
                 decode_stencil(target, memory.subspan(at), capture.stencil.data());
                 break;
             case Role::resolved_color:
-                capture.resolved_color.resize(size_t{target.width} * target.height);
+                capture.resolved_color.resize(size_t{target.width} * target.rows());
                 decode_color(shape_of(attachments[k], target), attachments[k], memory.data() + at,
                              capture.resolved_color.data());
                 break;
             case Role::resolved_depth:
-                capture.resolved_depth.resize(size_t{target.width} * target.height);
+                capture.resolved_depth.resize(size_t{target.width} * target.rows());
                 decode_depth(shape_of(attachments[k], target), memory.subspan(at),
                              capture.resolved_depth.data());
                 break;
@@ -243,7 +243,7 @@ void read_planes(const cases::Target& target, const std::vector<Attachment>& att
     std::byte* to = planes.data();
     for (size_t k = 0; k < attachments.size(); ++k) {
         const cases::Target shape = shape_of(attachments[k], target);
-        const size_t count = size_t{shape.width} * shape.height * shape.samples;
+        const size_t count = size_t{shape.width} * shape.rows() * shape.samples;
         const std::byte* from = memory.data() + layout.offset[k];
         if (attachments[k].role == Role::writer) {
             decode_writers(std::span(reinterpret_cast<const diff::Writer*>(from), count),

@@ -115,7 +115,7 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
         if (!places.empty() && !resolved && (image.aspect() & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) {
             b.pNext = &locations;
         }
-        b.subresourceRange = {image.aspect(), 0, 1, 0, 1};
+        b.subresourceRange = {image.aspect(), 0, 1, 0, image.layers()};
         barriers.push_back(b);
     };
     for (size_t k = 0; k < plan.images.size(); ++k) {
@@ -346,7 +346,7 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
     VkRenderingInfo rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
     rendering.renderArea = {{0, 0}, {target.width, target.height}};
-    rendering.layerCount = 1;
+    rendering.layerCount = target.layers;
     rendering.colorAttachmentCount = static_cast<uint32_t>(colors.size());
     rendering.pColorAttachments = colors.data();
     rendering.pDepthAttachment = depth ? &*depth : nullptr;
@@ -381,7 +381,7 @@ void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
                                           : attachment.is_depth() ? VK_IMAGE_ASPECT_DEPTH_BIT
                                                                   : VK_IMAGE_ASPECT_COLOR_BIT;
         region.bufferOffset = plan.readback.offset[k];
-        region.imageSubresource = {aspect, 0, 0, 1};
+        region.imageSubresource = {aspect, 0, 0, target.layers};  // stacked
         vk.vkCmdCopyImageToBuffer(commands, plan.images[k]->get(), kCopied.layout, readback, 1,
                                   &region);
     }
@@ -403,7 +403,7 @@ void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
         }
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, copy_layout, 0, 1,
                                    &sets[k], 0, nullptr);
-        vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
+        vk.vkCmdDispatch(commands, groups_x, groups_y, target.layers);
     }
 }
 

@@ -170,7 +170,7 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
     }
 
     const cases::Target& target = plan.test->target;
-    const VkDeviceSize samples = VkDeviceSize{target.width} * target.height * target.samples;
+    const VkDeviceSize samples = VkDeviceSize{target.width} * target.rows() * target.samples;
     for (uint32_t k = 0; k < count; ++k) {
         if (plan.attachments[k].is_resolved()) {
             continue;  // copied

@@ -10,17 +10,18 @@ namespace vk_harness {
 
 VkDeviceSize attachment_bytes(const cases::Target& target,
                               const std::vector<Attachment>& attachments) {
-    // At most 16 bytes a sample and attachment; below 2^14 * 2^14 * 2^6 * 2^7 = 2^41.
+    // At most 16 bytes a sample and attachment; below 2^14 * 2^14 * 2^8 * 2^6 * 2^8 = 2^50.
     const VkDeviceSize bytes =
         std::accumulate(attachments.begin(), attachments.end(), VkDeviceSize{0},
                         [](VkDeviceSize sum, const Attachment& a) { return sum + a.sample_bytes; });
-    return VkDeviceSize{target.width} * target.height * target.samples * bytes;
+    return VkDeviceSize{target.width} * target.rows() * target.samples * bytes;
 }
 
 TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& target) {
     const auto found = std::find_if(shelves_.begin(), shelves_.end(), [&](const auto& s) {
         return s->format == format && s->width == target.width && s->height == target.height &&
-               s->samples == target.samples && s->sample_locations == target.sample_locations;
+               s->samples == target.samples && s->layers == target.layers &&
+               s->sample_locations == target.sample_locations;
     });
     if (found != shelves_.end()) {
         return **found;
@@ -30,6 +31,7 @@ TargetCache::Shelf& TargetCache::shelf(VkFormat format, const cases::Target& tar
     made->width = target.width;
     made->height = target.height;
     made->samples = target.samples;
+    made->layers = target.layers;
     made->sample_locations = target.sample_locations;
     shelves_.push_back(std::move(made));
     return *shelves_.back();
@@ -58,7 +60,7 @@ Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
                     ? VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT}
                     : VkImageCreateFlags{0};
             auto image = Image::create(*device_, attachment.format, {target.width, target.height},
-                                       shape.samples, flags);
+                                       shape.samples, shape.layers, flags);
             if (!image) {
                 return fail(image.error());
             }

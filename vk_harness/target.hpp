@@ -21,8 +21,8 @@ class TargetCache {
   public:
     explicit TargetCache(const Device& device) : device_(&device) {}
 
-    // One image an attachment, of the size and sample count of the target; no image twice in one
-    // answer. Valid until trim().
+    // One image an attachment, of the size, layers and sample count of the target; no image twice
+    // in one answer. Valid until trim().
     Result<std::vector<const Image*>> get(const cases::Target& target,
                                           const std::vector<Attachment>& attachments);
 
@@ -33,7 +33,7 @@ class TargetCache {
     // Images of one kind, as many as a case needed at most.
     struct Shelf {
         VkFormat format = VK_FORMAT_UNDEFINED;
-        uint32_t width = 0, height = 0, samples = 1;
+        uint32_t width = 0, height = 0, samples = 1, layers = 1;
         std::vector<std::array<uint8_t, 2>> sample_locations;
         std::vector<std::unique_ptr<Image>> images;
         uint64_t last_use = 0;

@@ -39,11 +39,29 @@ uint32_t query_max_viewports(VkPhysicalDevice physical) {
     return properties.limits.maxViewports;
 }
 
-void enable_viewports(VkPhysicalDeviceFeatures2& features,
-                      VkPhysicalDeviceVulkan12Features& features12) {
-    features.features.multiViewport = VK_TRUE;
+bool names_layers(const cases::Case& c) {
+    return std::any_of(c.draws.begin(), c.draws.end(),
+                       [](const cases::Draw& draw) { return draw.layer > 0; });
+}
+
+void query_layers(Capabilities& c) {
+    VkPhysicalDeviceVulkan12Features features12{};
     features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    features12.shaderOutputViewportIndex = VK_TRUE;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &features12;
+    vkGetPhysicalDeviceFeatures2(c.physical, &features);
+    c.layer_output = features12.shaderOutputLayer == VK_TRUE;
+    c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
+}
+
+void enable_vertex_outputs(const Capabilities& c, VkPhysicalDeviceFeatures2& features,
+                           VkPhysicalDeviceVulkan12Features& features12) {
+    const VkBool32 has_viewports = c.max_viewports > 1 ? VK_TRUE : VK_FALSE;
+    features.features.multiViewport = has_viewports;
+    features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    features12.shaderOutputViewportIndex = has_viewports;
+    features12.shaderOutputLayer = c.layer_output ? VK_TRUE : VK_FALSE;
     features12.pNext = features.pNext;
     features.pNext = &features12;
 }

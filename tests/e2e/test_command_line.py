@@ -5,8 +5,9 @@ import json
 import re
 import unittest
 
-from support import SOURCE, ProgramTest
+from support import CASE, SOURCE, ProgramTest
 
+LAYERED = CASE.format(n=99).replace("size = [8, 8]", "size = [8, 8]\nlayers = 2").replace("[[draw]]", "[[draw]]\nlayer = 1")
 COMMANDS = ["run", "list", "lint", "explain", "render", "doctor", "bench", "report", "version"]
 
 
@@ -116,6 +117,26 @@ class Listing(ProgramTest):
 
     def test_explain(self):
         self.assertIn("must be covered", self.edgecase("explain", "fam/c1", "--pixel", "2,2", check=0).stdout)
+
+    def test_explain_a_layer(self):
+        self.write_case("fam/layered", LAYERED)
+        inside = self.edgecase("explain", "fam/layered", "--pixel", "2,2", "--layer", "1", check=0).stdout
+        self.assertIn("layer 1, pixel (2, 2), sample 0", inside)
+        self.assertIn("must be covered", inside)
+        beside = self.edgecase("explain", "fam/layered", "--pixel", "2,2", check=0).stdout
+        self.assertIn("no draw goes to this layer", beside)
+        self.assertIn("the draw goes to layer 1", beside)
+        refused = self.edgecase("explain", "fam/layered", "--pixel", "2,2", "--layer", "2", check=2).stderr
+        self.assertIn("pixel 2,2 sample 0 layer 2 is outside the target of 8 x 8 pixels with 1 sample(s) and 2 layer(s)",
+                      refused)
+
+    def test_render_layers(self):
+        self.write_case("fam/layered", LAYERED)
+        self.edgecase("render", "fam/layered", "-o", "x.json", check=0)
+        picture = json.loads((self.folder / "x.json").read_text())
+        self.assertEqual(picture["layers"], 2)
+        self.assertEqual({s["layer"] for s in picture["samples"]}, {1})
+        self.assertEqual(len(picture["samples"]), 36)
 
     def test_render_json(self):
         self.edgecase("render", "fam/c1", "-o", "x.json", check=0)

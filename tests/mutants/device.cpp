@@ -103,6 +103,9 @@ cases::Draw effective(const cases::Case& c, uint32_t number, Fault fault) {
         draw.cull = first.cull;
         draw.front_face = first.front_face;
     }
+    if (fault == Fault::layer_of_first_draw) {
+        draw.layer = c.draws[0].layer;
+    }
     if (fault == Fault::viewport_rounded) {
         draw.viewport.x = std::round(draw.viewport.x);
         draw.viewport.y = std::round(draw.viewport.y);
@@ -154,6 +157,11 @@ class DrawCommand {
     void shade_covered(const Primitive& primitive, const WindowVertex& first, bool front);
     void shade(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
                bool front, int64_t i, int64_t j, uint32_t s, uint32_t covered);
+    // The same in one layer of the target.
+    void shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
+                  const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
+                  uint32_t covered);
+    size_t index_in(uint32_t layer, int64_t i, int64_t j, uint32_t s) const;
 
     const cases::Draw draw_;
     uint32_t number_;
@@ -620,14 +628,44 @@ void DrawCommand::shade_covered(const Primitive& primitive, const WindowVertex& 
 void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes,
                         const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
                         uint32_t covered) {
+    const uint32_t layers = out_.target.layers;
+    uint32_t layer = draw_.layer;
+    switch (device_.fault) {
+        case Fault::layer_ignored:
+            layer = 0;
+            break;
+        case Fault::layer_off_by_one:
+            layer = (layer + 1) % layers;
+            break;
+        case Fault::layer_of_viewport:
+            layer = std::min(draw_.viewport_index, layers - 1);
+            break;
+        case Fault::all_layers_written:
+            for (uint32_t k = 0; k < layers; ++k) {
+                shade_in(k, primitive, planes, first, front, i, j, s, covered);
+            }
+            return;
+        default:
+            break;
+    }
+    shade_in(layer, primitive, planes, first, front, i, j, s, covered);
+}
+
+size_t DrawCommand::index_in(uint32_t layer, int64_t i, int64_t j, uint32_t s) const {
+    const cases::Target& target = out_.target;
+    const size_t row = size_t{layer} * target.height + static_cast<size_t>(j);
+    return (row * target.width + static_cast<size_t>(i)) * target.samples + s;
+}
+
+void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
+                           const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
+                           uint32_t covered) {
     const Fault fault = device_.fault;
     const Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
     if (!invocation.is_written) {
         return;
     }
-    const size_t at = (static_cast<size_t>(j) * out_.target.width + static_cast<size_t>(i)) *
-                          out_.target.samples +
-                      s;
+    const size_t at = index_in(layer, i, j, s);
     const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
     const float sample_x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
     const float sample_y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
@@ -642,7 +680,8 @@ void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes
     const float bias =
         depth_bias(draw_, format, planes.depth_dx(), planes.depth_dy(), largest, device_);
     z = fragment_depth(z, bias, draw_, format, device_);
-    const bool passes = passes_depth_test(draw_, z, out_.depth[at], device_);
+    const size_t tested = fault == Fault::layer_depth_of_first ? index_in(0, i, j, s) : at;
+    const bool passes = passes_depth_test(draw_, z, out_.depth[tested], device_);
     if ((passes && (draw_.depth.write || fault == Fault::depth_write_ignored)) ||
         fault == Fault::depth_write_before_test) {
         out_.depth[at] = z;

@@ -59,6 +59,28 @@ TEST(Device, HalfSquares) {
         (Histogram{{1, 256}}));
 }
 
+// 136 pixels, in the layer of the draw alone.
+TEST(Device, Layers) {
+    cases::Case c = make_case(64, {{4.5, 4.5}, {20.5, 4.5}, {4.5, 20.5}});
+    c.target.layers = 3;
+    c.draws[0].layer = 2;
+    const auto hits_by_layer = [&](Fault fault) {
+        Device device;
+        device.fault = fault;
+        const diff::Capture capture = render(c, device);
+        EXPECT_EQ(capture.hits.size(), 3U * 64 * 64);
+        std::array<int, 3> counts{};
+        for (size_t k = 0; k < capture.hits.size(); ++k) {
+            counts.at(k / (size_t{64} * 64)) +=
+                static_cast<int>(capture.hits[k].x + capture.hits[k].y);
+        }
+        return counts;
+    };
+    EXPECT_EQ(hits_by_layer(Fault::none), (std::array<int, 3>{0, 0, 136}));
+    EXPECT_EQ(hits_by_layer(Fault::layer_ignored), (std::array<int, 3>{136, 0, 0}));
+    EXPECT_EQ(hits_by_layer(Fault::all_layers_written), (std::array<int, 3>{136, 136, 136}));
+}
+
 TEST(Device, SlopeThroughCentres) {
     EXPECT_EQ(count(64, {{1.5, 1.5}, {29.5, 13.5}, {29.5, 1.5}}), (Histogram{{1, 178}}));
     EXPECT_EQ(count(64, {{1.5, 1.5}, {29.5, 13.5}, {1.5, 13.5}}), (Histogram{{1, 158}}));

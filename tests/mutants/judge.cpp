@@ -101,9 +101,10 @@ std::string describe(const cases::Case& c, const diff::Verdict& verdict) {
     const uint64_t total =
         std::accumulate(verdict.counts.begin(), verdict.counts.end(), uint64_t{0});
     return fmt::format(
-        "{}: {} finding(s), first: {} {} [{}] at ({}, {}) sample {} {}: expected {}, "
+        "{}: {} finding(s), first: {} {} [{}] at {} sample {} {}: expected {}, "
         "got {}: {} (ratio {:.3g})",
-        c.id, total, diff::to_string(f.kind), f.rule, cases::to_string(f.level), f.x, f.y, f.sample,
+        c.id, total, diff::to_string(f.kind), f.rule, cases::to_string(f.level),
+        diff::pixel_text(c.target, diff::place_of(f)), f.sample,
         f.quantity, f.expected, f.got, f.why, f.ratio);
 }
 

@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
     }
     if (small) {
         std::erase_if(suite.cases, [](const cases::Case& c) {
-            return c.target.width * c.target.height * c.target.samples > 64U * 64U;
+            return c.target.width * c.target.rows() * c.target.samples > 64U * 64U;
         });
     }
     if (legal) {

@@ -235,6 +235,33 @@ samples = 6)~"),
     {target(R"~(size = [8, 8]
 samples = 32)~"),
      R"~(f:6:11: error: samples is not an integer from 1 to 16)~"},
+    {target(R"~(size = [8, 8]
+layers = 0)~"),
+     R"~(f:6:10: error: layers is not an integer from 1 to 256)~"},
+    {target(R"~(size = [8, 8]
+layers = 257)~"),
+     R"~(f:6:10: error: layers is not an integer from 1 to 256)~"},
+    {target(R"~(size = [8, 8]
+layers = "two")~"),
+     R"~(f:6:10: error: layers: "two" is not a number: the name two is unknown; names are the keys of [matrix])~"},
+    {target(R"~(size = [8, 8]
+layer = 2)~"),
+     R"~(f:6:1: error: [target] has no key "layer"; did you mean "layers"?)~"},
+    {target(R"~(size = [4096, 4096]
+layers = 5)~"),
+     R"~(f:5:8: error: the target has more than 2^26 pixels; make it smaller)~"},
+    {target(R"~(size = [8, 8]
+samples = 4
+layers = 2
+resolve = "average"
+[target.color]
+format = "rgba8-unorm")~"),
+     R"~(f:8:11: error: resolve does not go with several layers; leave out layers)~"},
+    {target(R"~(size = [8, 8]
+samples = 4
+layers = 2
+depth_resolve = "min")~"),
+     R"~(f:8:17: error: depth_resolve does not go with several layers; leave out layers)~"},
     {target(R"~(size = [8192, 8192]
 samples = 2)~"),
      R"~(f:5:8: error: the target has more than 2^26 samples; make it smaller)~"},
@@ -401,6 +428,78 @@ f:7:17: error: vertex 2 is the number 3; write an array)~"},
     {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
 viewport_index = 16)~"),
      R"~(f:8:18: error: viewport_index is not an integer from 0 to 15)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
+layer = 1)~"),
+     R"~(f:8:9: error: the target has one layer; write layers = N in [target])~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
+layer = -1)~"),
+     R"~(f:8:9: error: layer is not an integer from 0 to 255)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
+layers = 1)~"),
+     R"~(f:8:1: error: [[draw]] has no key "layers"; did you mean "layer"?)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+layers = 3
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+layer = 3
+)~"),
+     R"~(f:9:9: error: the target has 3 layers, 0 to 2)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+layers = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[[draw.clip_distance]]
+values = [1, 1, -1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+layer = 1
+)~"),
+     R"~(f:9:1: error: clip_distance does not go with draws to several layers; leave out layer)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["blit.nearest"]
+[target]
+size = [8, 8]
+layers = 2
+[target.color]
+format = "rgba8-unorm"
+[blit]
+size = [8, 8]
+)~"),
+     R"~(f:9:2: error: a blit writes to one sample a pixel and to one layer)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+layers = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[expect]
+hits = "11"
+)~"),
+     R"~(f:10:8: error: the target has 2 layers, so hits is an array of 2 pictures, layer 0 first)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 4
+layers = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[expect]
+hits = ["11", "11"]
+)~"),
+     R"~(f:11:8: error: the target has 2 layers of 4 samples a pixel, so hits is an array of 8 pictures, all samples of layer 0 first)~"},
     {draw(R"~(generate = { kind = "surface", columns = 4, rows = 4, shape = "disk" })~"),
      R"~(f:7:63: error: shape is "disk"; did you mean "disc"?)~"},
     {draw(R"~(generate = { kind = "surface", columns = 4, rows = 4 }

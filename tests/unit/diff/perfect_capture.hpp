@@ -55,7 +55,7 @@ inline void set_hits(diff::Capture& capture, size_t index, float front, float ba
 // What triangle t leaves at a sample: nearest values of the reference.
 inline void write_fragment(diff::Capture& capture, const cases::Case& c, const ref::Expectation& e,
                            ref::ValueReference& values, uint32_t t, ref::SampleId id) {
-    const size_t index = (size_t{id.y} * c.target.width + id.x) * c.target.samples + id.sample;
+    const size_t index = ref::index_of(c.target, id);
     const ref::Triangle& triangle = e.triangles[t];
     capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                               diff::kClearId};
@@ -105,10 +105,7 @@ inline diff::Capture perfect_capture(const cases::Case& c, const ref::Expectatio
     }
     ref::ValueReference values(c, e.limits, e.profile);
     for (size_t index = 0; index < count; ++index) {
-        const size_t pixel = index / c.target.samples;
-        const ref::SampleId id{static_cast<uint32_t>(pixel % c.target.width),
-                               static_cast<uint32_t>(pixel / c.target.width),
-                               static_cast<uint32_t>(index % c.target.samples)};
+        const ref::SampleId id = ref::sample_at(c.target, index);
         clear_sample(capture, index);
         const ref::SampleExpectation& s = e.samples[index];
         if (s.hits.total_min > 0) {

@@ -80,8 +80,9 @@ inline Count count_hits(const Expectation& e) {
     return out;
 }
 
-inline const HitBounds& hits_at(const Expectation& e, uint32_t i, uint32_t j, uint32_t s = 0) {
-    return e.samples[(size_t{j} * e.target.width + i) * e.target.samples + s].hits;
+inline const HitBounds& hits_at(const Expectation& e, uint32_t i, uint32_t j, uint32_t s = 0,
+                                uint32_t layer = 0) {
+    return e.samples[index_of(e.target, {i, j, s, layer})].hits;
 }
 
 }  // namespace ref::test

@@ -100,6 +100,22 @@ TEST_F(JournalTest, round_trip_is_exact) {
     EXPECT_EQ(loaded->cases[0].expected, std::nullopt);
 }
 
+TEST_F(JournalTest, layers_survive) {
+    report::Run run = test::sample_run();
+    run.cases[3].findings[0].layer = 0;
+    run.cases[3].findings[1].layer = 255;
+    run.cases[3].pictures.layer_height = 4;
+    write(run);
+    const auto loaded = load_journal(dir_);
+    ASSERT_TRUE(loaded) << cases::to_string(loaded.error());
+    const CaseRecord& r = loaded->cases[3];
+    EXPECT_EQ(r.findings[0].layer, 0U);
+    EXPECT_EQ(r.findings[1].layer, 255U);
+    EXPECT_EQ(r.findings[2].layer, std::nullopt);
+    EXPECT_EQ(r.pictures.layer_height, 4U);
+    EXPECT_EQ(loaded->cases[4].pictures.layer_height, 0U);
+}
+
 TEST_F(JournalTest, hostile_bytes_survive) {
     const report::Run run = test::hostile_run();
     write(run);

@@ -132,6 +132,32 @@ TEST(console, pictures_that_do_not_fit_together_are_left_out) {
     EXPECT_EQ(console_case(r, {false, true, 100}), console_case(r, {}));
 }
 
+// The 8 x 8 picture as two layers of four rows.
+TEST(console, layers_are_named) {
+    CaseRecord r = test::sample_run().cases[3];
+    r.pictures.layer_height = 4;
+    for (diff::Finding& f : r.findings) {
+        f.layer = f.y / 4;
+        f.y %= 4;
+    }
+    const std::string text = console_case(r, {false, true, 100});
+    EXPECT_NE(text.find("layer 0 (3,2): expected 1, got 0"), std::string::npos) << text;
+    EXPECT_NE(text.find("      layer 0, from row 0\n      #####O#"), std::string::npos) << text;
+    EXPECT_NE(text.find("      layer 1, from row 0\n"), std::string::npos) << text;
+    EXPECT_LT(text.find("layer 0, from row 0"), text.find("layer 1, from row 0"));
+}
+
+TEST(json, layers_are_written_where_there_are_several) {
+    report::Run run = test::sample_run();
+    run.cases[3].pictures.layer_height = 4;
+    run.cases[3].findings[1].layer = 1;
+    const auto json = nlohmann::ordered_json::parse(to_json(run));
+    const auto& fail = json.at("cases").at(3);
+    EXPECT_EQ(fail.at("findings").at(1).at("sample").at("layer"), 1);
+    EXPECT_FALSE(fail.at("findings").at(0).at("sample").contains("layer"));
+    EXPECT_EQ(fail.at("pictures").at("layer_height"), 4);
+}
+
 TEST(json, golden) {
     expect_golden("results.json", to_json(test::sample_run()));
 }

@@ -28,6 +28,8 @@ Capabilities made_up() {
     c.limits.viewportBoundsRange[0] = -8192;
     c.limits.viewportBoundsRange[1] = 8191;
     c.limits.maxImageDimension2D = 4096;
+    c.max_layers = 256;
+    c.layer_output = true;
     return c;
 }
 
@@ -78,6 +80,39 @@ TEST(CaseCheck, SampleLocations) {
     m.location_range[1] = 0.875F;
     expect_rejected(m, c, unsupported,
                     "the sample location 15/16 is outside the device's range of 0 to 0.875 pixels");
+}
+
+TEST(CaseCheck, Layers) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    c.target.layers = 256;
+    c.draws[0].layer = 255;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    m.layer_output = false;
+    expect_rejected(m, c, unsupported,
+                    "the device lacks the feature shaderOutputLayer, by which a vertex shader "
+                    "chooses the layer");
+    c.draws[0].layer = 0;  // no shader has to choose
+    EXPECT_FALSE(check_case(m, c).has_value());
+    m = made_up();
+    m.max_layers = 1;
+    expect_rejected(m, c, unsupported,
+                    "the target has 256 layers, the device allows 1 (maxFramebufferLayers)");
+    c.target.layers = 2;
+    c.draws[0].layer = 2;
+    expect_rejected(made_up(), c, error, "a draw goes to layer 2 of 2");
+    c.target.layers = 0;
+    expect_rejected(made_up(), c, error, "a draw goes to layer 2 of 0");
+    c = good();
+    c.target.layers = 0;
+    expect_rejected(made_up(), c, error, "a draw goes to layer 0 of 0");
+    c = good();
+    c.target.samples = 4;
+    c.target.layers = 100;  // 64 x 64 x 4 x 100 samples
+    expect_rejected(made_up(), c, unsupported,
+                    "reading 1638400 samples singly exceeds the device's storage buffer range of "
+                    "1048576 bytes");
 }
 
 TEST(CaseCheck, SampleShading) {

@@ -43,6 +43,35 @@ TEST(Render, HalfSquareHas136Pixels) {
     }
 }
 
+// 136 pixels in the layer of the draw, and the clear value of every plane in the others.
+TEST(Render, ADrawGoesToItsLayer) {
+    for (const uint32_t samples : {1U, 4U}) {
+        for (const uint32_t layer : {0U, 1U, 2U}) {
+            cases::Case c = make_case({64, 32, samples, 3}, {{4, 4}, {20, 4}, {4, 20}});
+            c.draws[0].layer = layer;
+            c.draws[0].attributes = {
+                attribute(cases::Interpolation::smooth,
+                          {glm::vec4(1), glm::vec4(1), glm::vec4(1)})};
+            const Rendered rendered = renderer().render({&c, 1}, {}).front();
+            ASSERT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
+            const diff::Capture& capture = rendered.capture;
+            const size_t count = size_t{64} * 32 * samples;
+            ASSERT_EQ(capture.hits.size(), 3 * count);
+            uint64_t hits = 0;
+            for (size_t k = 0; k < capture.hits.size(); ++k) {
+                const diff::SampleState state = diff::sample_state(capture, k);
+                if (k / count == layer && state == diff::SampleState::drawn) {
+                    ++hits;
+                    continue;
+                }
+                ASSERT_EQ(state, diff::SampleState::clear) << "layer " << k / count;
+            }
+            // Inside are the samples with x + y < 24; the diagonal runs through none of four.
+            EXPECT_EQ(hits, samples == 1 ? 120U : 512U);
+        }
+    }
+}
+
 TEST(Render, EverySampleSaysWhoWroteIt) {
     const diff::Capture capture = draw(make_case(k64, half_square()));
     const size_t inside = index(capture, 7, 9);

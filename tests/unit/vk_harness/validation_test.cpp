@@ -56,6 +56,18 @@ std::vector<cases::Case> all_states() {
             batch.push_back(c);
         }
     }
+    // Layers, chosen by gl_Layer and not.
+    for (const uint32_t samples : {1U, 4U}) {
+        cases::Case c = make_case({32, 16, samples, 3}, half_square());
+        batch.push_back(c);
+        c.draws[0].layer = 2;
+        c.draws.push_back(c.draws[0]);
+        c.draws[1].layer = 1;
+        c.draws[1].viewport_index = 1;
+        batch.push_back(c);
+        c.target.has_stencil = true;
+        batch.push_back(c);
+    }
     batch.push_back(make_case({8, 8, 1}, {}));
     return batch;
 }
