@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one place where fmt's functions are compiled. Debian has libfmt as a shared object only; the program
-// must run under another C library, and fmt in every file (FMT_HEADER_ONLY) costs a third of the build.
+// The one place where fmt's functions are compiled. Debian has libfmt as a shared object only; the
+// program must run under another C library, and fmt in every file (FMT_HEADER_ONLY) costs a third
+// of the build.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE
