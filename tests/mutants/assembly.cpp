@@ -116,6 +116,11 @@ std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault)
     if (fault == Fault::batch_tail_lost && !primitives.empty()) {
         primitives.pop_back();
     }
+    if (fault == Fault::primitives_paired) {
+        for (size_t k = 0; k + 1 < primitives.size(); k += 2) {
+            std::swap(primitives[k], primitives[k + 1]);
+        }
+    }
     if (fault == Fault::primitives_reversed) {
         std::reverse(primitives.begin(), primitives.end());
     }

@@ -78,7 +78,8 @@ ClipVertex cut(const ClipVertex& from, const ClipVertex& to, const Plane& plane,
     const float d_from = distance(plane, from);
     const float d_to = distance(plane, to);
     float t = d_from / (d_from - d_to);
-    if (plane.is_user && device.fault == Fault::distance_reversed) {
+    if ((plane.is_user && device.fault == Fault::distance_reversed) ||
+        (!plane.is_user && device.fault == Fault::clip_reversed)) {
         t = 1 - t;
     }
     if (plane.is_user && device.fault == Fault::distance_linear) {

@@ -12,11 +12,13 @@
 #include <utility>
 
 #include "mutants/assembly.hpp"
+#include "mutants/blend_unit.hpp"
 #include "mutants/clipper.hpp"
 #include "mutants/depth.hpp"
 #include "mutants/multisample.hpp"
 #include "mutants/planes.hpp"
 #include "mutants/probes.hpp"
+#include "mutants/resolve_unit.hpp"
 #include "mutants/tiles.hpp"
 
 namespace mutants {
@@ -34,6 +36,8 @@ int64_t to_fixed(float v, const Device& device) {
     Rounding rounding = device.rounding;
     if (device.fault == Fault::floor_snapping) {
         rounding = Rounding::floor;
+    } else if (device.fault == Fault::ceil_snapping) {
+        rounding = Rounding::ceil;
     }
     int coarse = 0;
     if (device.fault == Fault::coarse_snapping) {
@@ -115,14 +119,22 @@ cases::Draw effective(const cases::Case& c, uint32_t number, Fault fault) {
     return draw;
 }
 
+// Attachments that are written in drawing order, beside the capture's own planes.
+struct Attachments {
+    ColorAttachment color;
+    StencilAttachment stencil;
+};
+
 // One draw of a case onto the capture.
 class DrawCommand {
   public:
-    DrawCommand(const cases::Case& c, uint32_t number, const Device& device, diff::Capture& out)
+    DrawCommand(const cases::Case& c, uint32_t number, const Device& device, diff::Capture& out,
+                Attachments& attachments)
         : draw_(effective(c, number, device.fault)),
           number_(number),
           device_(device),
           out_(out),
+          attachments_(attachments),
           rect_(draw_rect(draw_, c.target, device)),
           samples_(sample_offsets(c.target, device)) {}
 
@@ -162,11 +174,13 @@ class DrawCommand {
                   const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
                   uint32_t covered);
     size_t index_in(uint32_t layer, int64_t i, int64_t j, uint32_t s) const;
+    void write_color(size_t at, uint32_t primitive);
 
     const cases::Draw draw_;
     uint32_t number_;
     const Device& device_;
     diff::Capture& out_;
+    Attachments& attachments_;
     PixelRect rect_;
     std::vector<SampleOffset> samples_;
     // Samples of the fragments of the triangle at hand: by pixel (row first) and planes.
@@ -686,6 +700,7 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         fault == Fault::depth_write_before_test) {
         out_.depth[at] = z;
     }
+    attachments_.stencil.test(at, draw_, front, passes);
     if (!passes) {
         return;
     }
@@ -700,9 +715,11 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     const float y = invocation.centre.y + corner;
     const float corner_xy = fault == Fault::frag_coord_corner ? -0.5F : 0.0F;
     const float inverse_w = planes.inverse_w(x, y);
+    const glm::vec4 older_frag_coord = out_.frag_coord[at];
     out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy, invocation.frag_coord.y + corner_xy,
                            planes.depth(x, y),
                            fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
+    out_.frag_coord[at] = attachments_.color.beside(number_, out_.frag_coord[at], older_frag_coord);
 
     for (size_t a = 0; a < draw_.attributes.size(); ++a) {
         bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat;
@@ -755,6 +772,14 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
             fault == Fault::attributes_swapped && draw_.attributes.size() > 1 && a < 2 ? 1 - a : a;
         out_.attributes[location][at] = value;
     }
+    write_color(at, primitive.id);
+}
+
+void DrawCommand::write_color(size_t at, uint32_t primitive) {
+    const int32_t attribute = draw_.color.attribute;
+    attachments_.color.write(
+        at, number_, primitive,
+        attribute < 0 ? draw_.color.value : out_.attributes[static_cast<size_t>(attribute)][at]);
 }
 
 }  // namespace
@@ -775,13 +800,26 @@ diff::Capture render(const cases::Case& c, const Device& device) {
     for (uint32_t a = 0; a < out.attribute_count; ++a) {
         out.attributes[a].assign(count, glm::vec4(diff::kClearValue));
     }
-    if (device.fault == Fault::draws_nothing) {
-        return out;
-    }
-    const auto draws = static_cast<uint32_t>(c.draws.size());
+    Attachments attachments{{c, device}, {c.target, device}};
+    const auto finish = [&] {
+        out.color = attachments.color.read_back();
+        out.stencil = attachments.stencil.values();
+        resolve(out, device);
+    };
+    const auto draws =
+        device.fault == Fault::draws_nothing ? 0U : static_cast<uint32_t>(c.draws.size());
     for (uint32_t d = 0; d < draws; ++d) {
+        if (d + 1 == draws && device.fault == Fault::resolve_early) {
+            finish();
+        }
         const bool reversed = device.fault == Fault::draws_reversed;
-        DrawCommand(c, reversed ? draws - 1 - d : d, device, out).run();
+        DrawCommand(c, reversed ? draws - 1 - d : d, device, out, attachments).run();
+    }
+    const diff::Capture early = device.fault == Fault::resolve_early ? out : diff::Capture{};
+    finish();
+    if (device.fault == Fault::resolve_early) {
+        out.resolved_color = early.resolved_color;
+        out.resolved_depth = early.resolved_depth;
     }
     return out;
 }

@@ -39,6 +39,14 @@ enum class ClipMethod : uint8_t {
 // Where an input decorated with Centroid is evaluated in a pixel that is covered in part.
 enum class Centroid : uint8_t { first_sample, mean };  // Direct3D's; the mean of what is covered
 
+// How a number becomes a code of UNORM. Down is left to a device by Vulkan, not by Direct3D; sRGB
+// and what was blended in binary32 are rounded to nearest all the same.
+enum class UnormRounding : uint8_t { nearest, nearest_even, down };
+// What blends targets of 8 bits of fixed point; all others are blended in binary32.
+enum class BlendMath : uint8_t { fixed, binary32 };
+// A product of 8-bit numbers over 255: (x y + 127) / 255, or t = x y + 128, (t + (t >> 8)) >> 8.
+enum class FixedMultiply : uint8_t { divide, shifts };
+
 // What a device is free to choose. The default is llvmpipe's way.
 struct Device {
     int subpixel_bits = 8;  // 4..12
@@ -53,6 +61,12 @@ struct Device {
     bool reciprocal_w = false;     // x * (1/w) instead of x / w
     Centroid centroid = Centroid::first_sample;
     bool inputs_follow_samples = true;  // with sample shading inputs are evaluated at the sample
+    UnormRounding unorm = UnormRounding::nearest;
+    BlendMath blend = BlendMath::fixed;
+    FixedMultiply multiply = FixedMultiply::shifts;
+    bool half_toward_zero = false;       // binary16 is rounded towards zero
+    bool resolve_truncates = false;      // averages of codes are rounded down
+    bool srgb_resolved_encoded = false;  // averages of sRGB are taken of the codes
     Fault fault = Fault::none;
 };
 

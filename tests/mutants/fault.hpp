@@ -29,6 +29,7 @@ enum class Fault : uint8_t {
     batch_tail_lost,            // the last triangle of a draw is lost
     draws_reversed,             // later draws are rendered first
     primitives_reversed,        // later triangles of a draw are rendered first
+    primitives_paired,          // of two triangles the second is rendered first
     draw_doubled,               // each triangle is rasterized twice
     draws_nothing,
     draws_everything,  // every triangle covers the whole target
@@ -39,6 +40,7 @@ enum class Fault : uint8_t {
     half_pixel_shift,     // the pixel centre is added twice
     viewport_nudge,       // the viewport's origin is 1/256 pixel off
     floor_snapping,       // vertices snap downwards
+    ceil_snapping,        // vertices snap upwards
     coarse_snapping,      // vertices snap to 1/16 pixel whatever the limit says
     position_half,        // window positions are held in 11-bit floats
     // clipping
@@ -47,6 +49,7 @@ enum class Fault : uint8_t {
     clip_no_far,            // the far plane is missing
     clip_band_unscissored,  // guard band, but the viewport's rectangle does not bound
     clip_seam,              // the cut is computed from the first end point, not from the inner one
+    clip_reversed,          // the cut is at 1 - t
     clip_copies_value,      // a new vertex takes the values of the inner vertex
     clip_screen_linear,     // a new vertex's values are interpolated as if w were constant
     clip_flat_piece,        // flat values come from the clipped polygon's first vertex
@@ -82,9 +85,14 @@ enum class Fault : uint8_t {
     small_culled,      // a triangle whose bounding box is less than a pixel is dropped
     // coverage
     ties_bottom_right,
+    ties_top_right,
+    ties_bottom_left,
     ties_all_inclusive,
     ties_all_exclusive,
     ties_top_only,      // the left edge lost its bias
+    ties_left_only,     // the top edge lost its bias
+    ties_bottom_too,    // horizontal edges own their samples from both sides
+    ties_right_too,     // right edges, too
     ties_by_winding,    // the bias is taken before the vertices are put in clockwise order
     sample_corner,      // the sample is the pixel's upper left corner
     edge_int32,         // edge functions in 32 bits
@@ -94,6 +102,8 @@ enum class Fault : uint8_t {
     tile_wrong_corner,  // trivial reject looks at the corner that is nearest to the edge's outside
     tile_off_by_one,    // trivial reject looks at the last pixel but one
     box_last_column,    // bounding box: last column lost
+    box_last_row,       // bounding box: last row lost
+    box_first_column,   // bounding box: first column lost
     box_first_row,      // bounding box: first row lost
     clip_diagonal_double,  // the inner diagonals of a clipped polygon are drawn by both pieces
     // multisampling
@@ -133,6 +143,7 @@ enum class Fault : uint8_t {
     reciprocal_area_12_bits,  // 1/area by a table of 12 bits
     weights_8_bits,           // barycentric weights in 8 bits
     values_stepped,           // values are stepped from pixel to pixel by additions
+    plane_origin_far,         // planes are anchored 2^14 pixels away
     values_clamped,           // attributes are clamped to [0, 1]
     noperspective_smooth,
     flat_smooth,
@@ -149,8 +160,11 @@ enum class Fault : uint8_t {
     // probes
     derivative_partial,   // the limit instead of a difference between pixels
     derivative_y_up,      // dFdy with the opposite sign
+    derivative_halved,    // over a quad of two pixels' distance
+    quads_misplaced,      // quads begin at odd pixels
     offset_ignored,       // interpolateAtOffset at the centre
     lod_one_less,         // one level too fine
+    lod_norm,             // the smaller of the two lengths
     barycentric_rotated,  // vertex order turned by one
     perspective_spans,    // one 1/w for each span of 8 pixels
     // depth
@@ -175,6 +189,75 @@ enum class Fault : uint8_t {
     bias_slope_sum,           // the slope is the sum of both
     bias_clamp_ignored,       // no depthBiasClamp
     bias_clamp_both_ends,     // depthBiasClamp limits both ends
+    // the colour target
+    blend_ignored,                  // written as if blending were off
+    blend_twice,                    // a blended fragment is blended again
+    blend_factors_exchanged,        // source and destination factor
+    blend_alpha_for_color,          // red, green and blue by the equation of alpha
+    blend_color_for_alpha,          // alpha by the equation of the colours
+    blend_complement_forgotten,     // ONE_MINUS_X is X
+    blend_saturate_ignored,         // SRC_ALPHA_SATURATE is SRC_ALPHA
+    blend_saturate_alpha,           // SRC_ALPHA_SATURATE is min(As, 1 - Ad) for alpha, too
+    blend_dst_alpha_one,            // the destination's alpha is never read
+    blend_missing_alpha_zero,       // a target without alpha has alpha 0
+    blend_constants_ignored,        // they are 0
+    blend_constants_alpha,          // CONSTANT_COLOR is CONSTANT_ALPHA
+    blend_constants_of_first_draw,  // dynamic state that is not sent again
+    blend_op_ignored,               // every operation adds
+    blend_subtract_exchanged,       // SUBTRACT and REVERSE_SUBTRACT
+    blend_min_max_scaled,           // factors are applied before MIN and MAX
+    blend_premultiplies,            // the source is multiplied by its alpha once more
+    blend_shift_only,               // products of 8 bits are shifted by 8, 255 * 255 is 254
+    blend_source_unclamped,  // source and constants keep values beyond 0 and 1 in fixed point
+    blend_floats_clamped,    // the source is clamped for float targets, too
+    blend_stale,             // the destination is read before the triangle before is stored
+    blend_merges,            // a fragment on top of the triangle before's is dropped
+    blend_everywhere,        // FragCoord's attachment is blended, too
+    blend_stays_on,          // a draw without blending is blended as the one before
+    blend_of_first_draw,     // equations stay as first set
+    color_reloaded,          // each draw starts with the load operation
+    color_per_pixel,         // unblended colours go to all samples of the pixel
+    write_mask_ignored,
+    write_mask_ignored_blending,  // of blended draws
+    write_mask_shifted,           // by one component
+    write_mask_unswizzled,        // bit 0 is the first component in memory, blue of BGRA
+    write_mask_of_first_draw,
+    bgra_swapped,          // BGRA is written as RGBA
+    store_truncates,       // UNORM rounds down
+    store_wraps,           // UNORM without a clamp
+    store_scale,           // f * 2^b
+    store_through_8_bits,  // narrower UNORM is cut from 8 bits
+    float_store_clamped,   // floats are clamped to [0, 1]
+    float_store_half,      // binary32 is stored with the precision of binary16
+    half_exponent_wraps,   // binary16's exponent overflows into small numbers
+    integer_8_bits,        // integers pass through 8 bits
+    srgb_not_encoded,
+    srgb_not_decoded,    // the destination is blended as it is stored
+    srgb_alpha_encoded,  // alpha, too
+    srgb_gamma,          // a power of 1/2.2
+    // stencil
+    stencil_faces_exchanged,  // operations of front and back
+    stencil_front_only,       // the back operation is never used
+    stencil_own_facing,       // clockwise is front whatever frontFace says
+    stencil_saturates,        // ..._AND_WRAP stops at 0 and 255
+    stencil_seven_bits,       // the write mask lacks the highest bit
+    stencil_per_pixel,        // each covered sample counts for the whole pixel
+    stencil_sample_zero,      // only sample 0 is written
+    stencil_before_depth,     // fragments that fail the depth test count
+    stencil_never_written,
+    // resolves
+    resolve_one_sample,         // the average is sample 0
+    resolve_sample_lost,        // the last sample does not take part in the average
+    resolve_weights,            // means of means
+    resolve_drawn_only,         // samples that hold the clear value do not take part
+    resolve_averages_integers,  // sample 0 is the average
+    resolve_min_max_exchanged,
+    resolve_always_zero,  // MIN and MAX are sample 0
+    resolve_last_sample,  // sample 0 is the last one
+    resolve_shifted,      // pixels are resolved from their right neighbours
+    resolve_row_lost,     // the last row is not resolved
+    resolve_early,        // before the last draw
+    resolve_ignored,
 };
 
 // One line of the table of faults.

@@ -4,81 +4,69 @@
 // Prints which cases catch which fault, at which profile; and, with "legal", what is found wrong
 // about devices that break no rule. Not a test: it shows where the suite is thin.
 //
-//     mutant_table [FAULT...]        one line a fault
-//     mutant_table --small [...]     only cases of at most 64x64 samples: quick
+//     mutant_table [FAULT...]        one line a fault, by first leaves, until two families have it
+//     mutant_table --all [...]       by every leaf (hours, for all faults)
 //     mutant_table --cases FAULT...  the catching cases, one a line
 //     mutant_table --legal [NAME...] legal devices and every false alarm
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <map>
+#include <cstdio>
 #include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "mutants/judge.hpp"
+#include "mutants/matrix.hpp"
 
 namespace {
 
-using mutants::Fault;
-
-std::string family(const std::string& id) {
-    return id.substr(0, id.find('/'));
+// Few samples and few triangles: a fault shows in them within a millisecond.
+bool is_small(const cases::Case& c) {
+    size_t vertices = 0;
+    for (const cases::Draw& draw : c.draws) {
+        vertices += draw.indices ? draw.indices->size() : draw.positions.size();
+    }
+    return c.target.width * c.target.height * c.target.samples <= 64U * 64U && vertices <= 1024;
 }
 
-struct Row {
-    size_t caught = 0;
-    size_t errors = 0;
-    cases::Profile loosest = cases::Profile::direct3d;
-    std::map<std::string, size_t> families;
-    std::vector<std::string> lines;
-};
+// The first leaf of each file, without large ones; or all.
+std::vector<size_t> leaves_of(const std::vector<cases::Case>& suite, bool all) {
+    std::vector<size_t> leaves = mutants::leaves_by_turn(suite);
+    if (!all) {
+        std::set<std::string> seen;
+        std::erase_if(leaves, [&](size_t k) {
+            return !is_small(suite[k]) || !seen.insert(mutants::file_of(suite[k])).second;
+        });
+    }
+    return leaves;
+}
 
 void print_faults(const std::vector<cases::Case>& suite, const std::set<std::string>& wanted,
-                  bool with_cases) {
-    std::vector<Fault> faults;
+                  bool with_cases, bool all) {
+    std::vector<mutants::MatrixRow> rows;
     for (const auto& info : mutants::all_faults()) {
         if (wanted.empty() || wanted.count(std::string(info.name)) > 0) {
-            faults.push_back(info.fault);
+            mutants::MatrixRow row;
+            row.fault = info.fault;
+            rows.push_back(row);
         }
     }
-    std::vector<Row> rows(faults.size());
-    std::mutex mutex;
-    mutants::for_each_parallel(suite.size(), [&](size_t k) {
-        const cases::Case& c = suite[k];
-        const auto expectation = ref::expect(c, {}, cases::Profile::direct3d);
-        for (size_t f = 0; f < faults.size(); ++f) {
-            mutants::Device device;
-            device.fault = faults[f];
-            const auto verdict = diff::compare(c, expectation, mutants::render(c, device));
-            if (verdict.ok()) {
-                continue;
-            }
-            const std::lock_guard lock(mutex);
-            Row& row = rows[f];
-            ++row.caught;
-            ++row.families[family(c.id)];
-            row.errors += verdict.error.empty() ? 0U : 1U;
-            row.loosest = std::min(row.loosest, verdict.level);
-            row.lines.push_back(fmt::format("{}  {}", cases::to_string(verdict.level),
-                                            mutants::describe(c, verdict)));
-        }
-    });
-    fmt::print("{:<26}{:>7}  {:<9} families\n", "mutant", "cases", "loosest");
-    for (size_t f = 0; f < faults.size(); ++f) {
-        Row& row = rows[f];
+    const std::vector<size_t> leaves = leaves_of(suite, all);
+    mutants::measure(
+        suite, leaves, rows,
+        [&](const mutants::MatrixRow& row) { return with_cases || all || row.files.size() < 2; },
+        [](const std::string& line) { fmt::print("false alarm: {}\n", line); });
+    fmt::print("{:<30}{:>6} {:>6}  {:<9} families\n", "mutant", "leaves", "files", "loosest");
+    for (mutants::MatrixRow& row : rows) {
         std::string families;
-        for (const auto& [name, count] : row.families) {
-            families += fmt::format("{} {}, ", name, count);
+        for (const auto& [name, files] : row.files) {
+            families += fmt::format("{}{} {}", families.empty() ? "" : ", ", name, files.size());
         }
-        if (!families.empty()) {
-            families.resize(families.size() - 2);
-        }
-        fmt::print("{:<26}{:>7}  {:<9} {}{}\n", mutants::to_string(faults[f]), row.caught,
-                   row.caught > 0 ? cases::to_string(row.loosest) : "-", families,
-                   row.errors > 0 ? fmt::format(" ({} could not be judged)", row.errors) : "");
+        fmt::print("{:<30}{:>6} {:>6}  {:<9} {}\n", mutants::to_string(row.fault), row.leaves(),
+                   row.file_count(), row.leaves() > 0 ? cases::to_string(row.loosest) : "-",
+                   families);
         if (with_cases) {
             std::sort(row.lines.begin(), row.lines.end());
             for (const std::string& line : row.lines) {
@@ -88,8 +76,10 @@ void print_faults(const std::vector<cases::Case>& suite, const std::set<std::str
     }
 }
 
-int print_legal(const std::vector<cases::Case>& suite, const std::set<std::string>& wanted) {
+int print_legal(const std::vector<cases::Case>& suite, const std::set<std::string>& wanted,
+                bool all) {
     size_t alarms = 0;
+    const std::vector<size_t> leaves = leaves_of(suite, all);
     for (const mutants::LegalDevice& legal : mutants::legal_devices()) {
         if (!wanted.empty() && wanted.count(legal.name) == 0) {
             continue;
@@ -98,14 +88,15 @@ int print_legal(const std::vector<cases::Case>& suite, const std::set<std::strin
         std::vector<std::string> lines;
         double worst = 0;
         std::string worst_id;
-        mutants::for_each_parallel(suite.size(), [&](size_t k) {
-            const auto verdict = mutants::judge(suite[k], legal.device, legal.profile);
+        mutants::for_each_parallel(leaves.size(), [&](size_t n) {
+            const cases::Case& c = suite[leaves[n]];
+            const auto verdict = mutants::judge(c, legal.device, legal.profile);
             const std::lock_guard lock(mutex);
             if (!verdict.ok()) {
-                lines.push_back(mutants::describe(suite[k], verdict));
+                lines.push_back(mutants::describe(c, verdict));
             } else if (verdict.worst_ratio > worst) {
                 worst = verdict.worst_ratio;
-                worst_id = suite[k].id;
+                worst_id = c.id;
             }
         });
         std::sort(lines.begin(), lines.end());
@@ -126,19 +117,14 @@ int main(int argc, char** argv) {
     std::set<std::string> words(argv + 1, argv + argc);
     const bool legal = words.erase("--legal") > 0;
     const bool with_cases = words.erase("--cases") > 0;
-    const bool small = words.erase("--small") > 0;
+    const bool all = words.erase("--all") > 0;
     cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
     for (const cases::Error& error : suite.errors) {
         fmt::print(stderr, "{}\n", cases::to_string(error));
     }
-    if (small) {
-        std::erase_if(suite.cases, [](const cases::Case& c) {
-            return c.target.width * c.target.rows() * c.target.samples > 64U * 64U;
-        });
-    }
     if (legal) {
-        return print_legal(suite.cases, words);
+        return print_legal(suite.cases, words, all);
     }
-    print_faults(suite.cases, words, with_cases);
+    print_faults(suite.cases, words, with_cases, all);
     return 0;
 }

@@ -81,6 +81,10 @@ TrianglePlanes::Plane TrianglePlanes::make(const std::array<float, 3>& g) const 
     plane.dadx = mad(g1, y2, -(g2 * y1)) * inverse_area_;
     plane.dady = mad(g2, x1, -(g1 * x2)) * inverse_area_;
     plane.a0 = g[0];
+    if (device_.fault == Fault::plane_origin_far) {
+        plane.a0 = g[0] - mad(plane.dadx, x_[0] + 0x1p14F, plane.dady * (y_[0] + 0x1p14F));
+        return plane;
+    }
     if (device_.planes == PlaneForm::origin) {
         plane.a0 = g[0] - mad(plane.dadx, x_[0], plane.dady * y_[0]);
     }
@@ -111,6 +115,9 @@ float TrianglePlanes::at(const Plane& plane, float x, float y) const {
             value += plane.dadx;
         }
         return value;
+    }
+    if (device_.fault == Fault::plane_origin_far) {
+        return mad(y + 0x1p14F, plane.dady, mad(x + 0x1p14F, plane.dadx, plane.a0));
     }
     switch (device_.planes) {
         case PlaneForm::origin:

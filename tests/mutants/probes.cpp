@@ -20,26 +20,14 @@ class Prober {
         : device_(device),
           planes_(planes),
           a_(a),
-          right_(static_cast<int>(i & 1)),
-          bottom_(static_cast<int>(j & 1)),
+          right_(static_cast<int>((i + (device.fault == Fault::quads_misplaced ? 1 : 0)) & 1)),
+          bottom_(static_cast<int>((j + (device.fault == Fault::quads_misplaced ? 1 : 0)) & 1)),
           place_(place) {}
 
     // Along x or y in the quad, in the pixel's own line or in the quad's first.
     glm::vec4 difference(bool along_x, bool is_coarse) const {
-        const int own = along_x ? right_ : bottom_;
-        const int line = is_coarse ? -(along_x ? bottom_ : right_) : 0;
-        if (device_.fault == Fault::derivative_partial) {
-            const float h = 0x1p-6F;
-            const glm::vec4 plus = along_x ? at(h, 0) : at(0, h);
-            return (plus - at(0, 0)) / h;
-        }
-        if (along_x) {
-            return at(static_cast<float>(1 - own), static_cast<float>(line)) -
-                   at(static_cast<float>(-own), static_cast<float>(line));
-        }
-        const glm::vec4 d = at(static_cast<float>(line), static_cast<float>(1 - own)) -
-                            at(static_cast<float>(line), static_cast<float>(-own));
-        return device_.fault == Fault::derivative_y_up ? -d : d;
+        const glm::vec4 d = whole_difference(along_x, is_coarse);
+        return device_.fault == Fault::derivative_halved ? d * 0.5F : d;
     }
 
     glm::vec4 width(bool is_coarse) const {
@@ -52,7 +40,9 @@ class Prober {
             const glm::vec4 d = difference(along_x, true);
             const float u = d.x * static_cast<float>(attribute.texture_size[0]);
             const float v = d.y * static_cast<float>(attribute.texture_size[1]);
-            rho = std::max(rho, std::sqrt(u * u + v * v));
+            const float length = std::sqrt(u * u + v * v);
+            rho = device_.fault == Fault::lod_norm && !along_x ? std::min(rho, length)
+                                                               : std::max(rho, length);
         }
         const float lambda = std::log2(rho) - (device_.fault == Fault::lod_one_less ? 1.0F : 0.0F);
         const auto levels =
@@ -61,6 +51,8 @@ class Prober {
     }
 
   private:
+    glm::vec4 whole_difference(bool along_x, bool is_coarse) const;
+
     glm::vec4 at(float dx, float dy) const {
         return planes_.attribute(a_, place_.x + dx, place_.y + dy);
     }
@@ -71,6 +63,23 @@ class Prober {
     int right_, bottom_;
     Place place_;
 };
+
+glm::vec4 Prober::whole_difference(bool along_x, bool is_coarse) const {
+    const int own = along_x ? right_ : bottom_;
+    const int line = is_coarse ? -(along_x ? bottom_ : right_) : 0;
+    if (device_.fault == Fault::derivative_partial) {
+        const float h = 0x1p-6F;
+        const glm::vec4 plus = along_x ? at(h, 0) : at(0, h);
+        return (plus - at(0, 0)) / h;
+    }
+    if (along_x) {
+        return at(static_cast<float>(1 - own), static_cast<float>(line)) -
+               at(static_cast<float>(-own), static_cast<float>(line));
+    }
+    const glm::vec4 d = at(static_cast<float>(line), static_cast<float>(1 - own)) -
+                        at(static_cast<float>(line), static_cast<float>(-own));
+    return device_.fault == Fault::derivative_y_up ? -d : d;
+}
 
 }  // namespace
 

@@ -46,6 +46,16 @@ int64_t bias_of(const Device& device, int64_t dx, int64_t dy, bool reversed, boo
     switch (device.fault) {
         case Fault::ties_bottom_right:
             return owns(TieRule::bottom_right, dx, dy) ? 0 : -1;
+        case Fault::ties_top_right:
+            return owns(TieRule::top_right, dx, dy) ? 0 : -1;
+        case Fault::ties_bottom_left:
+            return owns(TieRule::bottom_left, dx, dy) ? 0 : -1;
+        case Fault::ties_left_only:
+            return dy < 0 ? 0 : -1;
+        case Fault::ties_bottom_too:
+            return dy == 0 || owns(device.ties, dx, dy) ? 0 : -1;
+        case Fault::ties_right_too:
+            return dy != 0 || owns(device.ties, dx, dy) ? 0 : -1;
         case Fault::ties_all_inclusive:
             return 0;
         case Fault::ties_all_exclusive:
@@ -127,6 +137,12 @@ PixelRect bounding_box(const ScanTriangle& triangle, const PixelRect& rect, cons
         floor_pixel(max_x, device.subpixel_bits) + 1, floor_pixel(max_y, device.subpixel_bits) + 1};
     if (device.fault == Fault::box_last_column) {
         box.x1 -= 1;
+    }
+    if (device.fault == Fault::box_last_row) {
+        box.y1 -= 1;
+    }
+    if (device.fault == Fault::box_first_column) {
+        box.x0 += 1;
     }
     if (device.fault == Fault::box_first_row) {
         box.y0 += 1;

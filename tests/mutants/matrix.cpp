@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mutants/matrix.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+#include <tuple>
+
+#include "diff/color_planes.hpp"
+#include "mutants/judge.hpp"
+#include "ref/expectation.hpp"
+
+namespace mutants {
+
+namespace {
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool same_bits(const diff::Capture& a, const diff::Capture& b) {
+    bool same = same_bits(a.hits, b.hits) && same_bits(a.writers, b.writers) &&
+                same_bits(a.frag_coord, b.frag_coord) && same_bits(a.depth, b.depth) &&
+                same_bits(a.color, b.color) && same_bits(a.stencil, b.stencil) &&
+                same_bits(a.resolved_color, b.resolved_color) &&
+                same_bits(a.resolved_depth, b.resolved_depth);
+    for (size_t k = 0; k < a.attributes.size(); ++k) {
+        same = same && same_bits(a.attributes[k], b.attributes[k]);
+    }
+    return same;
+}
+
+constexpr size_t kBatch = 16;
+
+diff::Capture captured(const cases::Case& c, Fault fault) {
+    Device device;
+    device.fault = fault;
+    diff::Capture out = render(c, device);
+    diff::drop_unattached(out, c);
+    return out;
+}
+
+}  // namespace
+
+size_t MatrixRow::file_count() const {
+    size_t count = 0;
+    for (const auto& [family, names] : files) {
+        count += names.size();
+    }
+    return count;
+}
+
+std::string family_of(const cases::Case& c) {
+    return c.id.substr(0, c.id.find('/'));
+}
+
+std::string file_of(const cases::Case& c) {
+    return c.id.substr(0, c.id.find(':'));
+}
+
+std::vector<size_t> leaves_by_turn(std::span<const cases::Case> suite) {
+    // Number in the file, number of the file in its family, number in the suite.
+    std::vector<std::tuple<size_t, size_t, size_t>> order;
+    std::map<std::string, size_t> leaves, files;
+    for (size_t k = 0; k < suite.size(); ++k) {
+        if (suite[k].blit) {  // the device has no blits
+            continue;
+        }
+        const size_t leaf = leaves[file_of(suite[k])]++;
+        size_t& file = files[family_of(suite[k])];
+        file += leaf == 0 ? 1 : 0;
+        order.emplace_back(leaf, file, k);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<size_t> out;
+    for (const auto& [leaf, file, k] : order) {
+        out.push_back(k);
+    }
+    return out;
+}
+
+void measure(std::span<const cases::Case> suite, std::span<const size_t> leaves,
+             std::vector<MatrixRow>& rows, const std::function<bool(const MatrixRow&)>& asks,
+             const std::function<void(const std::string&)>& alarm) {
+    // In batches, so that what is asked does not hang on which thread was first.
+    for (; leaves.size() > kBatch; leaves = leaves.subspan(kBatch)) {
+        measure(suite, leaves.first(kBatch), rows, asks, alarm);
+    }
+    std::vector<size_t> asked;
+    for (size_t r = 0; r < rows.size(); ++r) {
+        if (asks(rows[r])) {
+            asked.push_back(r);
+        }
+    }
+    if (asked.empty()) {
+        return;
+    }
+    std::mutex mutex;
+    for_each_parallel(leaves.size(), [&](size_t n) {
+        const cases::Case& c = suite[leaves[n]];
+        const ref::Expectation expectation = ref::expect(c, {}, cases::Profile::direct3d);
+        const diff::Capture right = captured(c, Fault::none);
+        if (const diff::Verdict verdict = diff::compare(c, expectation, right); !verdict.ok()) {
+            const std::lock_guard lock(mutex);
+            alarm(describe(c, verdict));
+            return;
+        }
+        for (const size_t r : asked) {
+            const diff::Capture wrong = captured(c, rows[r].fault);
+            if (same_bits(right, wrong)) {
+                continue;
+            }
+            const diff::Verdict verdict = diff::compare(c, expectation, wrong);
+            if (verdict.ok() || !verdict.error.empty()) {
+                continue;
+            }
+            const std::lock_guard lock(mutex);
+            MatrixRow& row = rows[r];
+            row.loosest = row.lines.empty() ? verdict.level : std::min(row.loosest, verdict.level);
+            row.files[family_of(c)].insert(file_of(c));
+            row.first_rule.emplace(file_of(c), verdict.findings.front().rule);
+            row.lines.push_back(fmt::format("{}  {}", cases::to_string(verdict.level),
+                                            describe(c, verdict)));
+        }
+    });
+}
+
+}  // namespace mutants
