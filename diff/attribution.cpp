@@ -267,6 +267,14 @@ void Attribution::attribute_writer(Finding& finding,
     if (finding.level == cases::Profile::vulkan) {
         return;  // whatever is granted, that triangle cannot have been the last
     }
+    const auto earlier = like_writer_.find(finding.level);
+    if (explained_ >= explains_ && earlier != like_writer_.end()) {
+        finding.rule = earlier->second.rule;
+        finding.why =
+            fmt::format("as at pixel ({}, {})", earlier->second.x, earlier->second.y);
+        return;
+    }
+    ++explained_;
     // A looser profile lets the writer cover the sample: it is a question of who owns it.
     const ref::SampleExplanation s =
         ref::explain_sample(case_, expectation_.limits, finding.level, place_of(finding));
@@ -278,6 +286,7 @@ void Attribution::attribute_writer(Finding& finding,
         finding.rule = finding.level == cases::Profile::direct3d ? "snap.nearest" : "cover.outside";
         finding.why = "where the vertices snap decides which triangle covers the sample";
     }
+    like_writer_.insert_or_assign(finding.level, finding);
 }
 
 void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back) {
@@ -295,7 +304,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
         fmt::format("{} {} {}|{}", static_cast<int>(finding.kind), static_cast<int>(finding.level),
                     finding.expected, finding.got);
     const auto earlier = like_.find(key);
-    if (explained_ >= kExplained && earlier != like_.end()) {
+    if (explained_ >= explains_ && earlier != like_.end()) {
         finding.rule = earlier->second.rule;
         finding.quantity = earlier->second.quantity;
         finding.why = "as at " + pixel_text(case_.target, place_of(earlier->second));

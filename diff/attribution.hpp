@@ -4,6 +4,7 @@
 // Which rule a wrong number of hits breaks, at which profile, and why.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -21,7 +22,10 @@ namespace diff {
 class Attribution {
   public:
     Attribution(const cases::Case& c, const ref::Expectation& expectation)
-        : case_(c), expectation_(expectation) {}
+        : case_(c),
+          expectation_(expectation),
+          explains_(std::clamp(kTriangles / std::max(expectation.triangles.size(), size_t{1}),
+                               size_t{2}, kExplained)) {}
 
     // Fills rule, level, expected, got and why of a finding whose kind and sample are set, for a
     // sample where the device counted `front` and `back` hits.
@@ -43,15 +47,20 @@ class Attribution {
     // Rule and why, from the story of the sample.
     void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) const;
 
-    // Explaining a sample costs as much as judging thousands. After kExplained findings, one that
-    // looks like an earlier one (same kind, level and numbers) takes over its rule.
+    // Explaining a sample costs as much as judging thousands, and more with each triangle of the
+    // case. After kExplained findings, or kTriangles set up for them, one that looks like an
+    // earlier one (same kind, level and numbers) takes over its rule: a driver that breaks
+    // everything is judged in seconds, too.
     static constexpr size_t kExplained = 64;
+    static constexpr size_t kTriangles = 1024;
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
     std::optional<ref::Expectation> looser_[2];
+    size_t explains_;  // how many findings are explained before one takes over another's rule
     size_t explained_ = 0;
     std::map<std::string, Finding> like_;  // by kind, level, expected and got
+    std::map<cases::Profile, Finding> like_writer_;  // wrong writers, by level
 };
 
 // "1", "0 or 1", "1 to 3"; with facing when both faces play a part: "1 front, 0 back".

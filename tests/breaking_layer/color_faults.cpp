@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Blending and write masks. An attachment that adds (ONE, ONE, ADD) counts hits in every case, so a
+// fault of it would be seen everywhere: apart from the first few, faults touch other equations
+// only.
+#include <array>
+
+#include "fault.hpp"
+
+namespace breaking {
+
+namespace {
+
+using Blend = VkPipelineColorBlendAttachmentState;
+
+bool adds(const Blend& b) {
+    return b.srcColorBlendFactor == VK_BLEND_FACTOR_ONE &&
+           b.dstColorBlendFactor == VK_BLEND_FACTOR_ONE && b.colorBlendOp == VK_BLEND_OP_ADD;
+}
+
+template <bool (*alter)(Blend&)>
+bool each(PipelineCopy& p) {
+    bool altered = false;
+    for (Blend& b : p.blends) {
+        altered = alter(b) || altered;
+    }
+    return altered;
+}
+
+template <bool (*alter)(Blend&)>
+bool each_equation(PipelineCopy& p) {
+    bool altered = false;
+    for (Blend& b : p.blends) {
+        altered = (b.blendEnable == VK_TRUE && !adds(b) && alter(b)) || altered;
+    }
+    return altered;
+}
+
+// All four factors.
+template <VkBlendFactor from, VkBlendFactor to>
+bool factor(Blend& b) {
+    bool altered = false;
+    for (VkBlendFactor* f : {&b.srcColorBlendFactor, &b.dstColorBlendFactor, &b.srcAlphaBlendFactor,
+                             &b.dstAlphaBlendFactor}) {
+        altered = (*f == from && change(*f, to)) || altered;
+    }
+    return altered;
+}
+
+template <VkBlendOp from, VkBlendOp to>
+bool op(Blend& b) {
+    bool altered = false;
+    for (VkBlendOp* o : {&b.colorBlendOp, &b.alphaBlendOp}) {
+        altered = (*o == from && change(*o, to)) || altered;
+    }
+    return altered;
+}
+
+bool disable(Blend& b) {
+    return change(b.blendEnable, VK_FALSE);
+}
+bool swap_factors(Blend& b) {
+    std::swap(b.srcColorBlendFactor, b.dstColorBlendFactor);
+    std::swap(b.srcAlphaBlendFactor, b.dstAlphaBlendFactor);
+    return b.srcColorBlendFactor != b.dstColorBlendFactor ||
+           b.srcAlphaBlendFactor != b.dstAlphaBlendFactor;
+}
+bool alpha_as_color(Blend& b) {
+    const bool source = change(b.srcAlphaBlendFactor, b.srcColorBlendFactor);
+    const bool destination = change(b.dstAlphaBlendFactor, b.dstColorBlendFactor);
+    return change(b.alphaBlendOp, b.colorBlendOp) || source || destination;
+}
+bool alpha_replaced(Blend& b) {
+    const bool source = change(b.srcAlphaBlendFactor, VK_BLEND_FACTOR_ONE);
+    const bool destination = change(b.dstAlphaBlendFactor, VK_BLEND_FACTOR_ZERO);
+    return change(b.alphaBlendOp, VK_BLEND_OP_ADD) || source || destination;
+}
+bool swap_min_max(Blend& b) {
+    return op<VK_BLEND_OP_MIN, VK_BLEND_OP_MAX>(b) || op<VK_BLEND_OP_MAX, VK_BLEND_OP_MIN>(b);
+}
+bool swap_subtract(Blend& b) {
+    return op<VK_BLEND_OP_SUBTRACT, VK_BLEND_OP_REVERSE_SUBTRACT>(b) ||
+           op<VK_BLEND_OP_REVERSE_SUBTRACT, VK_BLEND_OP_SUBTRACT>(b);
+}
+bool write_all(Blend& b) {
+    return change(b.colorWriteMask, 0xf);
+}
+bool write_no_alpha(Blend& b) {
+    return change(b.colorWriteMask,
+                  b.colorWriteMask & ~VkColorComponentFlags{VK_COLOR_COMPONENT_A_BIT});
+}
+bool write_blue_for_red(Blend& b) {
+    const VkColorComponentFlags mask = b.colorWriteMask;
+    return change(b.colorWriteMask, (mask & 0xaU) | (mask & 1U) << 2U | (mask & 4U) >> 2U);
+}
+
+bool swap_constants(std::span<float, 4> c) {
+    const float red = c[0];
+    const bool altered = change(c[0], c[2]);
+    c[2] = red;
+    return altered;
+}
+bool no_constants(std::span<float, 4> c) {
+    bool altered = false;
+    for (float& value : c) {
+        altered = change(value, 0) || altered;
+    }
+    return altered;
+}
+
+constexpr auto kSourceAlpha = VK_BLEND_FACTOR_SRC_ALPHA;
+constexpr auto kOne = VK_BLEND_FACTOR_ONE;
+
+constexpr std::array kFaults = {
+    Fault{"blend-off", "Nothing is blended.", {.pipeline = each<disable>}},
+    Fault{"blend-off-but-adding",
+          "Only equations that add are blended.",
+          {.pipeline = each_equation<disable>}},
+    Fault{"blend-factors-swapped",
+          "Source and destination factors are swapped.",
+          {.pipeline = each_equation<swap_factors>}},
+    Fault{"blend-alpha-as-color",
+          "Alpha is blended by the equation of colour.",
+          {.pipeline = each_equation<alpha_as_color>}},
+    Fault{"blend-alpha-replaced",
+          "Alpha is replaced instead of blended.",
+          {.pipeline = each_equation<alpha_replaced>}},
+    Fault{"blend-source-alpha-one",
+          "SRC_ALPHA counts as ONE.",
+          {.pipeline = each_equation<factor<kSourceAlpha, kOne>>}},
+    Fault{"blend-source-alpha-destination",
+          "SRC_ALPHA counts as DST_ALPHA.",
+          {.pipeline = each_equation<factor<kSourceAlpha, VK_BLEND_FACTOR_DST_ALPHA>>}},
+    Fault{"blend-one-minus-source-alpha-one",
+          "ONE_MINUS_SRC_ALPHA counts as ONE.",
+          {.pipeline = each_equation<factor<VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, kOne>>}},
+    Fault{"blend-destination-alpha-one",
+          "DST_ALPHA counts as ONE.",
+          {.pipeline = each_equation<factor<VK_BLEND_FACTOR_DST_ALPHA, kOne>>}},
+    Fault{
+        "blend-destination-color-source",
+        "DST_COLOR counts as SRC_COLOR.",
+        {.pipeline = each_equation<factor<VK_BLEND_FACTOR_DST_COLOR, VK_BLEND_FACTOR_SRC_COLOR>>}},
+    Fault{"blend-constant-color-alpha",
+          "CONSTANT_COLOR counts as CONSTANT_ALPHA.",
+          {.pipeline = each_equation<
+               factor<VK_BLEND_FACTOR_CONSTANT_COLOR, VK_BLEND_FACTOR_CONSTANT_ALPHA>>}},
+    Fault{"blend-saturate-source-alpha",
+          "SRC_ALPHA_SATURATE counts as SRC_ALPHA.",
+          {.pipeline = each_equation<factor<VK_BLEND_FACTOR_SRC_ALPHA_SATURATE, kSourceAlpha>>}},
+    Fault{"blend-min-max-swapped",
+          "MIN and MAX are swapped.",
+          {.pipeline = each_equation<swap_min_max>}},
+    Fault{"blend-subtract-swapped",
+          "SUBTRACT and REVERSE_SUBTRACT are swapped.",
+          {.pipeline = each_equation<swap_subtract>}},
+    Fault{"blend-subtract-as-add",
+          "SUBTRACT adds.",
+          {.pipeline = each_equation<op<VK_BLEND_OP_SUBTRACT, VK_BLEND_OP_ADD>>}},
+    Fault{"blend-constants-swapped",
+          "Red and blue of the blend constants are swapped.",
+          {.blend_constants = swap_constants}},
+    Fault{"blend-constants-zero",
+          "The blend constants count as 0.",
+          {.blend_constants = no_constants}},
+    Fault{"write-mask-ignored", "All components are written.", {.pipeline = each<write_all>}},
+    Fault{"write-mask-no-alpha", "Alpha is never written.", {.pipeline = each<write_no_alpha>}},
+    Fault{"write-mask-red-blue",
+          "The write mask's bits of red and blue are swapped.",
+          {.pipeline = each<write_blue_for_red>}},
+};
+
+}  // namespace
+
+std::span<const Fault> color_faults() {
+    return kFaults;
+}
+
+}  // namespace breaking

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Depth: test, write, bias, clamp, clip, and the stencil that counts beside it.
+#include <array>
+
+#include "fault.hpp"
+
+namespace breaking {
+
+namespace {
+
+template <VkCompareOp from, VkCompareOp to>
+bool compare(VkCompareOp& op) {
+    return op == from && change(op, to);
+}
+
+bool mirror_compare(VkCompareOp& op) {
+    // LESS (1) and GREATER (4) are bits; EQUAL (2), NEVER (0) and ALWAYS (7) stay.
+    const auto bits = static_cast<uint32_t>(op);
+    return change(op,
+                  static_cast<VkCompareOp>((bits & 2U) | (bits & 1U) << 2U | (bits & 4U) >> 2U));
+}
+
+bool no_clip_control(PipelineCopy& p) {
+    const bool had = p.clip_control && p.clip_control->negativeOneToOne == VK_TRUE;
+    p.clip_control.reset();
+    return had;
+}
+
+bool flip_depth_clip(PipelineCopy& p) {
+    if (!p.depth_clip) {
+        return false;
+    }
+    p.depth_clip->depthClipEnable = p.depth_clip->depthClipEnable == VK_TRUE ? VK_FALSE : VK_TRUE;
+    return true;
+}
+
+bool no_stencil_decrement(PipelineCopy& p) {
+    return p.depth.stencilTestEnable == VK_TRUE &&
+           change(p.depth.back.passOp, p.depth.front.passOp);
+}
+
+bool clamp_stencil(PipelineCopy& p) {
+    return p.depth.stencilTestEnable == VK_TRUE &&
+           change(p.depth.back.passOp, VK_STENCIL_OP_DECREMENT_AND_CLAMP);
+}
+
+constexpr std::array kFaults = {
+    Fault{"depth-compare-less-or-equal",
+          "LESS lets equal depths pass.",
+          {.depth_compare = compare<VK_COMPARE_OP_LESS, VK_COMPARE_OP_LESS_OR_EQUAL>}},
+    Fault{"depth-compare-less",
+          "LESS_OR_EQUAL rejects equal depths.",
+          {.depth_compare = compare<VK_COMPARE_OP_LESS_OR_EQUAL, VK_COMPARE_OP_LESS>}},
+    Fault{"depth-compare-greater-or-equal",
+          "GREATER lets equal depths pass.",
+          {.depth_compare = compare<VK_COMPARE_OP_GREATER, VK_COMPARE_OP_GREATER_OR_EQUAL>}},
+    Fault{"depth-compare-greater",
+          "GREATER_OR_EQUAL rejects equal depths.",
+          {.depth_compare = compare<VK_COMPARE_OP_GREATER_OR_EQUAL, VK_COMPARE_OP_GREATER>}},
+    Fault{"depth-compare-not-equal",
+          "NOT_EQUAL lets all depths pass.",
+          {.depth_compare = compare<VK_COMPARE_OP_NOT_EQUAL, VK_COMPARE_OP_ALWAYS>}},
+    Fault{"depth-compare-equal",
+          "EQUAL lets smaller depths pass, too.",
+          {.depth_compare = compare<VK_COMPARE_OP_EQUAL, VK_COMPARE_OP_LESS_OR_EQUAL>}},
+    Fault{"depth-compare-never",
+          "NEVER lets all depths pass.",
+          {.depth_compare = compare<VK_COMPARE_OP_NEVER, VK_COMPARE_OP_ALWAYS>}},
+    Fault{"depth-compare-mirrored",
+          "Less and greater are swapped in the depth test.",
+          {.depth_compare = mirror_compare}},
+    Fault{"depth-compare-off",
+          "Every depth passes.",
+          {.depth_compare = [](VkCompareOp& op) { return change(op, VK_COMPARE_OP_ALWAYS); }}},
+    Fault{"depth-test-off",
+          "There is no depth test, and so no depth is written.",
+          {.pipeline = [](PipelineCopy& p) { return change(p.depth.depthTestEnable, VK_FALSE); }}},
+    Fault{"depth-write-off",
+          "Depth is not written.",
+          {.depth_write = [](VkBool32& w) { return change(w, VK_FALSE); }}},
+    Fault{"depth-write-on",
+          "Depth is written even where that is off.",
+          {.depth_write = [](VkBool32& w) { return change(w, VK_TRUE); }}},
+    Fault{"depth-bias-off",
+          "Depth is not biased.",
+          {.depth_bias_enable = [](VkBool32& e) { return change(e, VK_FALSE); }}},
+    Fault{"depth-bias-no-constant",
+          "The constant of the depth bias counts as 0.",
+          {.depth_bias = [](DepthBias& b) { return change(b.constant, 0); }}},
+    Fault{"depth-bias-constant-doubled",
+          "The constant of the depth bias counts twice.",
+          {.depth_bias = [](DepthBias& b) { return change(b.constant, 2 * b.constant); }}},
+    Fault{"depth-bias-no-slope",
+          "The slope of the depth bias counts as 0.",
+          {.depth_bias = [](DepthBias& b) { return change(b.slope, 0); }}},
+    Fault{"depth-bias-slope-negated",
+          "The slope of the depth bias counts negative.",
+          {.depth_bias = [](DepthBias& b) { return change(b.slope, -b.slope); }}},
+    Fault{"depth-bias-slope-halved",
+          "The slope of the depth bias counts half.",
+          {.depth_bias = [](DepthBias& b) { return change(b.slope, b.slope / 2); }}},
+    Fault{"depth-bias-no-clamp",
+          "The depth bias is not clamped.",
+          {.depth_bias = [](DepthBias& b) { return change(b.clamp, 0); }}},
+    Fault{"depth-bias-clamp-negated",
+          "The clamp of the depth bias is applied to the other side.",
+          {.depth_bias = [](DepthBias& b) { return change(b.clamp, -b.clamp); }}},
+    Fault{"depth-clamp-off",
+          "Depth is clipped where it is to be clamped.",
+          {.pipeline =
+               [](PipelineCopy& p) { return change(p.rasterization.depthClampEnable, VK_FALSE); }}},
+    Fault{"depth-clamp-on",
+          "Depth is clamped where it is to be clipped.",
+          {.pipeline =
+               [](PipelineCopy& p) { return change(p.rasterization.depthClampEnable, VK_TRUE); }}},
+    Fault{"depth-clip-flipped",
+          "Depth is clipped where that is off, and the reverse.",
+          {.pipeline = flip_depth_clip}},
+    Fault{"depth-clip-zero-to-one",
+          "Depth from -1 to 1 is clipped and mapped as if from 0 to 1.",
+          {.pipeline = no_clip_control}},
+    Fault{
+        "stencil-off",
+        "Stencil is neither tested nor written.",
+        {.pipeline = [](PipelineCopy& p) { return change(p.depth.stencilTestEnable, VK_FALSE); }}},
+    Fault{"stencil-back-as-front",
+          "The stencil operation of front faces is used for back faces.",
+          {.pipeline = no_stencil_decrement}},
+    Fault{"stencil-clamps",
+          "The stencil decrement stops at 0 instead of wrapping.",
+          {.pipeline = clamp_stencil}},
+};
+
+}  // namespace
+
+std::span<const Fault> depth_faults() {
+    return kFaults;
+}
+
+}  // namespace breaking

@@ -1,0 +1,439 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The layer's versions of device commands: what was asked goes through the chosen fault, then to
+// the driver.
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+#include "driver.hpp"
+#include "fault_table.hpp"
+#include "recording.hpp"
+
+namespace breaking {
+
+namespace {
+
+const Hooks& hooks() {
+    return chosen_fault()->hooks;
+}
+
+// Asks the fault, if it has this hook, and counts what it altered; whether it did.
+template <typename... Parameters, typename... Arguments>
+bool alter(bool (*hook)(Parameters...), Arguments&&... arguments) {
+    const bool altered = hook != nullptr && hook(std::forward<Arguments>(arguments)...);
+    if (altered) {
+        count_alteration();
+    }
+    return altered;
+}
+
+// What a call is to answer instead of asking the driver; nothing to do it as asked.
+VkResult answer(Answer (*hook)(uint64_t), uint64_t number) {
+    const Answer chosen = hook != nullptr ? hook(number) : Answer::as_asked;
+    if (chosen == Answer::as_asked) {
+        return VK_SUCCESS;
+    }
+    count_alteration();
+    switch (chosen) {
+        case Answer::hang:
+            for (;;) {
+                ::pause();
+            }
+        case Answer::crash:
+            ::signal(SIGSEGV, SIG_DFL);
+            ::raise(SIGSEGV);
+            break;
+        case Answer::unknown_error:
+            return VK_ERROR_UNKNOWN;
+        default:
+            break;
+    }
+    return VK_ERROR_DEVICE_LOST;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_shader_module(VkDevice device,
+                                                    const VkShaderModuleCreateInfo* info,
+                                                    const VkAllocationCallbacks* allocator,
+                                                    VkShaderModule* out) {
+    ShaderWords words({info->pCode, info->codeSize / sizeof(uint32_t)});
+    alter(hooks().shader, words);
+    VkShaderModuleCreateInfo own = *info;
+    own.pCode = words.words().data();
+    own.codeSize = words.words().size() * sizeof(uint32_t);
+    return driver_of_handle(device).CreateShaderModule(device, &own, allocator, out);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipelineCache cache,
+                                                         uint32_t count,
+                                                         const VkGraphicsPipelineCreateInfo* infos,
+                                                         const VkAllocationCallbacks* allocator,
+                                                         VkPipeline* out) {
+    static std::atomic<uint64_t> made = 0;
+    if (const VkResult result = answer(hooks().make_pipeline, ++made); result != VK_SUCCESS) {
+        std::fill_n(out, count, VkPipeline{VK_NULL_HANDLE});
+        return result;
+    }
+    const Driver& driver = driver_of_handle(device);
+    if (hooks().pipeline == nullptr) {
+        return driver.CreateGraphicsPipelines(device, cache, count, infos, allocator, out);
+    }
+    std::vector<PipelineCopy> copies(infos, infos + count);
+    std::vector<VkGraphicsPipelineCreateInfo> own;
+    for (PipelineCopy& copy : copies) {
+        alter(hooks().pipeline, copy);
+        own.push_back(copy.info());
+    }
+    return driver.CreateGraphicsPipelines(device, cache, count, own.data(), allocator, out);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, uint32_t count,
+                                            const VkSubmitInfo* infos, VkFence fence) {
+    static std::atomic<uint64_t> submissions = 0;
+    const VkResult result = answer(hooks().submit, ++submissions);
+    return result != VK_SUCCESS ? result
+                                : driver_of_handle(queue).QueueSubmit(queue, count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(VkDevice device, uint32_t count,
+                                               const VkFence* fences, VkBool32 all,
+                                               uint64_t timeout) {
+    static std::atomic<uint64_t> waits = 0;
+    const VkResult result = answer(hooks().wait, ++waits);
+    return result != VK_SUCCESS
+               ? result
+               : driver_of_handle(device).WaitForFences(device, count, fences, all, timeout);
+}
+
+// A command that sets one value: altered, then set. Array arguments are copied, since it may be
+// held back.
+template <typename Value>
+void set_value(VkCommandBuffer commands, const char* key, Value value, bool (*hook)(Value&),
+               void(VKAPI_PTR* set)(VkCommandBuffer, Value)) {
+    alter(hook, value);
+    recording_of(commands).set_state({key, 0}, [=] { set(commands, value); });
+}
+
+VKAPI_ATTR void VKAPI_CALL set_viewport(VkCommandBuffer commands, uint32_t first, uint32_t count,
+                                        const VkViewport* given) {
+    std::vector<VkViewport> own(given, given + count);
+    alter(hooks().viewports, std::span(own));
+    recording_of(commands).set_state({"viewport", first}, [=] {
+        driver_of_handle(commands).CmdSetViewport(commands, first, count, own.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL set_scissor(VkCommandBuffer commands, uint32_t first, uint32_t count,
+                                       const VkRect2D* given) {
+    std::vector<VkRect2D> own(given, given + count);
+    alter(hooks().scissors, std::span(own));
+    recording_of(commands).set_state({"scissor", first}, [=] {
+        driver_of_handle(commands).CmdSetScissor(commands, first, count, own.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL set_cull_mode(VkCommandBuffer commands, VkCullModeFlags mode) {
+    set_value(commands, "cull mode", mode, hooks().cull_mode,
+              driver_of_handle(commands).CmdSetCullMode);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_front_face(VkCommandBuffer commands, VkFrontFace face) {
+    set_value(commands, "front face", face, hooks().front_face,
+              driver_of_handle(commands).CmdSetFrontFace);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_topology(VkCommandBuffer commands, VkPrimitiveTopology topology) {
+    recording_of(commands).topology = topology;
+    set_value(commands, "topology", topology, hooks().topology,
+              driver_of_handle(commands).CmdSetPrimitiveTopology);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_restart(VkCommandBuffer commands, VkBool32 enable) {
+    set_value(commands, "restart", enable, hooks().primitive_restart,
+              driver_of_handle(commands).CmdSetPrimitiveRestartEnable);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_depth_compare(VkCommandBuffer commands, VkCompareOp op) {
+    set_value(commands, "depth compare", op, hooks().depth_compare,
+              driver_of_handle(commands).CmdSetDepthCompareOp);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_depth_write(VkCommandBuffer commands, VkBool32 enable) {
+    set_value(commands, "depth write", enable, hooks().depth_write,
+              driver_of_handle(commands).CmdSetDepthWriteEnable);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_depth_bias_enable(VkCommandBuffer commands, VkBool32 enable) {
+    set_value(commands, "depth bias enable", enable, hooks().depth_bias_enable,
+              driver_of_handle(commands).CmdSetDepthBiasEnable);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_depth_bias(VkCommandBuffer commands, float constant, float clamp,
+                                          float slope) {
+    DepthBias bias{constant, clamp, slope};
+    alter(hooks().depth_bias, bias);
+    recording_of(commands).set_state({"depth bias", 0}, [=] {
+        driver_of_handle(commands).CmdSetDepthBias(commands, bias.constant, bias.clamp, bias.slope);
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL set_blend_constants(VkCommandBuffer commands, const float given[4]) {
+    std::array<float, 4> own{};
+    std::copy_n(given, 4, own.begin());
+    alter(hooks().blend_constants, std::span<float, 4>(own));
+    recording_of(commands).set_state({"blend constants", 0}, [=] {
+        driver_of_handle(commands).CmdSetBlendConstants(commands, own.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL bind_pipeline(VkCommandBuffer commands, VkPipelineBindPoint point,
+                                         VkPipeline pipeline) {
+    recording_of(commands).set_state({"pipeline", point}, [=] {
+        driver_of_handle(commands).CmdBindPipeline(commands, point, pipeline);
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL bind_descriptor_sets(VkCommandBuffer commands, VkPipelineBindPoint point,
+                                                VkPipelineLayout layout, uint32_t first,
+                                                uint32_t count, const VkDescriptorSet* sets,
+                                                uint32_t offset_count, const uint32_t* offsets) {
+    const std::vector<VkDescriptorSet> own(sets, sets + count);
+    const std::vector<uint32_t> own_offsets(offsets, offsets + offset_count);
+    recording_of(commands).set_state({"descriptor sets", first}, [=] {
+        driver_of_handle(commands).CmdBindDescriptorSets(
+            commands, point, layout, first, count, own.data(), offset_count, own_offsets.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL push_constants(VkCommandBuffer commands, VkPipelineLayout layout,
+                                          VkShaderStageFlags stages, uint32_t offset, uint32_t size,
+                                          const void* given) {
+    std::vector<std::byte> own(size);
+    std::memcpy(own.data(), given, size);
+    recording_of(commands).set_state({"push constants", offset}, [=] {
+        driver_of_handle(commands).CmdPushConstants(commands, layout, stages, offset, size,
+                                                    own.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL bind_vertex_buffers(VkCommandBuffer commands, uint32_t first,
+                                               uint32_t count, const VkBuffer* buffers,
+                                               const VkDeviceSize* offsets) {
+    const std::vector<VkBuffer> own(buffers, buffers + count);
+    const std::vector<VkDeviceSize> own_offsets(offsets, offsets + count);
+    recording_of(commands).set_state({"vertex buffers", first}, [=] {
+        driver_of_handle(commands).CmdBindVertexBuffers(commands, first, count, own.data(),
+                                                        own_offsets.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL bind_index_buffer(VkCommandBuffer commands, VkBuffer buffer,
+                                             VkDeviceSize offset, VkIndexType type) {
+    alter(hooks().index_type, type);
+    recording_of(commands).set_state({"index buffer", 0}, [=] {
+        driver_of_handle(commands).CmdBindIndexBuffer(commands, buffer, offset, type);
+    });
+}
+
+void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances,
+               uint32_t first_instance) {
+    Recording& recording = recording_of(commands);
+    call.topology = recording.topology;
+    call.number = recording.draws++;
+    call.rendering = recording.rendering;
+    alter(hooks().draw, call);
+    recording.draw([=] {
+        const Driver& driver = driver_of_handle(commands);
+        for (uint32_t n = 0; n < call.times; ++n) {
+            if (call.indexed) {
+                driver.CmdDrawIndexed(commands, call.count, instances, call.first,
+                                      call.vertex_offset, first_instance);
+            } else {
+                driver.CmdDraw(commands, call.count, instances, call.first, first_instance);
+            }
+        }
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL draw(VkCommandBuffer commands, uint32_t count, uint32_t instances,
+                                uint32_t first, uint32_t first_instance) {
+    DrawCall call;
+    call.count = count;
+    call.first = first;
+    draw_call(commands, call, instances, first_instance);
+}
+
+VKAPI_ATTR void VKAPI_CALL draw_indexed(VkCommandBuffer commands, uint32_t count,
+                                        uint32_t instances, uint32_t first, int32_t vertex_offset,
+                                        uint32_t first_instance) {
+    DrawCall call;
+    call.indexed = true;
+    call.count = count;
+    call.first = first;
+    call.vertex_offset = vertex_offset;
+    draw_call(commands, call, instances, first_instance);
+}
+
+VKAPI_ATTR void VKAPI_CALL begin_rendering(VkCommandBuffer commands, const VkRenderingInfo* info) {
+    Rendering own;
+    own.info = *info;
+    own.colors.assign(info->pColorAttachments,
+                      info->pColorAttachments + info->colorAttachmentCount);
+    if (info->pDepthAttachment != nullptr) {
+        own.depth = *info->pDepthAttachment;
+    }
+    if (info->pStencilAttachment != nullptr) {
+        own.stencil = *info->pStencilAttachment;
+    }
+    alter(hooks().rendering, own);
+    own.info.pColorAttachments = own.colors.data();
+    own.info.pDepthAttachment = own.depth ? &*own.depth : nullptr;
+    own.info.pStencilAttachment = own.stencil ? &*own.stencil : nullptr;
+    recording_of(commands).begin_rendering(hooks().order != nullptr);
+    driver_of_handle(commands).CmdBeginRendering(commands, &own.info);
+}
+
+VKAPI_ATTR void VKAPI_CALL end_rendering(VkCommandBuffer commands) {
+    recording_of(commands).end_rendering(
+        [](std::vector<uint32_t>& order) { alter(hooks().order, order); });
+    driver_of_handle(commands).CmdEndRendering(commands);
+}
+
+VKAPI_ATTR void VKAPI_CALL pipeline_barrier(VkCommandBuffer commands,
+                                            const VkDependencyInfo* info) {
+    const Driver& driver = driver_of_handle(commands);
+    if (hooks().sample_locations == nullptr) {
+        driver.CmdPipelineBarrier2(commands, info);
+        return;
+    }
+    std::vector<VkImageMemoryBarrier2> barriers(
+        info->pImageMemoryBarriers, info->pImageMemoryBarriers + info->imageMemoryBarrierCount);
+    std::vector<VkSampleLocationsInfoEXT> infos(barriers.size());
+    std::vector<std::vector<VkSampleLocationEXT>> places(barriers.size());
+    for (size_t k = 0; k < barriers.size(); ++k) {
+        const auto* chained = static_cast<const VkSampleLocationsInfoEXT*>(barriers[k].pNext);
+        if (chained != nullptr && chained->sType == VK_STRUCTURE_TYPE_SAMPLE_LOCATIONS_INFO_EXT) {
+            infos[k] = *chained;
+            places[k].assign(chained->pSampleLocations,
+                             chained->pSampleLocations + chained->sampleLocationsCount);
+            alter(hooks().sample_locations, std::span(places[k]));
+            infos[k].pSampleLocations = places[k].data();
+            barriers[k].pNext = &infos[k];
+        }
+    }
+    VkDependencyInfo own = *info;
+    own.pImageMemoryBarriers = barriers.data();
+    driver.CmdPipelineBarrier2(commands, &own);
+}
+
+VKAPI_ATTR void VKAPI_CALL clear_color_image(VkCommandBuffer commands, VkImage image,
+                                             VkImageLayout layout, const VkClearColorValue* color,
+                                             uint32_t count,
+                                             const VkImageSubresourceRange* ranges) {
+    if (alter(hooks().drop_clear_color)) {
+        return;
+    }
+    VkClearColorValue own = *color;
+    alter(hooks().clear_color, own);
+    driver_of_handle(commands).CmdClearColorImage(commands, image, layout, &own, count, ranges);
+}
+
+template <typename Region>
+std::vector<Region> altered(const Region* regions, uint32_t count, bool (*hook)(Region&)) {
+    std::vector<Region> own(regions, regions + count);
+    for (Region& region : own) {
+        alter(hook, region);
+    }
+    return own;
+}
+
+VKAPI_ATTR void VKAPI_CALL copy_image_to_buffer(VkCommandBuffer commands, VkImage image,
+                                                VkImageLayout layout, VkBuffer buffer,
+                                                uint32_t count, const VkBufferImageCopy* regions) {
+    const auto own = altered(regions, count, hooks().image_to_buffer);
+    driver_of_handle(commands).CmdCopyImageToBuffer(commands, image, layout, buffer, count,
+                                                    own.data());
+}
+
+VKAPI_ATTR void VKAPI_CALL copy_buffer_to_image(VkCommandBuffer commands, VkBuffer buffer,
+                                                VkImage image, VkImageLayout layout, uint32_t count,
+                                                const VkBufferImageCopy* regions) {
+    const auto own = altered(regions, count, hooks().buffer_to_image);
+    driver_of_handle(commands).CmdCopyBufferToImage(commands, buffer, image, layout, count,
+                                                    own.data());
+}
+
+VKAPI_ATTR void VKAPI_CALL blit_image(VkCommandBuffer commands, VkImage from,
+                                      VkImageLayout from_layout, VkImage to,
+                                      VkImageLayout to_layout, uint32_t count,
+                                      const VkImageBlit* regions, VkFilter filter) {
+    std::vector<VkImageBlit> own(regions, regions + count);
+    for (VkImageBlit& region : own) {
+        alter(hooks().blit, region, filter);
+    }
+    driver_of_handle(commands).CmdBlitImage(commands, from, from_layout, to, to_layout, count,
+                                            own.data(), filter);
+}
+
+VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32_t y, uint32_t z) {
+    alter(hooks().dispatch, x);
+    driver_of_handle(commands).CmdDispatch(commands, x, y, z);
+}
+
+// The types are those of the headers: a signature that is not the command's does not compile.
+#define BREAKING_OWN(name, function) \
+    { "vk" #name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vk##name>(function)) }
+
+const std::pair<const char*, PFN_vkVoidFunction> kCommands[] = {
+    BREAKING_OWN(CreateShaderModule, create_shader_module),
+    BREAKING_OWN(CreateGraphicsPipelines, create_graphics_pipelines),
+    BREAKING_OWN(QueueSubmit, queue_submit),
+    BREAKING_OWN(WaitForFences, wait_for_fences),
+    BREAKING_OWN(CmdSetViewport, set_viewport),
+    BREAKING_OWN(CmdSetScissor, set_scissor),
+    BREAKING_OWN(CmdSetCullMode, set_cull_mode),
+    BREAKING_OWN(CmdSetFrontFace, set_front_face),
+    BREAKING_OWN(CmdSetPrimitiveTopology, set_topology),
+    BREAKING_OWN(CmdSetPrimitiveRestartEnable, set_restart),
+    BREAKING_OWN(CmdSetDepthCompareOp, set_depth_compare),
+    BREAKING_OWN(CmdSetDepthWriteEnable, set_depth_write),
+    BREAKING_OWN(CmdSetDepthBiasEnable, set_depth_bias_enable),
+    BREAKING_OWN(CmdSetDepthBias, set_depth_bias),
+    BREAKING_OWN(CmdSetBlendConstants, set_blend_constants),
+    BREAKING_OWN(CmdBindPipeline, bind_pipeline),
+    BREAKING_OWN(CmdBindDescriptorSets, bind_descriptor_sets),
+    BREAKING_OWN(CmdPushConstants, push_constants),
+    BREAKING_OWN(CmdBindVertexBuffers, bind_vertex_buffers),
+    BREAKING_OWN(CmdBindIndexBuffer, bind_index_buffer),
+    BREAKING_OWN(CmdDraw, draw),
+    BREAKING_OWN(CmdDrawIndexed, draw_indexed),
+    BREAKING_OWN(CmdBeginRendering, begin_rendering),
+    BREAKING_OWN(CmdEndRendering, end_rendering),
+    BREAKING_OWN(CmdPipelineBarrier2, pipeline_barrier),
+    BREAKING_OWN(CmdClearColorImage, clear_color_image),
+    BREAKING_OWN(CmdCopyImageToBuffer, copy_image_to_buffer),
+    BREAKING_OWN(CmdCopyBufferToImage, copy_buffer_to_image),
+    BREAKING_OWN(CmdBlitImage, blit_image),
+    BREAKING_OWN(CmdDispatch, dispatch),
+};
+#undef BREAKING_OWN
+
+}  // namespace
+
+PFN_vkVoidFunction own_device_command(const char* name) {
+    for (const auto& [own_name, command] : kCommands) {
+        if (std::strcmp(own_name, name) == 0) {
+            return command;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace breaking

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws that are lost, drawn twice, cut short or out of order.
+#include <algorithm>
+#include <array>
+
+#include "fault.hpp"
+
+namespace breaking {
+
+namespace {
+
+uint32_t last_primitive_size(VkPrimitiveTopology topology) {
+    return topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST ? 3 : 1;
+}
+
+bool swap_first_two(std::vector<uint32_t>& order) {
+    if (order.size() < 2) {
+        return false;
+    }
+    std::swap(order[0], order[1]);
+    return true;
+}
+
+bool reverse(std::vector<uint32_t>& order) {
+    std::reverse(order.begin(), order.end());
+    return order.size() > 1;
+}
+
+bool drop_last(std::vector<uint32_t>& order) {
+    if (order.size() < 2) {
+        return false;
+    }
+    order.pop_back();
+    return true;
+}
+
+constexpr std::array kFaults = {
+    Fault{"draw-dropped",
+          "Nothing is drawn.",
+          {.draw = [](DrawCall& d) { return change(d.times, 0); }}},
+    Fault{"draw-first-only",
+          "Of the draws of a rendering only the first is drawn.",
+          {.draw = [](DrawCall& d) { return d.number > 0 && change(d.times, 0); }}},
+    Fault{"draw-last-dropped",
+          "The last of several draws of a rendering is lost.",
+          {.order = drop_last}},
+    Fault{"draw-indexed-dropped",
+          "Indexed draws are lost.",
+          {.draw = [](DrawCall& d) { return d.indexed && change(d.times, 0); }}},
+    Fault{"draw-doubled",
+          "Every draw is drawn twice.",
+          {.draw = [](DrawCall& d) { return change(d.times, 2); }}},
+    Fault{"draw-second-doubled",
+          "The second draw of a rendering is drawn twice.",
+          {.draw = [](DrawCall& d) { return d.number == 1 && change(d.times, 2); }}},
+    Fault{"draw-last-triangle",
+          "A draw of several triangles loses its last one.",
+          {.draw =
+               [](DrawCall& d) {
+                   const uint32_t size = last_primitive_size(d.topology);
+                   return d.count > 3 && change(d.count, d.count - size);
+               }}},
+    Fault{"draw-last-vertex",
+          "The last vertex of a draw is lost, and the triangle with it.",
+          {.draw = [](DrawCall& d) { return d.count > 3 && change(d.count, d.count - 1); }}},
+    Fault{"draw-at-most-64-triangles",
+          "A triangle list is cut off behind 64 triangles, as by a batch that is not continued.",
+          {.draw =
+               [](DrawCall& d) {
+                   return d.topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST && d.count > 192 &&
+                          change(d.count, 192);
+               }}},
+    Fault{"draw-first-triangle-lost",
+          "A triangle list of several triangles loses its first one.",
+          {.draw =
+               [](DrawCall& d) {
+                   if (d.topology != VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST || d.count < 6) {
+                       return false;
+                   }
+                   d.first += 3;
+                   d.count -= 3;
+                   return true;
+               }}},
+    Fault{"first-vertex-off-by-one",
+          "A draw without indices begins one vertex late.",
+          {.draw =
+               [](DrawCall& d) {
+                   d.count -= d.indexed ? 0 : 1;
+                   return !d.indexed && change(d.first, d.first + 1);
+               }}},
+    Fault{"first-index-off-by-one",
+          "A draw with indices begins one index late.",
+          {.draw =
+               [](DrawCall& d) {
+                   d.count -= d.indexed ? 1 : 0;
+                   return d.indexed && change(d.first, d.first + 1);
+               }}},
+    Fault{"vertex-offset-one",
+          "Indices name the next vertex.",
+          {.draw = [](DrawCall& d) { return d.indexed && change(d.vertex_offset, 1); }}},
+    Fault{
+        "draws-reversed", "The draws of a rendering are drawn last to first.", {.order = reverse}},
+    Fault{"draws-swapped",
+          "The first two draws of a rendering are drawn in the other order.",
+          {.order = swap_first_two}},
+};
+
+}  // namespace
+
+std::span<const Fault> draw_faults() {
+    return kFaults;
+}
+
+}  // namespace breaking

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <memory>
+
+namespace breaking {
+
+// Every device command that the layer takes on the way to the driver.
+#define BREAKING_COMMANDS(X)                                                                       \
+    X(CreateShaderModule)                                                                          \
+    X(CreateGraphicsPipelines) X(QueueSubmit) X(WaitForFences) X(CmdSetViewport) X(CmdSetScissor)  \
+        X(CmdSetCullMode) X(CmdSetFrontFace) X(CmdSetPrimitiveTopology)                            \
+            X(CmdSetPrimitiveRestartEnable) X(CmdSetDepthCompareOp) X(CmdSetDepthWriteEnable)      \
+                X(CmdSetDepthBiasEnable) X(CmdSetDepthBias) X(CmdSetBlendConstants)                \
+                    X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants)                \
+                        X(CmdBindVertexBuffers) X(CmdBindIndexBuffer) X(CmdDraw) X(CmdDrawIndexed) \
+                            X(CmdBeginRendering) X(CmdEndRendering) X(CmdPipelineBarrier2)         \
+                                X(CmdClearColorImage) X(CmdCopyImageToBuffer)                      \
+                                    X(CmdCopyBufferToImage) X(CmdBlitImage) X(CmdDispatch)
+
+// The next layer's, or the driver's, commands of one device.
+struct Driver {
+    PFN_vkGetDeviceProcAddr GetDeviceProcAddr = nullptr;
+    PFN_vkDestroyDevice DestroyDevice = nullptr;
+#define BREAKING_MEMBER(name) PFN_vk##name name = nullptr;
+    BREAKING_COMMANDS(BREAKING_MEMBER)
+#undef BREAKING_MEMBER
+};
+
+// Devices, queues and command buffers of one device begin with the same pointer, the loader's
+// dispatch table.
+template <typename Handle>
+void* dispatch_key(Handle handle) {
+    return *reinterpret_cast<void**>(handle);
+}
+
+void add_driver(void* key, std::unique_ptr<Driver> driver);
+void remove_driver(void* key);
+const Driver& driver_of(void* key);
+
+template <typename Handle>
+const Driver& driver_of_handle(Handle handle) {
+    return driver_of(dispatch_key(handle));
+}
+
+// The layer's own version of a device command; nothing if it has none.
+PFN_vkVoidFunction own_device_command(const char* name);
+
+}  // namespace breaking

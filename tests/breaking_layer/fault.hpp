@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "pipeline_copy.hpp"
+#include "shader_words.hpp"
+
+namespace breaking {
+
+// Writes a value; whether that altered anything.
+template <typename T>
+bool change(T& variable, const std::type_identity_t<T>& value) {
+    const bool differs =
+        !std::equal_to<T>()(variable, value);  // floats, too: any other value counts
+    variable = value;
+    return differs;
+}
+
+// One call of vkCmdDraw or vkCmdDrawIndexed.
+struct DrawCall {
+    bool indexed = false;
+    uint32_t count = 0;         // vertices or indices
+    uint32_t first = 0;         // vertex or index
+    int32_t vertex_offset = 0;  // indexed only
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    uint32_t number = 0;     // in its rendering, from 0
+    uint64_t rendering = 0;  // in this process, from 1
+    uint32_t times = 1;      // how often the driver is asked
+};
+
+// One call of vkCmdBeginRendering.
+struct Rendering {
+    VkRenderingInfo info;
+    std::vector<VkRenderingAttachmentInfo> colors;
+    std::optional<VkRenderingAttachmentInfo> depth, stencil;
+};
+
+struct DepthBias {
+    float constant, clamp, slope;
+};
+
+// What becomes of a call that answers with a VkResult.
+enum class Answer { as_asked, device_lost, unknown_error, hang, crash };
+
+// What a fault does to the calls of an application. Each is handed what was asked, may write to it,
+// and says whether it altered anything; what is not set lets the calls through.
+struct Hooks {
+    bool (*viewports)(std::span<VkViewport>) = nullptr;
+    bool (*scissors)(std::span<VkRect2D>) = nullptr;
+    bool (*draw)(DrawCall&) = nullptr;
+    // The draws of a rendering are held back until its end; the numbers of those to draw, in order.
+    bool (*order)(std::vector<uint32_t>&) = nullptr;
+    bool (*cull_mode)(VkCullModeFlags&) = nullptr;
+    bool (*front_face)(VkFrontFace&) = nullptr;
+    bool (*topology)(VkPrimitiveTopology&) = nullptr;
+    bool (*primitive_restart)(VkBool32&) = nullptr;
+    bool (*index_type)(VkIndexType&) = nullptr;
+    bool (*depth_compare)(VkCompareOp&) = nullptr;
+    bool (*depth_write)(VkBool32&) = nullptr;
+    bool (*depth_bias_enable)(VkBool32&) = nullptr;
+    bool (*depth_bias)(DepthBias&) = nullptr;
+    bool (*blend_constants)(std::span<float, 4>) = nullptr;
+    bool (*pipeline)(PipelineCopy&) = nullptr;
+    bool (*shader)(ShaderWords&) = nullptr;
+    bool (*sample_locations)(std::span<VkSampleLocationEXT>) = nullptr;  // of barriers
+    bool (*rendering)(Rendering&) = nullptr;
+    bool (*clear_color)(VkClearColorValue&) = nullptr;  // of vkCmdClearColorImage
+    bool (*drop_clear_color)() = nullptr;               // the same, not done
+    bool (*image_to_buffer)(VkBufferImageCopy&) = nullptr;
+    bool (*buffer_to_image)(VkBufferImageCopy&) = nullptr;
+    bool (*blit)(VkImageBlit&, VkFilter&) = nullptr;
+    bool (*dispatch)(uint32_t& groups_x) = nullptr;
+    Answer (*submit)(uint64_t number) = nullptr;  // in this process, from 1
+    Answer (*wait)(uint64_t number) = nullptr;
+    Answer (*make_pipeline)(uint64_t number) = nullptr;
+};
+
+struct Fault {
+    std::string_view name;
+    std::string_view sentence;  // what the driver does wrong, as if it did
+    Hooks hooks;
+    bool needs_lines = false;  // enables VkPhysicalDeviceFeatures::fillModeNonSolid
+};
+
+// The tables, by what the faults touch.
+std::span<const Fault> draw_faults();
+std::span<const Fault> viewport_faults();
+std::span<const Fault> assembly_faults();
+std::span<const Fault> depth_faults();
+std::span<const Fault> color_faults();
+std::span<const Fault> multisample_faults();
+std::span<const Fault> shader_faults();
+std::span<const Fault> transfer_faults();
+std::span<const Fault> device_faults();
+std::vector<const Fault*> all_faults();
+
+// The N of EDGECASE_BREAK=NAME:N; 1 if none is given.
+uint64_t parameter();
+
+}  // namespace breaking

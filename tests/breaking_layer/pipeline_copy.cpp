@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline_copy.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace breaking {
+
+namespace {
+
+// Takes the structure of that type out of a chain whose other members are all known, too.
+template <typename T>
+void take(const VkBaseInStructure* chained, VkStructureType type, std::optional<T>& copy) {
+    if (chained->sType == type) {
+        copy = *reinterpret_cast<const T*>(chained);
+    }
+}
+
+// A chained structure that faults do not know could not be told from a copied one when the chain is
+// tied again: better to stop than to drop it.
+void expect_one_of(const VkBaseInStructure* chained, std::initializer_list<VkStructureType> known) {
+    for (const VkStructureType type : known) {
+        if (chained->sType == type) {
+            return;
+        }
+    }
+    std::fprintf(stderr,
+                 "breaking layer: error: structure type %d in a pipeline is not known to "
+                 "pipeline_copy.cpp\n",
+                 static_cast<int>(chained->sType));
+    std::abort();
+}
+
+const VkBaseInStructure* first_of(const void* next) {
+    return static_cast<const VkBaseInStructure*>(next);
+}
+
+template <typename T>
+void chain(const void*& to, std::optional<T>& structure) {
+    if (structure) {
+        structure->pNext = to;
+        to = &*structure;
+    }
+}
+
+}  // namespace
+
+PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(from) {
+    vertex_input = *from.pVertexInputState;
+    inputs.assign(
+        vertex_input.pVertexAttributeDescriptions,
+        vertex_input.pVertexAttributeDescriptions + vertex_input.vertexAttributeDescriptionCount);
+
+    rasterization = *from.pRasterizationState;
+    for (const auto* s = first_of(rasterization.pNext); s != nullptr; s = s->pNext) {
+        expect_one_of(
+            s, {VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT,
+                VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT});
+        take(s, VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT,
+             depth_clip);
+        take(s, VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT,
+             provoking);
+    }
+
+    viewport_ = *from.pViewportState;
+    for (const auto* s = first_of(viewport_.pNext); s != nullptr; s = s->pNext) {
+        expect_one_of(s, {VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT});
+        take(s, VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT,
+             clip_control);
+    }
+
+    multisample = *from.pMultisampleState;
+    if (multisample.pSampleMask != nullptr) {
+        mask = multisample.pSampleMask[0];
+    }
+    for (const auto* s = first_of(multisample.pNext); s != nullptr; s = s->pNext) {
+        expect_one_of(s, {VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT});
+        take(s, VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT, locations);
+    }
+    if (locations) {
+        const VkSampleLocationsInfoEXT& l = locations->sampleLocationsInfo;
+        places.assign(l.pSampleLocations, l.pSampleLocations + l.sampleLocationsCount);
+    }
+
+    depth = *from.pDepthStencilState;
+    blend = *from.pColorBlendState;
+    blends.assign(blend.pAttachments, blend.pAttachments + blend.attachmentCount);
+}
+
+const VkGraphicsPipelineCreateInfo& PipelineCopy::info() {
+    vertex_input.pVertexAttributeDescriptions = inputs.data();
+    vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(inputs.size());
+    info_.pVertexInputState = &vertex_input;
+
+    rasterization.pNext = nullptr;
+    chain(rasterization.pNext, depth_clip);
+    chain(rasterization.pNext, provoking);
+    info_.pRasterizationState = &rasterization;
+
+    viewport_.pNext = nullptr;
+    chain(viewport_.pNext, clip_control);
+    info_.pViewportState = &viewport_;
+
+    multisample.pNext = nullptr;
+    if (multisample.pSampleMask != nullptr) {
+        multisample.pSampleMask = &mask;
+    }
+    if (locations) {
+        locations->sampleLocationsInfo.pSampleLocations = places.data();
+    }
+    chain(multisample.pNext, locations);
+    info_.pMultisampleState = &multisample;
+
+    info_.pDepthStencilState = &depth;
+    blend.pAttachments = blends.data();
+    info_.pColorBlendState = &blend;
+    return info_;
+}
+
+}  // namespace breaking

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace breaking {
+
+// A VkGraphicsPipelineCreateInfo with everything that faults write, in memory of its own. Chained
+// structures that are not named here go on to the driver as they are.
+class PipelineCopy {
+  public:
+    explicit PipelineCopy(const VkGraphicsPipelineCreateInfo& from);
+
+    VkPipelineVertexInputStateCreateInfo vertex_input{};
+    std::vector<VkVertexInputAttributeDescription> inputs;
+    VkPipelineRasterizationStateCreateInfo rasterization{};
+    std::optional<VkPipelineRasterizationDepthClipStateCreateInfoEXT> depth_clip;
+    std::optional<VkPipelineRasterizationProvokingVertexStateCreateInfoEXT> provoking;
+    std::optional<VkPipelineViewportDepthClipControlCreateInfoEXT> clip_control;
+    VkPipelineMultisampleStateCreateInfo multisample{};
+    VkSampleMask mask = ~VkSampleMask{0};  // up to 32 samples
+    std::optional<VkPipelineSampleLocationsStateCreateInfoEXT> locations;
+    std::vector<VkSampleLocationEXT> places;
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    VkPipelineColorBlendStateCreateInfo blend{};
+    std::vector<VkPipelineColorBlendAttachmentState> blends;
+
+    // Ties the parts together; valid until the copy is changed or moved.
+    const VkGraphicsPipelineCreateInfo& info();
+
+  private:
+    VkGraphicsPipelineCreateInfo info_;
+    VkPipelineViewportStateCreateInfo viewport_{};
+};
+
+}  // namespace breaking

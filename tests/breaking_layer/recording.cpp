@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recording.hpp"
+
+#include <atomic>
+#include <mutex>
+#include <numeric>
+
+namespace breaking {
+
+void Recording::begin_rendering(bool holds_back) {
+    static std::atomic<uint64_t> count = 0;
+    rendering = ++count;
+    draws = 0;
+    holds_back_ = holds_back;
+}
+
+void Recording::set_state(StateKey key, Command command) {
+    if (!holds_back_) {
+        command();
+        return;
+    }
+    state_[key] = std::make_shared<const Command>(std::move(command));
+}
+
+void Recording::draw(Command command) {
+    if (!holds_back_) {
+        command();
+        return;
+    }
+    held_.emplace_back(state_, std::move(command));
+}
+
+void Recording::end_rendering(const std::function<void(std::vector<uint32_t>&)>& arrange) {
+    if (!holds_back_) {
+        return;
+    }
+    std::vector<uint32_t> order(held_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    arrange(order);
+    for (const uint32_t number : order) {
+        const auto& [state, draw] = held_[number];
+        for (const auto& [key, set] : state) {
+            (*set)();
+        }
+        draw();
+    }
+    held_.clear();
+    state_.clear();
+    holds_back_ = false;
+}
+
+Recording& recording_of(VkCommandBuffer commands) {
+    static std::mutex mutex;
+    static std::map<VkCommandBuffer, Recording> recordings;
+    const std::lock_guard lock(mutex);
+    return recordings[commands];
+}
+
+}  // namespace breaking

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace breaking {
+
+// What the layer knows about a command buffer. If the fault reorders draws, state and draws between
+// vkCmdBeginRendering and vkCmdEndRendering are held back: each draw keeps the state it was
+// recorded under.
+class Recording {
+  public:
+    using Command = std::function<void()>;
+    // Which state a command sets: the command, and the first slot, binding or byte.
+    using StateKey = std::pair<std::string_view, uint32_t>;
+
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    uint32_t draws = 0;      // in this rendering
+    uint64_t rendering = 0;  // in this process, from 1
+
+    void begin_rendering(bool holds_back);
+    // Does the command now, or keeps it. A later command of the same key takes its place.
+    void set_state(StateKey key, Command command);
+    void draw(Command command);
+    // Draws what was held back in the order that `arrange` makes of 0, 1, 2, ...
+    void end_rendering(const std::function<void(std::vector<uint32_t>&)>& arrange);
+
+  private:
+    using State = std::map<StateKey, std::shared_ptr<const Command>>;
+    bool holds_back_ = false;
+    State state_;
+    std::vector<std::pair<State, Command>> held_;
+};
+
+// The recording of a command buffer; made when first asked for.
+Recording& recording_of(VkCommandBuffer commands);
+
+}  // namespace breaking

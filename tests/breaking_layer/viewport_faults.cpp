@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Viewport and scissor rectangles, moved, scaled, rounded, mixed up.
+#include <array>
+#include <cmath>
+
+#include "fault.hpp"
+
+namespace breaking {
+
+namespace {
+
+constexpr float kSubpixel = 0x1p-8F;  // of 8 subPixelPrecisionBits, in pixels
+constexpr float kScale = 1.0F + 0x1p-16F;
+
+// A fault of each viewport by itself.
+template <bool (*alter)(VkViewport&)>
+bool each(std::span<VkViewport> viewports) {
+    bool altered = false;
+    for (VkViewport& v : viewports) {
+        altered = alter(v) || altered;
+    }
+    return altered;
+}
+
+template <bool (*alter)(VkRect2D&)>
+bool each(std::span<VkRect2D> scissors) {
+    bool altered = false;
+    for (VkRect2D& s : scissors) {
+        altered = alter(s) || altered;
+    }
+    return altered;
+}
+
+template <float by>
+bool move_x(VkViewport& v) {
+    return change(v.x, v.x + by);
+}
+template <float by>
+bool move_y(VkViewport& v) {
+    return change(v.y, v.y + by);
+}
+bool scale_x(VkViewport& v) {
+    return change(v.width, v.width * kScale);
+}
+bool scale_y(VkViewport& v) {
+    return change(v.height, v.height * kScale);
+}
+bool round_down(VkViewport& v) {
+    const bool x = change(v.x, std::floor(v.x));
+    const bool y = change(v.y, std::floor(v.y));
+    const bool width = change(v.width, std::floor(v.width));
+    const bool height = change(v.height, std::floor(v.height));
+    return x || y || width || height;
+}
+bool positive_height(VkViewport& v) {
+    if (v.height >= 0) {
+        return false;
+    }
+    v.y += v.height;
+    v.height = -v.height;
+    return true;
+}
+bool mirror_y(VkViewport& v) {
+    v.y += v.height;
+    v.height = -v.height;
+    return true;
+}
+bool whole_depth(VkViewport& v) {
+    const bool least = change(v.minDepth, 0);
+    return change(v.maxDepth, 1) || least;
+}
+bool swap_depth(VkViewport& v) {
+    const float least = v.minDepth;
+    const bool altered = change(v.minDepth, v.maxDepth);
+    v.maxDepth = least;
+    return altered;
+}
+bool ordered_depth(VkViewport& v) {
+    return v.minDepth > v.maxDepth && swap_depth(v);
+}
+bool scale_depth(VkViewport& v) {
+    return change(v.maxDepth, v.maxDepth * (1.0F - 0x1p-16F));
+}
+
+bool all_as_first(std::span<VkViewport> viewports) {
+    for (VkViewport& v : viewports) {
+        v = viewports[0];
+    }
+    return viewports.size() > 1;
+}
+bool scissors_as_first(std::span<VkRect2D> scissors) {
+    for (VkRect2D& s : scissors) {
+        s = scissors[0];
+    }
+    return scissors.size() > 1;
+}
+
+bool move_scissor_x(VkRect2D& s) {
+    return s.offset.x < 0x7fff && change(s.offset.x, s.offset.x + 1);
+}
+bool move_scissor_y(VkRect2D& s) {
+    return s.offset.y < 0x7fff && change(s.offset.y, s.offset.y + 1);
+}
+bool widen_scissor(VkRect2D& s) {
+    return s.extent.width < 0x7fff && change(s.extent.width, s.extent.width + 1);
+}
+bool heighten_scissor(VkRect2D& s) {
+    return s.extent.height < 0x7fff && change(s.extent.height, s.extent.height + 1);
+}
+bool shorten_scissor(VkRect2D& s) {
+    return s.extent.height > 0 && change(s.extent.height, s.extent.height - 1);
+}
+bool no_scissor(VkRect2D& s) {
+    constexpr VkRect2D kAll = {{0, 0}, {0x7fff, 0x7fff}};
+    const bool altered = s.offset.x != 0 || s.offset.y != 0 || s.extent.width < 0x7fff;
+    s = kAll;
+    return altered;
+}
+
+constexpr std::array kFaults = {
+    Fault{"viewport-x-256th",
+          "The viewport lies 1/256 pixel too far right.",
+          {.viewports = each<move_x<kSubpixel>>}},
+    Fault{"viewport-y-256th",
+          "The viewport lies 1/256 pixel too low.",
+          {.viewports = each<move_y<kSubpixel>>}},
+    Fault{"viewport-x-minus-256th",
+          "The viewport lies 1/256 pixel too far left.",
+          {.viewports = each<move_x<-kSubpixel>>}},
+    Fault{"viewport-x-512th",
+          "The viewport lies half a subpixel too far right.",
+          {.viewports = each<move_x<kSubpixel / 2>>}},
+    Fault{"viewport-x-half",
+          "The viewport lies half a pixel too far right.",
+          {.viewports = each<move_x<0.5F>>}},
+    Fault{"viewport-y-half",
+          "The viewport lies half a pixel too low.",
+          {.viewports = each<move_y<0.5F>>}},
+    Fault{"viewport-width-scaled",
+          "The viewport is wider by the factor 1 + 2^-16.",
+          {.viewports = each<scale_x>}},
+    Fault{"viewport-height-scaled",
+          "The viewport is higher by the factor 1 + 2^-16.",
+          {.viewports = each<scale_y>}},
+    Fault{"viewport-whole-pixels",
+          "Fractions of viewports are dropped.",
+          {.viewports = each<round_down>}},
+    Fault{"viewport-positive-height",
+          "A negative viewport height counts as positive.",
+          {.viewports = each<positive_height>}},
+    Fault{"viewport-mirrored", "The viewport is upside down.", {.viewports = each<mirror_y>}},
+    Fault{
+        "viewport-first-for-all", "All viewports are like the first.", {.viewports = all_as_first}},
+    Fault{"depth-range-ignored",
+          "The viewport's depth range counts as 0 to 1.",
+          {.viewports = each<whole_depth>}},
+    Fault{"depth-range-swapped",
+          "The ends of the viewport's depth range are swapped.",
+          {.viewports = each<swap_depth>}},
+    Fault{"depth-range-ordered",
+          "A reversed depth range counts as an ordinary one.",
+          {.viewports = each<ordered_depth>}},
+    Fault{"depth-range-scaled",
+          "The far end of the depth range is smaller by the factor 1 - 2^-16.",
+          {.viewports = each<scale_depth>}},
+    Fault{"scissor-x-moved",
+          "The scissor lies one pixel too far right.",
+          {.scissors = each<move_scissor_x>}},
+    Fault{"scissor-y-moved",
+          "The scissor lies one pixel too low.",
+          {.scissors = each<move_scissor_y>}},
+    Fault{"scissor-wider",
+          "The scissor is closed at its right side.",
+          {.scissors = each<widen_scissor>}},
+    Fault{"scissor-higher",
+          "The scissor is closed at its lower side.",
+          {.scissors = each<heighten_scissor>}},
+    Fault{
+        "scissor-lower", "The scissor's last row is missing.", {.scissors = each<shorten_scissor>}},
+    Fault{"scissor-ignored", "There is no scissor.", {.scissors = each<no_scissor>}},
+    Fault{"scissor-first-for-all",
+          "All scissors are like the first.",
+          {.scissors = scissors_as_first}},
+};
+
+}  // namespace
+
+std::span<const Fault> viewport_faults() {
+    return kFaults;
+}
+
+}  // namespace breaking
