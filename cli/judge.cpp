@@ -10,6 +10,7 @@
 #include <exception>
 #include <span>
 
+#include "cli/evidence.hpp"
 #include "cli/frame.hpp"
 #include "diff/blit.hpp"
 #include "diff/verdict.hpp"
@@ -21,41 +22,6 @@ using report::CaseRecord;
 using report::Status;
 
 namespace {
-
-constexpr uint32_t kPictureSide = 128;  // pixels of a kept picture, each way
-
-// Where a window of at most kPictureSide pixels begins that shows the middle of [lo, hi] of `size`
-// pixels.
-uint32_t window_begin(uint32_t lo, uint32_t hi, uint32_t size) {
-    if (size <= kPictureSide) {
-        return 0;
-    }
-    const uint32_t middle = lo + (hi - lo) / 2;
-    const uint32_t begin = middle > kPictureSide / 2 ? middle - kPictureSide / 2 : 0;
-    return std::min(begin, size - kPictureSide);
-}
-
-report::Pictures cut_pictures(const diff::Verdict& verdict, const cases::Target& target) {
-    report::Pictures p;
-    p.width = std::min(target.width, kPictureSide);
-    p.height = std::min(target.rows(), kPictureSide);
-    p.left = window_begin(verdict.min_x, verdict.max_x, target.width);
-    p.top = window_begin(verdict.min_y, verdict.max_y, target.rows());
-    p.layer_height = target.layers > 1 ? target.height : 0;
-    const size_t row = size_t{p.width} * target.samples;
-    const auto add_row = [&](std::vector<uint8_t>& to, const auto& from, size_t begin) {
-        for (size_t k = begin; k < begin + row && k < from.size(); ++k) {
-            to.push_back(static_cast<uint8_t>(from[k]));
-        }
-    };
-    for (uint32_t j = 0; j < p.height; ++j) {
-        const size_t begin = (size_t{p.top + j} * target.width + p.left) * target.samples;
-        add_row(p.expected_hits, verdict.expected_hits, begin);
-        add_row(p.device_hits, verdict.device_hits, begin);
-        add_row(p.marks, verdict.marks, begin);
-    }
-    return p;
-}
 
 template <class T>
 std::string_view raw(std::span<const T> v) {
@@ -72,6 +38,7 @@ CaseRecord make_record(const cases::Case& c) {
     record.description = c.description;
     record.rules = c.rules;
     record.links = c.links;
+    record.catches = c.catches;
     return record;
 }
 
@@ -79,8 +46,10 @@ void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& ca
            std::span<const diff::Consistency> consistency, const ref::Limits& limits,
            cases::Profile profile, KeepPictures pictures) {
     try {
+        const ref::Expectation expectation =
+            c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
         diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
-                                       : diff::compare(c, ref::expect(c, limits, profile), capture);
+                                       : diff::compare(c, expectation, capture);
         if (verdict.error.empty()) {
             diff::add_differences(c, cases::derivations(c), consistency, verdict);
         }
@@ -103,7 +72,7 @@ void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& ca
         record.worst_quantity = verdict.worst_quantity;
         if (pictures == KeepPictures::all ||
             (pictures == KeepPictures::failed && record.status != Status::pass)) {
-            record.pictures = cut_pictures(verdict, c.target);
+            keep_evidence(record, c, verdict, expectation, capture, limits);
         }
     } catch (const std::exception& e) {
         record.status = Status::error;

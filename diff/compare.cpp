@@ -44,6 +44,9 @@ class Comparison {
         verdict_.expected_hits.resize(count);
         verdict_.device_hits.resize(count);
         verdict_.marks.assign(count, SampleMark::ok);
+        if (case_.target.has_instruments) {
+            verdict_.error_ratios.assign(count, -1.0F);
+        }
         const cases::Target& target = case_.target;
         size_t index = 0;
         for (uint32_t row = 0; row < target.rows(); ++row) {
@@ -249,6 +252,7 @@ class Comparison {
             verdict_.worst_ratio = best->worst_ratio;
             verdict_.worst_quantity = pixel_text(case_.target, id);
         }
+        raise_error(index, best->worst_ratio);
         judge_color(index, id, best_triangle);
         for (ref::ValueMismatch& m : best->mismatches) {
             Finding finding = at(FindingKind::value, id);
@@ -369,7 +373,17 @@ class Comparison {
         return finding;
     }
 
+    void raise_error(size_t index, double ratio) {
+        if (index < verdict_.error_ratios.size()) {
+            verdict_.error_ratios[index] =
+                std::max(verdict_.error_ratios[index], static_cast<float>(ratio));
+        }
+    }
+
     void add(Finding finding, size_t index) {
+        if (finding.kind == FindingKind::value && finding.ratio > 0) {
+            raise_error(index, finding.ratio);
+        }
         const bool first = verdict_.ok();
         const uint32_t row = place_of(finding).layer * case_.target.height + finding.y;
         verdict_.min_x = first ? finding.x : std::min(verdict_.min_x, finding.x);

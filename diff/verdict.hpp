@@ -79,6 +79,9 @@ struct Verdict {
         expected_hits;  // nominal hits a sample, saturated at 254; 255 where several are allowed
     std::vector<uint8_t> device_hits;  // saturated at 255
     std::vector<SampleMark> marks;     // [sample]
+    // [sample] largest error of the values that were compared there, in budgets (infinite where no
+    // number of budgets reaches the value); negative where none was. Empty if the case has none.
+    std::vector<float> error_ratios;
     bool ok() const { return error.empty() && counts == std::array<uint64_t, kFindingKinds>{}; }
 };
 inline constexpr size_t kMaxFindings = 1000;

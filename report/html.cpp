@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cases/rule.hpp"
-#include "report/picture_codec.hpp"
+#include "report/page_data.hpp"
 #include "report/reports.hpp"
 #include "report/sentences.hpp"
 
@@ -23,19 +22,29 @@ constexpr std::string_view kPage =
 constexpr std::string_view kStyle =
 #include "embedded/report.css.inc"
     ;
-constexpr std::string_view kPictures =
+// In an order in which each file uses only what stands above it at load time.
+constexpr std::string_view kScripts[] = {
+#include "embedded/dom.js.inc"
+    ,
+#include "embedded/exact.js.inc"
+    ,
+#include "embedded/geometry.js.inc"
+    ,
 #include "embedded/pictures.js.inc"
-    ;
-constexpr std::string_view kScript =
-#include "embedded/report.js.inc"
-    ;
-
-// What keeps a page of thousands of failures small; results.json holds everything.
-constexpr size_t kMostFindings = 200;               // of a case
-constexpr size_t kLeastFindings = 5;                // of a case
-constexpr size_t kFindingBudget = 8000;             // of a page
-constexpr size_t kPictureBudget = size_t{6} << 20;  // bytes of base64 of a page
-constexpr size_t kMaxOutput = 8192;                 // bytes of a driver's output, a case
+    ,
+#include "embedded/canvas.js.inc"
+    ,
+#include "embedded/viewer.js.inc"
+    ,
+#include "embedded/inspector.js.inc"
+    ,
+#include "embedded/case.js.inc"
+    ,
+#include "embedded/overview.js.inc"
+    ,
+#include "embedded/main.js.inc"
+    ,
+};
 
 std::string escaped(std::string_view bytes) {
     std::string text;
@@ -84,135 +93,12 @@ std::string script_data(const Json& json) {
     return text;
 }
 
-void put(Json& json, const char* key, const std::string& bytes) {
-    if (!bytes.empty()) {
-        json[key] = printable(bytes);
-    }
-}
-
-void put(Json& json, const char* key, const std::vector<std::string>& list) {
-    for (const std::string& entry : list) {
-        json[key].push_back(printable(entry));
-    }
-}
-
-Json finding_json(const diff::Finding& f) {
-    Json json{{"kind", diff::to_string(f.kind)},
-              {"rule", printable(f.rule)},
-              {"level", cases::to_string(f.level)},
-              {"x", f.x},
-              {"y", f.y},
-              {"sample", f.sample},
-              {"expected", printable(f.expected)},
-              {"got", printable(f.got)},
-              {"why", printable(f.why)}};
-    put(json, "quantity", f.quantity);
-    if (f.kind == diff::FindingKind::value) {
-        json["ratio"] = ratio_text(f.ratio);
-    }
-    return json;
-}
-
-uint64_t finding_total(const CaseRecord& record) {
-    uint64_t total = 0;
-    for (const uint64_t count : record.counts) {
-        total += count;
-    }
-    return std::max<uint64_t>(total, record.findings.size());
-}
-
-std::string cut(const std::string& bytes) {
-    return bytes.size() <= kMaxOutput ? bytes
-                                      : bytes.substr(0, kMaxOutput / 2) + "\n[...]\n" +
-                                            bytes.substr(bytes.size() - kMaxOutput / 2);
-}
-
-Json case_json(const CaseRecord& r, size_t most_findings, size_t& picture_budget) {
-    Json json{{"id", printable(r.id)}, {"status", to_string(r.status)}, {"line", r.line}};
-    const std::string what = what_happened(r);
-    json["what"] = what.empty() && r.status != Status::pass ? why_it_happened(r) : what;
-    put(json, "file", r.file);
-    put(json, "description", r.description);
-    put(json, "rules", r.rules);
-    put(json, "links", r.links);
-    if (r.expected) {
-        json["expected"] = to_string(*r.expected);
-    }
-    put(json, "bug", r.bug);
-    put(json, "reason", r.reason);
-    put(json, "step", r.step);
-    put(json, "signal", r.signal);
-    put(json, "stderr", cut(r.stderr_text));
-    put(json, "messages", r.messages);
-    json["time"] = seconds_text(r.seconds);
-    json["attempts"] = r.attempts;
-    if (r.compared_samples > 0) {
-        json["compared"] =
-            fmt::format("{} samples ({} must be covered, {} free), {} values", r.compared_samples,
-                        r.must_samples, r.either_samples, r.compared_values);
-    }
-    if (r.compared_values > 0) {
-        json["worst"] =
-            fmt::format("{} budgets{}{}", ratio_text(r.worst_ratio),
-                        r.worst_quantity.empty() ? "" : ", ", printable(r.worst_quantity));
-    }
-    if (!r.findings.empty()) {
-        json["finding_total"] = finding_total(r);
-        for (size_t k = 0; k < r.findings.size() && k < most_findings; ++k) {
-            json["findings"].push_back(finding_json(r.findings[k]));
-        }
-    }
-    const Pictures& p = r.pictures;
-    if (p.width > 0 && p.height > 0) {
-        Json pictures{{"width", p.width},
-                      {"height", p.height},
-                      {"left", p.left},
-                      {"top", p.top},
-                      {"expected_hits", encode_picture(p.expected_hits)},
-                      {"device_hits", encode_picture(p.device_hits)},
-                      {"marks", encode_picture(p.marks)}};
-        const size_t size = pictures.dump().size();
-        if (size <= picture_budget) {
-            picture_budget -= size;
-            json["pictures"] = std::move(pictures);
-        }
-    }
-    put(json, "rerun", r.rerun);
-    put(json, "explain", r.explain);
-    return json;
-}
-
-Json page_data(const Run& run) {
-    Json rules = Json::object();
-    for (const cases::Rule& rule : cases::all_rules()) {
-        rules[std::string(rule.id)] = Json{{"title", rule.title},
-                                           {"profile", cases::to_string(rule.profile)},
-                                           {"anchor", rule.anchor}};
-    }
-    Json meanings = Json::object();
-    for (const cases::Profile profile : cases::kProfiles) {
-        meanings[std::string(cases::to_string(profile))] = meaning(profile);
-    }
-    Json total = Json::object();
-    const auto count = totals(run);
-    for (size_t k = 0; k < kStatuses; ++k) {
-        total[std::string(to_string(static_cast<Status>(k)))] = count.at(k);
-    }
-    const auto wrong = static_cast<size_t>(
-        std::count_if(run.cases.begin(), run.cases.end(),
-                      [](const CaseRecord& record) { return !record.findings.empty(); }));
-    const size_t most =
-        std::clamp(kFindingBudget / std::max<size_t>(wrong, 1), kLeastFindings, kMostFindings);
-    size_t picture_budget = kPictureBudget;
-    Json list = Json::array();
-    for (const CaseRecord& record : run.cases) {
-        list.push_back(case_json(record, most, picture_budget));
-    }
-    return Json{{"rules", rules}, {"meanings", meanings}, {"totals", total}, {"cases", list}};
-}
-
 std::string fact(std::string_view name, const std::string& value) {
     return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escaped(value));
+}
+
+std::string key_fact(std::string_view name, const std::string& value) {
+    return "<div>" + fact(name, value) + "</div>";
 }
 
 std::string title_of(const Run& run) {
@@ -227,24 +113,26 @@ std::string header(const Run& run) {
     const Device& d = run.device;
     std::string text =
         fmt::format("<h1>{}</h1>\n", escaped(d.name.empty() ? std::string("no device") : d.name));
-    text += fmt::format("<p class=\"verdict\">{}</p>\n<dl>\n", escaped(exit_text(exit_code(run))));
-    text += fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info);
-    text += fact("Vulkan", d.api_version);
-    text += fact("subpixel bits", fmt::format("{}", d.subpixel_bits));
-    text += fact("profile", fmt::format("{} (a finding at this level: {})",
-                                        cases::to_string(run.profile), meaning(run.profile)));
+    text += fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n",
+                        escaped(exit_text(exit_code(run))));
+    text += key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info);
+    text += key_fact("Vulkan", d.api_version);
+    text += key_fact("subpixel bits", fmt::format("{}", d.subpixel_bits));
+    text += key_fact("profile", fmt::format("{} (a finding at this level: {})",
+                                            cases::to_string(run.profile), meaning(run.profile)));
     if (const CaseRecord* worst = worst_case(run)) {
-        text += fact("largest accepted error",
-                     fmt::format("{} budgets, {}", ratio_text(worst->worst_ratio), worst->id));
+        text += key_fact("largest accepted error",
+                         fmt::format("{} budgets, {}", ratio_text(worst->worst_ratio), worst->id));
     }
+    text += key_fact("took", seconds_text(run.seconds) + (run.ended.empty() ? ", cut off" : ""));
+    text += "</dl>\n<details><summary>About this run</summary><dl>\n";
     text += fact("edgecase", run.tool_version);
     text += fact("started", run.started);
-    text += fact("took", seconds_text(run.seconds) + (run.ended.empty() ? ", cut off" : ""));
     text += fact("seed", fmt::format("{}", run.seed));
     text += fact("host", run.host);
     text += fact("UUID", d.uuid);
     text += fact("expectations", run.expectation_file);
-    text += "</dl>\n<details><summary>Command line and environment</summary><pre>";
+    text += "</dl><pre>";
     for (const auto& [name, value] : run.environment) {
         text += escaped(name + "=" + value) + "\n";
     }
@@ -268,6 +156,14 @@ std::string table(const Run& run) {
     return text + "</tbody></table>";
 }
 
+std::string script() {
+    std::string text;
+    for (const std::string_view part : kScripts) {
+        text += part;
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string to_html(const Run& run) {
@@ -277,8 +173,7 @@ std::string to_html(const Run& run) {
         {"{{HEADER}}", header(run)},
         {"{{TABLE}}", table(run)},
         {"{{DATA}}", script_data(page_data(run))},
-        {"{{PICTURES}}", std::string(kPictures)},
-        {"{{SCRIPT}}", std::string(kScript)},
+        {"{{SCRIPT}}", script()},
     };
     // One pass in the page's order: what is put in is never searched for fields again.
     std::string text;

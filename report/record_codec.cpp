@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "report/evidence_codec.hpp"
 #include "report/picture_codec.hpp"
 #include "report/utf8.hpp"
 
@@ -33,26 +34,6 @@ const Json& member(const Json& json, const char* key) {
     return *it;
 }
 
-double number_of(const Json& json, const char* key) {
-    if (json.is_number()) {
-        return json.get<double>();
-    }
-    if (json.is_string()) {
-        const auto& name = json.get_ref<const std::string&>();
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
-        if (name == "inf") {
-            return kInfinity;
-        }
-        if (name == "-inf") {
-            return -kInfinity;
-        }
-        if (name == "nan") {
-            return std::numeric_limits<double>::quiet_NaN();
-        }
-    }
-    fail(fmt::format("\"{}\" is not a number", key));
-}
-
 const Json& list_of(const Json& json, const char* key) {
     const Json& list = member(json, key);
     if (!list.is_array()) {
@@ -66,7 +47,7 @@ void read(const Json& json, const char* key, std::string& to) {
     to = decode_text(member(json, key), key);
 }
 void read(const Json& json, const char* key, double& to) {
-    to = number_of(member(json, key), key);
+    to = decode_number(member(json, key), key);
 }
 void read(const Json& json, const char* key, bool& to) {
     const Json& value = member(json, key);
@@ -92,15 +73,6 @@ void read(const Json& json, const char* key, std::vector<std::string>& to) {
     for (const Json& entry : list_of(json, key)) {
         to.push_back(decode_text(entry, key));
     }
-}
-void read(const Json& json, const char* key, std::vector<uint8_t>& to) {
-    const Json& value = member(json, key);
-    auto bytes =
-        value.is_string() ? decode_picture(value.get_ref<const std::string&>()) : std::nullopt;
-    if (!bytes) {
-        fail(fmt::format("\"{}\" is not a picture", key));
-    }
-    to = std::move(*bytes);
 }
 void read(const Json& json, const char* key, cases::Profile& to) {
     const auto profile = cases::parse_profile(decode_text(member(json, key), key));
@@ -136,21 +108,17 @@ Json encode_texts(const std::vector<std::string>& list) {
 }
 
 Json encode_finding(const diff::Finding& f) {
-    Json json{{"kind", diff::to_string(f.kind)},
-              {"rule", encode_text(f.rule)},
-              {"level", cases::to_string(f.level)},
-              {"x", f.x},
-              {"y", f.y},
-              {"sample", f.sample},
-              {"quantity", encode_text(f.quantity)},
-              {"expected", encode_text(f.expected)},
-              {"got", encode_text(f.got)},
-              {"why", encode_text(f.why)},
-              {"ratio", encode_number(f.ratio)}};
-    if (f.layer) {
-        json["layer"] = *f.layer;
-    }
-    return json;
+    return Json{{"kind", diff::to_string(f.kind)},
+                {"rule", encode_text(f.rule)},
+                {"level", cases::to_string(f.level)},
+                {"x", f.x},
+                {"y", f.y},
+                {"sample", f.sample},
+                {"quantity", encode_text(f.quantity)},
+                {"expected", encode_text(f.expected)},
+                {"got", encode_text(f.got)},
+                {"why", encode_text(f.why)},
+                {"ratio", encode_number(f.ratio)}};
 }
 
 diff::Finding decode_finding(const Json& json) {
@@ -166,39 +134,7 @@ diff::Finding decode_finding(const Json& json) {
     read(json, "got", f.got);
     read(json, "why", f.why);
     read(json, "ratio", f.ratio);
-    if (json.contains("layer")) {
-        read(json, "layer", f.layer.emplace());
-    }
     return f;
-}
-
-Json encode_pictures(const Pictures& p) {
-    Json json{{"width", p.width},
-              {"height", p.height},
-              {"left", p.left},
-              {"top", p.top},
-              {"expected_hits", encode_picture(p.expected_hits)},
-              {"device_hits", encode_picture(p.device_hits)},
-              {"marks", encode_picture(p.marks)}};
-    if (p.layer_height > 0) {
-        json["layer_height"] = p.layer_height;
-    }
-    return json;
-}
-
-Pictures decode_pictures(const Json& json) {
-    Pictures p;
-    read(json, "width", p.width);
-    read(json, "height", p.height);
-    read(json, "left", p.left);
-    read(json, "top", p.top);
-    if (json.contains("layer_height")) {
-        read(json, "layer_height", p.layer_height);
-    }
-    read(json, "expected_hits", p.expected_hits);
-    read(json, "device_hits", p.device_hits);
-    read(json, "marks", p.marks);
-    return p;
 }
 
 }  // namespace
@@ -231,6 +167,26 @@ Json encode_number(double value) {
         return value > 0 ? "inf" : "-inf";
     }
     return value;  // nlohmann writes the shortest text that reads back as the same binary64
+}
+
+double decode_number(const Json& json, const char* key) {
+    if (json.is_number()) {
+        return json.get<double>();
+    }
+    if (json.is_string()) {
+        const auto& name = json.get_ref<const std::string&>();
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        if (name == "inf") {
+            return kInfinity;
+        }
+        if (name == "-inf") {
+            return -kInfinity;
+        }
+        if (name == "nan") {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+    fail(fmt::format("\"{}\" is not a number", key));
 }
 
 Json encode_device(const Device& d) {
@@ -276,6 +232,10 @@ Json encode_case(const CaseRecord& r) {
     for (const uint64_t count : r.counts) {
         counts.push_back(count);
     }
+    Json evidence = Json::array();
+    for (const SampleEvidence& e : r.evidence) {
+        evidence.push_back(encode_evidence(e));
+    }
     return Json{
         {"id", encode_text(r.id)},
         {"file", encode_text(r.file)},
@@ -309,6 +269,9 @@ Json encode_case(const CaseRecord& r) {
         {"pictures", encode_pictures(r.pictures)},
         {"rerun", encode_text(r.rerun)},
         {"explain", encode_text(r.explain)},
+        {"catches", encode_text(r.catches)},
+        {"geometry", encode_geometry(r.geometry)},
+        {"evidence", evidence},
     };
 }
 
@@ -357,6 +320,13 @@ CaseRecord decode_case(const Json& json) {
     r.pictures = decode_pictures(member(json, "pictures"));
     read(json, "rerun", r.rerun);
     read(json, "explain", r.explain);
+    if (json.contains("catches")) {  // older journals end here
+        read(json, "catches", r.catches);
+        r.geometry = decode_geometry(member(json, "geometry"));
+        for (const Json& sample : list_of(json, "evidence")) {
+            r.evidence.push_back(decode_evidence(sample));
+        }
+    }
     return r;
 }
 

@@ -24,6 +24,7 @@ nlohmann::ordered_json encode_header(const Run& run);
 
 // `key` is what an error calls it.
 std::string decode_text(const nlohmann::ordered_json& json, const char* key);
+double decode_number(const nlohmann::ordered_json& json, const char* key);
 
 Device decode_device(const nlohmann::ordered_json& json);
 CaseRecord decode_case(const nlohmann::ordered_json& json);

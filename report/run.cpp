@@ -3,6 +3,7 @@
 #include "report/run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace report {
 
@@ -29,6 +30,18 @@ std::optional<Status> parse_status(std::string_view name) {
 
 bool is_expected(Status status) {
     return status <= Status::xfail;
+}
+
+uint8_t error_code(float ratio) {
+    if (!(ratio >= 0)) {
+        return 0;
+    }
+    if (ratio <= 0) {
+        return 1;
+    }
+    return std::isinf(ratio) ? uint8_t{255}
+                             : static_cast<uint8_t>(
+                                   std::clamp(std::lround(128 + 8 * std::log2(ratio)), 2L, 254L));
 }
 
 std::array<size_t, kStatuses> totals(const Run& run) {

@@ -14,6 +14,7 @@
 
 #include "cases/profile.hpp"
 #include "diff/verdict.hpp"
+#include "report/evidence.hpp"
 
 namespace report {
 
@@ -69,7 +70,18 @@ struct Pictures {
     std::vector<uint8_t> expected_hits;  // Verdict::expected_hits
     std::vector<uint8_t> device_hits;    // Verdict::device_hits
     std::vector<uint8_t> marks;          // Verdict::marks
+    // Verdict::error_ratios as error_code(); empty if no value was compared.
+    std::vector<uint8_t> errors;
+    // What a screen would show of the colour target, red plane, green plane, blue plane; empty if
+    // there is none.
+    std::vector<uint8_t> device_colors;
+    std::vector<uint8_t> expected_colors;  // the same of a blit's nominal texels
+    // Depth: 1 + 254 (z - depth_low) / (depth_high - depth_low), 0 where it holds the clear value.
+    std::vector<uint8_t> device_depths;
+    double depth_low = 0, depth_high = 0;
 };
+// 0: nothing was compared, 1: no error, 2..254: about 2^((code - 128) / 8) budgets, 255: infinite.
+uint8_t error_code(float ratio);
 
 struct CaseRecord {
     std::string id, file;
@@ -97,6 +109,9 @@ struct CaseRecord {
     Pictures pictures;
     std::string rerun;    // command line that repeats it
     std::string explain;  // command line that explains the first wrong sample; empty if none
+    std::string catches;  // which fault would break the case
+    Geometry geometry;    // with pictures
+    std::vector<SampleEvidence> evidence;  // of wrong samples and some of their neighbours
 };
 
 struct Run {

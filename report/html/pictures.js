@@ -1,14 +1,22 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-"use strict";
-// Pictures: decoding (report/picture_codec.hpp) and drawing on canvas.
+// Pictures: decoding (report/picture_codec.hpp), and what their bytes look like.
 
 const MARKS = ["ok", "either", "missing", "extra", "double", "value", "order"];
-const MARK_TEXT = ["as expected", "free: several numbers of hits are allowed", "missing: must be covered",
-  "extra: must not be covered", "double: hit too often", "value: covered, wrong value", "order: written by the wrong triangle"];
-// Okabe and Ito's colours, each with a pattern of its own.
-const MARK_COLOR = ["", "#999999", "#D55E00", "#0072B2", "#CC79A7", "#E69F00", "#009E73"];
+const LETTERS = ["", "", "M", "X", "D", "V", "O"];
+const MARK_TEXT = ["as expected", "free: the rules allow several answers", "missing: must be covered", "extra: must not be covered",
+  "double: hit too often", "value: covered, but with a wrong value", "order: written by the wrong triangle"];
+// Okabe and Ito's colours, each with a pattern and a letter of its own.
+const MARK_COLOR = ["", "#999999", "#D55E00", "#56B4E9", "#CC79A7", "#F0B429", "#009E73"];
 const SEVERAL = 255;  // Verdict::expected_hits: more than one number of hits is allowed
+const PALETTES = {
+  light: {paper: "#ffffff", margin: "#eef1f4", hits: ["#ffffff", "#cfd8e1", "#9aa8b6", "#66727e"], free: "#b4bac1", grid: "rgba(30,42,54,.16)",
+    line: "#17212b", halo: "rgba(255,255,255,.85)", quiet: "#5b6670", cursor: "#0059b3", ok: "#e6ebf0"},
+  dark: {paper: "#171b20", margin: "#21262d", hits: ["#171b20", "#3d4a58", "#62758a", "#93a6ba"], free: "#5a626b", grid: "rgba(225,235,245,.15)",
+    line: "#eef3f8", halo: "rgba(12,15,18,.8)", quiet: "#a2abb5", cursor: "#6cc0ff", ok: "#2b333c"},
+};
+// Magma, after Smith and van der Walt (matplotlib): one path from dark to light, the same without colour.
+const MAGMA = [[0, 0, 4], [28, 16, 68], [79, 18, 123], [129, 37, 129], [181, 54, 122], [229, 80, 100], [251, 135, 97], [254, 194, 135], [252, 253, 191]];
 
 function decodePicture(text) {
   const runs = atob(text);
@@ -24,43 +32,72 @@ function decodePicture(text) {
   return bytes;
 }
 
-// The pictures of a case, or null. Samples of a pixel are drawn as columns x rows cells, in order.
+// The pictures of a case, or null.
 function openPictures(p) {
-  if (!p || !p.width || !p.height) { return null; }
-  const pictures = {width: p.width, height: p.height, left: p.left, top: p.top,
-    expected: decodePicture(p.expected_hits), device: decodePicture(p.device_hits), marks: decodePicture(p.marks)};
-  const samples = pictures.marks.length / (p.width * p.height);
-  if (!Number.isInteger(samples) || samples < 1 || pictures.expected.length !== pictures.marks.length ||
-      pictures.device.length !== pictures.marks.length) { return null; }
+  if (!p || !p.width || !p.height || !p.marks) { return null; }
+  const open = (name) => p[name] ? decodePicture(p[name]) : new Uint8Array(0);
+  const pictures = {width: p.width, height: p.height, left: p.left, top: p.top, layerHeight: p.layer_height || 0, expected: open("expected_hits"),
+    device: open("device_hits"), marks: open("marks"), errors: open("errors"), colors: open("device_colors"),
+    expectedColors: open("expected_colors"), depths: open("device_depths"), depthLow: numberOf(p.depth_low), depthHigh: numberOf(p.depth_high)};
+  const count = pictures.marks.length, samples = count / (p.width * p.height);
+  if (!Number.isInteger(samples) || samples < 1 || pictures.expected.length !== count || pictures.device.length !== count) { return null; }
+  const fits = (plane, planes) => plane.length === planes * count ? plane : null;
+  pictures.errors = fits(pictures.errors, 1);
+  pictures.depths = fits(pictures.depths, 1);
+  pictures.colors = fits(pictures.colors, 3);
+  pictures.expectedColors = fits(pictures.expectedColors, 3);
   pictures.samples = samples;
+  pictures.count = count;
   pictures.columns = Math.ceil(Math.sqrt(samples));
   pictures.rows = Math.ceil(samples / pictures.columns);
   return pictures;
 }
 
-function fitZoom(p) {
-  const least = p.samples > 1 ? 2 * p.columns : 1;
-  const side = Math.max(120, Math.min(400, (window.innerWidth - 130) / 3));  // the three of a case beside each other
-  return Math.max(least, Math.min(40, Math.floor(side / Math.max(p.width, p.height))));
+// A pixel's name; layers are stacked in pictures, each `layerHeight` rows high (0: one layer).
+const pixelName = (layerHeight, x, y) =>
+  layerHeight ? "layer " + Math.floor(y / layerHeight) + " (" + x + ", " + y % layerHeight + ")" : "(" + x + ", " + y + ")";
+
+const indexOf = (p, at) => ((at.y - p.top) * p.width + (at.x - p.left)) * p.samples + at.sample;
+const isInPicture = (p, at) => at.x >= p.left && at.y >= p.top && at.x < p.left + p.width && at.y < p.top + p.height && at.sample < p.samples;
+
+function hitsText(hits, expected) {
+  if (expected && hits === SEVERAL) { return "several answers allowed"; }
+  return hits >= (expected ? 254 : 255) ? hits + " or more hits" : hits === 1 ? "1 hit" : hits + " hits";
+}
+const classText = (hits) => hits === SEVERAL ? "either: the rules leave it open" : hits === 0 ? "must not be covered" : "must be covered";
+
+// report::error_code(): about how many budgets.
+function errorOf(code) {
+  return code === 0 ? null : code === 1 ? 0 : code === 255 ? Infinity : Math.pow(2, (code - 128) / 8);
+}
+function errorText(code) {
+  const error = errorOf(code);
+  return error === null ? "nothing compared" : error === 0 ? "exact" : error === Infinity ? "no number of budgets" : "about " + shortNumber(error, 2) + " budgets";
+}
+// 2^-8 to 2^8 budgets. Large errors stand out of the paper: bright on dark, dark on light.
+const HEAT_SPAN = 8;
+function heatColor(code, theme) {
+  const error = errorOf(code);
+  const t = error === 0 ? 0 : Math.min(1, Math.max(0, (Math.log2(error) + HEAT_SPAN) / (2 * HEAT_SPAN)));
+  const at = (theme === "dark" ? .12 + .88 * t : 1 - .96 * t) * (MAGMA.length - 1), k = Math.min(MAGMA.length - 2, Math.floor(at));
+  const mix = (c) => Math.round(MAGMA[k][c] + (MAGMA[k + 1][c] - MAGMA[k][c]) * (at - k));
+  return "rgb(" + mix(0) + "," + mix(1) + "," + mix(2) + ")";
 }
 
-function hitColor(hits) {
-  return hits === 0 ? "#ffffff" : hits === 1 ? "#b9c3cd" : hits === 2 ? "#7b8894" : "#4a545e";
-}
-
-// A cell with the pattern of its mark; dark on its colour, so that it shows without colour too.
+// A cell with the pattern of its mark, so that it is told apart without colour too.
 function drawMark(context, mark, x, y, w, h) {
   context.fillStyle = MARK_COLOR[mark];
   context.fillRect(x, y, w, h);
-  if (Math.min(w, h) < 5) { return; }
+  const size = Math.min(w, h);
+  if (size < 5) { return; }
   context.save();
   context.beginPath();
   context.rect(x, y, w, h);
   context.clip();
-  context.strokeStyle = "rgba(0,0,0,.75)";
-  context.fillStyle = "rgba(255,255,255,.9)";
-  context.lineWidth = Math.max(1, Math.min(w, h) / 14);
-  const step = Math.max(4, Math.min(w, h) / 3);
+  context.strokeStyle = "rgba(0,0,0,.62)";
+  context.fillStyle = "rgba(0,0,0,.62)";
+  context.lineWidth = Math.max(1, size / 18);
+  const step = Math.max(4, size / 4);
   context.beginPath();
   if (mark === 2) {         // missing: diagonals
     for (let d = -h; d < w; d += step) { context.moveTo(x + d, y + h); context.lineTo(x + d + h, y); }
@@ -73,90 +110,36 @@ function drawMark(context, mark, x, y, w, h) {
   }
   context.stroke();
   if (mark === 3) {         // extra: dots
+    const r = Math.max(1, size / 16);
+    context.beginPath();
     for (let v = step / 2; v < h; v += step) {
-      for (let u = step / 2; u < w; u += step) { context.fillRect(x + u - 1, y + v - 1, 2, 2); }
+      for (let u = step / 2; u < w; u += step) { context.moveTo(x + u + r, y + v); context.arc(x + u, y + v, r, 0, 2 * Math.PI); }
     }
+    context.fill();
   }
   context.restore();
+  if (size >= 18) { drawLetter(context, LETTERS[mark], x + w / 2, y + h / 2, Math.min(22, size * .5)); }
 }
 
-function drawEither(context, x, y, w, h) {
-  context.fillStyle = "#ffffff";
-  context.fillRect(x, y, w, h);
-  context.fillStyle = "#a8a8a8";
-  const a = Math.ceil(w / 2), b = Math.ceil(h / 2);
-  context.fillRect(x, y, a, b);
-  context.fillRect(x + a, y + b, w - a, h - b);
-}
-
-// kind: "expected", "device" or "marks". `pin` is {x, y, sample} in the target, or null.
-function drawPicture(canvas, p, kind, zoom, pin) {
-  canvas.width = p.width * zoom;
-  canvas.height = p.height * zoom;
-  const context = canvas.getContext("2d", {alpha: false});
-  context.fillStyle = "#ffffff";
-  context.fillRect(0, 0, canvas.width, canvas.height);
-  const numbers = Math.floor(zoom / Math.max(p.columns, p.rows)) >= 14;
+function drawLetter(context, text, x, y, size) {
+  context.font = "700 " + Math.round(size) + "px system-ui, sans-serif";
   context.textAlign = "center";
   context.textBaseline = "middle";
-  for (let j = 0; j < p.height; ++j) {
-    for (let i = 0; i < p.width; ++i) {
-      for (let s = 0; s < p.samples; ++s) {
-        const k = (j * p.width + i) * p.samples + s;
-        const u = s % p.columns, v = Math.floor(s / p.columns);
-        const x = i * zoom + Math.floor(u * zoom / p.columns), y = j * zoom + Math.floor(v * zoom / p.rows);
-        const w = i * zoom + Math.floor((u + 1) * zoom / p.columns) - x;
-        const h = j * zoom + Math.floor((v + 1) * zoom / p.rows) - y;
-        const hits = kind === "device" ? p.device[k] : p.expected[k];
-        if (kind === "marks" && p.marks[k] > 1) {
-          drawMark(context, p.marks[k], x, y, w, h);
-          continue;
-        }
-        if (kind !== "device" && (hits === SEVERAL || (kind === "marks" && p.marks[k] === 1))) {
-          drawEither(context, x, y, w, h);
-          continue;
-        }
-        if (hits === 0) { continue; }
-        context.fillStyle = kind === "marks" ? "#e3e7eb" : hitColor(hits);
-        context.fillRect(x, y, w, h);
-        if (numbers && kind !== "marks" && hits > 1) {
-          context.fillStyle = "#ffffff";
-          context.font = "bold " + Math.min(16, Math.floor(h * .6)) + "px sans-serif";
-          context.fillText(String(hits), x + w / 2, y + h / 2);
-        }
-      }
-    }
-  }
-  if (zoom >= 8) {
-    context.fillStyle = "rgba(60,70,80,.28)";
-    for (let i = 1; i < p.width; ++i) { context.fillRect(i * zoom, 0, 1, canvas.height); }
-    for (let j = 1; j < p.height; ++j) { context.fillRect(0, j * zoom, canvas.width, 1); }
-  }
-  if (pin) {
-    const x = (pin.x - p.left) * zoom, y = (pin.y - p.top) * zoom;
-    context.strokeStyle = "#000000";
-    context.lineWidth = 3;
-    context.strokeRect(x - 1, y - 1, zoom + 2, zoom + 2);
-    context.strokeStyle = "#ffffff";
-    context.lineWidth = 1;
-    context.strokeRect(x - 1, y - 1, zoom + 2, zoom + 2);
-  }
+  context.lineJoin = "round";
+  context.lineWidth = Math.max(3, size / 4);
+  context.strokeStyle = "rgba(255,255,255,.92)";
+  context.strokeText(text, x, y + 1);
+  context.fillStyle = "#111111";
+  context.fillText(text, x, y + 1);
 }
 
-function hitsText(hits, expected) {
-  if (expected && hits === SEVERAL) { return "several numbers of hits allowed"; }
-  return (hits >= (expected ? 254 : 255) ? hits + " or more" : String(hits)) + (hits === 1 ? " hit" : " hits");
-}
-
-// What the pictures know of a pixel, one line a sample.
-function pixelLines(p, x, y) {
-  const i = x - p.left, j = y - p.top;
-  if (i < 0 || j < 0 || i >= p.width || j >= p.height) { return []; }
-  const lines = [];
-  for (let s = 0; s < p.samples; ++s) {
-    const k = (j * p.width + i) * p.samples + s;
-    lines.push("pixel (" + x + "," + y + ")" + (p.samples > 1 ? " sample " + s : "") + ": reference " +
-      hitsText(p.expected[k], true) + ", device " + hitsText(p.device[k], false) + ", " + MARK_TEXT[p.marks[k]]);
+// Free: a checker of four fields.
+function drawFree(context, palette, x, y, w, h) {
+  context.fillStyle = palette.paper;
+  context.fillRect(x, y, w, h);
+  context.fillStyle = palette.free;
+  const n = Math.min(w, h) >= 16 ? 4 : 2, a = w / n, b = h / n;
+  for (let j = 0; j < n; ++j) {
+    for (let i = j % 2; i < n; i += 2) { context.fillRect(x + i * a, y + j * b, a, b); }
   }
-  return lines;
 }

@@ -145,7 +145,7 @@ std::string block_table(const std::vector<BlockRow>& rows) {
 
 std::string block_plot(const std::vector<BlockRow>& rows) {
     // Bits to the right, powers of two upwards: one bit is as long as one factor of two.
-    constexpr double kLeft = 60;
+    constexpr double kLeft = 80;
     constexpr double kTop = 20;
     constexpr double kUnit = 16;  // per bit
     constexpr int kMinBits = 6;
@@ -178,6 +178,11 @@ std::string block_plot(const std::vector<BlockRow>& rows) {
         "<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">bits n of w, of its products and "
         "of the nine terms</text>\n",
         x_of((kMinBits + kMaxBits) / 2.0), height - 10);
+    out += fmt::format(
+        "<text transform=\"translate(18 {:.0f}) rotate(-90)\" text-anchor=\"middle\">largest loss, "
+        "in "
+        "parts of the attribute's range</text>\n",
+        kTop - kLowest * kUnit / 2);
     struct Line {
         const char* name;
         const char* color;

@@ -91,6 +91,13 @@ TEST_F(JournalTest, round_trip_is_exact) {
     EXPECT_EQ(a.pictures.marks, b.pictures.marks);
     EXPECT_EQ(a.pictures.expected_hits, b.pictures.expected_hits);
     EXPECT_EQ(a.pictures.device_hits, b.pictures.device_hits);
+    EXPECT_EQ(a.pictures.errors, b.pictures.errors);
+    EXPECT_EQ(a.pictures.device_colors, b.pictures.device_colors);
+    EXPECT_EQ(a.pictures.expected_colors, b.pictures.expected_colors);
+    EXPECT_EQ(a.pictures.device_depths, b.pictures.device_depths);
+    EXPECT_EQ(a.geometry, b.geometry);
+    EXPECT_EQ(a.evidence, b.evidence);
+    EXPECT_EQ(a.catches, b.catches);
     EXPECT_EQ(a.counts, b.counts);
     EXPECT_EQ(a.level, cases::Profile::vulkan);
     EXPECT_EQ(a.findings[2].kind, diff::FindingKind::double_hit);
@@ -156,6 +163,64 @@ TEST_F(JournalTest, special_numbers_survive) {
         EXPECT_EQ(std::bit_cast<uint64_t>(decode_case(json).seconds),
                   std::bit_cast<uint64_t>(value));
     }
+}
+
+TEST(evidence, of_older_journals_is_empty) {
+    auto json = encode_case(test::sample_run().cases[3]);
+    for (const char* key : {"catches", "geometry", "evidence"}) {
+        json.erase(key);
+    }
+    for (const char* key : {"errors", "device_colors", "expected_colors", "device_depths",
+                            "depth_low", "depth_high"}) {
+        json["pictures"].erase(key);
+    }
+    const CaseRecord old = decode_case(json);
+    EXPECT_EQ(old.geometry, Geometry{});
+    EXPECT_TRUE(old.evidence.empty());
+    EXPECT_TRUE(old.pictures.errors.empty());
+    EXPECT_EQ(old.findings.size(), 5U);
+}
+
+TEST(evidence, that_is_malformed_is_an_error) {
+    using Json = nlohmann::ordered_json;
+    const Json good = encode_case(test::sample_run().cases[3]);
+    EXPECT_NO_THROW(decode_case(good));
+    const std::pair<const char*, Json> breaks[] = {
+        {"/geometry", nullptr},
+        {"/geometry/width", -1},
+        {"/geometry/width", "8"},
+        {"/geometry/locations/0/0", 256},
+        {"/geometry/locations/0", 3},
+        {"/geometry/triangles/0/p", Json::array({1, 2, 3})},
+        {"/geometry/triangles/0/p/0", 0.5},
+        {"/geometry/triangles/0/v", Json::array({1, 2})},
+        {"/geometry/triangles/0/flags", "x"},
+        {"/geometry/triangles/1/piece/0", Json::object()},
+        {"/geometry/scissors/0", Json::array({1})},
+        {"/geometry/blit", 1},
+        {"/evidence", 1},
+        {"/evidence/0/at", Json::array({1, 2})},
+        {"/evidence/0/values/0", Json::array({"depth"})},
+        {"/evidence/0/values/0/6", "bits"},
+        {"/pictures/errors", "%"},
+        {"/pictures/width", 1e10}};
+    for (const auto& [place, value] : breaks) {
+        Json bad = good;
+        bad[Json::json_pointer(place)] = value;
+        EXPECT_THROW(decode_case(bad), std::invalid_argument) << place;
+    }
+}
+
+TEST(error_code, is_a_scale_of_eighths_of_an_octave) {
+    EXPECT_EQ(error_code(-1.0F), 0);
+    EXPECT_EQ(error_code(std::numeric_limits<float>::quiet_NaN()), 0);
+    EXPECT_EQ(error_code(0.0F), 1);
+    EXPECT_EQ(error_code(1e-30F), 2);
+    EXPECT_EQ(error_code(1.0F), 128);
+    EXPECT_EQ(error_code(2.0F), 136);
+    EXPECT_EQ(error_code(0.5F), 120);
+    EXPECT_EQ(error_code(1e30F), 254);
+    EXPECT_EQ(error_code(std::numeric_limits<float>::infinity()), 255);
 }
 
 // A power cut may leave any prefix of the file.

@@ -53,7 +53,55 @@ Pictures make_pictures() {
     set(1, 1, 1, 2, diff::SampleMark::double_hit);
     set(2, 4, 1, 1, diff::SampleMark::value);
     set(5, 0, 1, 1, diff::SampleMark::order);
+    p.errors.assign(64, 1);
+    p.errors[2 + 4 * 8] = error_code(2.0e6F);
+    p.device_colors.assign(3 * 64, 7);
+    p.expected_colors.assign(3 * 64, 8);
+    p.device_depths.assign(64, 9);
+    p.depth_low = 0.25;
+    p.depth_high = 0x1.8p-1;
     return p;
+}
+
+Geometry make_geometry() {
+    Geometry g;
+    g.width = g.height = 8;
+    g.sample_locations = {{8, 8}};
+    g.triangle_total = 3;
+    g.scissors = {{0, 0, 8, 8}};
+    Shape upper;
+    upper.vertex = {0, 1, 2};
+    upper.points = {0, 0, 8 << 16, 0, 0, 8 << 16};
+    upper.has_points = upper.is_exact = true;
+    Shape cut;  // one vertex behind the eye
+    cut.primitive = 1;
+    cut.vertex = {2, 1, 0xffffffffU};
+    cut.is_clipped = true;
+    cut.piece = {0.1, -0.5, 8, 0, 3.25, 1e300};
+    g.triangles = {upper, cut};
+    return g;
+}
+
+SampleEvidence make_evidence() {
+    SampleEvidence e;
+    e.x = 2;
+    e.y = 4;
+    e.writer = "triangle 0 of draw 0";
+    e.allowed = "1";
+    e.hits = "1 front, 0 back";
+    SampleValue value;
+    value.quantity = "attribute 0.x";
+    value.exact = "1/2";
+    value.nearest = 0.5;
+    value.budget = 1.2e-7;
+    value.low = 0.5 - 2.4e-7;
+    value.high = std::numeric_limits<double>::infinity();
+    value.has_device = true;
+    value.bits = 0x7fc00001;
+    SampleValue missing;
+    missing.quantity = "depth";
+    e.values = {value, missing};
+    return e;
 }
 
 }  // namespace
@@ -109,6 +157,9 @@ Run sample_run() {
     fail.worst_ratio = std::numeric_limits<double>::infinity();
     fail.worst_quantity = "attribute 0.x";
     fail.pictures = make_pictures();
+    fail.geometry = make_geometry();
+    fail.evidence = {make_evidence()};
+    fail.catches = "a diagonal that is drawn twice";
     fail.explain = "edgecase explain 'shared-edge/diag:rot=90,flip=false' --pixel 3,2";
     run.cases.push_back(fail);
 
@@ -159,6 +210,10 @@ Run hostile_run() {
     d.name = d.driver_name = d.driver_info = d.uuid = d.type = d.api_version = kHostile;
     for (CaseRecord& r : run.cases) {
         r.id += kHostile;
+        r.catches = kHostile;
+        for (SampleEvidence& e : r.evidence) {
+            e.writer = e.allowed = e.hits = e.values[0].quantity = e.values[0].exact = kHostile;
+        }
         r.file = r.description = r.bug = r.reason = r.step = r.signal = r.stderr_text = kHostile;
         r.rerun = r.explain = r.worst_quantity = kHostile;
         r.rules = r.links = r.messages = {kHostile};

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is kept of a judged case so that a reader can check it by hand: pictures, the triangles over
+// them, and the values at wrong samples.
+#pragma once
+
+#include "cases/case.hpp"
+#include "diff/capture.hpp"
+#include "diff/verdict.hpp"
+#include "ref/expectation.hpp"
+#include "ref/limits.hpp"
+#include "report/run.hpp"
+
+namespace cli {
+
+// Fills pictures, geometry and evidence of the record of a case with draws or a blit. `expectation`
+// is empty for a blit.
+void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Limits& limits);
+
+}  // namespace cli

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+// Painting one picture: cells, grid, triangles, samples, cursor. Everything in CSS pixels; `zoom` is a whole number of them a
+// pixel, and one pixel of margin lies around the target, for what sticks out of it.
+
+// What is painted: {pictures, geometry, ties, errors: at}. `shot`: {kind, zoom, left, top, width, height, cursor, options, theme};
+// left and top say how far the picture is scrolled.
+function paint(canvas, scene, shot) {
+  const ratio = window.devicePixelRatio || 1;
+  canvas.width = Math.round(shot.width * ratio);
+  canvas.height = Math.round(shot.height * ratio);
+  canvas.style.width = shot.width + "px";
+  canvas.style.height = shot.height + "px";
+  const context = canvas.getContext("2d", {alpha: false});
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  const palette = PALETTES[shot.theme], p = scene.pictures;
+  context.fillStyle = palette.margin;
+  context.fillRect(0, 0, shot.width, shot.height);
+  context.translate(-shot.left, -shot.top);
+  const zoom = shot.zoom, margin = zoom;
+  const range = (from, length, size) => [Math.max(0, Math.floor((from - margin) / zoom)), Math.min(size - 1, Math.ceil((from + length - margin) / zoom))];
+  const view = {context, palette, zoom, p, theme: shot.theme, margin, columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
+  context.fillStyle = palette.paper;
+  context.fillRect(margin, margin, p.width * zoom, p.height * zoom);
+  paintCells(view, scene, shot);
+  if (zoom >= 6 && shot.options.grid) { paintGrid(view); }
+  paintRulers(view);
+  if (scene.geometry) {
+    if (shot.options.outlines) { paintRegions(view, scene.geometry); paintTriangles(view, scene.geometry); }
+    if (shot.options.samples) { paintSamples(view, scene); }
+  }
+  if (shot.cursor && isInPicture(p, shot.cursor)) { paintCursor(view, scene, shot.cursor); }
+}
+
+// Calls with each sample of the view that is seen: its index and its cell.
+function eachCell(view, scene, visit) {
+  const {p, zoom, margin} = view;
+  const placed = isPlaced(view, scene);
+  const side = placed ? Math.max(4, zoom / (p.samples <= 2 ? 2.6 : p.samples <= 4 ? 3 : p.samples <= 8 ? 4.2 : 5.2)) : 0;
+  for (let j = view.rows[0]; j <= view.rows[1]; ++j) {
+    for (let i = view.columns[0]; i <= view.columns[1]; ++i) {
+      for (let s = 0; s < p.samples; ++s) {
+        const k = (j * p.width + i) * p.samples + s, left = margin + i * zoom, top = margin + j * zoom;
+        if (placed) {
+          const at = scene.geometry.locations[s];
+          visit(k, left + Number(at.x) / 65536 * zoom - side / 2, top + Number(at.y) / 65536 * zoom - side / 2, side, side);
+        } else {
+          const u = s % p.columns, v = Math.floor(s / p.columns);
+          const x = Math.floor(u * zoom / p.columns), y = Math.floor(v * zoom / p.rows);
+          visit(k, left + x, top + y, Math.floor((u + 1) * zoom / p.columns) - x, Math.floor((v + 1) * zoom / p.rows) - y);
+        }
+      }
+    }
+  }
+}
+// Several samples a pixel stand where they are, as soon as there is room.
+const isPlaced = (view, scene) => view.p.samples > 1 && Boolean(scene.geometry) && view.zoom >= 10 * view.p.columns;
+
+function paintCells(view, scene, shot) {
+  const {context, palette, p} = view, frame = isPlaced(view, scene);
+  const fill = (color, x, y, w, h) => { context.fillStyle = color; context.fillRect(x, y, w, h); };
+  const plane = shot.kind === "expected" && shot.options.colors ? p.expectedColors : shot.kind === "device" && shot.options.colors ? p.colors : null;
+  eachCell(view, scene, (k, x, y, w, h) => {
+    const mark = p.marks[k];
+    if (plane) {
+      fill("rgb(" + plane[k] + "," + plane[p.count + k] + "," + plane[2 * p.count + k] + ")", x, y, w, h);
+    } else if (shot.kind === "device" && shot.options.depth && p.depths) {
+      if (p.depths[k]) { fill(grey(p.depths[k]), x, y, w, h); }
+    } else if (shot.kind === "difference" && mark > 1) {
+      drawMark(context, mark, x, y, w, h);
+    } else if (shot.kind === "error") {
+      paintError(view, k, x, y, w, h);
+    } else {
+      const hits = shot.kind === "device" ? p.device[k] : p.expected[k];
+      if (shot.kind !== "device" && (hits === SEVERAL || (shot.kind === "difference" && mark === 1))) { drawFree(context, palette, x, y, w, h); }
+      else if (hits > 0) {
+        fill(shot.kind === "difference" ? palette.ok : palette.hits[Math.min(hits, 3)], x, y, w, h);
+        if (hits > 1 && shot.kind !== "difference" && Math.min(w, h) >= 14) { drawLetter(context, String(hits), x + w / 2, y + h / 2, Math.min(16, h * .5)); }
+      }
+    }
+    if (frame) {
+      context.strokeStyle = palette.quiet;
+      context.lineWidth = .75;
+      context.strokeRect(x, y, w, h);
+    }
+  });
+}
+
+const grey = (code) => { const v = Math.round(30 + 215 * (code - 1) / 254); return "rgb(" + v + "," + v + "," + v + ")"; };
+
+function paintError(view, k, x, y, w, h) {
+  const {context, p} = view;
+  if (!p.errors || p.errors[k] === 0) {
+    if (p.marks[k] > 1) { drawMark(context, p.marks[k], x, y, w, h); }  // no number says how wrong it is
+    return;
+  }
+  context.fillStyle = heatColor(p.errors[k], view.theme);
+  context.fillRect(x, y, w, h);
+  const error = errorOf(p.errors[k]);
+  if (p.marks[k] > 1 && Math.min(w, h) >= 5) {  // not accepted: a frame of two colours
+    context.lineWidth = Math.max(1, w / 16);
+    context.strokeStyle = "#ffffff";
+    context.strokeRect(x + 1.5, y + 1.5, w - 3, h - 3);
+    context.setLineDash([3, 3]);
+    context.strokeStyle = "#000000";
+    context.strokeRect(x + 1.5, y + 1.5, w - 3, h - 3);
+    context.setLineDash([]);
+  }
+  if (Math.min(w, h) >= 34) { drawLetter(context, error === Infinity ? "\u221e" : shortNumber(error, 2).replace(/e\+?/, "e"), x + w / 2, y + h / 2, 11); }
+}
+
+function paintGrid(view) {
+  const {context, zoom, margin, p} = view;
+  context.fillStyle = view.palette.grid;
+  const x0 = margin + view.columns[0] * zoom, y0 = margin + view.rows[0] * zoom;
+  const w = (view.columns[1] - view.columns[0] + 1) * zoom, h = (view.rows[1] - view.rows[0] + 1) * zoom;
+  for (let i = view.columns[0]; i <= Math.min(p.width, view.columns[1] + 1); ++i) { context.fillRect(margin + i * zoom, y0, 1, h); }
+  for (let j = view.rows[0]; j <= Math.min(p.height, view.rows[1] + 1); ++j) { context.fillRect(x0, margin + j * zoom, w, 1); }
+}
+
+// Pixel numbers, in the margin.
+function paintRulers(view) {
+  const {context, zoom, margin, p} = view;
+  if (zoom < 12) { return; }
+  const step = zoom >= 20 ? 1 : zoom >= 15 ? 2 : 4, widest = String(Math.max(p.left + p.width, p.top + p.height)).length;
+  context.fillStyle = view.palette.quiet;
+  context.font = Math.min(11, zoom * .8 / Math.max(1, widest * .55)) + "px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  for (let i = view.columns[0]; i <= view.columns[1]; ++i) {
+    if ((p.left + i) % step === 0) { context.fillText(String(p.left + i), margin + (i + .5) * zoom, margin - Math.min(9, zoom / 2)); }
+  }
+  for (let j = view.rows[0]; j <= view.rows[1]; ++j) {
+    if ((p.top + j) % step === 0) { context.fillText(String(p.top + j), margin - Math.min(10, zoom / 2), margin + (j + .5) * zoom); }
+  }
+}
+
+const toScreen = (view, x, y) => [view.margin + (x - view.p.left) * view.zoom, view.margin + (y - view.p.top) * view.zoom];
+// A fixed-point coordinate is exact in binary64 up to 2^37 pixels.
+const pointOnScreen = (view, point) => toScreen(view, Number(point.x) / 65536, Number(point.y) / 65536);
+
+function strokeTwice(view, width) {
+  const {context, palette} = view;
+  context.lineWidth = width + 2;
+  context.strokeStyle = palette.halo;
+  context.stroke();
+  context.lineWidth = width;
+  context.strokeStyle = palette.line;
+  context.stroke();
+}
+
+// Top and left edges, which own their samples, thick; the others thin. What clipping leaves is dashed.
+function paintTriangles(view, geometry) {
+  const {context} = view;
+  context.lineCap = "round";
+  context.lineJoin = "round";
+  const thin = view.zoom >= 6 ? 1 : .75, thick = view.zoom >= 24 ? 4 : view.zoom >= 12 ? 3 : view.zoom >= 6 ? 2.2 : 1.4;
+  const stroke = (edges, width) => {
+    context.beginPath();
+    for (const {a, b} of edges) {
+      context.moveTo(...pointOnScreen(view, a));
+      context.lineTo(...pointOnScreen(view, b));
+    }
+    strokeTwice(view, width);
+  };
+  const edges = geometry.triangles.flatMap((t) => t.edges.map((e) => ({...e, hasArea: t.hasArea})));
+  stroke(edges.filter((e) => !e.hasArea || !ownsTies(e.kind)), thin);
+  stroke(edges.filter((e) => e.hasArea && ownsTies(e.kind)), thick);
+  context.setLineDash([6, 4]);
+  for (const {piece} of geometry.triangles) {
+    if (piece.length < 4) { continue; }
+    context.beginPath();
+    for (let k = 0; k + 1 < piece.length; k += 2) {
+      const [x, y] = toScreen(view, piece[k], piece[k + 1]);
+      if (k === 0) { context.moveTo(x, y); } else { context.lineTo(x, y); }
+    }
+    context.closePath();
+    strokeTwice(view, 1.5);
+  }
+  context.setLineDash([]);
+}
+
+// The destination of a blit.
+function paintRegions(view, geometry) {
+  const box = geometry.blit[1];
+  if (!box) { return; }
+  const [x0, y0] = toScreen(view, box[0], box[1]), [x1, y1] = toScreen(view, box[2], box[3]);
+  view.context.beginPath();
+  view.context.rect(Math.min(x0, x1), Math.min(y0, y1), Math.abs(x1 - x0), Math.abs(y1 - y0));
+  strokeTwice(view, 2.5);
+}
+
+// Sample positions as points; those exactly on an edge ringed.
+function paintSamples(view, scene) {
+  const {context, palette, p, zoom, margin} = view;
+  if (zoom < 8 && scene.ties.size === 0) { return; }
+  const radius = Math.max(1, Math.min(3, zoom / 16)), ring = Math.max(3, Math.min(9, zoom * (p.samples > 1 ? .16 : .2)));
+  for (let j = view.rows[0]; j <= view.rows[1]; ++j) {
+    for (let i = view.columns[0]; i <= view.columns[1]; ++i) {
+      for (let s = 0; s < p.samples; ++s) {
+        const at = scene.geometry.locations[s];
+        if (!at) { continue; }
+        const x = margin + (i + Number(at.x) / 65536) * zoom, y = margin + (j + Number(at.y) / 65536) * zoom;
+        if (zoom >= 8 && (p.samples === 1 || isPlaced(view, scene))) {
+          context.beginPath();
+          context.arc(x, y, radius, 0, 2 * Math.PI);
+          context.fillStyle = palette.line;
+          context.fill();
+        }
+        if (zoom >= 5 && scene.ties.has((j * p.width + i) * p.samples + s)) {
+          context.beginPath();
+          context.arc(x, y, ring, 0, 2 * Math.PI);
+          strokeTwice(view, zoom >= 16 ? 2 : 1.2);
+        }
+      }
+    }
+  }
+}
+
+function paintCursor(view, scene, at) {
+  const {context, p, zoom, margin, palette} = view;
+  const frame = (x, y, w, h, width) => {
+    context.lineWidth = width + 2;
+    context.strokeStyle = palette.halo;
+    context.strokeRect(x, y, w, h);
+    context.lineWidth = width;
+    context.strokeStyle = palette.cursor;
+    context.strokeRect(x, y, w, h);
+  };
+  frame(margin + (at.x - p.left) * zoom - 1, margin + (at.y - p.top) * zoom - 1, zoom + 2, zoom + 2, p.samples > 1 ? 1.5 : 3);
+  if (p.samples > 1) {
+    const one = {...view, columns: [at.x - p.left, at.x - p.left], rows: [at.y - p.top, at.y - p.top]}, wanted = indexOf(p, at);
+    eachCell(one, scene, (k, x, y, w, h) => { if (k === wanted) { frame(x - 1, y - 1, w + 2, h + 2, 3); } });
+  }
+}
+
+// The sample under a point of the picture (CSS pixels from its corner, scrolled), or the nearest one.
+function sampleUnder(scene, zoom, x, y) {
+  const p = scene.pictures, px = (x - zoom) / zoom, py = (y - zoom) / zoom;
+  const clamp = (value, size) => Math.min(size - 1, Math.max(0, Math.floor(value)));
+  const i = clamp(px, p.width), j = clamp(py, p.height);
+  let sample = 0;
+  if (p.samples > 1 && isPlaced({p, zoom}, scene)) {
+    let least = Infinity;
+    scene.geometry.locations.forEach((at, s) => {
+      const distance = Math.hypot(px - i - Number(at.x) / 65536, py - j - Number(at.y) / 65536);
+      if (distance < least) { least = distance; sample = s; }
+    });
+  } else if (p.samples > 1) {
+    sample = Math.min(p.samples - 1, clamp((py - j) * p.rows, p.rows) * p.columns + clamp((px - i) * p.columns, p.columns));
+  }
+  return {x: p.left + i, y: p.top + j, sample};
+}

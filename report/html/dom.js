@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+"use strict";
+// The page's data, and how its elements are made: text only, so that nothing of a case becomes markup.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const GLYPHS = {pass: "\u2713", unsupported: "\u2013", skip: "\u21b7", xfail: "x", xpass: "!", improved: "!", flake: "\u2248",
+  fail: "\u2717", device_lost: "\u26a1", timeout: "\u2026", crash: "\u2620", error: "E", not_run: "\u00b7"};
+const STATUSES = Object.keys(GLYPHS);
+const EXPECTED = new Set(["pass", "unsupported", "skip", "xfail"]);
+const SPECIFICATION = "https://registry.khronos.org/vulkan/specs/latest/html/vkspec.html#";
+const byId = (id) => document.getElementById(id);
+const string = (k) => data.strings[k] === undefined ? "" : data.strings[k];  // texts that many cases share
+
+// An element: `properties` are set as they are, but class, data-... and aria-... as attributes.
+function el(tag, properties, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties || {})) {
+    if (value === undefined || value === null || value === false) { continue; }
+    if (name === "class") { element.className = value; }
+    else if (name.startsWith("on")) { element.addEventListener(name.slice(2), value); }
+    else if (/^(aria-|data-|role$|scope$|for$|colspan$)/.test(name)) { element.setAttribute(name, value); }
+    else { element[name] = value; }
+  }
+  add(element, ...children);
+  return element;
+}
+function add(parent, ...children) {
+  for (const child of children.flat(Infinity)) {
+    if (child !== undefined && child !== null && child !== false && child !== "") { parent.append(child); }
+  }
+  return parent;
+}
+
+const word = (status) => status.replace("_", " ");
+const plural = (count, noun) => count + " " + noun + (count === 1 ? "" : noun.endsWith("y") ? "" : "s");
+const isExpected = (record) => EXPECTED.has(record.status);
+const statusTag = (status) => el("span", {class: "status " + status}, GLYPHS[status] + "\u00a0" + word(status));
+const familyOf = (id) => id.includes("/") ? id.slice(0, id.indexOf("/")) : "other";
+
+function ruleLink(id) {
+  const rule = data.rules[id];
+  if (!rule || !rule.anchor) { return el("span", {class: "id"}, id); }
+  return el("a", {class: "id", href: SPECIFICATION + encodeURIComponent(rule.anchor), rel: "noreferrer", title: rule.title}, id);
+}
+
+const levelTag = (level) => el("span", {class: "level level-" + level, title: data.meanings[level]}, level);
+
+// A table; `heads` are texts, or elements.
+function table(caption, heads, rows, className) {
+  return el("table", {class: className},
+    caption ? el("caption", {}, caption) : null,
+    el("thead", {}, el("tr", {}, heads.map((head) => el("th", {scope: "col"}, head)))),
+    el("tbody", {}, rows));
+}
+
+// A command line and a button that copies it.
+function command(label, text) {
+  if (!text) { return null; }
+  const code = el("code", {}, text);
+  const button = el("button", {type: "button", "aria-label": "copy the " + label + " command"}, "copy");
+  button.addEventListener("click", () => {
+    const range = document.createRange();
+    range.selectNodeContents(code);
+    getSelection().removeAllRanges();
+    getSelection().addRange(range);
+    button.textContent = document.execCommand("copy") ? "copied" : "selected";
+    setTimeout(() => { button.textContent = "copy"; }, 1500);
+  });
+  return el("div", {class: "command"}, el("span", {class: "quiet"}, label), code, button);
+}
+
+function finding(row) {
+  return {kind: row[0], rule: string(row[1]), level: row[2], x: row[3], y: row[4], sample: row[5], quantity: string(row[6]),
+    expected: string(row[7]), got: string(row[8]), why: string(row[9]), ratio: row[10]};
+}

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+// All that is known of one sample: what the rules say, why, and what the device wrote.
+
+const SHOWN_TRIANGLES = 6;
+
+function makeInspector(record, scene) {
+  const body = el("div", {class: "inspector-body"});
+  const summary = el("p", {id: "sample-summary", class: "hint"}, "Point at a sample, or move with the arrow keys.");
+  const element = el("aside", {class: "inspector", "aria-label": "sample"}, summary, body);
+  const findings = (record.findings || []).map(finding);
+  const evidence = new Map((record.evidence || []).map((e) => [e.at.join(","), e]));
+  return {element, show(at) {
+    const told = findings.filter((f) => f.x === at.x && f.y === at.y && f.sample === at.sample);
+    const known = evidence.get(at.x + "," + at.y + "," + at.sample);
+    summary.className = "sample-title";
+    summary.replaceChildren(...sampleTitle(scene, at));
+    body.replaceChildren(...[verdictPart(scene, at, known), findingsPart(told), valuesPart(scene, at, known, told, told.length > 0 || findings.length === (record.finding_total || 0)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
+  }, sentence: (at) => sampleSentence(scene, at)};
+}
+
+const sampleName = (scene, at) => pixelName(scene.pictures.layerHeight, at.x, at.y) + (scene.pictures.samples > 1 ? " sample " + at.sample : "");
+
+function sampleTitle(scene, at) {
+  const parts = [el("strong", {}, (scene.geometry && scene.geometry.blit.length ? "Texel " : "Pixel ") + sampleName(scene, at))];
+  if (scene.geometry && !scene.geometry.blit.length) {
+    parts.push(el("span", {class: "quiet"}, " at " + pointText(samplePosition(scene.geometry, at.x, at.y, at.sample))));
+  }
+  return parts;
+}
+
+// The same for a screen reader, when the arrow keys have moved there.
+function sampleSentence(scene, at) {
+  if (!isInPicture(scene.pictures, at)) { return ""; }
+  const p = scene.pictures, k = indexOf(p, at);
+  return "Pixel " + sampleName(scene, at) + ": " + MARK_TEXT[p.marks[k]] + "; reference: " + classText(p.expected[k]) + ", device: " + hitsText(p.device[k], false) +
+    (scene.ties.has(k) ? "; exactly on an edge" : "");
+}
+
+function verdictPart(scene, at, known) {
+  const p = scene.pictures;
+  if (!isInPicture(p, at)) { return el("p", {class: "quiet"}, "Outside the picture that was kept."); }
+  const k = indexOf(p, at), mark = p.marks[k];
+  const swatch = el("canvas", {width: 44, height: 44, class: "swatch", "aria-hidden": "true"}), context = swatch.getContext("2d");
+  if (mark > 1) { drawMark(context, mark, 0, 0, 44, 44); } else if (mark === 1) { drawFree(context, PALETTES[theme()], 0, 0, 44, 44); }
+  else { context.fillStyle = PALETTES[theme()].hits[Math.min(3, p.expected[k])]; context.fillRect(0, 0, 44, 44); }
+  const rows = [];
+  const fact = (name, value) => { if (value) { rows.push(el("dt", {}, name), el("dd", {}, value)); } };
+  const expected = p.expected[k];
+  fact("reference", [el("strong", {"data-class": expected === SEVERAL ? "either" : expected === 0 ? "must-not" : "must"}, classText(expected)),
+    known && known.allowed ? ", hits " + known.allowed : expected === SEVERAL || expected === 0 ? "" : ", " + hitsText(expected, true)]);
+  fact("device", (known && known.hits ? known.hits : hitsText(p.device[k], false)) + (known && known.writer ? ", last by " + known.writer : ""));
+  if (p.errors && p.errors[k]) { fact("error", errorText(p.errors[k])); }
+  const color = (plane) => [plane[k], plane[p.count + k], plane[2 * p.count + k]];
+  const chip = (c) => { const s = el("span", {class: "chip", "aria-hidden": "true"}); s.style.background = "rgb(" + c.join(",") + ")"; return [s, " " + c.join(", ")]; };
+  if (p.expectedColors) { fact("expected colour", chip(color(p.expectedColors))); }
+  if (p.colors) { fact("device colour", [...chip(color(p.colors)), el("span", {class: "quiet"}, " of 255")]); }
+  if (p.depths && p.depths[k]) {
+    fact("device depth", "about " + shortNumber(p.depthLow + (p.depthHigh - p.depthLow) * (p.depths[k] - 1) / 254, 4));
+  }
+  return el("div", {class: "verdict-part"}, el("div", {class: "mark-line"}, swatch, el("strong", {"data-mark": MARKS[mark]}, MARK_TEXT[mark])), el("dl", {}, rows));
+}
+
+function findingsPart(told) {
+  if (told.length === 0) { return null; }
+  const groups = new Map();  // one rule and sentence may be broken by several quantities
+  for (const f of told) {
+    const key = f.rule + f.why + f.level;
+    if (!groups.has(key)) { groups.set(key, []); }
+    groups.get(key).push(f);
+  }
+  return el("div", {class: "told"}, [...groups.values()].map((list) => {
+    const f = list[0], rule = data.rules[f.rule];
+    return el("div", {class: "broken"},
+      el("p", {}, ruleLink(f.rule), " ", levelTag(f.level), el("span", {class: "quiet"}, " " + data.meanings[f.level])),
+      rule ? el("p", {}, el("strong", {}, rule.title + ". "), el("span", {class: "quiet"}, rule.text)) : null,
+      el("p", {class: "why"}, f.why),
+      list.map((g) => el("p", {class: "pair"}, g.quantity ? el("strong", {}, g.quantity + ": ") : null, "expected ", el("span", {class: "number"}, g.expected), ", got ",
+        el("span", {class: "number"}, g.got), g.ratio ? ", " + g.ratio + " budgets off" : "")));
+  }));
+}
+
+const MAX_STEPS = 1e7;
+const MOST_BUDGETS = 2;  // ref::kBudgetFactor
+function valueRow(value, told, isComplete) {
+  const [quantity, exact, nearestText, budgetText, lowText, highText, bits] = value;
+  const nearest = numberOf(nearestText), budget = numberOf(budgetText), low = numberOf(lowText), high = numberOf(highText);
+  const f = told.find((g) => g.quantity === quantity), got = bits === null ? NaN : floatOf(bits);
+  const steps = bits === null ? null : ulps(bits, nearest), inside = got >= low && got <= high;
+  let budgets = "";
+  if (f && f.ratio) { budgets = f.ratio + " budgets"; }
+  else if (f) { budgets = "another number"; }
+  else if (budget > 0 && bits !== null) {
+    const off = Math.abs(got - nearest) / budget;
+    budgets = off <= MOST_BUDGETS ? shortNumber(off, 3) + " budgets" : inside || isComplete ? "another set-up" : shortNumber(off, 3) + " budgets";
+  }
+  const verdict = bits === null ? "" : f ? el("strong", {class: "bad"}, "\u2717 wrong") : inside || isComplete ? "\u2713" : "outside";
+  return el("tr", {class: f ? "wrong" : ""},
+    el("th", {scope: "row"}, quantity),
+    el("td", {}, el("span", {class: "number"}, exact && exact !== shortNumber(nearest) ? exact + " = " : "", shortNumber(nearest)),
+      el("div", {class: "quiet number small"}, budget === 0 ? "bit for bit" : "[" + shortNumber(low) + ", " + shortNumber(high) + "]")),
+    el("td", {}, bits === null ? el("span", {class: "quiet"}, "not drawn") : [el("span", {class: "number"}, floatText(bits)), el("div", {class: "quiet number small"}, hex(bits))]),
+    el("td", {class: "off"}, bits === null ? "" : [steps === null ? "no number" : steps > MAX_STEPS ? "> 10\u2077 ulp" : steps + " ulp", el("div", {class: "quiet small"}, budgets)]),
+    el("td", {}, verdict));
+}
+
+// `isComplete`: all findings of the sample are here, so that a value without one was accepted.
+function valuesPart(scene, at, known, told, isComplete) {
+  if (!known || known.values.length === 0) {
+    const drawn = isInPicture(scene.pictures, at) && scene.pictures.device[indexOf(scene.pictures, at)] > 0 && scene.pictures.errors;
+    return drawn ? el("p", {class: "quiet small"}, "Values are kept for wrong samples and their neighbours; the command \u201cexplain\u201d tells them for any sample.") : null;
+  }
+  return el("div", {class: "values"}, el("h3", {}, "Values"), el("div", {class: "scroll"},
+    table("", ["quantity", "exact, accepted", "device", "off by", el("span", {class: "hidden-text"}, "verdict")], [...known.values].sort((a, b) => told.some((f) => f.quantity === b[0]) - told.some((f) => f.quantity === a[0]))
+      .map((v) => valueRow(v, told, isComplete)), "compact")));
+}
+
+function edgeRow(e) {
+  const sign = e.value === 0n ? "zero" : e.value > 0n ? "positive" : "negative";
+  const owns = ownsTies(e.kind);
+  return el("tr", {class: "edge-" + sign},
+    el("td", {class: "number"}, "v" + e.a.number + "\u2192v" + e.b.number),
+    el("td", {}, owns ? el("strong", {}, e.kind) : e.kind),
+    el("td", {class: "number value"}, fractionText(e.value, 32)),
+    el("td", {}, e.value === 0n ? el("strong", {}, "= 0, a tie") : e.value > 0n ? "> 0" : "< 0"));
+}
+
+function trianglesPart(scene, at) {
+  const g = scene.geometry;
+  if (!g || g.blit.length > 0) { return null; }
+  const point = samplePosition(g, at.x, at.y, at.sample), list = trianglesAt(g, point);
+  const parts = [el("h3", {}, "Triangles")];
+  if (list.length === 0) { parts.push(el("p", {class: "quiet"}, "No triangle within two pixels.")); }
+  for (const seen of list.slice(0, SHOWN_TRIANGLES)) {
+    const t = seen.triangle;
+    parts.push(el("details", {class: "triangle place-" + seen.place, open: seen.place !== "outside" || list[0] === seen},
+      el("summary", {}, el("strong", {}, triangleName(t, g)), " ", placeText(seen)),
+      table("", ["edge", "kind", "E, square pixels", "sign"], seen.edges.map(edgeRow), "compact edges"),
+      el("p", {class: "quiet small"}, [t.isExact ? "" : "Snapped to the nearest subpixel position; the device may choose another. ",
+        t.isClipped ? "It reaches out of the view volume; dashed is what clipping leaves. " : "", t.hasArea ? (t.isBackward ? "Counter-clockwise on screen." : "Clockwise on screen.") : ""].join(""))));
+  }
+  if (list.length > SHOWN_TRIANGLES) { parts.push(el("p", {class: "quiet"}, "and " + (list.length - SHOWN_TRIANGLES) + " more")); }
+  return el("div", {class: "triangles"}, parts);
+}
+
+// Where a blit's texel comes from: u = (i + 1/2 - d0) (s1 - s0) / (d1 - d0) + s0.
+function blitPart(scene, at) {
+  const g = scene.geometry;
+  if (!g || g.blit.length < 2) { return null; }
+  const [s, d] = g.blit;
+  const along = (i, s0, s1, d0, d1) => ({top: BigInt(2 * i + 1 - 2 * d0) * BigInt(s1 - s0) + BigInt(2 * s0) * BigInt(d1 - d0), bottom: 2n * BigInt(d1 - d0)});
+  const text = ({top, bottom}) => {
+    if (bottom < 0n) { top = -top; bottom = -bottom; }
+    const common = (a, b) => b === 0n ? a : common(b, a % b), n = common(abs(top), bottom) || 1n;
+    return (top < 0n ? "\u2212" : "") + abs(top) / n + (bottom / n === 1n ? "" : "/" + bottom / n);
+  };
+  return el("p", {}, "Source coordinate ", el("span", {class: "number"}, "(" + text(along(at.x, s[0], s[2], d[0], d[2])) + ", " + text(along(at.y, s[1], s[3], d[1], d[3])) + ")"), " in texels.");
+}

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+// The pictures of a case: views, zoom, scrolling, pointing.
+
+const VIEWS = [["reference", "Reference"], ["device", "Device"], ["difference", "Difference"], ["error", "Error"], ["blink", "Blink"], ["side", "Side by side"]];
+const KIND_OF_VIEW = {reference: "expected", device: "device", difference: "difference", error: "error"};
+const PANE_TITLE = {expected: "reference", device: "device", difference: "difference", error: "error in budgets"};
+const MAX_ZOOM = 64;
+// Kept from case to case.
+const viewing = {view: "difference", zoom: 0, grid: true, outlines: true, samples: true, show: "hits"};
+
+const panesOf = (view) => view === "side" ? ["expected", "device", "difference"] : view === "blink" ? ["blink"] : [KIND_OF_VIEW[view]];
+
+// `onSample(at)` is called when another sample is pointed at; `onChange()` when the address should change.
+function makeViewer(record, onSample, onChange) {
+  const pictures = openPictures(record.pictures);
+  if (!pictures) { return null; }
+  const geometry = openGeometry(record);
+  const scene = {pictures, geometry, ties: tiesIn(geometry, pictures)};
+  const viewer = {scene, cursor: null, pinned: null, blinkOn: false, timer: 0};
+  const stage = el("div", {class: "stage"});
+  const zoomText = el("output", {class: "zoom-text"});
+  const legendList = el("ul", {class: "legend"});
+  let panes = [];
+
+  const zoomNow = () => viewing.zoom || fitZoom();
+  function fitZoom() {
+    const count = viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1;
+    const width = (stage.clientWidth || 640) / count - 14, height = Math.max(260, window.innerHeight - Math.min(360, stage.getBoundingClientRect().top + window.scrollY) - 70);
+    return Math.max(1, Math.min(MAX_ZOOM, Math.floor(Math.min(width / (pictures.width + 2), height / (pictures.height + 2)))));
+  }
+
+  const kindOf = (pane) => pane.kind !== "blink" ? pane.kind : viewer.blinkOn ? "device" : "expected";
+  function draw() {
+    const zoom = zoomNow(), width = (pictures.width + 2) * zoom, height = (pictures.height + 2) * zoom;
+    const share = Math.floor(stage.clientWidth / (viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1)) - 14;
+    for (const pane of panes) {
+      pane.sizer.style.width = width + "px";
+      pane.sizer.style.height = height + "px";
+      pane.frame.style.width = Math.min(width + 2, Math.max(120, share)) + "px";
+      pane.frame.style.height = Math.min(height + 2, Math.max(260, window.innerHeight - 110)) + "px";
+      const shown = {width: Math.min(width, pane.frame.clientWidth), height: Math.min(height, pane.frame.clientHeight)};
+      paint(pane.canvas, scene, {kind: kindOf(pane), zoom, left: pane.frame.scrollLeft, top: pane.frame.scrollTop, ...shown,
+        cursor: viewer.cursor, options: {grid: viewing.grid, outlines: viewing.outlines, samples: viewing.samples,
+          colors: viewing.show === "colour", depth: viewing.show === "depth"}, theme: theme()});
+      pane.title.textContent = PANE_TITLE[kindOf(pane)];
+    }
+    zoomText.textContent = zoom + "\u00d7";
+  }
+
+  function makePane(kind) {
+    const canvas = el("canvas", {role: "img", "aria-label": pictureText(record, scene, kind), "aria-describedby": "sample-summary"});
+    const sizer = el("div", {class: "sizer"}, canvas);
+    const frame = el("div", {class: "frame", tabIndex: 0, role: "group", "aria-label": "picture; arrow keys move from sample to sample"}, sizer);
+    const title = el("figcaption");
+    const at = (event) => {
+      const box = frame.getBoundingClientRect();
+      return sampleUnder(scene, zoomNow(), event.clientX - box.left - frame.clientLeft + frame.scrollLeft, event.clientY - box.top - frame.clientTop + frame.scrollTop);
+    };
+    canvas.addEventListener("mousemove", (event) => viewer.look(at(event)));
+    canvas.addEventListener("mouseleave", () => { if (viewer.pinned) { viewer.look(viewer.pinned); } });
+    canvas.addEventListener("click", (event) => viewer.pin(at(event)));
+    canvas.addEventListener("wheel", (event) => {
+      if (!event.ctrlKey) { return; }
+      event.preventDefault();
+      viewer.zoomBy(event.deltaY < 0 ? 1 : -1);
+    }, {passive: false});
+    frame.addEventListener("scroll", () => {
+      for (const other of panes) {
+        if (other.frame !== frame) { other.frame.scrollLeft = frame.scrollLeft; other.frame.scrollTop = frame.scrollTop; }
+      }
+      draw();
+    });
+    return {kind, canvas, sizer, frame, title, figure: el("figure", {class: "pane"}, title, frame)};
+  }
+
+  function rebuild() {
+    clearInterval(viewer.timer);
+    panes = panesOf(viewing.view).map(makePane);
+    stage.replaceChildren(...panes.map((pane) => pane.figure));
+    legendList.replaceChildren(...legendEntries(scene, viewing.view));
+    for (const button of bar.querySelectorAll("[data-view]")) { button.setAttribute("aria-pressed", String(button.dataset.view === viewing.view)); }
+    viewer.blinkOn = false;
+    if (viewing.view === "blink" && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
+      viewer.timer = setInterval(() => {
+        if (!stage.isConnected) { clearInterval(viewer.timer); return; }
+        viewer.blinkOn = !viewer.blinkOn;
+        draw();
+      }, 1000);
+    }
+    draw();
+  }
+
+  const views = VIEWS.filter(([name]) => name !== "error" || pictures.errors);
+  const bar = el("div", {class: "toolbar", role: "toolbar", "aria-label": "picture"},
+    el("div", {class: "segments", role: "group", "aria-label": "view"}, views.map(([name, title]) =>
+      el("button", {type: "button", "data-view": name, title: "key " + (1 + VIEWS.findIndex((v) => v[0] === name)), onclick: () => viewer.setView(name)}, title))),
+    el("div", {class: "segments", role: "group", "aria-label": "zoom"},
+      el("button", {type: "button", "aria-label": "smaller", title: "key \u2212", onclick: () => viewer.zoomBy(-1)}, "\u2212"), zoomText,
+      el("button", {type: "button", "aria-label": "larger", title: "key +", onclick: () => viewer.zoomBy(1)}, "+"),
+      el("button", {type: "button", title: "key 0", onclick: () => viewer.setZoom(0)}, "Fit")),
+    el("div", {class: "checks"}, [["outlines", "Triangles"], ["samples", "Samples"], ["grid", "Grid"]].map(([name, title]) =>
+      el("label", {}, el("input", {type: "checkbox", checked: viewing[name], "data-option": name, onchange: (event) => { viewing[name] = event.target.checked; draw(); }}), title))),
+    pictures.colors || pictures.depths ? el("label", {}, "show ", el("select", {onchange: (event) => { viewing.show = event.target.value; draw(); }},
+      [["hits", "hits"], pictures.colors && ["colour", "colour"], pictures.depths && ["depth", "depth"]].filter(Boolean).map(([value, title]) =>
+        el("option", {value, selected: viewing.show === value}, title)))) : null);
+
+  viewer.element = el("section", {class: "viewer", "aria-label": "pictures"}, bar, stage, legendList);
+  viewer.draw = draw;
+  viewer.rebuild = rebuild;
+  viewer.zoomNow = zoomNow;
+  viewer.setView = (name) => {
+    if (!views.some((v) => v[0] === name)) { return; }
+    viewing.view = name;
+    rebuild();
+    onChange();
+  };
+  viewer.setZoom = (zoom) => {
+    const before = zoomNow(), pane = panes[0], middle = (scroll, size) => (scroll + size / 2) / before;
+    const x = middle(pane.frame.scrollLeft, pane.frame.clientWidth), y = middle(pane.frame.scrollTop, pane.frame.clientHeight);
+    viewing.zoom = zoom === 0 ? 0 : Math.max(1, Math.min(MAX_ZOOM, zoom));
+    draw();
+    if (viewer.cursor) { viewer.reveal(); } else {
+      pane.frame.scrollLeft = x * zoomNow() - pane.frame.clientWidth / 2;
+      pane.frame.scrollTop = y * zoomNow() - pane.frame.clientHeight / 2;
+    }
+    onChange();
+  };
+  viewer.zoomBy = (direction) => {
+    const steps = [1, 2, 3, 4, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 56, 64], now = zoomNow();
+    viewer.setZoom(direction > 0 ? steps.find((z) => z > now) || MAX_ZOOM : [...steps].reverse().find((z) => z < now) || 1);
+  };
+  viewer.look = (at) => {
+    const old = viewer.cursor;
+    if (old && old.x === at.x && old.y === at.y && old.sample === at.sample) { return; }
+    viewer.cursor = at;
+    draw();
+    onSample(at);
+  };
+  viewer.pin = (at) => { viewer.pinned = at; viewer.cursor = null; viewer.look(at); viewer.reveal(); onChange(); };
+  viewer.reveal = () => {
+    const zoom = zoomNow(), at = viewer.cursor;
+    if (!at || !isInPicture(pictures, at)) { return; }
+    const x = (at.x - pictures.left + 1.5) * zoom, y = (at.y - pictures.top + 1.5) * zoom;
+    for (const {frame} of panes) {
+      if (x < frame.scrollLeft + zoom || x > frame.scrollLeft + frame.clientWidth - zoom) { frame.scrollLeft = x - frame.clientWidth / 2; }
+      if (y < frame.scrollTop + zoom || y > frame.scrollTop + frame.clientHeight - zoom) { frame.scrollTop = y - frame.clientHeight / 2; }
+    }
+    draw();
+  };
+  viewer.move = (dx, dy, ds) => {
+    const at = viewer.cursor || {x: pictures.left, y: pictures.top, sample: 0};
+    const clamp = (value, from, size) => Math.min(from + size - 1, Math.max(from, value));
+    viewer.pin({x: clamp(at.x + dx, pictures.left, pictures.width), y: clamp(at.y + dy, pictures.top, pictures.height),
+      sample: (at.sample + ds + pictures.samples) % pictures.samples});
+  };
+  return viewer;
+}
+
+// The text alternative of a picture.
+function pictureText(record, scene, kind) {
+  const p = scene.pictures, counts = MARKS.map(() => 0);
+  for (const mark of p.marks) { ++counts[mark]; }
+  const wrong = MARKS.slice(2).map((name, k) => counts[k + 2] ? counts[k + 2] + " " + name : "").filter(Boolean).join(", ");
+  return (PANE_TITLE[kind] || "reference and device in turn") + ": " + p.width + " by " + p.height + " pixels" + (p.samples > 1 ? " of " + p.samples + " samples" : "") +
+    ", " + (wrong || "no wrong sample") + (counts[1] ? ", " + counts[1] + " free" : "") + ". The table of findings says the same.";
+}
+
+function legendEntries(scene, view) {
+  const entry = (text, draw) => {
+    const canvas = el("canvas", {width: 36, height: 36, "aria-hidden": "true"});
+    const context = canvas.getContext("2d");
+    context.scale(2, 2);
+    draw(context);
+    return el("li", {}, canvas, text);
+  };
+  const palette = PALETTES[theme()], p = scene.pictures, present = new Set(p.marks);
+  const box = (color) => (c) => { c.fillStyle = color; c.fillRect(0, 0, 18, 18); };
+  const list = [];
+  if (view === "error") {
+    const ramp = el("canvas", {width: 320, height: 28, class: "ramp", "aria-hidden": "true"}), context = ramp.getContext("2d");
+    for (let x = 0; x < 320; ++x) { context.fillStyle = heatColor(Math.round(128 + 8 * HEAT_SPAN * (x / 160 - 1)), theme()); context.fillRect(x, 0, 1, 28); }
+    list.push(el("li", {class: "scale"}, "\u2264 1/256", ramp, "\u2265 256 budgets; 2 are accepted. Framed: not accepted"));
+  } else {
+    list.push(entry("1 hit", box(palette.hits[1])), entry("2 hits", box(palette.hits[2])));
+    if (present.has(1)) { list.push(entry("free", (c) => drawFree(c, palette, 0, 0, 18, 18))); }
+  }
+  if (view === "difference" || view === "side" || view === "error") {
+    for (let mark = 2; mark < MARKS.length; ++mark) {
+      if (present.has(mark) && (view !== "error" || !p.errors)) { list.push(entry(MARKS[mark], (c) => drawMark(c, mark, 0, 0, 18, 18))); }
+    }
+  }
+  if (scene.geometry && scene.geometry.triangles.length) {
+    list.push(entry("top or left edge", (c) => { c.fillStyle = palette.line; c.fillRect(0, 7, 18, 4); }), entry("other edge", (c) => { c.fillStyle = palette.line; c.fillRect(0, 8.5, 18, 1); }));
+    if (scene.ties.size) {
+      list.push(entry("sample exactly on an edge", (c) => { c.strokeStyle = palette.line; c.fillStyle = palette.line; c.lineWidth = 2; c.beginPath(); c.arc(9, 9, 6, 0, 7); c.stroke(); c.beginPath(); c.arc(9, 9, 1.6, 0, 7); c.fill(); }));
+    }
+  }
+  return list;
+}
