@@ -32,6 +32,10 @@ namespace {
 
 using Time = std::chrono::steady_clock;
 
+constexpr size_t kPrinted = 100;  // unexpected results in full
+constexpr std::string_view kFurther =
+    "further unexpected results stand in the reports only (or use -v)\n";
+
 Stop stop_with(int exit_code, const std::string& line) {
     return {exit_code, {line}};
 }
@@ -335,10 +339,16 @@ int diff_command(const Program& program, const DiffOptions& options) {
                 ++skipped[word];
             }
             ++done;
-            if (!report::is_expected(record.status)) {
-                ++unexpected;
+            // What was not delivered is counted in the summary; the reports hold all.
+            const bool is_told = record.status != Status::not_run;
+            if (!report::is_expected(record.status) && is_told &&
+                (++unexpected <= kPrinted || o.verbose)) {
                 progress.clear();
-                std::fputs(report::console_case(record, style).c_str(), console);
+                std::fputs(
+                    (unexpected == kPrinted && !o.verbose ? std::string(kFurther)
+                                                          : report::console_case(record, style))
+                        .c_str(),
+                    console);
             }
             record.pictures = {};
             record.findings.clear();

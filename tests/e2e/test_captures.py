@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -14,7 +15,7 @@ import unittest
 import zlib
 
 import jsonschema
-from support import SOURCE, ProgramTest
+from support import PROGRAM, SOURCE, ProgramTest
 
 EXAMPLES = SOURCE / "docs" / "examples"
 RASTER2D = os.environ.get("EDGECASE_RASTER2D", "raster2d")
@@ -68,7 +69,7 @@ class Captures(ProgramTest):
 
     def rejects(self, sentence):
         """The delivered case cannot be judged, for this reason."""
-        self.judge(check=1)
+        self.judge(check=7)
         self.assertEqual(self.record()["status"], "error")
         self.assertEqual(self.record()["reason"], sentence)
         shutil.rmtree(self.captures)
@@ -102,7 +103,6 @@ class Contract(Captures):
 
     def test_black_pictures_fail(self):
         count = SIDE * SIDE
-        none = struct.pack("<f", -1.5 * 2.0 ** 126 * 1.0)
         for name, data in (("coverage.u8", bytes(count)), ("coverage.png", png(SIDE, SIDE, [0] * count)),
                            ("hits.u8", bytes(2 * count)), ("hits.f32", bytes(4 * count)),
                            ("writer.u32", b"\xff" * (8 * count)),
@@ -113,14 +113,13 @@ class Contract(Captures):
                 self.judge(check=1)
                 self.assertEqual(self.record()["status"], "fail")
                 shutil.rmtree(self.captures)
-        self.assertEqual(len(none), 4)
 
     def test_wrong_samples_are_told_with_their_rules(self):
         mask = list(INSIDE)
         mask[3 * SIDE + 3], mask[0] = False, True
         self.deliver("coverage.u8", bytes(mask))
         self.judge(check=1)
-        found = {(f["kind"], f["x"], f["y"]): f["rule"] for f in self.record()["findings"]}
+        found = {(f["kind"], f["sample"]["x"], f["sample"]["y"]): f["rule"] for f in self.record()["findings"]}
         self.assertEqual(set(found), {("missing", 3, 3), ("extra", 0, 0)})
 
     def test_double_hits_are_seen_in_counts_only(self):
@@ -160,7 +159,7 @@ class Contract(Captures):
         values[3 * SIDE + 3] = math.nan
         self.deliver("depth.f32", values.tobytes())
         self.judge(check=1)
-        self.assertEqual([(f["x"], f["y"]) for f in self.record()["findings"]], [(3, 3)])
+        self.assertEqual([(f["sample"]["x"], f["sample"]["y"]) for f in self.record()["findings"]], [(3, 3)])
 
     def test_what_cannot_tell_nothing_from_something_is_not_judged(self):
         text = (self.suite / "fam/c1.toml").read_text()
@@ -214,11 +213,12 @@ class Contract(Captures):
         self.assertEqual({results["first", "vulkan"], results["second", "vulkan"]}, {0})
         self.assertEqual(sorted((results["first", "direct3d"], results["second", "direct3d"])), [0, 1])
         self.assertEqual(self.results()["device"]["name"], "mine")
+        jsonschema.Draft7Validator(schema("results-1")).validate(self.results())
 
     def test_expectations(self):
         self.deliver("coverage.u8", bytes(SIDE * SIDE))
         known = self.folder / "known.txt"
-        known.write_text('# edgecase-expectations 1\n# device: mine*\nfam/c1 fail bug=https://example.org/1\n')
+        known.write_text('# edgecase-expectations 1\n# device: mine*\nfam/c1 fail bug#1 # It draws nothing yet.\n')
         done = self.judge("--name", "mine", "--expect", known)
         self.assertEqual((done.returncode, self.record()["status"]), (0, "xfail"), done.stderr)
 
@@ -251,8 +251,8 @@ class WrongInput(Captures):
     def test_sizes_of_images(self):
         file = self.deliver("coverage.png", png(9, 8, [0] * 72))
         self.rejects(f"'{file}' has 9 x 8 pixels; 8 x 8 pixels take an image of 8 x 8")
-        file = self.deliver("depth.tif", png(8, 8, [0] * 64))
-        self.judge(check=1)
+        self.deliver("depth.tif", b"no image")
+        self.judge(check=7)
         self.assertEqual(self.record()["status"], "error")
 
     def test_truncated_image(self):
@@ -260,7 +260,7 @@ class WrongInput(Captures):
         for length in (0, 8, 40, len(whole) // 2, len(whole) - 20):
             with self.subTest(length=length):
                 self.deliver("coverage.png", whole[:length])
-                self.judge(check=1)
+                self.judge(check=7)
                 self.assertEqual(self.record()["status"], "error")
                 self.assertIn("coverage.png", self.record()["reason"])
 
@@ -298,13 +298,13 @@ class WrongInput(Captures):
 
 class Export(Captures):
     def export(self, *words, check=0):
-        return self.edgecase("export", *words, "-o", self.folder / "cases", check=check)
+        return self.edgecase("export", *words, "-o", self.folder / "exported", check=check)
 
     def test_every_family_keeps_to_the_schema(self):
         case, index = (jsonschema.Draft7Validator(schema(name)) for name in ("case-1", "export-1"))
         env = self.environment()
         del env["EDGECASE_SUITE"]
-        folder = self.folder / "cases"
+        folder = self.folder / "exported"
         done = self.edgecase("export", "!scale/**", "!limits/**", "-o", folder, env=env)
         if done.returncode == 4:
             done = self.edgecase("export", "-o", folder, env=env)
@@ -332,7 +332,7 @@ class Export(Captures):
     def test_state(self):
         self.write_case(CASE, TIES.replace("[[draw]]", "[[draw]]\ncull = \"front\"\nscissor = [1, 2, 3, 4]"))
         self.export(CASE)
-        case = json.loads((self.folder / "cases" / "fam" / "c1.json").read_text(encoding="utf-8"))
+        case = json.loads((self.folder / "exported" / "fam" / "c1.json").read_text(encoding="utf-8"))
         self.assertEqual(case["needs"], ["scissor", "cull"])
         draw = case["draws"][0]
         self.assertEqual(draw["scissor"], {"x": 1, "y": 2, "width": 3, "height": 4})
@@ -346,8 +346,72 @@ class Export(Captures):
                          ["coverage", "hits", "writer", "attribute0", "fragcoord", "depth"])
 
     def test_folder_that_cannot_be_made(self):
-        (self.folder / "cases").write_text("")
+        (self.folder / "exported").write_text("")
         self.assertIn("cannot be made", self.export(CASE, check=2).stderr)
+
+
+BLIT = """format = 1
+description = "One texel to the right, mirrored."
+rules = ["blit.nearest", "blit.outside"]
+[target]
+size = [4, 2]
+color = { format = "rgba8-unorm", clear = [0, 0, 0, 1] }
+[blit]
+size = [4, 4]
+from = [0, 0, 2, 1]
+to   = [3, 0, 1, 1]
+"""
+
+
+class Render(Captures):
+    def json(self, *words):
+        self.edgecase("render", *words, "-o", self.folder / "x.json", check=0)
+        return json.loads((self.folder / "x.json").read_text(encoding="utf-8"))
+
+    def test_a_blit(self):
+        self.write_case("fam/blit", BLIT)
+        picture = self.json("fam/blit")
+        self.assertEqual([(t["x"], t["y"]) for t in picture["texels"]], [(1, 0), (2, 0)])
+        self.assertEqual(picture["clear_codes"], [0, 0, 0, 255])
+        self.edgecase("export", "fam/blit", "-o", self.folder / "exported", check=0)
+        case = json.loads((self.folder / "exported" / "fam" / "blit.json").read_text(encoding="utf-8"))
+        jsonschema.Draft7Validator(schema("case-1")).validate(case)
+        source = case["blit"]["source"]["codes"]
+        # Destination texel 1 is the mirrored second texel of the source.
+        self.assertEqual([t["codes"] for t in picture["texels"]], [source[1], source[0]])
+        for name in ("x.png", "x.exr"):
+            self.edgecase("render", "fam/blit", "-o", name, check=0)
+            self.assertGreater((self.folder / name).stat().st_size, 60)
+        # The same texels, delivered as a picture, pass; without the blit they do not.
+        texels = {(t["x"], t["y"]): t["codes"] for t in picture["texels"]}
+        right = [n for y in range(2) for x in range(4) for n in texels.get((x, y), [0, 0, 0, 255])]
+        self.deliver("color.png", png(4, 2, right, 4), "fam/blit")
+        self.judge(check=0, case="fam/blit")
+        self.deliver("color.png", png(4, 2, [0, 0, 0, 255] * 8, 4), "fam/blit")
+        self.judge(check=1, case="fam/blit")
+
+    def test_by_an_algorithm(self):
+        for name in ("tiles", "brown", "reference"):
+            picture = self.json(CASE, "--renderer", name)
+            self.assertEqual(picture["renderer"], name)
+            self.assertEqual(sorted((s["y"], s["x"]) for s in picture["samples"]),
+                             [divmod(i, SIDE) for i, v in enumerate(INSIDE) if v])
+            self.assertEqual({s["front"] + s["back"] for s in picture["samples"]}, {1})
+            depths = {s["values"]["depth"]["bits"] for s in picture["samples"]}
+            self.assertLessEqual(depths, {"3f000000"} if name == "reference" else {"3f000000", "3effffff"})
+        for name in ("x.png", "x.exr"):
+            self.edgecase("render", CASE, "--renderer", "tiles", "-o", name, check=0)
+
+    def test_what_cannot_be_drawn(self):
+        self.write_case("fam/blit", BLIT)
+        done = self.edgecase("render", "fam/blit", "--renderer", "tiles", "-o", "x.png", check=2)
+        self.assertEqual(done.stderr, "edgecase: 'tiles' draws triangles, and the case is a blit; leave --renderer out\n")
+        self.write_case("fam/clipped", TIES.replace("[[draw]]", '[[draw]]\ncull_distance = [{ values = [1, 1, 1, 1, 1, 1] }]'))
+        done = self.edgecase("render", "fam/clipped", "--renderer", "tiles", "-o", "x.png", check=2)
+        self.assertEqual(done.stderr, "edgecase: 'tiles' cannot draw the case: the algorithms have no depth state, clip distances, "
+                         "sample masks, layers and provoking vertices\n")
+        self.assertIn("did you mean 'tiles'?",
+                      self.edgecase("render", CASE, "--renderer", "tile", "-o", "x.png", check=2).stderr)
 
 
 class Examples(Captures):
@@ -358,7 +422,7 @@ class Examples(Captures):
         env = self.environment()
         del env["EDGECASE_SUITE"]
         selectors = selectors or self.SELECTORS
-        cases = self.folder / "cases"
+        cases = self.folder / "exported"
         self.edgecase("export", *selectors, "-o", cases, env=env, check=0)
         subprocess.run([*program, cases, self.captures, *options], check=True, timeout=240)
         return self.edgecase("diff", *selectors, "--captures", self.captures, "-o", self.out, env=env)
@@ -374,11 +438,31 @@ class Examples(Captures):
         self.assertEqual(done.returncode, 1)
         rules = {f["rule"] for c in self.results()["cases"] for f in c["findings"]}
         self.assertIn("tie.top-left", rules)
-        self.assertEqual({f["profile"] if "profile" in f else f["level"] for c in self.results()["cases"]
+        self.assertEqual({f["level"] for c in self.results()["cases"]
                           for f in c["findings"] if f["rule"] == "tie.top-left"}, {"direct3d"})
 
     def test_python(self):
         self.check([sys.executable, EXAMPLES / "rasterize.py"])
+
+    def test_commands_of_the_page(self):
+        """docs/other-renderers.md, as it stands; but the C++ program comes from this build."""
+        steps, examples = (SOURCE / "docs" / "other-renderers.md").read_text(encoding="utf-8").split("## Complete examples")
+        env = self.environment()
+        del env["EDGECASE_SUITE"]
+        env["PATH"] = str(pathlib.Path(PROGRAM).resolve().parent) + ":" + env.get("PATH", "")
+        (self.folder / "docs").symlink_to(SOURCE / "docs")
+        shutil.copy(RASTER2D, self.folder / "raster2d")
+        blocks = [re.findall(r"```sh\n(.*?)```", text, re.S) for text in (examples, steps)]
+        self.assertEqual([len(b) for b in blocks], [3, 2])
+        said = ""
+        for block in blocks[0] + blocks[1]:
+            script = "".join(line + "\n" for line in block.splitlines() if not line.startswith("c++ "))
+            done = subprocess.run(["sh", "-e", "-c", script], cwd=self.folder, env=env, capture_output=True, text=True,
+                                  timeout=240, check=False)
+            self.assertEqual(done.returncode, 1 if "--reverse-ties" in block else 0, script + done.stdout[-2000:] + done.stderr)
+            said += done.stdout
+        for line in re.search(r"```text\n(.*?)```", examples, re.S).group(1).splitlines():
+            self.assertIn(line, said)
 
     def test_cpp(self):
         self.check([RASTER2D])

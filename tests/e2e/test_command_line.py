@@ -7,7 +7,7 @@ import unittest
 
 from support import SOURCE, ProgramTest
 
-COMMANDS = ["run", "list", "lint", "explain", "render", "doctor", "bench", "report", "version"]
+COMMANDS = ["run", "list", "lint", "explain", "render", "export", "diff", "doctor", "bench", "report", "version"]
 
 
 class Usage(ProgramTest):
