@@ -198,6 +198,8 @@ int edgecase_main(int argc, const char* const* argv) {
         {"lint", [&] { return lint_command(program, all.lint); }},
         {"explain", [&] { return explain_command(program, all.explain); }},
         {"render", [&] { return render_command(program, all.render); }},
+        {"export", [&] { return export_command(program, all.export_cases); }},
+        {"diff", [&] { return diff_command(program, all.diff); }},
         {"doctor", [&] { return doctor_command(program, all.doctor); }},
         {"bench", [&] { return bench_command(program, all.bench); }},
         {"report", [&] { return report_command(program, all.report); }},

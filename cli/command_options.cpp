@@ -36,6 +36,28 @@ constexpr const char* kFooter =
     "    7  internal error, or cases were not run or could not be judged\n"
     "  130  interrupted; the reports hold what was done\n";
 
+constexpr const char* kExportFooter =
+    "Examples:\n"
+    "  edgecase export 'ties/**' -o cases                     what a renderer elsewhere has to "
+    "draw\n"
+    "  my-renderer cases captures                             yours: draws them, writes planes\n"
+    "  edgecase diff 'ties/**' --captures captures            judges what it has drawn\n"
+    "\n"
+    "docs/other-renderers.md tells it step by step; docs/schema/case-1.json is the format.\n";
+constexpr const char* kDiffFooter =
+    "Examples:\n"
+    "  edgecase diff --captures captures                      every case of the suite\n"
+    "  edgecase diff 'ties/**' --captures captures -o out/me  one family, reports in out/me\n"
+    "  edgecase diff --captures captures --subpixel-bits 4    of a renderer that snaps to 1/16\n"
+    "\n"
+    "A case whose folder holds no plane is 'not run' (exit 7); with a file unsupported.txt, whose\n"
+    "first line says why, it is 'unsupported'. Planes that are missing are not judged.\n";
+constexpr const char* kRenderFooter =
+    "Examples:\n"
+    "  edgecase render ties/diagonal -o picture.png                    what is allowed\n"
+    "  edgecase render ties/diagonal -o picture.png --renderer tiles   what an algorithm draws\n"
+    "  edgecase render 'blit/mirror:*x=1*' -o blit.png                 what a blit must leave\n";
+
 const std::map<std::string, cases::Profile> kProfileNames = {
     {"vulkan", cases::Profile::vulkan},
     {"practice", cases::Profile::practice},
@@ -55,6 +77,17 @@ const std::map<std::string, std::string>& renderer_names() {
         for (const ref::algorithms::Device& device : ref::algorithms::all_devices()) {
             names.emplace(device.name, device.name);
         }
+        return names;
+    }();
+    return kNames;
+}
+
+// What 'render' takes: no driver.
+const std::map<std::string, std::string>& drawing_names() {
+    static const std::map<std::string, std::string> kNames = [] {
+        std::map<std::string, std::string> names = renderer_names();
+        names.erase("vulkan");
+        names.emplace("allowed", "");
         return names;
     }();
     return kNames;
@@ -231,6 +264,47 @@ void define_run(CLI::App& app, RunOptions& o) {
         ->group("Output");
 }
 
+// Rendering by others: what they get, and how it is judged.
+void define_images(CLI::App& app, AllOptions& all) {
+    CLI::App* out = app.add_subcommand("export", "write cases as JSON that any program can draw");
+    out->footer(kExportFooter);
+    add_suite(out, all.export_cases.suite);
+    out->add_option("-o,--output", all.export_cases.output, "where the files go")
+        ->type_name("DIR")
+        ->required();
+
+    CLI::App* in = app.add_subcommand("diff", "judge what another program drew of exported cases");
+    in->footer(kDiffFooter);
+    RunOptions& o = all.diff.run;
+    add_suite(in, o.suite);
+    in->add_option("--captures", all.diff.captures, "the folder with what was drawn")
+        ->type_name("DIR")
+        ->required()
+        ->group("Selection");
+    in->add_option("--name", all.diff.name, "of the renderer, for the reports")
+        ->type_name("NAME")
+        ->group("Output");
+    add_profile(in, o.profile);
+    add_subpixel_bits(in, all.diff.subpixel_bits);
+    in->add_option("--expect", o.expect, "an expectation file, instead of those beside the suite")
+        ->type_name("FILE")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group("Judging");
+    in->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
+    in->add_option("-o,--output", o.output, "where the reports go [out/<time>-captures]")
+        ->type_name("DIR")
+        ->group("Output");
+    add_report_files(in, o.json, o.junit, o.html);
+    add_choice(in, "--capture", o.capture, kCaptureNames,
+               "of which cases the reports keep pictures")
+        ->group("Output");
+    add_terminal(in, o.quiet, o.verbose, o.color);
+    add_choice(in, "--progress", o.progress, kProgressNames, "how progress is shown")
+        ->group("Output");
+}
+
 void define_others(CLI::App& app, AllOptions& all) {
     CLI::App* list = app.add_subcommand("list", "list case ids");
     add_suite(list, all.list.suite);
@@ -271,6 +345,11 @@ void define_others(CLI::App& app, AllOptions& all) {
         ->required();
     add_profile(render, all.render.profile);
     add_subpixel_bits(render, all.render.subpixel_bits);
+    add_choice(render, "--renderer", all.render.renderer, drawing_names(),
+               "what draws: an algorithm of docs/algorithms.md or the reference; allowed: no "
+               "drawing, but what the reference allows");
+    render->footer(kRenderFooter);
+    define_images(app, all);
 
     CLI::App* doctor =
         app.add_subcommand("doctor", "what is installed, which devices there are, what is missing");

@@ -16,6 +16,8 @@ struct AllOptions {
     LintOptions lint;
     ExplainOptions explain;
     RenderOptions render;
+    ExportOptions export_cases;
+    DiffOptions diff;
     DoctorOptions doctor;
     BenchOptions bench;
     ReportOptions report;

@@ -14,6 +14,8 @@ int list_command(const Program& program, const ListOptions& options);
 int lint_command(const Program& program, const LintOptions& options);
 int explain_command(const Program& program, const ExplainOptions& options);
 int render_command(const Program& program, const RenderOptions& options);
+int export_command(const Program& program, const ExportOptions& options);
+int diff_command(const Program& program, const DiffOptions& options);
 int doctor_command(const Program& program, const DoctorOptions& options);
 int bench_command(const Program& program, const BenchOptions& options);
 int report_command(const Program& program, const ReportOptions& options);

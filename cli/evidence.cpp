@@ -202,12 +202,19 @@ class EvidenceMaker {
 
 }  // namespace
 
-void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
                    const ref::Expectation& expectation, const diff::CaptureView& capture,
                    const ref::Limits& limits) {
     const Window window(verdict, c.target);
     record.pictures = cut_pictures(window, c, verdict, capture);
     record.geometry = geometry_of(window, c, limits, expectation);
+}
+
+void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Limits& limits) {
+    keep_pictures(record, c, verdict, expectation, capture, limits);
+    const Window window(verdict, c.target);
     if (c.blit || !verdict.error.empty()) {
         return;
     }

@@ -23,6 +23,29 @@ using report::Status;
 
 namespace {
 
+// What a verdict says of a case, into its record; whether pictures are to be kept, too.
+bool keep_verdict(CaseRecord& record, const diff::Verdict& verdict, KeepPictures pictures) {
+    record.status = !verdict.error.empty() ? Status::error
+                    : verdict.ok()         ? Status::pass
+                                           : Status::fail;
+    record.reason = verdict.error;
+    record.findings = verdict.findings;
+    record.counts = verdict.counts;
+    record.level = verdict.level;
+    record.min_x = verdict.min_x;
+    record.min_y = verdict.min_y;
+    record.max_x = verdict.max_x;
+    record.max_y = verdict.max_y;
+    record.must_samples = verdict.must_samples;
+    record.either_samples = verdict.either_samples;
+    record.compared_samples = verdict.compared_samples;
+    record.compared_values = verdict.compared_values;
+    record.worst_ratio = verdict.worst_ratio;
+    record.worst_quantity = verdict.worst_quantity;
+    return pictures == KeepPictures::all ||
+           (pictures == KeepPictures::failed && record.status != Status::pass);
+}
+
 template <class T>
 std::string_view raw(std::span<const T> v) {
     return {reinterpret_cast<const char*>(v.data()), v.size_bytes()};
@@ -53,30 +76,35 @@ void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& ca
         if (verdict.error.empty()) {
             diff::add_differences(c, cases::derivations(c), consistency, verdict);
         }
-        record.status = !verdict.error.empty() ? Status::error
-                        : verdict.ok()         ? Status::pass
-                                               : Status::fail;
-        record.reason = verdict.error;
-        record.findings = verdict.findings;
-        record.counts = verdict.counts;
-        record.level = verdict.level;
-        record.min_x = verdict.min_x;
-        record.min_y = verdict.min_y;
-        record.max_x = verdict.max_x;
-        record.max_y = verdict.max_y;
-        record.must_samples = verdict.must_samples;
-        record.either_samples = verdict.either_samples;
-        record.compared_samples = verdict.compared_samples;
-        record.compared_values = verdict.compared_values;
-        record.worst_ratio = verdict.worst_ratio;
-        record.worst_quantity = verdict.worst_quantity;
-        if (pictures == KeepPictures::all ||
-            (pictures == KeepPictures::failed && record.status != Status::pass)) {
+        if (keep_verdict(record, verdict, pictures)) {
             keep_evidence(record, c, verdict, expectation, capture, limits);
         }
     } catch (const std::exception& e) {
         record.status = Status::error;
         record.reason = std::string("the comparison failed: ") + e.what();
+    }
+}
+
+void judge_delivered(CaseRecord& record, const cases::Case& c, const diff::Delivered& planes,
+                     const ref::Limits& limits, cases::Profile profile, KeepPictures pictures) {
+    try {
+        diff::Verdict verdict;
+        ref::Expectation expectation;
+        diff::Capture capture;
+        capture.target = c.target;
+        capture.color = planes.color;
+        if (c.blit) {
+            verdict = diff::compare_blit(c, profile, capture);
+        } else {
+            expectation = ref::expect(c, limits, profile);
+            verdict = diff::compare_delivered(c, expectation, planes);
+        }
+        if (keep_verdict(record, verdict, pictures)) {
+            keep_pictures(record, c, verdict, expectation, capture, limits);
+        }
+    } catch (const std::exception& e) {
+        record.status = Status::error;
+        record.reason = std::string("the reference failed: ") + e.what();
     }
 }
 

@@ -17,6 +17,7 @@
 #include "cli/process.hpp"
 #include "diff/capture.hpp"
 #include "diff/consistency.hpp"
+#include "diff/delivered.hpp"
 #include "ref/limits.hpp"
 #include "report/run.hpp"
 
@@ -32,6 +33,11 @@ report::CaseRecord make_record(const cases::Case& c);
 void judge(report::CaseRecord& record, const cases::Case& c, const diff::CaptureView& capture,
            std::span<const diff::Consistency> consistency, const ref::Limits& limits,
            cases::Profile profile, KeepPictures pictures);
+
+// The same of what another program delivered: at least one plane, sizes as the case's target.
+void judge_delivered(report::CaseRecord& record, const cases::Case& c,
+                     const diff::Delivered& planes, const ref::Limits& limits,
+                     cases::Profile profile, KeepPictures pictures);
 
 // What can be said of a case before any device is asked: empty, or why the reference disagrees with
 // the picture drawn by hand.

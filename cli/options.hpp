@@ -79,7 +79,20 @@ struct ExplainOptions {
 struct RenderOptions {
     SuiteOptions suite;  // exactly one selector, one case
     std::string output;
+    std::string renderer;  // "": what the reference allows; else what this one draws
     cases::Profile profile = cases::Profile::direct3d;
+    uint32_t subpixel_bits = 8;
+};
+
+struct ExportOptions {
+    SuiteOptions suite;
+    std::string output;  // folder
+};
+
+struct DiffOptions {
+    RunOptions run;        // what judging and reporting have in common
+    std::string captures;  // folder
+    std::string name;      // of the renderer, for the reports
     uint32_t subpixel_bits = 8;
 };
 

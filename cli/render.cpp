@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command "render": the reference picture of a case, without any device.
+// The command "render": a picture of a case, without any device.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/drawing.hpp"
 #include "cli/outputs.hpp"
 #include "cli/suite.hpp"
 #include "ref/expectation.hpp"
@@ -166,6 +167,29 @@ report::Image coverage_image(const Reference& r) {
     return image;
 }
 
+// What the reference allows at each sample.
+Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
+    ref::Limits limits;
+    limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
+    Reference r{c, ref::expect(c, limits, options.profile),
+                ref::ValueReference(c, limits, options.profile)};
+    return {to_json(r), values_image(r), coverage_image(r)};
+}
+
+OrStop<Drawing> picture_of(const cases::Case& c, const RenderOptions& options) {
+    if (!c.blit) {
+        return options.renderer.empty() ? OrStop<Drawing>(allowed_picture(c, options))
+                                        : draw_picture(c, options.renderer);
+    }
+    if (!options.renderer.empty() && options.renderer != "reference") {
+        return tl::unexpected(Stop{report::kExitUsage,
+                                   {"'" + options.renderer +
+                                    "' draws triangles, and the case is a blit; leave "
+                                    "--renderer out"}});
+    }
+    return blit_picture(c, options.profile);
+}
+
 }  // namespace
 
 int render_command(const Program& program, const RenderOptions& options) {
@@ -173,28 +197,21 @@ int render_command(const Program& program, const RenderOptions& options) {
     if (!c) {
         return report_stop(c.error());
     }
-    if (c->blit) {
-        std::fputs("edgecase: 'render' draws triangles; ask 'explain' about a texel of a blit\n",
-                   stderr);
-        return report::kExitUsage;
-    }
-    ref::Limits limits;
-    limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
-    Reference r{*c, ref::expect(*c, limits, options.profile),
-                ref::ValueReference(*c, limits, options.profile)};
     const std::string extension = std::filesystem::path(options.output).extension().string();
-    cases::Expected<void> written;
-    if (extension == ".json") {
-        written = write_text(options.output, to_json(r));
-    } else if (extension == ".png") {
-        written = report::write_image(options.output, coverage_image(r));
-    } else if (extension == ".exr" || extension == ".tif") {
-        written = report::write_image(options.output, values_image(r));
-    } else {
+    if (extension != ".json" && extension != ".png" && extension != ".exr" && extension != ".tif") {
         return report_stop(
             {report::kExitUsage,
              {"'" + options.output + "' has no known extension; use .exr, .png or .json"}});
     }
+    const OrStop<Drawing> drawing = picture_of(*c, options);
+    if (!drawing) {
+        return report_stop(drawing.error());
+    }
+    const cases::Expected<void> written =
+        extension == ".json"
+            ? write_text(options.output, drawing->json)
+            : report::write_image(options.output,
+                                  extension == ".png" ? drawing->picture : drawing->values);
     if (!written) {
         return report_stop({report::kExitInternal, {cases::to_string(written.error())}});
     }

@@ -19,13 +19,15 @@ namespace {
 class Comparison {
   public:
     Comparison(const cases::Case& c, const ref::Expectation& expectation,
-               const CaptureView& capture)
+               const CaptureView& capture, const ref::ValueSelection& selection)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
           attribution_(c, expectation),
           values_(c, expectation.limits, expectation.profile),
-          has_pixel_rules_(c.target.has_instruments && has_pixel_rules(c)) {
+          selection_(selection),
+          has_pixel_rules_(selection.is_all() && c.target.has_instruments && has_pixel_rules(c)) {
+        values_.judge_only(selection);
         if (c.target.color) {
             color_.emplace(c, expectation, capture_, attribution_);
         }
@@ -240,13 +242,16 @@ class Comparison {
             add(writer_finding(id, writer, expected), index);
             return;
         }
-        if (part_of(best_triangle) != ref::FragmentPart::all) {
+        if (part_of(best_triangle) != ref::FragmentPart::all && selection_.depth) {
             judge_older_depth(index, id, expected, device);
         }
         const auto& draw = case_.draws[expectation_.triangles[best_triangle].draw];
-        verdict_.compared_values += 4;  // FragCoord.xy, z, w and depth
-        for (const cases::Attribute& attribute : draw.attributes) {
-            verdict_.compared_values += attribute.components;
+        // FragCoord.xy, z, w; depth
+        verdict_.compared_values +=
+            (selection_.frag_coord ? 3U : 0U) + (selection_.depth ? 1U : 0U);
+        for (size_t a = 0; a < draw.attributes.size(); ++a) {
+            verdict_.compared_values +=
+                selection_.attributes.at(a) ? draw.attributes[a].components : 0U;
         }
         if (best->worst_ratio > verdict_.worst_ratio) {
             verdict_.worst_ratio = best->worst_ratio;
@@ -419,6 +424,7 @@ class Comparison {
     const CaptureView& capture_;
     Attribution attribution_;
     ref::ValueReference values_;
+    ref::ValueSelection selection_;
     bool has_pixel_rules_ = false;
     std::optional<ColorComparison> color_;
     Verdict verdict_;
@@ -449,7 +455,12 @@ std::string_view to_string(FindingKind kind) {
 
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                 const CaptureView& capture) {
-    return Comparison(c, expectation, capture).run();
+    return Comparison(c, expectation, capture, {}).run();
+}
+
+Verdict compare_selected(const cases::Case& c, const ref::Expectation& expectation,
+                         const CaptureView& capture, const ref::ValueSelection& selection) {
+    return Comparison(c, expectation, capture, selection).run();
 }
 
 std::string check_expected_hits(const cases::Case& c) {

@@ -90,6 +90,11 @@ inline constexpr size_t kMaxFindings = 1000;
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                 const CaptureView& capture);
 
+// As compare, but of the values only those selected are judged. Nothing is said of how many
+// invocations a fragment had unless all are.
+Verdict compare_selected(const cases::Case& c, const ref::Expectation& expectation,
+                         const CaptureView& capture, const ref::ValueSelection& selection);
+
 // Checks the hand-drawn picture of a case against the reference (profile direct3d, 8 subpixel
 // bits). Empty if it agrees or the case has none; else one sentence with the first pixel that
 // differs.

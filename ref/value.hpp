@@ -73,6 +73,20 @@ struct ValueRange {
 };
 inline constexpr int32_t kDepthAttribute = -2;
 
+// The values that somebody delivered; the others of a FragmentValues mean nothing then.
+struct ValueSelection {
+    bool frag_coord = true, depth = true;
+    std::array<bool, cases::kMaxAttributes> attributes{true, true, true, true};
+    bool is_all() const { return *this == ValueSelection{}; }
+    // `attribute` as in Quantity: an index, -1 FragCoord, -2 depth.
+    bool has(int32_t attribute) const {
+        return attribute == kDepthAttribute ? depth
+               : attribute < 0              ? frag_coord
+                                            : attributes.at(static_cast<size_t>(attribute));
+    }
+    friend bool operator==(const ValueSelection&, const ValueSelection&) = default;
+};
+
 // Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
 // Which values of a fragment are judged: the depth plane may hold an older fragment than the
 // others, if the last one does not write depth.
@@ -83,6 +97,9 @@ class ValueReference {
     ValueReference(const cases::Case& c, const Limits& limits, cases::Profile profile);
     ~ValueReference();
     ValueReference(ValueReference&&) noexcept;
+
+    // From now on only these values are judged; one basis has to explain those together.
+    void judge_only(const ValueSelection& selection);
 
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
     FragmentVerdict judge(uint32_t t, SampleId sample, const FragmentValues& device,

@@ -125,6 +125,7 @@ struct ValueReference::Impl {
     uint32_t text_triangle = 0;
     std::optional<value::Basis<mpq_class>> text_basis;
     FragmentPart part = FragmentPart::all;  // of the fragment being judged
+    ValueSelection selection;
 
     Impl(const cases::Case& the_case, const Limits& the_limits, Profile the_profile)
         : c(the_case), limits(the_limits), profile(the_profile), triangles(assemble(the_case)) {
@@ -227,7 +228,9 @@ struct ValueReference::Impl {
 
     // Whether the part of the fragment that is being judged has the quantity.
     bool is_part(const Quantity& q) const {
-        return part == FragmentPart::all || (q.attribute == -2) == (part == FragmentPart::depth);
+        return selection.has(q.attribute) &&
+               (part == FragmentPart::all ||
+                (q.attribute == kDepthAttribute) == (part == FragmentPart::depth));
     }
 
     static bool is_other(const Ball& a, const Ball& b) {
@@ -343,7 +346,7 @@ void ValueReference::Impl::judge_samples(uint32_t t, SampleId id, const Fragment
                                          bool exact_only, FragmentVerdict& out) {
     std::array<std::optional<value::Fragment>, std::size(cases::kProfiles)> fragments;
     for (const Quantity& q : quantities_of(t)) {
-        if (!value::is_sample_kind(q.kind)) {
+        if (!value::is_sample_kind(q.kind) || !selection.has(q.attribute)) {
             continue;
         }
         // What is allowed at a profile is allowed at every looser one.
@@ -523,7 +526,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
     if (part != FragmentPart::depth) {
         judge_samples(t, id, device, exact_only, out);
     }
-    const bool is_decided = !exact_only && part == FragmentPart::all &&
+    const bool is_decided = !exact_only && part == FragmentPart::all && selection.is_all() &&
                             is_plain_depth(triangle.primitive) && filter(t, id, device, out);
     // Accepted, but above one budget: another basis may explain it better.
     if (!is_decided || out.worst_ratio > 1) {
@@ -546,6 +549,10 @@ ValueReference::ValueReference(const cases::Case& c, const Limits& limits, Profi
     : impl_(std::make_unique<Impl>(c, limits, profile)) {}
 ValueReference::~ValueReference() = default;
 ValueReference::ValueReference(ValueReference&&) noexcept = default;
+
+void ValueReference::judge_only(const ValueSelection& selection) {
+    impl_->selection = selection;
+}
 
 FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device,
                                       FragmentPart part) {

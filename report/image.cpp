@@ -94,6 +94,8 @@ void keep(void* context, const EdgecaseImage* from) {
     to.channels.assign(from->names, from->names + from->channels);
     const size_t count = size_t{from->width} * from->height * from->channels;
     to.pixels.assign(from->pixels, from->pixels + count);
+    to.bits = from->bits;
+    to.is_float = from->is_float != 0;
 }
 
 }  // namespace
@@ -118,8 +120,13 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
     for (const std::string& name : image.channels) {
         names.push_back(name.c_str());
     }
-    const EdgecaseImage plain{image.width, image.height, static_cast<uint32_t>(names.size()),
-                              names.data(), image.pixels.data()};
+    const EdgecaseImage plain{image.width,
+                              image.height,
+                              static_cast<uint32_t>(names.size()),
+                              names.data(),
+                              image.pixels.data(),
+                              32,
+                              1};
     std::array<char, 1024> error{};
     if (module->write(file.c_str(), &plain, error.data(), error.size()) != 0) {
         return failure(

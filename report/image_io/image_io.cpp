@@ -61,7 +61,9 @@ std::string write(const char* path, const EdgecaseImage& image) {
 }
 
 std::string read(const char* path, EdgecaseImageSink sink, void* context) {
-    const auto input = OIIO::ImageInput::open(path);
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    const auto input = OIIO::ImageInput::open(path, &config);
     if (!input) {
         const std::string reason = OIIO::geterror();
         return reason.empty() ? "unknown error" : reason;
@@ -83,8 +85,13 @@ std::string read(const char* path, EdgecaseImageSink sink, void* context) {
         names.push_back(name.c_str());
     }
     names.resize(static_cast<size_t>(channels), "");
-    const EdgecaseImage image{static_cast<uint32_t>(width), static_cast<uint32_t>(height),
-                              static_cast<uint32_t>(channels), names.data(), pixels.data()};
+    const EdgecaseImage image{static_cast<uint32_t>(width),
+                              static_cast<uint32_t>(height),
+                              static_cast<uint32_t>(channels),
+                              names.data(),
+                              pixels.data(),
+                              static_cast<uint32_t>(spec.format.basesize() * 8),
+                              spec.format.is_floating_point() ? 1U : 0U};
     sink(context, &image);
     return {};
 }

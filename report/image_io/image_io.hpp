@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-inline constexpr uint32_t kImageIoVersion = 1;
+inline constexpr uint32_t kImageIoVersion = 2;
 
 extern "C" {
 
@@ -17,6 +17,8 @@ struct EdgecaseImage {
     uint32_t width, height, channels;
     const char* const* names;  // [channels]
     const float* pixels;
+    uint32_t bits;      // of a number in the file read: 8, 16, 32; ignored when writing
+    uint32_t is_float;  // 1: floats in the file read; 0: whole numbers, divided by the largest
 };
 using EdgecaseImageSink = void (*)(void* context, const EdgecaseImage* image);
 

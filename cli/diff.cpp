@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "diff": judges what another program rendered of exported cases. Nothing is drawn
+// here.
+#include <poll.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "cases/selector.hpp"
+#include "cli/commands.hpp"
+#include "cli/judge.hpp"
+#include "cli/outputs.hpp"
+#include "cli/plane_files.hpp"
+#include "cli/run_plan.hpp"
+#include "cli/signal_fd.hpp"
+#include "report/journal.hpp"
+#include "report/sentences.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+using report::CaseRecord;
+using report::Status;
+
+namespace {
+
+using Time = std::chrono::steady_clock;
+
+constexpr size_t kPrinted = 100;  // unexpected results in full
+constexpr std::string_view kFurther =
+    "further unexpected results stand in the reports only (or use -v)\n";
+
+Stop stop_with(int exit_code, const std::string& line) {
+    return {exit_code, {line}};
+}
+
+double seconds_since(Time::time_point begin) {
+    return std::chrono::duration<double>(Time::now() - begin).count();
+}
+
+struct Work {
+    const DiffOptions& options;
+    ref::Limits limits;
+};
+
+// What the folder of one case holds, and what is to be said of it.
+void judge_folder(CaseRecord& record, std::vector<std::string>& skipped, const cases::Case& c,
+                  const Work& work) {
+    const auto begin = Time::now();
+    const fs::path folder = fs::path(work.options.captures) / folder_of(c.id);
+    const auto say = [&](Status status, const std::string& reason) {
+        record.status = status;
+        record.reason = reason;
+    };
+    if (const std::string wrong = check_before_running(c); !wrong.empty()) {
+        say(Status::error, wrong);
+        return;
+    }
+    const cases::Expected<ReadPlanes> read = read_planes(folder, c);
+    record.attempts = 1;
+    if (!read) {
+        say(Status::error, read.error().message);
+    } else if (!read->unsupported.empty()) {
+        say(Status::unsupported, "the renderer says: " + report::printable(read->unsupported));
+    } else if (read->planes.is_empty()) {
+        say(Status::not_run, "no plane was delivered in '" + folder.string() + "'");
+        record.attempts = 0;
+    } else {
+        judge_delivered(record, c, read->planes, work.limits, work.options.run.profile,
+                        work.options.run.capture);
+        if (record.status == Status::pass || record.status == Status::fail) {
+            skipped = diff::not_judged(c, read->planes);
+            std::string list;
+            for (const std::string& word : skipped) {
+                list += (list.empty() ? "not judged: " : ", ") + word;
+            }
+            record.reason = list;
+        }
+    }
+    record.seconds = seconds_since(begin);
+}
+
+// Folders with files below the captures that belong to no case of the suite: a renderer's mistake
+// must not look like a case that was left out.
+std::vector<std::string> unknown_folders(const fs::path& captures,
+                                         const std::vector<std::string>& ids) {
+    std::set<std::string> known;
+    for (const std::string& id : ids) {
+        known.insert(folder_of(id));
+    }
+    std::set<std::string> unknown;
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(captures, error), end; !error && it != end;
+         it.increment(error)) {
+        std::error_code ignored;
+        if (!it->is_regular_file(ignored) || it->path().extension() == ".json") {
+            continue;  // an export may lie in the same folder
+        }
+        const std::string folder = it->path().parent_path().lexically_relative(captures).string();
+        if (!known.contains(folder)) {
+            unknown.insert(folder);
+        }
+    }
+    return {unknown.begin(), unknown.end()};
+}
+
+OrStop<std::monostate> check_captures(const DiffOptions& options,
+                                      const std::vector<std::string>& ids) {
+    std::error_code ignored;
+    if (!fs::is_directory(options.captures, ignored)) {
+        return tl::unexpected(stop_with(report::kExitInvalidFile,
+                                        "--captures '" + options.captures +
+                                            "' is no folder; name the one with the planes that "
+                                            "were rendered"));
+    }
+    const std::vector<std::string> unknown = unknown_folders(options.captures, ids);
+    if (unknown.empty()) {
+        return std::monostate{};
+    }
+    std::vector<std::string> folders;
+    for (const std::string& id : ids) {
+        folders.push_back(folder_of(id));
+    }
+    const std::string nearest = cases::nearest_name(unknown.front(), folders);
+    const std::string more =
+        unknown.size() == 1 ? "" : " and " + std::to_string(unknown.size() - 1) + " more";
+    return tl::unexpected(
+        stop_with(report::kExitInvalidFile,
+                  "'" + report::printable((fs::path(options.captures) / unknown.front()).string()) +
+                      "'" + more + " belongs to no case of the suite" +
+                      (nearest.empty() ? "; folders have the names that 'edgecase export' writes"
+                                       : "; did you mean '" + nearest + "'?")));
+}
+
+// "edgecase diff ID --captures DIR ...", quoted for a shell.
+std::string again_line(const Program& program, const DiffOptions& options, const std::string& id) {
+    std::string line = shell_quote(program.arguments.front()) + " diff " + shell_quote(id) +
+                       " --captures " + shell_quote(options.captures);
+    if (!options.run.suite.suite.empty()) {
+        line += " --suite " + shell_quote(options.run.suite.suite);
+    }
+    if (options.run.profile != cases::Profile::direct3d) {
+        line += " --profile " + std::string(cases::to_string(options.run.profile));
+    }
+    if (options.subpixel_bits != 8) {
+        line += " --subpixel-bits " + std::to_string(options.subpixel_bits);
+    }
+    return line;
+}
+
+std::string host_name() {
+    utsname name{};
+    ::uname(&name);
+    return std::string(name.sysname) + " " + name.release + " " + name.machine;
+}
+
+using ExpectedById = std::map<std::string, ExpectationLine>;
+
+// What the expectation files say of the selected cases; their names go into the header.
+OrStop<ExpectedById> expectations_of(const RunOptions& options, const Selection& selection,
+                                     report::Run& header) {
+    const OrStop<std::vector<ExpectationFile>> files =
+        find_expectations(options, selection.root, header.device);
+    if (!files) {
+        return tl::unexpected(files.error());
+    }
+    const auto expected = resolve_expectations(*files, selection.suite_ids, selection.whole_suite);
+    if (!expected) {
+        Stop stop{report::kExitInvalidFile, {}};
+        for (const cases::Error& error : expected.error()) {
+            stop.lines.push_back(cases::to_string(error));
+        }
+        return tl::unexpected(stop);
+    }
+    for (const ExpectationFile& file : *files) {
+        header.expectation_file +=
+            (header.expectation_file.empty() ? "" : ", ") + file.path.string();
+    }
+    return *expected;
+}
+
+report::Run make_header(const Program& program, const DiffOptions& options,
+                        const Selection& selection) {
+    report::Run header;
+    header.tool_version = kVersion;
+    header.arguments = program.arguments;
+    header.environment = recorded_environment();
+    header.started = utc_now(false);
+    header.host = host_name();
+    header.profile = options.run.profile;
+    header.seed = options.run.seed;
+    std::error_code ignored;
+    header.suite_root = fs::absolute(selection.root, ignored).lexically_normal().string();
+    header.jobs = std::max(1U, std::thread::hardware_concurrency());
+    header.device.name = options.name.empty() ? "captures in " + options.captures : options.name;
+    header.device.driver_name = "files";
+    header.device.type = "other";
+    header.device.subpixel_bits = options.subpixel_bits;
+    header.device.has_primitive_id = true;
+    for (const cases::Case& c : selection.cases) {
+        header.cases.push_back(make_record(c));
+        header.cases.back().rerun = again_line(program, options, c.id);
+    }
+    return header;
+}
+
+// What the record counts as, given what was expected of it.
+void settle(CaseRecord& record, const ExpectedById& expected) {
+    const auto found = expected.find(record.id);
+    if (found == expected.end() || record.status == Status::not_run) {
+        return;
+    }
+    record.expected = found->second.status;
+    record.bug = found->second.bug;
+    record.status = judge_expected(record.status, found->second.status);
+}
+
+// "not judged: depth in 12 cases, writer in 3 cases"
+std::string skipped_text(const std::map<std::string, size_t>& skipped) {
+    std::string text;
+    for (const auto& [word, count] : skipped) {
+        text += (text.empty() ? "not judged: " : ", ") + word + " in " + std::to_string(count) +
+                (count == 1 ? " case" : " cases");
+    }
+    return text.empty() ? text : text + "\n";
+}
+
+// The folder of the reports with its journal begun.
+OrStop<report::Journal> begin_journal(const fs::path& folder, const report::Run& header) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        return tl::unexpected(
+            stop_with(report::kExitUsage, "the folder '" + folder.string() + "' cannot be made: " +
+                                              error.message() + "; choose another with -o"));
+    }
+    cases::Expected<report::Journal> journal = report::Journal::open(folder, false);
+    if (!journal) {
+        return tl::unexpected(stop_with(report::kExitUsage, journal.error().message));
+    }
+    cases::Expected<void> written = journal->write_run(header);
+    if (written) {
+        written = journal->write_device(header.device);
+    }
+    if (!written) {
+        return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
+    }
+    return std::move(*journal);
+}
+
+// Reports from the journal alone, the summary and the exit code.
+int conclude(const DiffOptions& options, const fs::path& folder, const std::string& failure,
+             const std::map<std::string, size_t>& skipped, std::FILE* console,
+             const report::ConsoleStyle& style) {
+    const cases::Expected<report::Run> run = report::load_journal(folder);
+    if (!run) {
+        return report_stop(stop_with(report::kExitInternal, cases::to_string(run.error())));
+    }
+    const RunOptions& o = options.run;
+    const cases::Errors errors = write_reports(*run, {folder, o.json, o.junit, o.html});
+    if (!o.quiet) {
+        std::fputs(skipped_text(skipped).c_str(), console);
+        std::fputs(report::console_summary(*run, (folder / "report.html").string(), style).c_str(),
+                   console);
+    }
+    for (const cases::Error& error : errors) {
+        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
+    }
+    if (!failure.empty()) {
+        std::fprintf(stderr, "edgecase: %s\n", failure.c_str());
+    }
+    const int code = report::exit_code(*run);
+    const bool failed = !errors.empty() || !failure.empty();
+    return failed && code != report::kExitInterrupted ? report::kExitInternal : code;
+}
+
+}  // namespace
+
+int diff_command(const Program& program, const DiffOptions& options) {
+    SignalFd signals;
+    const RunOptions& o = options.run;
+    const OrStop<Selection> selection = select_cases(program, o);
+    if (!selection) {
+        return report_stop(selection.error());
+    }
+    if (auto checked = check_captures(options, selection->suite_ids); !checked) {
+        return report_stop(checked.error());
+    }
+    report::Run header = make_header(program, options, *selection);
+    const auto expected = expectations_of(o, *selection, header);
+    if (!expected) {
+        return report_stop(expected.error());
+    }
+    const fs::path folder =
+        o.output.empty() ? fs::path("out") / (utc_now(true) + "-captures") : fs::path(o.output);
+    OrStop<report::Journal> journal = begin_journal(folder, header);
+    if (!journal) {
+        return report_stop(journal.error());
+    }
+    const bool stdout_taken = o.json == "-" || o.junit == "-" || o.html == "-";
+    std::FILE* console = stdout_taken ? stderr : stdout;
+    const report::ConsoleStyle style = console_style(console, o.color, o.verbose);
+    if (!o.quiet) {
+        std::fputs(report::console_header(header, style).c_str(), console);
+        std::fflush(console);
+    }
+
+    const Time::time_point begin = Time::now();
+    Work work{options, {}};
+    work.limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
+    std::map<std::string, size_t> skipped;
+    std::string failure;
+    size_t done = 0, unexpected = 0;
+    Progress progress(o.quiet ? ProgressStyle::none : o.progress, selection->cases.size());
+    std::vector<std::vector<std::string>> not_judged(selection->cases.size());
+    Pool pool(std::max(1U, std::thread::hardware_concurrency()));
+    for (size_t k = 0; k < selection->cases.size(); ++k) {
+        const cases::Case& c = selection->cases[k];
+        CaseRecord& record = header.cases[k];
+        const auto finish = [&, k] {
+            settle(record, *expected);
+            if (!record.findings.empty()) {
+                const diff::Finding& f = report::leading_finding(record);
+                record.explain =
+                    explain_line(program, o, record.id, options.subpixel_bits) + " --pixel " +
+                    std::to_string(f.x) + "," + std::to_string(f.y) +
+                    (c.target.samples > 1 ? " --sample " + std::to_string(f.sample) : "");
+            }
+            if (auto written = journal->write_end(record); !written && failure.empty()) {
+                failure = written.error().message;
+            }
+            for (const std::string& word : not_judged[k]) {
+                ++skipped[word];
+            }
+            ++done;
+            // What was not delivered is counted in the summary; the reports hold all.
+            const bool is_told = record.status != Status::not_run;
+            if (!report::is_expected(record.status) && is_told &&
+                (++unexpected <= kPrinted || o.verbose)) {
+                progress.clear();
+                std::fputs(
+                    (unexpected == kPrinted && !o.verbose ? std::string(kFurther)
+                                                          : report::console_case(record, style))
+                        .c_str(),
+                    console);
+            }
+            record.pictures = {};
+            record.findings.clear();
+        };
+        if (const auto found = expected->find(c.id);
+            found != expected->end() && found->second.status == Status::skip) {
+            record.status = Status::skip;
+            record.reason = found->second.note;
+            pool.submit([] {}, finish);
+            continue;
+        }
+        pool.submit([&, k] { judge_folder(record, not_judged[k], c, work); }, finish);
+    }
+    while (pool.outstanding() > 0 && failure.empty() && !header.interrupted) {
+        std::array<pollfd, 2> fds{{{signals.fd(), POLLIN, 0}, {pool.fd(), POLLIN, 0}}};
+        ::poll(fds.data(), fds.size(), 200);
+        header.interrupted = signals.has_come();
+        pool.collect();
+        progress.show(done, unexpected);
+    }
+    progress.clear();
+    header.ended = utc_now(false);
+    header.seconds = seconds_since(begin);
+    if (auto written = journal->write_stop(header); !written && failure.empty()) {
+        failure = written.error().message;
+    }
+    return conclude(options, folder, failure, skipped, console, style);
+}
+
+}  // namespace cli

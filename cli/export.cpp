@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "export": cases as plain JSON, for renderers that know nothing of this project.
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "cli/commands.hpp"
+#include "cli/export_case.hpp"
+#include "cli/outputs.hpp"
+#include "cli/plane_files.hpp"
+#include "cli/suite.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Writes into a folder that is made if it is not there.
+cases::Expected<void> write_below(const fs::path& file, const std::string& text) {
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    if (error) {
+        return tl::unexpected(cases::Error{{},
+                                           "the folder '" + file.parent_path().string() +
+                                               "' cannot be made: " + error.message() +
+                                               "; choose another with -o"});
+    }
+    return write_text(file.string(), text);
+}
+
+}  // namespace
+
+int export_command(const Program& program, const ExportOptions& options) {
+    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    if (!suite) {
+        return report_stop(suite.error());
+    }
+    const fs::path folder = options.output;
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const size_t k : suite->selected) {
+        const cases::Case& c = suite->cases[k];
+        const std::string name = folder_of(c.id);
+        if (auto written = write_below(folder / (name + ".json"), export_case(c)); !written) {
+            return report_stop({report::kExitUsage, {written.error().message}});
+        }
+        list.push_back(
+            {{"id", c.id}, {"file", name + ".json"}, {"folder", name}, {"needs", needs_of(c)}});
+    }
+    const nlohmann::ordered_json index = {{"schema", "edgecase-export-1"},
+                                          {"tool", {{"name", "edgecase"}, {"version", kVersion}}},
+                                          {"cases", std::move(list)}};
+    if (auto written = write_below(folder / "index.json", index.dump(1) + "\n"); !written) {
+        return report_stop({report::kExitUsage, {written.error().message}});
+    }
+    std::printf("%zu case%s in %s\n", suite->selected.size(),
+                suite->selected.size() == 1 ? "" : "s", folder.string().c_str());
+    return report::kExitOk;
+}
+
+}  // namespace cli

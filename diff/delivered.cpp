@@ -1,0 +1,388 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/delivered.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "cases/derive.hpp"
+#include "diff/pixel_check.hpp"
+#include "ref/color.hpp"
+
+namespace diff {
+
+namespace {
+
+constexpr const char* kEmptyPasses =
+    "of the delivered planes ({}) a picture in which nothing is drawn would pass too; deliver "
+    "coverage or hits";
+
+bool is_clear(float v) {
+    return std::bit_cast<uint32_t>(v) == std::bit_cast<uint32_t>(kClearValue);
+}
+
+ref::ValueSelection selection_of(const Delivered& planes) {
+    ref::ValueSelection selection;
+    selection.frag_coord = !planes.frag_coord.empty();
+    selection.depth = !planes.depth.empty();
+    for (size_t a = 0; a < planes.attributes.size(); ++a) {
+        selection.attributes.at(a) = !planes.attributes.at(a).empty();
+    }
+    return selection;
+}
+
+bool has_instrument_planes(const Delivered& planes) {
+    Delivered others = planes;
+    others.color.clear();
+    return !others.is_empty();
+}
+
+// The case with the planes that count hits and hold values, and nothing that follows from others.
+cases::Case with_instruments(const cases::Case& c) {
+    cases::Case out = c;
+    out.target.has_instruments = true;
+    out.target.has_depth = true;
+    out.target.has_stencil = false;
+    out.target.color.reset();
+    out.target.color_resolve = cases::Resolve::none;
+    out.target.depth_resolve = cases::Resolve::none;
+    return out;
+}
+
+// The case with its colour target alone.
+cases::Case with_color_only(const cases::Case& c) {
+    cases::Case out = with_instruments(c);
+    out.target.color = c.target.color;
+    out.target.has_instruments = false;
+    out.target.has_depth = false;
+    return out;
+}
+
+// Fills in what was not delivered.
+class Completion {
+  public:
+    Completion(const cases::Case& c, const ref::Expectation& expectation, const Delivered& planes)
+        : case_(c),
+          expectation_(expectation),
+          planes_(planes),
+          values_(c, expectation.limits, expectation.profile),
+          selection_(selection_of(planes)) {
+        values_.judge_only(selection_);
+    }
+
+    Capture run() {
+        out_.target = case_.target;
+        out_.has_primitive = true;
+        out_.attribute_count = cases::attributes_of(case_);
+        const size_t count = out_.sample_count();
+        out_.hits.assign(count, {0, 0, kHitGuard, kHitGuard});
+        out_.writers.assign(count, Writer{});
+        out_.frag_coord.assign(count, glm::vec4(kClearValue));
+        const float depth =
+            case_.target.depth_format == cases::DepthFormat::d32_float
+                ? case_.target.depth_clear
+                : nearest_depth(case_.target.depth_clear, case_.target.depth_format);
+        out_.depth.assign(count, depth);
+        for (uint32_t a = 0; a < out_.attribute_count; ++a) {
+            out_.attributes.at(a).assign(count, glm::vec4(kClearValue));
+        }
+        for (size_t index = 0; index < count; ++index) {
+            complete(index);
+        }
+        return std::move(out_);
+    }
+
+  private:
+    void complete(size_t index) {
+        const ref::HitBounds& bounds = expectation_.samples[index].hits;
+        const bool covered = is_covered(index);
+        const auto [front, back] = covered ? hits_of(index, bounds) : std::pair(0U, 0U);
+        out_.hits[index] = {static_cast<float>(front), static_cast<float>(back), kHitGuard,
+                            kHitGuard + static_cast<float>(front + back)};
+        if (!covered) {
+            // Contradictions between the two stay: the comparison tells of them.
+            if (!planes_.draws.empty() && planes_.draws[index] != kClearId) {
+                out_.writers[index] = {planes_.draws[index], planes_.primitives[index], 0,
+                                       kClearId};
+            }
+            return;
+        }
+        const bool is_unwritten = !planes_.draws.empty() && planes_.draws[index] == kClearId;
+        const ref::FragmentValues values = values_of(index);
+        out_.frag_coord[index] = values.frag_coord;
+        out_.depth[index] = values.depth;
+        for (uint32_t a = 0; a < out_.attribute_count; ++a) {
+            out_.attributes.at(a)[index] = values.attributes.at(a);
+        }
+        out_.writers[index] = is_unwritten ? Writer{} : writer_of(index, values);
+    }
+
+    // What the planes say of a sample's coverage, the most telling one first.
+    bool is_covered(size_t index) {
+        if (planes_.detail != HitDetail::none) {
+            const uint32_t back =
+                planes_.detail == HitDetail::faces ? planes_.back[index] : uint32_t{0};
+            return planes_.front[index] + back > 0;
+        }
+        if (!planes_.draws.empty()) {
+            return planes_.draws[index] != kClearId;
+        }
+        const bool is_depth_clear =
+            planes_.depth.empty() || is_clear_depth(case_.target, planes_.depth[index]);
+        bool all_clear =
+            is_depth_clear && (planes_.frag_coord.empty() || is_clear(planes_.frag_coord[index].x));
+        for (const auto& attribute : planes_.attributes) {
+            all_clear = all_clear && (attribute.empty() || is_clear(attribute[index].x));
+        }
+        if (!all_clear || expectation_.samples[index].hits.total_min == 0) {
+            return !all_clear;
+        }
+        // Some triangles leave the clear values: of a depth equal to it, or without the attribute.
+        const ref::FragmentValues values = values_of(index);
+        const auto fits = [&](uint32_t t) { return fits_triangle(t, index, values); };
+        return best_writer(index, values, fits).has_value();
+    }
+
+    bool fits_triangle(uint32_t t, size_t index, const ref::FragmentValues& values) {
+        return values_.judge(t, id_of(index), values, part_of(t)).ok;
+    }
+
+    std::pair<uint32_t, uint32_t> hits_of(size_t index, const ref::HitBounds& bounds) const {
+        if (planes_.detail == HitDetail::faces) {
+            return {planes_.front[index], planes_.back[index]};
+        }
+        const bool is_counted = planes_.detail == HitDetail::total;
+        const uint32_t least = is_counted ? planes_.front[index] : std::max(1U, bounds.total_min);
+        const uint32_t most = is_counted ? least : std::max(least, bounds.total_max);
+        for (uint32_t total = least; total <= std::min(most, bounds.total_max); ++total) {
+            for (uint32_t front = 0; front <= total; ++front) {
+                if (bounds.allows(front, total - front)) {
+                    return {front, total - front};
+                }
+            }
+        }
+        // Wrong whatever the faces: by the face that the triangles here have.
+        const uint32_t total = is_counted ? least : 1;
+        return bounds.front_max == 0 && bounds.back_max > 0 ? std::pair(0U, total)
+                                                            : std::pair(total, 0U);
+    }
+
+    ref::FragmentValues values_of(size_t index) const {
+        ref::FragmentValues values;
+        values.frag_coord = planes_.frag_coord.empty() ? glm::vec4(0) : planes_.frag_coord[index];
+        values.depth = planes_.depth.empty() ? 0.0F : planes_.depth[index];
+        for (uint32_t a = 0; a < out_.attribute_count; ++a) {
+            const auto& plane = planes_.attributes.at(a);
+            values.attributes.at(a) = plane.empty() ? glm::vec4(0) : plane[index];
+        }
+        return values;
+    }
+
+    ref::SampleId id_of(size_t index) const {
+        const size_t pixel = index / case_.target.samples;
+        return {static_cast<uint32_t>(pixel % case_.target.width),
+                static_cast<uint32_t>(pixel / case_.target.width),
+                static_cast<uint32_t>(index % case_.target.samples)};
+    }
+
+    // Of the triangles that may have written last, are the delivered writer's and fit `accept`:
+    // the one that explains the values best, the last of equals.
+    template <class Accept>
+    std::optional<uint32_t> best_writer(size_t index, const ref::FragmentValues& values,
+                                        const Accept& accept) {
+        const ref::SampleExpectation& expected = expectation_.samples[index];
+        std::optional<uint32_t> best;
+        std::optional<ref::FragmentVerdict> best_verdict;
+        for (uint32_t k = 0; k < expected.writers_count; ++k) {
+            const uint32_t t = expectation_.writers[expected.writers_begin + k];
+            const ref::Triangle& triangle = expectation_.triangles[t];
+            const bool is_delivered =
+                planes_.draws.empty() || (planes_.draws[index] == triangle.draw &&
+                                          planes_.primitives[index] == triangle.primitive);
+            if (!is_delivered || !accept(t)) {
+                continue;
+            }
+            if (expected.writers_count == 1) {
+                return t;
+            }
+            ref::FragmentVerdict verdict = values_.judge(t, id_of(index), values, part_of(t));
+            if (!best || (verdict.ok && !best_verdict->ok) ||
+                (verdict.ok == best_verdict->ok &&
+                 verdict.worst_ratio <= best_verdict->worst_ratio)) {
+                best = t;
+                best_verdict = std::move(verdict);
+            }
+        }
+        return best;
+    }
+
+    Writer writer_of(size_t index, const ref::FragmentValues& values) {
+        if (const auto t = best_writer(index, values, [](uint32_t) { return true; })) {
+            const ref::Triangle& triangle = expectation_.triangles[*t];
+            return {triangle.draw, triangle.primitive, triangle.provoking, kClearId};
+        }
+        if (planes_.draws.empty()) {
+            return {0, 0, 0, kClearId};  // no triangle may be here: the hits are told of
+        }
+        Writer writer{planes_.draws[index], planes_.primitives[index], 0, kClearId};
+        for (const ref::Triangle& t : expectation_.triangles) {
+            if (t.draw == writer.draw && t.primitive == writer.primitive) {
+                writer.provoking_vertex = t.provoking;
+            }
+        }
+        return writer;
+    }
+
+    ref::FragmentPart part_of(uint32_t t) const {
+        return case_.draws[expectation_.triangles[t].draw].depth.write
+                   ? ref::FragmentPart::all
+                   : ref::FragmentPart::all_but_depth;
+    }
+
+    const cases::Case& case_;
+    const ref::Expectation& expectation_;
+    const Delivered& planes_;
+    ref::ValueReference values_;
+    ref::ValueSelection selection_;
+    Capture out_;
+};
+
+Verdict compare_instruments(const cases::Case& c, const ref::Expectation& expectation,
+                            const Delivered& planes) {
+    const cases::Case plain = with_instruments(c);
+    const Capture capture = Completion(plain, expectation, planes).run();
+    return compare_selected(plain, expectation, capture, selection_of(planes));
+}
+
+Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,
+                      const std::vector<ColorCodes>& color) {
+    const cases::Case plain = with_color_only(c);
+    Capture capture;
+    capture.target = plain.target;
+    capture.attribute_count = cases::attributes_of(plain);
+    capture.color = color;
+    return compare(plain, expectation, capture);
+}
+
+// Adds what the colour showed to what the other planes did.
+void join(Verdict& to, const Verdict& from) {
+    const bool is_first = to.ok();
+    if (!from.ok()) {
+        to.min_x = is_first ? from.min_x : std::min(to.min_x, from.min_x);
+        to.min_y = is_first ? from.min_y : std::min(to.min_y, from.min_y);
+        to.max_x = is_first ? from.max_x : std::max(to.max_x, from.max_x);
+        to.max_y = is_first ? from.max_y : std::max(to.max_y, from.max_y);
+        to.level = is_first ? from.level : std::min(to.level, from.level);
+    }
+    for (size_t k = 0; k < to.counts.size(); ++k) {
+        to.counts.at(k) += from.counts.at(k);
+    }
+    for (const Finding& finding : from.findings) {
+        if (to.findings.size() < kMaxFindings) {
+            to.findings.push_back(finding);
+        }
+    }
+    for (size_t k = 0; k < std::min(to.marks.size(), from.marks.size()); ++k) {
+        to.marks[k] = std::max(to.marks[k], from.marks[k]);
+    }
+    to.compared_values += from.compared_values;
+    to.error = to.error.empty() ? from.error : to.error;
+}
+
+// The same planes of a picture in which nothing is drawn.
+Delivered cleared(const cases::Case& c, const Delivered& planes) {
+    Delivered out = planes;
+    std::fill(out.depth.begin(), out.depth.end(),
+              c.target.depth_format == cases::DepthFormat::d32_float
+                  ? c.target.depth_clear
+                  : nearest_depth(c.target.depth_clear, c.target.depth_format));
+    std::fill(out.frag_coord.begin(), out.frag_coord.end(), glm::vec4(kClearValue));
+    for (auto& attribute : out.attributes) {
+        std::fill(attribute.begin(), attribute.end(), glm::vec4(kClearValue));
+    }
+    if (!out.color.empty()) {
+        const ref::color::Unit unit{c.target.color->format, cases::Profile::direct3d};
+        std::fill(out.color.begin(), out.color.end(), unit.codes_of(unit.cleared(*c.target.color)));
+    }
+    return out;
+}
+
+Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation,
+                       const Delivered& planes) {
+    if (planes.color.empty()) {
+        return compare_instruments(c, expectation, planes);
+    }
+    Verdict color = compare_color(c, expectation, planes.color);
+    if (!has_instrument_planes(planes)) {
+        return color;
+    }
+    Verdict verdict = compare_instruments(c, expectation, planes);
+    join(verdict, color);
+    return verdict;
+}
+
+std::string names_of(const Delivered& planes) {
+    std::string names;
+    const auto add = [&names](bool is_there, const std::string& name) {
+        names += is_there ? (names.empty() ? "" : ", ") + name : "";
+    };
+    add(!planes.frag_coord.empty(), "fragcoord");
+    add(!planes.depth.empty(), "depth");
+    for (size_t a = 0; a < planes.attributes.size(); ++a) {
+        add(!planes.attributes.at(a).empty(), fmt::format("attribute{}", a));
+    }
+    add(!planes.color.empty(), "color");
+    return names;
+}
+
+}  // namespace
+
+bool Delivered::is_empty() const {
+    return detail == HitDetail::none && draws.empty() && frag_coord.empty() && depth.empty() &&
+           color.empty() &&
+           std::all_of(attributes.begin(), attributes.end(),
+                       [](const auto& plane) { return plane.empty(); });
+}
+
+std::vector<std::string> not_judged(const cases::Case& c, const Delivered& planes) {
+    std::vector<std::string> words;
+    const auto add = [&words](bool is_missing, const std::string& word) {
+        if (is_missing) {
+            words.push_back(word);
+        }
+    };
+    if (!c.blit) {
+        add(planes.detail == HitDetail::none || planes.detail == HitDetail::coverage,
+            "number of hits");
+        add(planes.detail != HitDetail::faces, "faces");
+        add(planes.draws.empty(), "writer");
+        add(planes.frag_coord.empty(), "FragCoord");
+        add(c.target.has_depth && planes.depth.empty(), "depth");
+        for (uint32_t a = 0; a < cases::attributes_of(c); ++a) {
+            add(planes.attributes.at(a).empty(), fmt::format("attribute {}", a));
+        }
+        add(c.target.color && planes.color.empty(), "color");
+        add(c.target.has_stencil, "stencil");
+        add(resolves_color(c.target), "resolved color");
+        add(resolves_depth(c.target), "resolved depth");
+        add(has_pixel_rules(c) && !selection_of(planes).is_all(), "number of invocations");
+    }
+    add(!c.relations.empty(), "relations");
+    return words;
+}
+
+Verdict compare_delivered(const cases::Case& c, const ref::Expectation& expectation,
+                          const Delivered& planes) {
+    Verdict verdict = compare_planes(c, expectation, planes);
+    // Coverage, hits and writers say themselves what is covered.
+    if (verdict.ok() && planes.detail == HitDetail::none && planes.draws.empty() &&
+        compare_planes(c, expectation, cleared(c, planes)).ok()) {
+        verdict.error = fmt::format(kEmptyPasses, names_of(planes));
+    }
+    return verdict;
+}
+
+}  // namespace diff

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Planes of renderers that deliver only some: what is there is judged, what is not is not, and a
+// picture without a triangle never passes.
+#include "diff/delivered.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "perfect_capture.hpp"
+
+namespace {
+
+using cases::Profile;
+using diff::Delivered;
+using diff::HitDetail;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// Two triangles that overlap, with depth and two attributes.
+cases::Case two_triangles() {
+    cases::Case c = pixel_case(8, 8, {{1, 1}, {7, 1}, {1, 7}, {2, 2}, {2, 7}, {7, 2}});
+    add_attribute(c, cases::Interpolation::smooth, {0, 6, 1, 3, 9, 5});
+    add_attribute(c, cases::Interpolation::flat, {1, 1, 1, 2, 2, 2});
+    c.draws[0].positions[1].z = 0.25F;
+    return c;
+}
+
+enum Plane : uint32_t {
+    kCoverage = 1,
+    kTotal = 2,
+    kFaces = 4,
+    kWriter = 8,
+    kFragCoord = 16,
+    kDepth = 32,
+    kAttribute0 = 64,
+    kAttribute1 = 128,
+    kEnd = 256
+};
+
+Delivered take(const diff::Capture& capture, uint32_t planes) {
+    Delivered out;
+    const uint32_t detail = planes & (kCoverage | kTotal | kFaces);
+    for (const glm::vec4& h : capture.hits) {
+        const auto front = static_cast<uint32_t>(h.x), back = static_cast<uint32_t>(h.y);
+        if (detail == kFaces) {
+            out.front.push_back(front);
+            out.back.push_back(back);
+        } else if (detail != 0) {
+            out.front.push_back(detail == kTotal ? front + back : front + back > 0);
+        }
+    }
+    out.detail = detail == kFaces      ? HitDetail::faces
+                 : detail == kTotal    ? HitDetail::total
+                 : detail == kCoverage ? HitDetail::coverage
+                                       : HitDetail::none;
+    for (const diff::Writer& w : capture.writers) {
+        if ((planes & kWriter) != 0) {
+            out.draws.push_back(w.draw);
+            out.primitives.push_back(w.primitive);
+        }
+    }
+    out.frag_coord = (planes & kFragCoord) != 0 ? capture.frag_coord : out.frag_coord;
+    out.depth = (planes & kDepth) != 0 ? capture.depth : out.depth;
+    out.attributes[0] =
+        (planes & kAttribute0) != 0 ? capture.attributes[0] : std::vector<glm::vec4>();
+    out.attributes[1] =
+        (planes & kAttribute1) != 0 ? capture.attributes[1] : std::vector<glm::vec4>();
+    return out;
+}
+
+bool is_possible(uint32_t planes) {
+    const uint32_t detail = planes & (kCoverage | kTotal | kFaces);
+    return planes != 0 && (detail & (detail - 1)) == 0;
+}
+
+struct Fixture {
+    cases::Case c = two_triangles();
+    ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+    diff::Capture right = perfect_capture(c, e);
+};
+
+TEST(Delivered, EverySubsetOfARightCapturePasses) {
+    const Fixture f;
+    for (uint32_t planes = 1; planes < kEnd; ++planes) {
+        if (is_possible(planes)) {
+            const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(f.right, planes));
+            EXPECT_TRUE(v.ok()) << planes << ' ' << v.error
+                                << (v.findings.empty() ? "" : v.findings[0].expected);
+        }
+    }
+}
+
+TEST(Delivered, EverySubsetOfAClearedCaptureFails) {
+    Fixture f;
+    for (size_t k = 0; k < f.right.sample_count(); ++k) {
+        clear_sample(f.right, k);
+    }
+    for (uint32_t planes = 1; planes < kEnd; ++planes) {
+        if (is_possible(planes)) {
+            const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(f.right, planes));
+            EXPECT_FALSE(v.ok()) << planes;
+            EXPECT_EQ(v.error, "") << planes;
+        }
+    }
+}
+
+TEST(Delivered, AWrongPlaneFailsWhereItIsDeliveredAndNowhereElse) {
+    const Fixture f;
+    const size_t at = 3 * 8 + 3;  // both triangles cover pixel (3, 3)
+    ASSERT_EQ(f.e.samples[at].hits.total_min, 2U);
+    const auto check = [&](uint32_t plane, uint32_t seen_by, auto damage, diff::FindingKind kind) {
+        diff::Capture wrong = f.right;
+        damage(wrong);
+        for (uint32_t planes = 1; planes < kEnd; ++planes) {
+            if (!is_possible(planes)) {
+                continue;
+            }
+            const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(wrong, planes));
+            EXPECT_EQ(v.ok(), (planes & seen_by) == 0) << plane << " of " << planes;
+            if (!v.ok()) {
+                ASSERT_EQ(v.findings.size(), 1U) << planes;
+                EXPECT_EQ(v.findings[0].kind, kind);
+                EXPECT_EQ((std::array{v.findings[0].x, v.findings[0].y}), (std::array{3U, 3U}));
+            }
+        }
+    };
+    check(
+        kTotal, kTotal | kFaces, [&](auto& w) { set_hits(w, at, 2, 1); },
+        diff::FindingKind::double_hit);
+    check(
+        kFaces, kFaces, [&](auto& w) { set_hits(w, at, 2, 0); }, diff::FindingKind::value);
+    check(
+        kDepth, kDepth, [&](auto& w) { w.depth[at] = 0.9F; }, diff::FindingKind::value);
+    check(
+        kAttribute0, kAttribute0, [&](auto& w) { w.attributes[0][at].x = 100; },
+        diff::FindingKind::value);
+    check(
+        kFragCoord, kFragCoord, [&](auto& w) { w.frag_coord[at].x = 9; }, diff::FindingKind::value);
+}
+
+// Flat values tell the triangles apart: the first one's are wrong, whether or not writers are
+// there.
+TEST(Delivered, ValuesHaveToBeOfOneTriangle) {
+    const Fixture f;
+    const size_t at = 3 * 8 + 3;
+    diff::Capture wrong = f.right;
+    ref::ValueReference values(f.c, f.e.limits, f.e.profile);
+    write_fragment(wrong, f.c, f.e, values, 0, {3, 3, 0});
+    wrong.writers[at] = f.right.writers[at];
+    for (const uint32_t planes :
+         {uint32_t{kAttribute1}, kAttribute0 | kWriter, kDepth | kCoverage}) {
+        const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(wrong, planes));
+        EXPECT_FALSE(v.ok()) << planes;
+    }
+}
+
+TEST(Delivered, WritersInAnotherOrderAreFound) {
+    Fixture f;
+    const size_t at = 3 * 8 + 3;
+    f.right.writers[at] = {0, 0, 0, diff::kClearId};
+    const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(f.right, kWriter));
+    ASSERT_EQ(v.findings.size(), 1U);
+    EXPECT_EQ(v.findings[0].rule, "order.primitive");
+    f.right.writers[at] = {7, 9, 0, diff::kClearId};  // no such triangle
+    EXPECT_EQ(diff::compare_delivered(f.c, f.e, take(f.right, kWriter)).findings.size(), 1U);
+}
+
+TEST(Delivered, AMissingPlaneIsNamed) {
+    const Fixture f;
+    EXPECT_THAT(diff::not_judged(f.c, take(f.right, kCoverage)),
+                ElementsAre("number of hits", "faces", "writer", "FragCoord", "depth",
+                            "attribute 0", "attribute 1"));
+    EXPECT_THAT(diff::not_judged(f.c, take(f.right, kTotal | kDepth | kAttribute1)),
+                ElementsAre("faces", "writer", "FragCoord", "attribute 0"));
+    EXPECT_THAT(diff::not_judged(f.c, take(f.right, kEnd - 1 - kCoverage - kTotal)), IsEmpty());
+    EXPECT_TRUE(Delivered{}.is_empty());
+    EXPECT_FALSE(take(f.right, kDepth).is_empty());
+}
+
+TEST(Delivered, DepthThatIsNotWrittenTellsNothing) {
+    Fixture f;
+    f.c.draws[0].depth.write = false;
+    f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
+    for (float& z : f.right.depth) {
+        z = f.c.target.depth_clear;
+    }
+    const diff::Verdict alone = diff::compare_delivered(f.c, f.e, take(f.right, kDepth));
+    EXPECT_EQ(alone.error,
+              "of the delivered planes (depth) a picture in which nothing is drawn would pass too; "
+              "deliver coverage or hits");
+    EXPECT_TRUE(diff::compare_delivered(f.c, f.e, take(f.right, kDepth | kCoverage)).ok());
+    f.right.depth[3 * 8 + 3] = 0.5F;
+    EXPECT_FALSE(diff::compare_delivered(f.c, f.e, take(f.right, kDepth | kCoverage)).ok());
+}
+
+TEST(Delivered, AnythingMayLieWhereNothingWasHit) {
+    Fixture f;
+    f.right.depth[0] = 0.9F;
+    f.right.attributes[0][0] = glm::vec4(0);
+    EXPECT_TRUE(
+        diff::compare_delivered(f.c, f.e, take(f.right, kCoverage | kDepth | kAttribute0)).ok());
+    // But alone the values say what was hit.
+    const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(f.right, kAttribute0));
+    ASSERT_EQ(v.findings.size(), 1U);
+    EXPECT_EQ(v.findings[0].kind, diff::FindingKind::extra);
+}
+
+TEST(Delivered, ContradictionsAreFound) {
+    Fixture f;
+    Delivered planes = take(f.right, kCoverage | kWriter);
+    planes.front[3 * 8 + 3] = 0;
+    const diff::Verdict v = diff::compare_delivered(f.c, f.e, planes);
+    ASSERT_EQ(v.findings.size(), 1U);
+    EXPECT_EQ(v.findings[0].rule, "write.consistent");
+}
+
+TEST(Delivered, ColourAloneIsJudged) {
+    Fixture f;
+    f.c.target.color = cases::ColorTarget{cases::ColorFormat::rgba8_unorm, {0, 0, 0, 0}};
+    f.c.draws[0].color.value = {1, 0, 0, 1};
+    f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
+    Delivered planes;
+    for (const auto& sample : f.e.samples) {
+        planes.color.push_back(sample.hits.total_min > 0 ? diff::ColorCodes{255, 0, 0, 255}
+                                                         : diff::ColorCodes{});
+    }
+    EXPECT_TRUE(diff::compare_delivered(f.c, f.e, planes).ok());
+    planes.color[3 * 8 + 3] = {254, 0, 0, 255};
+    EXPECT_EQ(diff::compare_delivered(f.c, f.e, planes).findings.size(), 1U);
+    planes.color.assign(64, {});
+    EXPECT_FALSE(diff::compare_delivered(f.c, f.e, planes).ok());
+    // A colour that is the clear colour tells nothing of what was drawn.
+    f.c.draws[0].color.value = {0, 0, 0, 0};
+    EXPECT_THAT(diff::compare_delivered(f.c, f.e, planes).error,
+                testing::HasSubstr("(color) a picture in which nothing is drawn would pass"));
+}
+
+}  // namespace
