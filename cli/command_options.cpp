@@ -45,6 +45,8 @@ const std::map<std::string, When> kWhenNames = {
 const std::map<std::string, ProgressStyle> kProgressNames = {{"auto", ProgressStyle::automatic},
                                                              {"plain", ProgressStyle::plain},
                                                              {"none", ProgressStyle::none}};
+const std::map<std::string, Ci> kCiNames = {
+    {"auto", Ci::automatic}, {"github", Ci::github}, {"gitlab", Ci::gitlab}, {"none", Ci::none}};
 const std::map<std::string, KeepPictures> kCaptureNames = {
     {"failed", KeepPictures::failed}, {"all", KeepPictures::all}, {"none", KeepPictures::none}};
 
@@ -161,6 +163,10 @@ void add_report_files(CLI::App* app, std::string& json, std::string& junit, std:
     }
 }
 
+void add_ci(CLI::App* app, Ci& ci) {
+    add_choice(app, "--ci", ci, kCiNames, "what continuous integration is told")->group("Output");
+}
+
 void define_run(CLI::App& app, RunOptions& o) {
     CLI::App* run =
         app.add_subcommand("run", "draw cases on a device and compare with the exact reference");
@@ -227,6 +233,7 @@ void define_run(CLI::App& app, RunOptions& o) {
                "of which cases the reports keep pictures")
         ->group("Output");
     add_terminal(run, o.quiet, o.verbose, o.color);
+    add_ci(run, o.ci);
     add_choice(run, "--progress", o.progress, kProgressNames, "how progress is shown")
         ->group("Output");
 }
@@ -277,9 +284,17 @@ void define_others(CLI::App& app, AllOptions& all) {
 
     CLI::App* report =
         app.add_subcommand("report", "rebuild the reports of a run from its journal");
-    report->add_option("DIR", all.report.directory, "the folder of the run")
+    report->add_option("DIR", all.report.directories, "the folder of the run")
         ->required()
         ->type_name("");
+    report->add_flag("--merge", all.report.merge,
+                     "several folders, the shards of one run, become one");
+    report
+        ->add_option("-o,--output", all.report.output,
+                     "where the reports go [DIR, with --merge out/merged]")
+        ->type_name("DIR")
+        ->group("Output");
+    add_ci(report, all.report.ci);
     add_report_files(report, all.report.json, all.report.junit, all.report.html);
     add_terminal(report, all.report.quiet, all.report.verbose, all.report.color);
 

@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <exception>
 #include <span>
 
@@ -63,6 +65,12 @@ std::string_view raw(std::span<const T> v) {
 
 }  // namespace
 
+std::string hex(uint64_t number) {
+    std::array<char, 20> text{};
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(number));
+    return text.data();
+}
+
 CaseRecord make_record(const cases::Case& c) {
     CaseRecord record;
     record.id = c.id;
@@ -87,6 +95,9 @@ void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& ca
                         : verdict.ok()         ? Status::pass
                                                : Status::fail;
         record.reason = verdict.error;
+        if (!capture.hits.empty()) {
+            record.hit_bits = hex(checksum(FrameType::result, raw(capture.hits)));
+        }
         record.findings = verdict.findings;
         record.counts = verdict.counts;
         record.level = verdict.level;

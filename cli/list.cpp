@@ -104,9 +104,13 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
         const auto file = load_expectations(entry.path());
         if (!file) {
             errors.insert(errors.end(), file.error().begin(), file.error().end());
-        } else if (const auto resolved = resolve_expectations({*file}, ids, true); !resolved) {
+            continue;
+        }
+        if (const auto resolved = resolve_expectations({*file}, ids, true); !resolved) {
             errors.insert(errors.end(), resolved.error().begin(), resolved.error().end());
         }
+        const cases::Errors past = past_lines(*file);
+        errors.insert(errors.end(), past.begin(), past.end());
     }
     return errors;
 }

@@ -17,6 +17,7 @@ namespace cli {
 
 enum class When { automatic, always, never };
 enum class ProgressStyle { automatic, plain, none };
+enum class Ci { automatic, github, gitlab, none };
 
 // What commands that look at cases have in common.
 struct SuiteOptions {
@@ -57,6 +58,7 @@ struct RunOptions {
     bool quiet = false, verbose = false;
     When color = When::automatic;
     ProgressStyle progress = ProgressStyle::automatic;
+    Ci ci = Ci::automatic;
 };
 
 struct ListOptions {
@@ -97,7 +99,10 @@ struct BenchOptions {
 };
 
 struct ReportOptions {
-    std::string directory;
+    std::vector<std::string> directories;  // one, several with --merge
+    bool merge = false;
+    std::string output;
+    Ci ci = Ci::automatic;
     std::string json, junit, html;
     bool quiet = false, verbose = false;
     When color = When::automatic;
