@@ -36,6 +36,59 @@ constexpr const char* kFooter =
     "    7  internal error, or cases were not run or could not be judged\n"
     "  130  interrupted; the reports hold what was done\n";
 
+// What the help of a command ends with.
+struct Examples {
+    const char* command;
+    const char* text;
+};
+constexpr Examples kExamples[] = {
+    {"list",
+     "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
+     "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
+    {"lint", "  edgecase lint my-case.toml                is a file of your own well formed\n"},
+    {"explain",
+     "  edgecase explain 'ties/diagonal-edge:rotation=0' --pixel 3,4\n"
+     "  edgecase explain --rule tie.top-left      what a rule demands\n"},
+    {"render", "  edgecase render my-case.toml -o reference.png\n"},
+    {"doctor", "  edgecase doctor --icd my_icd.json         is my driver found and usable\n"},
+    {"report",
+     "  edgecase report out/mine                  write the reports of a run again\n"
+     "  edgecase report --merge out/shard-* -o out/all\n"},
+    {"expect",
+     "  edgecase expect cases/expectations/llvmpipe.txt\n"
+     "  edgecase expect --update out/mine my-driver.txt --bug mesa#1234\n"},
+    {"compare",
+     "  edgecase compare out/before out/after     regressions and fixes\n"
+     "  edgecase compare out/lavapipe out/swiftshader -v --json differences.json\n"},
+    {"bench", "  edgecase bench 'coverage/**' --runs 5\n"},
+    {"completion",
+     "  source <(edgecase completion bash)\n"
+     "  edgecase completion fish > ~/.config/fish/completions/edgecase.fish\n"},
+    {"man", "  edgecase man | man -l -\n"},
+};
+
+// Commands in the groups of 'edgecase --help'.
+struct Group {
+    const char* command;
+    const char* name;
+};
+constexpr Group kGroups[] = {
+    {"run", "Checking a device"},
+    {"report", "Checking a device"},
+    {"compare", "Checking a device"},
+    {"expect", "Checking a device"},
+    {"list", "Cases"},
+    {"lint", "Cases"},
+    {"explain", "Cases"},
+    {"render", "Cases"},
+};
+
+const std::map<std::string, std::string>& shell_names() {
+    static const std::map<std::string, std::string> kNames = {
+        {"bash", "bash"}, {"fish", "fish"}, {"zsh", "zsh"}};
+    return kNames;
+}
+
 const std::map<std::string, cases::Profile> kProfileNames = {
     {"vulkan", cases::Profile::vulkan},
     {"practice", cases::Profile::practice},
@@ -93,7 +146,8 @@ CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
             initial = word;
         }
     }
-    return app->add_option(name, parse, what + " [" + initial + "]")->type_name(shown);
+    return app->add_option(name, parse, initial.empty() ? what : what + " [" + initial + "]")
+        ->type_name(shown);
 }
 
 bool parse_number(std::string_view text, uint32_t& value) {
@@ -257,11 +311,12 @@ void define_others(CLI::App& app, AllOptions& all) {
         ->add_option(
             "--pixel",
             [&all](const CLI::results_t& results) {
+                all.explain.has_pixel = true;
                 return parse_pair(results.back(), ',', all.explain.x, all.explain.y);
             },
             "the pixel")
-        ->type_name("X,Y")
-        ->required();
+        ->type_name("X,Y");
+    explain->add_option("--rule", all.explain.rule, "explain a rule instead")->type_name("ID");
     explain->add_option("--sample", all.explain.sample, "the sample in it [0]")->type_name("S");
     add_profile(explain, all.explain.profile);
     add_subpixel_bits(explain, all.explain.subpixel_bits);
@@ -298,6 +353,37 @@ void define_others(CLI::App& app, AllOptions& all) {
     add_report_files(report, all.report.json, all.report.junit, all.report.html);
     add_terminal(report, all.report.quiet, all.report.verbose, all.report.color);
 
+    CLI::App* expect =
+        app.add_subcommand("expect", "check an expectation file, or bring it up to date");
+    expect->add_option("FILE", all.expect.file, "the expectation file")->required()->type_name("");
+    expect->add_option("--update", all.expect.update, "write what a run has seen into the file")
+        ->type_name("DIR");
+    expect->add_option("--bug", all.expect.bug, "reference to a bug, for new lines")
+        ->type_name("WORD");
+    expect->add_option("--reason", all.expect.reason, "reason of new lines [what the run says]")
+        ->type_name("TEXT");
+    expect
+        ->add_option("--until", all.expect.until,
+                     "last day of new lines and of lines that ended and are still true")
+        ->type_name("DATE");
+    expect->add_flag("--dry-run", all.expect.dry_run, "show what would change, write nothing");
+    expect
+        ->add_option("--suite", all.expect.suite.suite, "the folder of the suite [that of the run]")
+        ->type_name("DIR");
+
+    CLI::App* compare = app.add_subcommand("compare", "set runs side by side");
+    compare
+        ->add_option("DIR", all.compare.directories, "the folders of runs, the first is the base")
+        ->required()
+        ->type_name("");
+    compare
+        ->add_option("--json", all.compare.json,
+                     "write the comparison to FILE ('-': standard output)")
+        ->type_name("FILE");
+    compare->add_flag("-v,--verbose", all.compare.verbose,
+                      "list every difference, draw where kept pictures differ");
+    add_choice(compare, "--color", all.compare.color, kWhenNames, "colours");
+
     CLI::App* bench = app.add_subcommand("bench", "what checking costs beside drawing");
     add_suite(bench, all.bench.suite);
     add_device(bench, all.bench.device);
@@ -307,6 +393,10 @@ void define_others(CLI::App& app, AllOptions& all) {
     bench->add_flag("--json", all.bench.json, "as JSON");
     bench->add_flag("--bare", all.bench.bare, "")->group("");
 
+    CLI::App* completion =
+        app.add_subcommand("completion", "print the completion script of a shell");
+    add_choice(completion, "SHELL", all.shell, shell_names(), "the shell")->required();
+    app.add_subcommand("man", "print the manual page");
     app.add_subcommand("version", "print the version");
 }
 
@@ -322,6 +412,17 @@ void define(CLI::App& app, AllOptions& all) {
     define_others(app, all);
     for (CLI::App* command : app.get_subcommands({})) {
         command->set_help_flag("-h,--help", "this help");
+        for (const Examples& e : kExamples) {
+            if (command->get_name() == e.command) {
+                command->footer(std::string("Examples:\n") + e.text);
+            }
+        }
+        command->group("The program");
+        for (const Group& g : kGroups) {
+            if (command->get_name() == g.command) {
+                command->group(g.name);
+            }
+        }
         command->allow_extras();  // so that unknown options get our own words
     }
 }

@@ -73,9 +73,26 @@ struct LintOptions {
 
 struct ExplainOptions {
     SuiteOptions suite;  // exactly one selector, one case
+    std::string rule;    // or a rule, and no case
+    bool has_pixel = false;
     uint32_t x = 0, y = 0, sample = 0;
     cases::Profile profile = cases::Profile::direct3d;
     uint32_t subpixel_bits = 8;
+};
+
+struct ExpectOptions {
+    SuiteOptions suite;
+    std::string file;
+    std::string update;  // the folder of a run
+    std::string bug, reason, until;
+    bool dry_run = false;
+};
+
+struct CompareOptions {
+    std::vector<std::string> directories;
+    std::string json;
+    bool verbose = false;
+    When color = When::automatic;
 };
 
 struct RenderOptions {

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands "report" and "version".
+// The commands "report", "completion", "man" and "version".
 #include <cstdio>
 #include <filesystem>
 
 #include "cli/ci.hpp"
+#include "cli/command_table.hpp"
 #include "cli/commands.hpp"
 #include "cli/outputs.hpp"
 #include "cli/suite.hpp"
@@ -152,6 +153,20 @@ int report_command(const Program&, const ReportOptions& options) {
         return report::kExitInternal;
     }
     return options.merge ? report::exit_code(run) : report::kExitOk;
+}
+
+int completion_command(const std::string& shell) {
+    const CommandTable table = command_table();
+    const std::string text = shell == "bash"  ? bash_completion(table)
+                             : shell == "zsh" ? zsh_completion(table)
+                                              : fish_completion(table);
+    std::fputs(text.c_str(), stdout);
+    return report::kExitOk;
+}
+
+int man_command() {
+    std::fputs(manual_page(command_table(), kVersion).c_str(), stdout);
+    return report::kExitOk;
 }
 
 int version_command() {

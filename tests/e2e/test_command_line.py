@@ -7,7 +7,7 @@ import unittest
 
 from support import SOURCE, ProgramTest
 
-COMMANDS = ["run", "list", "lint", "explain", "render", "doctor", "bench", "report", "version"]
+COMMANDS = ["run", "list", "lint", "explain", "render", "doctor", "bench", "report", "compare", "expect", "completion", "man", "version"]
 
 
 class Usage(ProgramTest):
