@@ -116,6 +116,17 @@ OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o) {
     return std::monostate{};
 }
 
+OrStop<std::monostate> check_explain(const ExplainOptions& o) {
+    if (o.rule.empty() && !o.has_pixel) {
+        return tl::unexpected(usage_error("--pixel is required", "explain"));
+    }
+    if (!o.rule.empty() && (o.has_pixel || !o.suite.selectors.empty())) {
+        return tl::unexpected(usage_error(
+            "--rule explains a rule, not a case; leave out the selector and --pixel", "explain"));
+    }
+    return std::monostate{};
+}
+
 // Parses everything; the chosen command's name, "" for none, or why not. Help is printed here.
 OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::string> words) {
     define(app, all);
@@ -149,6 +160,11 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
     CLI::App* command = app.get_subcommand(first);
     if (!command->remaining().empty()) {
         return tl::unexpected(unknown_words(*command));
+    }
+    if (first == "explain") {
+        if (const auto checked = check_explain(all.explain); !checked) {
+            return tl::unexpected(checked.error());
+        }
     }
     if (first == "run") {
         if (const auto checked = check_run(*command, all.run); !checked) {
@@ -203,6 +219,10 @@ int edgecase_main(int argc, const char* const* argv) {
         {"doctor", [&] { return doctor_command(program, all.doctor); }},
         {"bench", [&] { return bench_command(program, all.bench); }},
         {"report", [&] { return report_command(program, all.report); }},
+        {"expect", [&] { return expect_command(program, all.expect); }},
+        {"compare", [&] { return compare_command(program, all.compare); }},
+        {"completion", [&] { return completion_command(all.shell); }},
+        {"man", [] { return man_command(); }},
         {"version", [] { return version_command(); }},
         {"help", [] { return 0; }},
     };

@@ -36,27 +36,76 @@ constexpr const char* kFooter =
     "    7  internal error, or cases were not run or could not be judged\n"
     "  130  interrupted; the reports hold what was done\n";
 
-constexpr const char* kExportFooter =
-    "Examples:\n"
-    "  edgecase export 'ties/**' -o cases                     what a renderer elsewhere has to "
-    "draw\n"
-    "  my-renderer cases captures                             yours: draws them, writes planes\n"
-    "  edgecase diff 'ties/**' --captures captures            judges what it has drawn\n"
-    "\n"
-    "docs/other-renderers.md tells it step by step; docs/schema/case-1.json is the format.\n";
-constexpr const char* kDiffFooter =
-    "Examples:\n"
-    "  edgecase diff --captures captures                      every case of the suite\n"
-    "  edgecase diff 'ties/**' --captures captures -o out/me  one family, reports in out/me\n"
-    "  edgecase diff --captures captures --subpixel-bits 4    of a renderer that snaps to 1/16\n"
-    "\n"
-    "A case whose folder holds no plane is 'not run' (exit 7); with a file unsupported.txt, whose\n"
-    "first line says why, it is 'unsupported'. Planes that are missing are not judged.\n";
-constexpr const char* kRenderFooter =
-    "Examples:\n"
-    "  edgecase render ties/diagonal -o picture.png                    what is allowed\n"
-    "  edgecase render ties/diagonal -o picture.png --renderer tiles   what an algorithm draws\n"
-    "  edgecase render 'blit/mirror:*x=1*' -o blit.png                 what a blit must leave\n";
+// What the help of a command ends with.
+struct Examples {
+    const char* command;
+    const char* text;
+};
+constexpr Examples kExamples[] = {
+    {"list",
+     "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
+     "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
+    {"lint", "  edgecase lint my-case.toml                is a file of your own well formed\n"},
+    {"explain",
+     "  edgecase explain 'ties/diagonal-edge:rotation=0' --pixel 3,4\n"
+     "  edgecase explain --rule tie.top-left      what a rule demands\n"},
+    {"render",
+     "  edgecase render ties/diagonal -o picture.png                    what is allowed\n"
+     "  edgecase render ties/diagonal -o picture.png --renderer tiles   what an algorithm draws\n"
+     "  edgecase render 'blit/mirror:*x=1*' -o blit.png                 what a blit must leave\n"},
+    {"export",
+     "  edgecase export 'ties/**' -o cases               what a renderer elsewhere has to draw\n"
+     "  my-renderer cases captures                       yours: draws them, writes planes\n"
+     "  edgecase diff 'ties/**' --captures captures      judges what it has drawn\n"
+     "\n"
+     "docs/other-renderers.md tells it step by step; docs/schema/case-1.json is the format.\n"},
+    {"diff",
+     "  edgecase diff --captures captures                      every case of the suite\n"
+     "  edgecase diff 'ties/**' --captures captures -o out/me  one family, reports in out/me\n"
+     "  edgecase diff --captures captures --subpixel-bits 4    of a renderer that snaps to 1/16\n"
+     "\n"
+     "A case whose folder holds no plane is 'not run' (exit 7); with a file unsupported.txt, whose\n"
+     "first line says why, it is 'unsupported'. Planes that are missing are not judged.\n"},
+    {"doctor", "  edgecase doctor --icd my_icd.json         is my driver found and usable\n"},
+    {"report",
+     "  edgecase report out/mine                  write the reports of a run again\n"
+     "  edgecase report --merge out/shard-* -o out/all\n"},
+    {"expect",
+     "  edgecase expect cases/expectations/llvmpipe.txt\n"
+     "  edgecase expect --update out/mine my-driver.txt --bug mesa#1234\n"},
+    {"compare",
+     "  edgecase compare out/before out/after     regressions and fixes\n"
+     "  edgecase compare out/lavapipe out/swiftshader -v --json differences.json\n"},
+    {"bench", "  edgecase bench 'coverage/**' --runs 5\n"},
+    {"completion",
+     "  source <(edgecase completion bash)\n"
+     "  edgecase completion fish > ~/.config/fish/completions/edgecase.fish\n"},
+    {"man", "  edgecase man | man -l -\n"},
+};
+
+// Commands in the groups of 'edgecase --help'.
+struct Group {
+    const char* command;
+    const char* name;
+};
+constexpr Group kGroups[] = {
+    {"run", "Checking a device"},
+    {"report", "Checking a device"},
+    {"compare", "Checking a device"},
+    {"expect", "Checking a device"},
+    {"list", "Cases"},
+    {"lint", "Cases"},
+    {"explain", "Cases"},
+    {"render", "Cases"},
+    {"export", "Renderers elsewhere"},
+    {"diff", "Renderers elsewhere"},
+};
+
+const std::map<std::string, std::string>& shell_names() {
+    static const std::map<std::string, std::string> kNames = {
+        {"bash", "bash"}, {"fish", "fish"}, {"zsh", "zsh"}};
+    return kNames;
+}
 
 const std::map<std::string, cases::Profile> kProfileNames = {
     {"vulkan", cases::Profile::vulkan},
@@ -67,6 +116,8 @@ const std::map<std::string, When> kWhenNames = {
 const std::map<std::string, ProgressStyle> kProgressNames = {{"auto", ProgressStyle::automatic},
                                                              {"plain", ProgressStyle::plain},
                                                              {"none", ProgressStyle::none}};
+const std::map<std::string, Ci> kCiNames = {
+    {"auto", Ci::automatic}, {"github", Ci::github}, {"gitlab", Ci::gitlab}, {"none", Ci::none}};
 const std::map<std::string, KeepPictures> kCaptureNames = {
     {"failed", KeepPictures::failed}, {"all", KeepPictures::all}, {"none", KeepPictures::none}};
 
@@ -124,7 +175,8 @@ CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
             initial = word;
         }
     }
-    return app->add_option(name, parse, what + " [" + initial + "]")->type_name(shown);
+    return app->add_option(name, parse, initial.empty() ? what : what + " [" + initial + "]")
+        ->type_name(shown);
 }
 
 bool parse_number(std::string_view text, uint32_t& value) {
@@ -194,6 +246,10 @@ void add_report_files(CLI::App* app, std::string& json, std::string& junit, std:
     }
 }
 
+void add_ci(CLI::App* app, Ci& ci) {
+    add_choice(app, "--ci", ci, kCiNames, "what continuous integration is told")->group("Output");
+}
+
 void define_run(CLI::App& app, RunOptions& o) {
     CLI::App* run =
         app.add_subcommand("run", "draw cases on a device and compare with the exact reference");
@@ -260,6 +316,7 @@ void define_run(CLI::App& app, RunOptions& o) {
                "of which cases the reports keep pictures")
         ->group("Output");
     add_terminal(run, o.quiet, o.verbose, o.color);
+    add_ci(run, o.ci);
     add_choice(run, "--progress", o.progress, kProgressNames, "how progress is shown")
         ->group("Output");
 }
@@ -267,14 +324,12 @@ void define_run(CLI::App& app, RunOptions& o) {
 // Rendering by others: what they get, and how it is judged.
 void define_images(CLI::App& app, AllOptions& all) {
     CLI::App* out = app.add_subcommand("export", "write cases as JSON that any program can draw");
-    out->footer(kExportFooter);
     add_suite(out, all.export_cases.suite);
     out->add_option("-o,--output", all.export_cases.output, "where the files go")
         ->type_name("DIR")
         ->required();
 
     CLI::App* in = app.add_subcommand("diff", "judge what another program drew of exported cases");
-    in->footer(kDiffFooter);
     RunOptions& o = all.diff.run;
     add_suite(in, o.suite);
     in->add_option("--captures", all.diff.captures, "the folder with what was drawn")
@@ -324,11 +379,12 @@ void define_others(CLI::App& app, AllOptions& all) {
         ->add_option(
             "--pixel",
             [&all](const CLI::results_t& results) {
+                all.explain.has_pixel = true;
                 return parse_pair(results.back(), ',', all.explain.x, all.explain.y);
             },
             "the pixel")
-        ->type_name("X,Y")
-        ->required();
+        ->type_name("X,Y");
+    explain->add_option("--rule", all.explain.rule, "explain a rule instead")->type_name("ID");
     explain->add_option("--sample", all.explain.sample, "the sample in it [0]")->type_name("S");
     explain->add_option("--layer", all.explain.layer, "the layer of the target [0]")
         ->type_name("L");
@@ -348,7 +404,6 @@ void define_others(CLI::App& app, AllOptions& all) {
     add_choice(render, "--renderer", all.render.renderer, drawing_names(),
                "what draws: an algorithm of docs/algorithms.md or the reference; allowed: no "
                "drawing, but what the reference allows");
-    render->footer(kRenderFooter);
     define_images(app, all);
 
     CLI::App* doctor =
@@ -358,11 +413,50 @@ void define_others(CLI::App& app, AllOptions& all) {
 
     CLI::App* report =
         app.add_subcommand("report", "rebuild the reports of a run from its journal");
-    report->add_option("DIR", all.report.directory, "the folder of the run")
+    report->add_option("DIR", all.report.directories, "the folder of the run")
         ->required()
         ->type_name("");
+    report->add_flag("--merge", all.report.merge,
+                     "several folders, the shards of one run, become one");
+    report
+        ->add_option("-o,--output", all.report.output,
+                     "where the reports go [DIR, with --merge out/merged]")
+        ->type_name("DIR")
+        ->group("Output");
+    add_ci(report, all.report.ci);
     add_report_files(report, all.report.json, all.report.junit, all.report.html);
     add_terminal(report, all.report.quiet, all.report.verbose, all.report.color);
+
+    CLI::App* expect =
+        app.add_subcommand("expect", "check an expectation file, or bring it up to date");
+    expect->add_option("FILE", all.expect.file, "the expectation file")->required()->type_name("");
+    expect->add_option("--update", all.expect.update, "write what a run has seen into the file")
+        ->type_name("DIR");
+    expect->add_option("--bug", all.expect.bug, "reference to a bug, for new lines")
+        ->type_name("WORD");
+    expect->add_option("--reason", all.expect.reason, "reason of new lines [what the run says]")
+        ->type_name("TEXT");
+    expect
+        ->add_option("--until", all.expect.until,
+                     "last day of new lines and of lines that ended and are still true")
+        ->type_name("DATE");
+    expect->add_flag("--dry-run", all.expect.dry_run, "show what would change, write nothing");
+    expect
+        ->add_option("--suite", all.expect.suite.suite, "the folder of the suite [that of the run]")
+        ->type_name("DIR");
+
+    CLI::App* compare = app.add_subcommand("compare", "set runs side by side");
+    compare
+        ->add_option("DIR", all.compare.directories, "the folders of runs, the first is the base")
+        ->required()
+        ->type_name("");
+    compare
+        ->add_option("--json", all.compare.json,
+                     "write the comparison to FILE ('-': standard output)")
+        ->type_name("FILE");
+    compare->add_flag("-v,--verbose", all.compare.verbose,
+                      "list every difference, draw where kept pictures differ");
+    add_choice(compare, "--color", all.compare.color, kWhenNames, "colours");
 
     CLI::App* bench = app.add_subcommand("bench", "what checking costs beside drawing");
     add_suite(bench, all.bench.suite);
@@ -373,6 +467,10 @@ void define_others(CLI::App& app, AllOptions& all) {
     bench->add_flag("--json", all.bench.json, "as JSON");
     bench->add_flag("--bare", all.bench.bare, "")->group("");
 
+    CLI::App* completion =
+        app.add_subcommand("completion", "print the completion script of a shell");
+    add_choice(completion, "SHELL", all.shell, shell_names(), "the shell")->required();
+    app.add_subcommand("man", "print the manual page");
     app.add_subcommand("version", "print the version");
 }
 
@@ -388,6 +486,17 @@ void define(CLI::App& app, AllOptions& all) {
     define_others(app, all);
     for (CLI::App* command : app.get_subcommands({})) {
         command->set_help_flag("-h,--help", "this help");
+        for (const Examples& e : kExamples) {
+            if (command->get_name() == e.command) {
+                command->footer(std::string("Examples:\n") + e.text);
+            }
+        }
+        command->group("The program");
+        for (const Group& g : kGroups) {
+            if (command->get_name() == g.command) {
+                command->group(g.name);
+            }
+        }
         command->allow_extras();  // so that unknown options get our own words
     }
 }

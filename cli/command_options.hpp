@@ -21,6 +21,9 @@ struct AllOptions {
     DoctorOptions doctor;
     BenchOptions bench;
     ReportOptions report;
+    ExpectOptions expect;
+    CompareOptions compare;
+    std::string shell;  // of completion
     bool version = false;
 };
 

@@ -19,6 +19,10 @@ int diff_command(const Program& program, const DiffOptions& options);
 int doctor_command(const Program& program, const DoctorOptions& options);
 int bench_command(const Program& program, const BenchOptions& options);
 int report_command(const Program& program, const ReportOptions& options);
+int expect_command(const Program& program, const ExpectOptions& options);
+int compare_command(const Program& program, const CompareOptions& options);
+int completion_command(const std::string& shell);
+int man_command();
 int version_command();
 
 // Parses the command line and carries it out.

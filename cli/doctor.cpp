@@ -15,6 +15,7 @@
 #include "cli/commands.hpp"
 #include "cli/device_answer.hpp"
 #include "cli/run_plan.hpp"
+#include "cli/suite.hpp"
 #include "report/reports.hpp"
 
 namespace cli {
@@ -117,7 +118,51 @@ std::vector<Manifest> find_manifests(const std::string& icd, std::string& chosen
     return manifests;
 }
 
+// Something that a command needs beside a driver.
+struct Part {
+    std::string name, use, found, advice;  // found: where it is, empty if missing
+};
+
+// The first of the folders that holds the file.
+std::string find_file(const std::vector<fs::path>& folders, const std::string& name) {
+    std::error_code none;
+    for (const fs::path& folder : folders) {
+        if (fs::exists(folder / name, none)) {
+            return (folder / name).string();
+        }
+    }
+    return {};
+}
+
+std::vector<Part> find_parts(const Program& program) {
+    std::vector<fs::path> layers;
+    std::istringstream list(value_of("VK_LAYER_PATH"));
+    for (std::string item; std::getline(list, item, ':');) {
+        layers.emplace_back(item);
+    }
+    const std::string data = value_of("XDG_DATA_DIRS");
+    std::istringstream dirs(data.empty() ? "/usr/local/share:/usr/share" : data);
+    for (std::string item; std::getline(dirs, item, ':');) {
+        layers.push_back(fs::path(item) / "vulkan/explicit_layer.d");
+    }
+    layers.insert(layers.end(), {"/etc/vulkan/explicit_layer.d",
+                                 value_of("HOME") + "/.local/share/vulkan/explicit_layer.d"});
+    const fs::path folder = fs::path(program.path).parent_path();
+    std::vector<Part> parts = {
+        {"validation layer", "'--validation'", find_file(layers, "VkLayer_khronos_validation.json"),
+         "sudo apt install vulkan-validationlayers"},
+        {"image files", "EXR and PNG files",
+         find_file({folder / "../lib", folder}, "edgecase-image-io.so"),
+         "sudo apt install libopenimageio-dev && scripts/build release"}};
+    const OrStop<fs::path> suite = find_suite_root(program, "");
+    parts.push_back({"suite", "'edgecase run' without a selector", suite ? suite->string() : "",
+                     "name its folder with --suite or EDGECASE_SUITE"});
+    return parts;
+}
+
 struct Diagnosis {
+    std::vector<Part> parts;
+
     std::string chosen_by;
     std::vector<Manifest> manifests;
     std::vector<vk_harness::DeviceInfo> devices;
@@ -191,9 +236,16 @@ Json to_json(const Diagnosis& d, bool usable) {
                            {"has_primitive_id", r.has_primitive_id},
                            {"missing", device.missing}});
     }
-    return {{"usable", usable},       {"manifests_chosen_by", d.chosen_by},
-            {"manifests", manifests}, {"devices", devices},
-            {"problems", d.problems}, {"advice", d.advice}};
+    Json parts = Json::array();
+    for (const Part& part : d.parts) {
+        parts.push_back({{"name", part.name},
+                         {"use", part.use},
+                         {"found", part.found},
+                         {"advice", part.found.empty() ? part.advice : ""}});
+    }
+    return {{"parts", parts},         {"usable", usable},   {"manifests_chosen_by", d.chosen_by},
+            {"manifests", manifests}, {"devices", devices}, {"problems", d.problems},
+            {"advice", d.advice}};
 }
 
 void print(const Diagnosis& d, bool usable) {
@@ -226,6 +278,14 @@ void print(const Diagnosis& d, bool usable) {
     if (d.devices.empty()) {
         line("  none");
     }
+    line("Parts");
+    for (const Part& part : d.parts) {
+        line("  " + part.name + ", for " + part.use + ": " +
+             (part.found.empty() ? "missing" : part.found));
+        if (part.found.empty()) {
+            line("     try: " + part.advice);
+        }
+    }
     for (const std::string& problem : d.problems) {
         line("problem: " + problem);
     }
@@ -239,6 +299,7 @@ void print(const Diagnosis& d, bool usable) {
 
 int doctor_command(const Program& program, const DoctorOptions& options) {
     Diagnosis d;
+    d.parts = find_parts(program);
     d.manifests = find_manifests(options.device.icd, d.chosen_by);
     for (const Manifest& m : d.manifests) {
         if (!m.problem.empty()) {

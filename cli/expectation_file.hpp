@@ -28,7 +28,8 @@ struct ExpectationLine {
     std::string glob;
     report::Status status = report::Status::fail;
     std::string bug;
-    std::string until;  // YYYY-MM-DD or empty
+    std::string until;     // YYYY-MM-DD or empty
+    bool is_past = false;  // until is
     std::string note;
     cases::SourceLocation where;
 };
@@ -42,7 +43,7 @@ struct ExpectationFile {
     std::vector<ExpectationLine> lines;
 };
 
-// Parses a file's text. `today` (YYYY-MM-DD, UTC) decides whether an until= is past.
+// Parses a file's text. `today` (YYYY-MM-DD, UTC) decides whether an until= is past (no error).
 cases::ExpectedAll<ExpectationFile> parse_expectations(std::string_view text,
                                                        const std::filesystem::path& path,
                                                        const std::string& today);
@@ -63,8 +64,14 @@ cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
     const std::vector<ExpectationFile>& files, const std::vector<std::string>& ids,
     bool whole_suite);
 
-// What a case counts as, given what was expected of it (nothing: unchanged).
-report::Status judge_expected(report::Status actual, std::optional<report::Status> expected);
+// What a case counts as, given what was expected of it (nothing: unchanged). An expectation whose
+// date is past excuses nothing, and is news even if the case passes.
+report::Status judge_expected(report::Status actual, std::optional<report::Status> expected,
+                              bool is_past = false);
+// One error for each line whose date is past.
+cases::Errors past_lines(const ExpectationFile& file);
+// True for a day of the calendar, YYYY-MM-DD.
+bool is_date(std::string_view s);
 
 // Today in UTC, YYYY-MM-DD.
 std::string today_utc();

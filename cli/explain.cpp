@@ -9,7 +9,9 @@
 #include "cases/rule.hpp"
 #include "diff/verdict.hpp"
 #include "ref/blit.hpp"
+#include "ref/expectation.hpp"
 #include "ref/explain.hpp"
+#include "report/wrap.hpp"
 
 namespace cli {
 
@@ -81,7 +83,91 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
     return t.depth ? text + fmt::format("        {}\n", t.depth_text) : text;
 }
 
+// The sample's surroundings, one character a pixel (its sample of the same number): what each must
+// be, with the sample in brackets.
+std::string drawing(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
+                    ref::SampleId sample) {
+    constexpr uint32_t kRadius = 6;  // pixels
+    constexpr uint64_t kMaxPixels = uint64_t{1} << 20;
+    if (uint64_t{c.target.width} * c.target.height > kMaxPixels) {
+        return {};
+    }
+    const ref::Expectation expectation = ref::expect(c, limits, profile);
+    const auto begin = [](uint32_t at) { return at > kRadius ? at - kRadius : 0; };
+    const uint32_t left = begin(sample.x), top = begin(sample.y);
+    const uint32_t right = std::min(sample.x + kRadius, c.target.width - 1);
+    const uint32_t bottom = std::min(sample.y + kRadius, c.target.height - 1);
+    std::string text = fmt::format(
+        "\n    sample {} of pixels ({}, {}) to ({}, {}): # must be hit once, 2..9 as often, . must "
+        "not, ~ is free\n",
+        sample.sample, left, top, right, bottom);
+    for (uint32_t y = top; y <= bottom; ++y) {
+        text += "    ";
+        for (uint32_t x = left; x <= right; ++x) {
+            const size_t at = (size_t{y} * c.target.width + x) * c.target.samples + sample.sample;
+            const ref::HitBounds& hits = expectation.samples[at].hits;
+            const char mark = !hits.is_decided()    ? '~'
+                              : hits.total_max == 0 ? '.'
+                              : hits.total_max == 1 ? '#'
+                              : hits.total_max <= 9 ? static_cast<char>('0' + hits.total_max)
+                                                    : '9';
+            const bool here = x == sample.x && y == sample.y;
+            const bool after = y == sample.y && x == sample.x + 1;
+            text += here ? '[' : after ? ']' : ' ';
+            text += mark;
+        }
+        text += sample.x == right && y == sample.y ? "]\n" : "\n";
+    }
+    return text;
+}
+
+// What follows from all that was told, in one sentence.
+std::string conclusion(const ref::HitBounds& b) {
+    if (b.total_min == b.total_max) {
+        return b.total_max == 0
+                   ? "therefore the sample must not be covered"
+                   : fmt::format("therefore the sample must be covered exactly {}",
+                                 b.total_max == 1 ? "once" : fmt::format("{} times", b.total_max));
+    }
+    return b.total_min == 0
+               ? "therefore the sample may be covered or not"
+               : "therefore the sample must be covered, how often is the device's choice";
+}
+
 }  // namespace
+
+std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& suite) {
+    std::string text = fmt::format("{}: {}\n", rule.id, rule.title);
+    text += fmt::format(
+        "    profile   {} (breaking it is a finding there and at every stricter profile)\n",
+        to_string(rule.profile));
+    text += report::wrapped(fmt::format("    text      {}\n", rule.text), 100);
+    if (!rule.anchor.empty()) {
+        text += fmt::format("    Vulkan    {}\n", rule.anchor);
+    }
+    if (!rule.direct3d.empty()) {
+        text += fmt::format("    Direct3D  {} (11.3 functional specification)\n", rule.direct3d);
+    }
+    text += fmt::format("    code      {}\n", rule.code);
+    std::vector<std::string> ids;
+    size_t leaves = 0;
+    for (const cases::Case& c : suite) {
+        if (std::find(c.rules.begin(), c.rules.end(), rule.id) == c.rules.end()) {
+            continue;
+        }
+        ++leaves;
+        const std::string base = c.id.substr(0, c.id.find(':'));
+        if (std::find(ids.begin(), ids.end(), base) == ids.end()) {
+            ids.push_back(base);
+        }
+    }
+    text += fmt::format("    cases     {} in {} files ('edgecase run @rule:{}')\n", leaves,
+                        ids.size(), rule.id);
+    for (const std::string& id : ids) {
+        text += "              " + id + "\n";
+    }
+    return text;
+}
 
 std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
                          ref::SampleId sample) {
@@ -132,7 +218,9 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     if (order.empty()) {
         text += "    no triangle is within two pixels\n";
     }
-    text += "\n" + allowed_hits(s.expectation.hits) + "\n";
+    text += drawing(c, limits, profile, sample);
+    text += "\n" + conclusion(s.expectation.hits) + "\n";
+    text += allowed_hits(s.expectation.hits) + "\n";
     for (const cases::Profile looser : cases::kProfiles) {
         if (looser < profile) {
             const ref::SampleExplanation other = ref::explain_sample(c, limits, looser, sample);

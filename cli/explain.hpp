@@ -3,9 +3,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cases/case.hpp"
 #include "cases/profile.hpp"
+#include "cases/rule.hpp"
 #include "ref/limits.hpp"
 #include "ref/value.hpp"
 
@@ -17,5 +19,9 @@ namespace cli {
 // no device.
 std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
                          ref::SampleId sample);
+
+// A rule as docs/rules.md tells it: title, profile, text, anchors, code, and the cases that name it
+// (their ids, without matrix parts).
+std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& suite);
 
 }  // namespace cli

@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <exception>
 #include <span>
 
@@ -53,6 +55,12 @@ std::string_view raw(std::span<const T> v) {
 
 }  // namespace
 
+std::string hex(uint64_t number) {
+    std::array<char, 20> text{};
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(number));
+    return text.data();
+}
+
 CaseRecord make_record(const cases::Case& c) {
     CaseRecord record;
     record.id = c.id;
@@ -75,6 +83,9 @@ void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& ca
                                        : diff::compare(c, expectation, capture);
         if (verdict.error.empty()) {
             diff::add_differences(c, cases::derivations(c), consistency, verdict);
+        }
+        if (!capture.hits.empty()) {
+            record.hit_bits = hex(checksum(FrameType::result, raw(capture.hits)));
         }
         if (keep_verdict(record, verdict, pictures)) {
             keep_evidence(record, c, verdict, expectation, capture, limits);

@@ -45,6 +45,8 @@ std::string check_before_running(const cases::Case& c);
 
 // A hash of every bit of a capture.
 uint64_t capture_bits(const diff::CaptureView& capture);
+// Sixteen hexadecimal digits.
+std::string hex(uint64_t number);
 // Bytes that a case's capture takes.
 uint64_t capture_bytes(const cases::Case& c);
 

@@ -9,6 +9,7 @@
 
 #include "cases/loader.hpp"
 #include "cases/rule.hpp"
+#include "cases/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/expectation_file.hpp"
 #include "cli/explain.hpp"
@@ -104,9 +105,13 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
         const auto file = load_expectations(entry.path());
         if (!file) {
             errors.insert(errors.end(), file.error().begin(), file.error().end());
-        } else if (const auto resolved = resolve_expectations({*file}, ids, true); !resolved) {
+            continue;
+        }
+        if (const auto resolved = resolve_expectations({*file}, ids, true); !resolved) {
             errors.insert(errors.end(), resolved.error().begin(), resolved.error().end());
         }
+        const cases::Errors past = past_lines(*file);
+        errors.insert(errors.end(), past.begin(), past.end());
     }
     return errors;
 }
@@ -181,7 +186,35 @@ int lint_command(const Program& program, const LintOptions& options) {
     return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
 }
 
+namespace {
+
+int explain_rule(const Program& program, const ExplainOptions& options) {
+    const cases::Rule* rule = cases::find_rule(options.rule);
+    if (rule == nullptr) {
+        std::vector<std::string> names;
+        for (const cases::Rule& known : cases::all_rules()) {
+            names.emplace_back(known.id);
+        }
+        const std::string nearest = cases::nearest_name(options.rule, names);
+        return report_stop({report::kExitNothingSelected,
+                            {"there is no rule '" + options.rule + "'" +
+                             (nearest.empty() ? "; docs/rules.md lists them"
+                                              : "; did you mean '" + nearest + "'?")}});
+    }
+    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    if (!suite) {
+        return report_stop(suite.error());
+    }
+    std::fputs(rule_text(*rule, suite->cases).c_str(), stdout);
+    return report::kExitOk;
+}
+
+}  // namespace
+
 int explain_command(const Program& program, const ExplainOptions& options) {
+    if (!options.rule.empty()) {
+        return explain_rule(program, options);
+    }
     const OrStop<cases::Case> c = load_one_case(program, options.suite);
     if (!c) {
         return report_stop(c.error());

@@ -17,6 +17,7 @@ namespace cli {
 
 enum class When { automatic, always, never };
 enum class ProgressStyle { automatic, plain, none };
+enum class Ci { automatic, github, gitlab, none };
 
 // What commands that look at cases have in common.
 struct SuiteOptions {
@@ -57,6 +58,7 @@ struct RunOptions {
     bool quiet = false, verbose = false;
     When color = When::automatic;
     ProgressStyle progress = ProgressStyle::automatic;
+    Ci ci = Ci::automatic;
 };
 
 struct ListOptions {
@@ -71,9 +73,26 @@ struct LintOptions {
 
 struct ExplainOptions {
     SuiteOptions suite;  // exactly one selector, one case
+    std::string rule;    // or a rule, and no case
+    bool has_pixel = false;
     uint32_t x = 0, y = 0, sample = 0, layer = 0;
     cases::Profile profile = cases::Profile::direct3d;
     uint32_t subpixel_bits = 8;
+};
+
+struct ExpectOptions {
+    SuiteOptions suite;
+    std::string file;
+    std::string update;  // the folder of a run
+    std::string bug, reason, until;
+    bool dry_run = false;
+};
+
+struct CompareOptions {
+    std::vector<std::string> directories;
+    std::string json;
+    bool verbose = false;
+    When color = When::automatic;
 };
 
 struct RenderOptions {
@@ -110,7 +129,10 @@ struct BenchOptions {
 };
 
 struct ReportOptions {
-    std::string directory;
+    std::vector<std::string> directories;  // one, several with --merge
+    bool merge = false;
+    std::string output;
+    Ci ci = Ci::automatic;
     std::string json, junit, html;
     bool quiet = false, verbose = false;
     When color = When::automatic;

@@ -6,11 +6,13 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 
+#include "cli/ci.hpp"
 #include "cli/frame.hpp"
 #include "cli/process.hpp"
 
@@ -80,15 +82,38 @@ report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose) {
     const bool plain = no_color != nullptr && *no_color != '\0';
     style.color = when == When::always || (when == When::automatic && terminal && !plain);
     winsize size{};
-    if (terminal && ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col >= 40) {
+    if (terminal && ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col >= 20) {
         style.width = size.ws_col;
+        style.wrap = true;
     }
     return style;
 }
 
-Progress::Progress(ProgressStyle style, size_t total) : total_(total), last_(steady_seconds()) {
-    if (style == ProgressStyle::automatic) {
-        kind_ = ::isatty(STDERR_FILENO) == 1 ? Kind::line : Kind::plain;
+std::string progress_line(size_t done, size_t total, size_t unexpected, double seconds,
+                          size_t width) {
+    const size_t percent = total == 0 ? 100 : done * 100 / total;
+    std::string text = "[" + std::to_string(done) + "/" + std::to_string(total) + "] " +
+                       std::to_string(percent) + "%  " + std::to_string(unexpected) + " unexpected";
+    if (done > 0 && seconds > 0) {
+        const double rate = static_cast<double>(done) / seconds;
+        const auto left = static_cast<uint64_t>(static_cast<double>(total - done) / rate) + 1;
+        const std::string time =
+            left >= 120 ? std::to_string((left + 59) / 60) + " min" : std::to_string(left) + " s";
+        std::array<char, 32> number{};
+        std::snprintf(number.data(), number.size(), rate < 10 ? "%.1f/s" : "%.0f/s", rate);
+        text += "  " + std::string(number.data()) + "  " + time + " left";
+    }
+    return text.substr(0, width);
+}
+
+Progress::Progress(ProgressStyle style, size_t total)
+    : total_(total), begin_(steady_seconds()), last_(begin_) {
+    if (style == ProgressStyle::automatic && is_ci()) {
+        kind_ = Kind::none;
+    } else if (style == ProgressStyle::automatic) {
+        const char* terminal = std::getenv("TERM");
+        const bool dumb = terminal != nullptr && std::strcmp(terminal, "dumb") == 0;
+        kind_ = ::isatty(STDERR_FILENO) == 1 && !dumb ? Kind::line : Kind::plain;
     } else if (style == ProgressStyle::plain) {
         kind_ = Kind::plain;
     }
@@ -101,13 +126,16 @@ void Progress::show(size_t done, size_t unexpected) {
         return;
     }
     last_ = now;
-    const size_t percent = total_ == 0 ? 100 : done * 100 / total_;
     if (kind_ == Kind::line) {
-        std::fprintf(stderr, "\r\x1b[K[%zu/%zu] %zu%%  %zu unexpected", done, total_, percent,
-                     unexpected);
+        winsize size{};
+        const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+        const std::string text =
+            progress_line(done, total_, unexpected, now - begin_, known ? size.ws_col - 1U : 79U);
+        std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
         std::fflush(stderr);
         shown_ = true;
     } else {
+        const size_t percent = total_ == 0 ? 100 : done * 100 / total_;
         std::fprintf(stderr, "%zu of %zu cases (%zu%%), %zu unexpected\n", done, total_, percent,
                      unexpected);
     }

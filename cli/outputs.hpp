@@ -32,7 +32,13 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files);
 // Console style for a stream: colour by `when`, NO_COLOR and whether it is a terminal.
 report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose);
 
-// One line on a terminal at most five times a second, or one line every ten seconds elsewhere.
+// Progress as one line: "[120/3538] 3%  2 unexpected  410/s  8 s left", cut to `width` columns.
+// `seconds` is how long the run has lasted.
+std::string progress_line(size_t done, size_t total, size_t unexpected, double seconds,
+                          size_t width);
+
+// One line on a terminal at most five times a second, or one line every ten seconds elsewhere;
+// nothing in continuous integration.
 class Progress {
   public:
     Progress(ProgressStyle style, size_t total);
@@ -43,7 +49,7 @@ class Progress {
   private:
     enum class Kind { none, line, plain } kind_ = Kind::none;
     size_t total_ = 0;
-    double last_ = 0;  // seconds of the steady clock
+    double begin_ = 0, last_ = 0;  // seconds of the steady clock
     bool shown_ = false;
 };
 

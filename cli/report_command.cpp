@@ -1,42 +1,172 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands "report" and "version".
+// The commands "report", "completion", "man" and "version".
 #include <cstdio>
+#include <filesystem>
 
+#include "cli/ci.hpp"
+#include "cli/command_table.hpp"
 #include "cli/commands.hpp"
 #include "cli/outputs.hpp"
 #include "cli/suite.hpp"
 #include "report/journal.hpp"
+#include "report/merge.hpp"
 
 namespace cli {
 
-int report_command(const Program&, const ReportOptions& options) {
-    const cases::Expected<report::Run> run = report::load_journal(options.directory);
-    if (!run) {
-        return report_stop({report::kExitInvalidFile, {cases::to_string(run.error())}});
+namespace fs = std::filesystem;
+
+namespace {
+
+// The merged run as a folder of its own, so that every command that takes a run takes it.
+cases::Expected<void> write_merged(const report::Run& run, const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        return tl::unexpected(cases::Error{
+            {}, "the folder '" + folder.string() + "' cannot be made: " + error.message()});
     }
-    const ReportFiles files{options.directory, options.json, options.junit, options.html};
-    const cases::Errors errors = write_reports(*run, files);
+    cases::Expected<report::Journal> journal = report::Journal::open(folder, false);
+    if (!journal) {
+        return tl::unexpected(journal.error());
+    }
+    report::Run header = run;
+    for (report::CaseRecord& record : header.cases) {
+        record.status = report::Status::not_run;  // until its end is read
+        record.findings.clear();
+        record.pictures = {};
+    }
+    cases::Expected<void> written = journal->write_run(header);
+    if (written) {
+        written = journal->write_device(run.device);
+    }
+    for (const report::CaseRecord& record : run.cases) {
+        if (written && record.status != report::Status::not_run) {
+            written = journal->write_end(record);
+        }
+    }
+    return written ? journal->write_stop(run) : written;
+}
+
+// What is to be reported, and where.
+struct Source {
+    report::Run run;
+    fs::path folder;
+    std::vector<uint32_t> missing_shards;
+};
+
+OrStop<Source> load_one(const ReportOptions& options) {
+    if (options.directories.size() != 1) {
+        return tl::unexpected(
+            Stop{report::kExitUsage,
+                 {"several folders need --merge; 'edgecase compare' sets runs side by side"}});
+    }
+    cases::Expected<report::Run> run = report::load_journal(options.directories.front());
+    if (!run) {
+        return tl::unexpected(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+    }
+    const fs::path folder = options.output.empty() ? options.directories.front() : options.output;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    return Source{std::move(*run), folder, {}};
+}
+
+OrStop<Source> load_merged(const ReportOptions& options) {
+    Source source;
+    source.folder = options.output.empty() ? "out/merged" : options.output;
+    std::vector<report::Part> parts;
+    for (const std::string& directory : options.directories) {
+        std::error_code none;
+        if (fs::equivalent(directory, source.folder, none)) {
+            return tl::unexpected(
+                Stop{report::kExitUsage,
+                     {"the merged run would overwrite '" + directory +
+                      "', which is one of its parts; choose another folder with -o"}});
+        }
+        cases::Expected<report::Run> run = report::load_journal(directory);
+        if (!run) {
+            return tl::unexpected(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+        }
+        parts.push_back({directory, std::move(*run)});
+    }
+    cases::Expected<report::Merged> merged = report::merge_runs(std::move(parts));
+    if (!merged) {
+        return tl::unexpected(Stop{report::kExitInvalidFile, {merged.error().message}});
+    }
+    source.run = std::move(merged->run);
+    source.missing_shards = std::move(merged->missing_shards);
+    if (const auto written = write_merged(source.run, source.folder); !written) {
+        return tl::unexpected(Stop{report::kExitInternal, {written.error().message}});
+    }
+    return source;
+}
+
+// "shard 2 is" or "shards 2, 5 are"
+std::string shards_text(const std::vector<uint32_t>& shards) {
+    std::string text = shards.size() == 1 ? "shard " : "shards ";
+    for (size_t k = 0; k < shards.size(); ++k) {
+        text += (k == 0 ? "" : ", ") + std::to_string(shards[k]);
+    }
+    return text + (shards.size() == 1 ? " is" : " are");
+}
+
+}  // namespace
+
+int report_command(const Program&, const ReportOptions& options) {
+    const OrStop<Source> source = options.merge ? load_merged(options) : load_one(options);
+    if (!source) {
+        return report_stop(source.error());
+    }
+    const report::Run& run = source->run;
+    const ReportFiles files{source->folder, options.json, options.junit, options.html};
+    cases::Errors errors = write_reports(run, files);
     const bool stdout_taken = options.json == "-" || options.junit == "-" || options.html == "-";
     std::FILE* console = stdout_taken ? stderr : stdout;
     const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     if (!options.quiet) {
-        std::fputs(report::console_header(*run, style).c_str(), console);
+        std::fputs(report::console_header(run, style).c_str(), console);
     }
-    for (const report::CaseRecord& record : run->cases) {
+    for (const report::CaseRecord& record : run.cases) {
         if (!report::is_expected(record.status) && record.status != report::Status::not_run) {
             std::fputs(report::console_case(record, style).c_str(), console);
         }
     }
     if (!options.quiet) {
         const std::string html = (files.folder / "report.html").string();
-        std::fputs(report::console_summary(*run, html, style).c_str(), console);
+        std::fputs(report::console_summary(run, html, style).c_str(), console);
     }
+    std::fflush(console);
+    const cases::Errors ci = write_ci(run, chosen_ci(options.ci), files.folder, console);
+    errors.insert(errors.end(), ci.begin(), ci.end());
     for (const cases::Error& error : errors) {
         std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
     }
-    return errors.empty() ? report::kExitOk : report::kExitInternal;
+    if (!source->missing_shards.empty()) {
+        std::fprintf(stderr,
+                     "edgecase: %s not among the folders, so not every case of the run is here; "
+                     "name the folders of all shards\n",
+                     shards_text(source->missing_shards).c_str());
+        return report::kExitInternal;
+    }
+    if (!errors.empty()) {
+        return report::kExitInternal;
+    }
+    return options.merge ? report::exit_code(run) : report::kExitOk;
+}
+
+int completion_command(const std::string& shell) {
+    const CommandTable table = command_table();
+    const std::string text = shell == "bash"  ? bash_completion(table)
+                             : shell == "zsh" ? zsh_completion(table)
+                                              : fish_completion(table);
+    std::fputs(text.c_str(), stdout);
+    return report::kExitOk;
+}
+
+int man_command() {
+    std::fputs(manual_page(command_table(), kVersion).c_str(), stdout);
+    return report::kExitOk;
 }
 
 int version_command() {

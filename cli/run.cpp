@@ -11,6 +11,7 @@
 #include <set>
 #include <variant>
 
+#include "cli/ci.hpp"
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/device_answer.hpp"
@@ -167,6 +168,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     header.seed = options.seed;
     std::error_code ignored;
     header.suite_root = fs::absolute(p.selection.root, ignored).lexically_normal().string();
+    header.suite_hash = hex(suite_hash(p.selection.root));
     header.shard = options.shard.index;
     header.shards = options.shard.count;
     header.jobs = options.jobs;
@@ -239,7 +241,9 @@ int conclude(const Prepared& p, std::FILE* console, const report::ConsoleStyle& 
         return report::kExitInternal;
     }
     ReportFiles files{p.folder, p.options.json, p.options.junit, p.options.html};
-    const cases::Errors errors = write_reports(*run, files);
+    cases::Errors errors = write_reports(*run, files);
+    const cases::Errors ci = write_ci(*run, chosen_ci(p.options.ci), p.folder, console);
+    errors.insert(errors.end(), ci.begin(), ci.end());
     if (!p.options.quiet) {
         std::fputs(
             report::console_summary(*run, (p.folder / "report.html").string(), style).c_str(),

@@ -59,7 +59,8 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
     slots_.front().client.emplace(std::move(first));
     for (size_t k = 0; k < cases_.size(); ++k) {
         const PlannedCase& c = cases_[k];
-        if (!c.error.empty() || (c.expected && c.expected->status == Status::skip)) {
+        if (!c.error.empty() ||
+            (c.expected && c.expected->status == Status::skip && !c.expected->is_past)) {
             CaseRecord record = fresh_record(k);
             record.status = c.error.empty() ? Status::skip : Status::error;
             record.reason = c.error.empty() ? c.expected->note : c.error;
@@ -211,7 +212,7 @@ CaseRecord RunLoop::fresh_record(size_t k) const {
 bool RunLoop::is_unexpected(size_t k, Status status) const {
     const auto& expected = cases_[k].expected;
     return !report::is_expected(
-        judge_expected(status, expected ? std::optional(expected->status) : std::nullopt));
+        expected ? judge_expected(status, expected->status, expected->is_past) : status);
 }
 
 void RunLoop::on_result(Slot& slot, CaseResult& result) {
@@ -265,6 +266,7 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
         case Schedule::Drawn::judge: {
             auto record = std::make_shared<CaseRecord>(fresh_record(k));
             record->messages = rendered.messages;
+            record->bits = hex(result.bits);
             const uint64_t bytes = capture_bytes(cases_[k].data);
             judging_bytes_ += bytes;
             pool_.submit(
@@ -397,7 +399,10 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     if (const auto& expected = cases_[k].expected; expected) {
         record.expected = expected->status;
         record.bug = expected->bug;
-        record.status = judge_expected(record.status, expected->status);
+        record.expectation = expected->where.file + ":" + std::to_string(expected->where.line);
+        record.expired = expected->is_past ? expected->until : "";
+        record.actual = record.status;
+        record.status = judge_expected(record.status, expected->status, expected->is_past);
     }
     check(journal_.write_end(record));
     ++settled_;

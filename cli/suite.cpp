@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/suite.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <sstream>
 
 #include "cases/loader.hpp"
 #include "cases/selector.hpp"
@@ -162,6 +165,26 @@ OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& op
                   "; give the id of one"}});
     }
     return std::move(suite->cases[suite->selected.front()]);
+}
+
+uint64_t suite_hash(const std::filesystem::path& root) {
+    std::error_code none;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none)) {
+        if (entry.path().extension() == ".toml") {
+            files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    uint64_t hash = 0;
+    for (const std::filesystem::path& file : files) {
+        std::ifstream in(file, std::ios::binary);
+        std::ostringstream text;
+        text << in.rdbuf();
+        hash = stable_hash(file.lexically_relative(root).string(), hash);
+        hash = stable_hash(text.str(), hash);
+    }
+    return hash;
 }
 
 }  // namespace cli

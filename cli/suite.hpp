@@ -30,6 +30,10 @@ int report_stop(const Stop& stop);
 // tree that the program was built from.
 OrStop<std::filesystem::path> find_suite_root(const Program& program, const std::string& option);
 
+// A hash of the paths and bytes of all case files below the folder: whether two runs had the same
+// suite.
+uint64_t suite_hash(const std::filesystem::path& root);
+
 struct LoadedSuite {
     std::filesystem::path root;
     std::vector<cases::Case> cases;  // the suite's, then those of files outside that selectors name

@@ -181,12 +181,7 @@ class Completion {
         return values;
     }
 
-    ref::SampleId id_of(size_t index) const {
-        const size_t pixel = index / case_.target.samples;
-        return {static_cast<uint32_t>(pixel % case_.target.width),
-                static_cast<uint32_t>(pixel / case_.target.width),
-                static_cast<uint32_t>(index % case_.target.samples)};
-    }
+    ref::SampleId id_of(size_t index) const { return ref::sample_at(case_.target, index); }
 
     // Of the triangles that may have written last, are the delivered writer's and fit `accept`:
     // the one that explains the values best, the last of equals.

@@ -7,6 +7,7 @@
 
 #include "report/reports.hpp"
 #include "report/sentences.hpp"
+#include "report/wrap.hpp"
 
 namespace report {
 
@@ -141,7 +142,8 @@ std::string console_header(const Run& run, const ConsoleStyle& style) {
         or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ", printable(d.driver_info),
         or_unknown(d.api_version), d.subpixel_bits, cases::to_string(run.profile), run.seed);
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return text + '\n';
+    text += '\n';
+    return style.wrap ? wrapped(text, style.width) : text;
 }
 
 std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
@@ -153,7 +155,10 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
     if (!record.explain.empty()) {
         text += fmt::format("{}explain: {}\n", kIndent, printable(record.explain));
     }
-    return style.verbose ? text + ascii_picture(record, style) : text;
+    if (style.verbose) {
+        text += ascii_picture(record, style);
+    }
+    return style.wrap ? wrapped(text, style.width) : text;
 }
 
 std::string console_summary(const Run& run, const std::string& report_path,
@@ -180,7 +185,7 @@ std::string console_summary(const Run& run, const std::string& report_path,
     const std::string exit = exit_text(exit_code(run));
     text += report_path.empty() ? exit + '\n'
                                 : fmt::format("report {}    {}\n", printable(report_path), exit);
-    return text;
+    return style.wrap ? wrapped(text, style.width) : text;
 }
 
 }  // namespace report

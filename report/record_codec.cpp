@@ -99,6 +99,13 @@ void read(const Json& json, const char* key, diff::FindingKind& to) {
     fail(fmt::format("\"{}\" is not a kind of finding", key));
 }
 
+// What journals of earlier versions do not hold.
+void read_if_there(const Json& json, const char* key, std::string& to) {
+    if (json.contains(key)) {
+        read(json, key, to);
+    }
+}
+
 Json encode_texts(const std::vector<std::string>& list) {
     Json json = Json::array();
     for (const std::string& entry : list) {
@@ -246,6 +253,11 @@ Json encode_case(const CaseRecord& r) {
         {"status", to_string(r.status)},
         {"expected", r.expected ? Json(to_string(*r.expected)) : Json(nullptr)},
         {"bug", encode_text(r.bug)},
+        {"expectation", encode_text(r.expectation)},
+        {"expired", encode_text(r.expired)},
+        {"actual", r.actual ? Json(to_string(*r.actual)) : Json(nullptr)},
+        {"bits", encode_text(r.bits)},
+        {"hit_bits", encode_text(r.hit_bits)},
         {"reason", encode_text(r.reason)},
         {"step", encode_text(r.step)},
         {"signal", encode_text(r.signal)},
@@ -289,6 +301,14 @@ CaseRecord decode_case(const Json& json) {
         read(json, "expected", *r.expected);
     }
     read(json, "bug", r.bug);
+    read_if_there(json, "expectation", r.expectation);
+    read_if_there(json, "expired", r.expired);
+    if (json.contains("actual") && !json.at("actual").is_null()) {
+        r.actual.emplace();
+        read(json, "actual", *r.actual);
+    }
+    read_if_there(json, "bits", r.bits);
+    read_if_there(json, "hit_bits", r.hit_bits);
     read(json, "reason", r.reason);
     read(json, "step", r.step);
     read(json, "signal", r.signal);
@@ -343,6 +363,7 @@ Json encode_header(const Run& run) {
                 {"profile", cases::to_string(run.profile)},
                 {"seed", run.seed},
                 {"suite_root", encode_text(run.suite_root)},
+                {"suite_hash", encode_text(run.suite_hash)},
                 {"expectation_file", encode_text(run.expectation_file)},
                 {"shard", run.shard},
                 {"shards", run.shards},
@@ -365,6 +386,7 @@ Run decode_header(const Json& json) {
     read(json, "profile", run.profile);
     read(json, "seed", run.seed);
     read(json, "suite_root", run.suite_root);
+    read_if_there(json, "suite_hash", run.suite_hash);
     read(json, "expectation_file", run.expectation_file);
     read(json, "shard", run.shard);
     read(json, "shards", run.shards);

@@ -23,7 +23,8 @@ std::string to_html(const Run& run);
 struct ConsoleStyle {
     bool color = false;
     bool verbose = false;  // adds an ASCII picture of each unexpected case
-    uint32_t width = 100;
+    uint32_t width = 100;  // columns
+    bool wrap = false;     // lines are broken to fit the width
 };
 // First line of a run: tool version, device, driver, Vulkan version, subpixel bits, profile, seed.
 std::string console_header(const Run& run, const ConsoleStyle& style);

@@ -44,6 +44,22 @@ uint8_t error_code(float ratio) {
                                    std::clamp(std::lround(128 + 8 * std::log2(ratio)), 2L, 254L));
 }
 
+Status actual_status(const CaseRecord& record) {
+    if (record.actual) {
+        return *record.actual;
+    }
+    switch (record.status) {  // journals that do not tell
+        case Status::xpass:
+            return Status::pass;
+        case Status::xfail:
+            return record.expected.value_or(Status::fail);
+        case Status::improved:
+            return Status::fail;
+        default:
+            return record.status;
+    }
+}
+
 std::array<size_t, kStatuses> totals(const Run& run) {
     std::array<size_t, kStatuses> count{};
     for (const CaseRecord& record : run.cases) {

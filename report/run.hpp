@@ -91,10 +91,16 @@ struct CaseRecord {
     Status status = Status::not_run;
     std::optional<Status> expected;  // of an expectation file
     std::string bug;                 // its bug reference
-    std::string reason;              // why unsupported, skipped, error, lost, crashed; one sentence
-    std::string step;                // last step of the worker before it died ("submit", ...)
-    std::string signal;              // "SIGSEGV", ... of a crash
-    std::string stderr_text;         // what the driver printed, head and tail, any bytes
+    std::string expectation;         // where it stands, "FILE:LINE"
+    std::string expired;             // the date on which it ended, if that is past
+    std::optional<Status> actual;    // what happened before the expectation was looked at
+    // Checksums in hexadecimal, to compare runs with: of every bit read back, and of the hits
+    // alone.
+    std::string bits, hit_bits;
+    std::string reason;       // why unsupported, skipped, error, lost, crashed; one sentence
+    std::string step;         // last step of the worker before it died ("submit", ...)
+    std::string signal;       // "SIGSEGV", ... of a crash
+    std::string stderr_text;  // what the driver printed, head and tail, any bytes
     double seconds = 0;
     uint32_t attempts = 0;
     std::vector<std::string> messages;  // validation layer
@@ -124,6 +130,7 @@ struct Run {
     cases::Profile profile = cases::Profile::direct3d;
     uint64_t seed = 0;
     std::string suite_root;
+    std::string suite_hash;        // of the suite's files, hexadecimal; empty in older journals
     std::string expectation_file;  // empty if none applied
     uint32_t shard = 1, shards = 1, jobs = 1;
     bool interrupted = false;
@@ -131,6 +138,10 @@ struct Run {
     Device device;
     std::vector<CaseRecord> cases;  // selection order; those without an end are not_run
 };
+
+// What happened to a case whatever was expected of it: pass for xpass, fail for an expected
+// failure.
+Status actual_status(const CaseRecord& record);
 
 std::array<size_t, kStatuses> totals(const Run& run);
 int exit_code(const Run& run);  // from the statuses alone (0, 1, 6, 7 or 130)

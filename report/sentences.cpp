@@ -91,8 +91,14 @@ std::string what_happened(const CaseRecord& record) {
     const std::string step = record.step.empty() ? "" : " during " + one_line(record.step);
     const std::string signal = record.signal.empty() ? "the worker ended" : one_line(record.signal);
     const std::string bug = record.bug.empty() ? "" : fmt::format(" ({})", one_line(record.bug));
-    const std::string expected =
-        record.expected ? fmt::format("expected {}{}", to_string(*record.expected), bug) : "";
+    std::string expected;
+    if (record.expected && !record.expired.empty()) {
+        expected =
+            fmt::format("the expectation of {}{} ended on {}: re-check it, or extend the date",
+                        to_string(*record.expected), bug, one_line(record.expired));
+    } else if (record.expected) {
+        expected = fmt::format("expected {}{}", to_string(*record.expected), bug);
+    }
     std::string text;
     switch (record.status) {
         case Status::crash:
@@ -105,7 +111,7 @@ std::string what_happened(const CaseRecord& record) {
             text = "device lost" + step;
             break;
         case Status::xpass:
-            return expected + ", but it passes";
+            return record.expired.empty() ? expected + ", but it passes" : "passes; " + expected;
         case Status::improved:
             return expected + ", but it got better";
         case Status::not_run:
@@ -156,7 +162,8 @@ std::string why_it_happened(const CaseRecord& record) {
         return one_line(record.reason);
     }
     if (record.status == Status::xpass || record.status == Status::improved) {
-        return "bring the expectation file up to date";
+        return record.expectation.empty() ? "bring the expectation file up to date"
+                                          : "bring " + one_line(record.expectation) + " up to date";
     }
     const std::string words = last_line(record.stderr_text);
     return words.empty() ? "no reason was given" : "the driver's last words: " + words;

@@ -53,7 +53,8 @@ class ProgramTest(unittest.TestCase):
         path.write_text(text)
 
     def environment(self, fault=""):
-        env = {k: v for k, v in os.environ.items() if not k.startswith("EDGECASE_") and k != "NO_COLOR"}
+        env = {k: v for k, v in os.environ.items() if not k.startswith(("EDGECASE_", "GITHUB_", "GITLAB_", "CI_"))
+               and k not in ("NO_COLOR", "CI")}
         env["EDGECASE_SUITE"] = str(self.suite)
         env["EDGECASE_TEST_MARK"] = str(self.folder)
         if fault:

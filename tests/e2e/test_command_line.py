@@ -8,7 +8,7 @@ import unittest
 from support import CASE, SOURCE, ProgramTest
 
 LAYERED = CASE.format(n=99).replace("size = [8, 8]", "size = [8, 8]\nlayers = 2").replace("[[draw]]", "[[draw]]\nlayer = 1")
-COMMANDS = ["run", "list", "lint", "explain", "render", "export", "diff", "doctor", "bench", "report", "version"]
+COMMANDS = ["run", "list", "lint", "explain", "render", "export", "diff", "doctor", "bench", "report", "compare", "expect", "completion", "man", "version"]
 
 
 class Usage(ProgramTest):

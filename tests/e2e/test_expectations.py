@@ -66,7 +66,25 @@ class Files(ExpectationTest):
         self.refused("fam/c3 fial bug#1  # Known.\n", "did you mean 'fail'")
 
     def test_past_date(self):
-        self.refused("fam/c3 fail bug#1 until=2020-01-01  # Known.\n", "2020-01-01")
+        """It excuses nothing, is told, and is news whatever happens; lint refuses the file."""
+        ended = "ended on 2020-01-01: re-check it, or extend the date"
+        path = self.expectations("fam/c3 fail bug#1 until=2020-01-01  # Known.\n")
+        done = self.run_suite(fault="flip-pixel@fam/c3", check=1)
+        self.assertEqual(self.statuses()["fam/c3"], "fail")
+        self.assertIn(f", the expectation of fail (bug#1) {ended}\n", done.stdout)
+        done = self.run_suite(check=1)
+        self.assertEqual(self.statuses()["fam/c3"], "xpass")
+        self.assertIn(f"XPASS fam/c3   passes; the expectation of fail (bug#1) {ended}\n", done.stdout)
+        self.assertEqual(self.edgecase("lint", check=3).stderr,
+                         f"{path}:3:1: error: the expectation of 'fam/c3' ended on 2020-01-01; re-check it, "
+                         "or extend the date\n")
+        self.expectations("fam/c3 skip - until=2020-01-01  # Too slow.\n")
+        self.run_suite(fault="flip-pixel@fam/c3", check=1)
+        self.assertEqual(self.statuses()["fam/c3"], "fail")
+
+    def test_no_day_of_the_calendar(self):
+        self.refused("fam/c3 fail bug#1 until=2026-02-30  # Known.\n",
+                     "'until=2026-02-30' is not understood; only 'until=YYYY-MM-DD' may follow the bug")
 
     def test_line_that_matches_nothing(self):
         self.refused("fam/cc3 fail bug#1  # Known.\n", "did you mean 'fam/c")

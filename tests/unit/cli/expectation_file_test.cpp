@@ -60,12 +60,39 @@ TEST(Expectations, StatusesOfEveryPair) {
         EXPECT_EQ(judge(Status::unsupported, s), Status::unsupported);
         EXPECT_EQ(judge(Status::flake, s), Status::flake);
     }
+    for (const Status s : {Status::fail, Status::flake, Status::skip}) {  // its date is past
+        EXPECT_EQ(judge_expected(Status::pass, s, true), Status::xpass);
+        EXPECT_EQ(judge_expected(Status::fail, s, true), Status::fail);
+        EXPECT_EQ(judge_expected(Status::flake, s, true), Status::flake);
+    }
     EXPECT_EQ(judge(Status::crash, Status::fail), Status::crash);
     EXPECT_EQ(judge(Status::fail, Status::crash), Status::improved);
     EXPECT_EQ(judge(Status::timeout, Status::device_lost), Status::timeout);
     EXPECT_EQ(judge(Status::pass, Status::flake), Status::pass);
     EXPECT_EQ(judge(Status::flake, Status::flake), Status::xfail);
     EXPECT_EQ(judge(Status::fail, Status::flake), Status::fail);
+}
+
+TEST(Expectations, DatesAreDaysOfTheCalendar) {
+    for (const char* good : {"2026-11-22", "2028-02-29", "2000-02-29"}) {
+        EXPECT_TRUE(is_date(good)) << good;
+    }
+    for (const char* bad : {"2026-02-29", "2100-02-29", "2026-13-01", "2026-00-10", "2026-04-31",
+                            "2026-1-01", "2026/01/01", "", "2026-01-011", "20x6-01-01"}) {
+        EXPECT_FALSE(is_date(bad)) << bad;
+    }
+}
+
+TEST(Expectations, APastDateIsKnownToTheDay) {
+    const auto past_on = [](const std::string& today) {
+        const auto file = parse_expectations(
+            "# edgecase-expectations 1\n# device: *\na fail b until=2026-05-01  # R.\n", "f",
+            today);
+        return file ? past_lines(*file).size() : size_t{99};
+    };
+    EXPECT_EQ(past_on("2026-04-30"), 0U);
+    EXPECT_EQ(past_on("2026-05-01"), 0U);  // the last day
+    EXPECT_EQ(past_on("2026-05-02"), 1U);
 }
 
 TEST(Faults, CommasInsideIdsDoNotSeparate) {

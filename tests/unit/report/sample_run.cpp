@@ -27,6 +27,8 @@ CaseRecord make(const std::string& id, Status status) {
     r.either_samples = 8;
     r.worst_ratio = 0.25;
     r.worst_quantity = "depth";
+    r.bits = "0123456789abcdef";
+    r.hit_bits = "fedcba9876543210";
     r.rerun = "edgecase run '" + id + "'";
     return r;
 }
@@ -116,6 +118,7 @@ Run sample_run() {
     run.host = "Linux x86_64";
     run.seed = 18446744073709551615ULL;
     run.suite_root = "cases/suite";
+    run.suite_hash = "00112233445566778899";
     run.expectation_file = "cases/expectations/llvmpipe.txt";
     run.seconds = 12.4;
     run.device.name = "llvmpipe (LLVM 15.0.6, 256 bits)";
@@ -174,10 +177,14 @@ Run sample_run() {
     CaseRecord xfail = make("clip/near", Status::xfail);
     xfail.expected = Status::fail;
     xfail.bug = "mesa#1234";
+    xfail.actual = Status::fail;
+    xfail.expectation = "cases/expectations/llvmpipe.txt:4";
     run.cases.push_back(xfail);
     CaseRecord xpass = make("clip/far", Status::xpass);
     xpass.expected = Status::fail;
     xpass.bug = "mesa#1235";
+    xpass.actual = Status::pass;
+    xpass.expectation = "cases/expectations/llvmpipe.txt:5";
     run.cases.push_back(xpass);
     CaseRecord improved = make("clip/guard", Status::improved);
     improved.expected = Status::crash;
@@ -216,6 +223,7 @@ Run hostile_run() {
         }
         r.file = r.description = r.bug = r.reason = r.step = r.signal = r.stderr_text = kHostile;
         r.rerun = r.explain = r.worst_quantity = kHostile;
+        r.expectation = r.expired = r.bits = r.hit_bits = kHostile;
         r.rules = r.links = r.messages = {kHostile};
         for (diff::Finding& f : r.findings) {
             f.rule = f.quantity = f.expected = f.got = f.why = kHostile;

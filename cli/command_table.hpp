@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The option table as plain data: what help, completion and the manual page are made of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct OptionEntry {
+    std::vector<std::string> names;  // "-o", "--output"; for a positional its name, "SELECTOR"
+    std::string type;                // "DIR", "auto|github|none"; empty for flags
+    std::string text, group;
+    std::vector<std::string> choices;  // if the value is one of a few words
+    bool is_positional = false;
+};
+
+struct CommandEntry {
+    std::string name, text, group;
+    std::string footer;  // examples and what else its help ends with
+    std::vector<OptionEntry> options;
+    bool takes_cases() const;
+};
+
+struct CommandTable {
+    std::string text, footer;
+    std::vector<CommandEntry> commands;
+};
+
+CommandTable command_table();
+
+// Shell scripts that complete commands, options, their values and the ids of cases.
+std::string bash_completion(const CommandTable& table);
+std::string zsh_completion(const CommandTable& table);
+std::string fish_completion(const CommandTable& table);
+
+// The manual page edgecase(1) in roff.
+std::string manual_page(const CommandTable& table, const std::string& version);
+
+}  // namespace cli

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "expect": shows and checks an expectation file, or brings it up to date with a run.
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "cli/commands.hpp"
+#include "cli/expectation_update.hpp"
+#include "cli/outputs.hpp"
+#include "cli/suite.hpp"
+#include "report/journal.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Stop stop_with(int exit_code, const std::string& line) {
+    return {exit_code, {line}};
+}
+
+Stop invalid(const cases::Errors& errors) {
+    Stop stop{report::kExitInvalidFile, {}};
+    for (const cases::Error& error : errors) {
+        stop.lines.push_back(cases::to_string(error));
+    }
+    return stop;
+}
+
+// Form, statuses and dates of a file.
+int show(const std::string& name) {
+    const auto file = load_expectations(name);
+    if (!file) {
+        return report_stop(invalid(file.error()));
+    }
+    std::array<size_t, report::kStatuses> count{};
+    for (const ExpectationLine& line : file->lines) {
+        ++count.at(static_cast<size_t>(line.status));
+    }
+    std::printf("%s: %zu expectation%s", name.c_str(), file->lines.size(),
+                file->lines.size() == 1 ? "" : "s");
+    for (size_t k = 0; k < count.size(); ++k) {
+        if (count.at(k) > 0) {
+            const auto status = report::to_string(static_cast<report::Status>(k));
+            std::printf(", %zu %.*s", count.at(k), static_cast<int>(status.size()), status.data());
+        }
+    }
+    std::printf("; for %s%s%s\n", file->device_glob.c_str(), file->driver_regex.empty() ? "" : ", ",
+                file->driver_regex.c_str());
+    const cases::Errors past = past_lines(*file);
+    for (const cases::Error& error : past) {
+        std::fprintf(stderr, "%s\n", cases::to_string(error).c_str());
+    }
+    return past.empty() ? report::kExitOk : report::kExitUnexpected;
+}
+
+OrStop<UpdateWords> check_words(const ExpectOptions& options) {
+    if (options.bug.find_first_of(" \t\n") != std::string::npos || options.bug == "-" ||
+        options.bug.starts_with('#')) {
+        return tl::unexpected(stop_with(
+            report::kExitUsage, "--bug: '" + options.bug +
+                                    "' is no reference; give one word that does not begin with "
+                                    "'#', like mesa#1234 or a link"));
+    }
+    if (options.reason.find('\n') != std::string::npos) {
+        return tl::unexpected(stop_with(report::kExitUsage, "--reason must be one line"));
+    }
+    if (!options.until.empty() && (!is_date(options.until) || options.until < today_utc())) {
+        return tl::unexpected(
+            stop_with(report::kExitUsage,
+                      "--until: '" + options.until + "' is no day to come; write YYYY-MM-DD"));
+    }
+    return UpdateWords{options.bug, options.reason, options.until};
+}
+
+cases::Expected<void> replace_file(const fs::path& file, const std::string& text) {
+    const fs::path other = file.string() + ".new";  // so that no half-written file is left
+    if (auto written = write_text(other.string(), text); !written) {
+        return written;
+    }
+    std::error_code error;
+    fs::rename(other, file, error);
+    if (error) {
+        return tl::unexpected(
+            cases::Error{{}, "'" + file.string() + "' cannot be written: " + error.message()});
+    }
+    return {};
+}
+
+std::string sentence(const std::vector<std::string>& ids) {
+    std::string text;
+    for (size_t k = 0; k < std::min<size_t>(ids.size(), 3); ++k) {
+        text += (k == 0 ? "'" : ", '") + ids[k] + "'";
+    }
+    return text + (ids.size() > 3 ? " and " + std::to_string(ids.size() - 3) + " more" : "");
+}
+
+OrStop<Update> make_update(const Program& program, const ExpectOptions& options,
+                           const UpdateWords& words, std::string& before) {
+    const cases::Expected<report::Run> run = report::load_journal(options.update);
+    if (!run) {
+        return tl::unexpected(
+            stop_with(report::kExitInvalidFile, "--update: " + cases::to_string(run.error())));
+    }
+    std::error_code none;
+    std::string text = new_expectation_file(*run);
+    if (fs::exists(options.file, none)) {
+        std::ifstream in(options.file, std::ios::binary);
+        std::ostringstream all;
+        all << in.rdbuf();
+        if (!in) {
+            return tl::unexpected(
+                stop_with(report::kExitInvalidFile,
+                          "'" + options.file + "' cannot be read: " + std::strerror(errno)));
+        }
+        before = text = all.str();
+    }
+    const auto file = parse_expectations(text, options.file, today_utc());
+    if (!file) {
+        return tl::unexpected(invalid(file.error()));
+    }
+    if (const std::string why = mismatch(*file, run->device, run->profile); !why.empty()) {
+        return tl::unexpected(
+            stop_with(report::kExitDevice,
+                      "the expectation file '" + options.file + "' does not fit the run: " + why));
+    }
+    SuiteOptions suite = options.suite;
+    if (suite.suite.empty()) {
+        suite.suite = run->suite_root;
+    }
+    const OrStop<LoadedSuite> loaded = load_and_select(program, suite);
+    if (!loaded) {
+        return tl::unexpected(loaded.error());
+    }
+    std::vector<std::string> ids;
+    for (const cases::Case& c : loaded->cases) {
+        ids.push_back(c.id);
+    }
+    return update_expectations(text, *file, *run, ids, words);
+}
+
+}  // namespace
+
+int expect_command(const Program& program, const ExpectOptions& options) {
+    if (options.update.empty()) {
+        return show(options.file);
+    }
+    const OrStop<UpdateWords> words = check_words(options);
+    if (!words) {
+        return report_stop(words.error());
+    }
+    std::string before;
+    const OrStop<Update> update = make_update(program, options, *words, before);
+    if (!update) {
+        return report_stop(update.error());
+    }
+    if (!update->without_bug.empty()) {
+        return report_stop(
+            stop_with(report::kExitUsage,
+                      std::to_string(update->without_bug.size()) +
+                          " unexpected results need a line (" + sentence(update->without_bug) +
+                          "); give --bug REFERENCE, so that each says where it is followed up"));
+    }
+    for (const std::string& change : update->changes) {
+        std::printf("%s\n", report::printable(change).c_str());
+    }
+    for (const std::string& note : update->notes) {
+        std::printf("note: %s\n", report::printable(note).c_str());
+    }
+    const bool same = update->text == before;
+    std::printf("%s: %zu removed, %zu changed, %zu added, %zu kept%s\n", options.file.c_str(),
+                update->removed, update->changed, update->added, update->kept,
+                same              ? "; nothing to write"
+                : options.dry_run ? "; not written (--dry-run)"
+                                  : "");
+    if (same || options.dry_run) {
+        return report::kExitOk;
+    }
+    if (const auto written = replace_file(options.file, update->text); !written) {
+        return report_stop(stop_with(report::kExitInternal, written.error().message));
+    }
+    return report::kExitOk;
+}
+
+}  // namespace cli

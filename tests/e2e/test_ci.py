@@ -1,0 +1,258 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""What continuous integration sees: annotations, summaries, shards put together, ready workflow files."""
+import json
+import os
+import re
+import shlex
+import subprocess
+import unittest
+
+import yaml
+
+from support import PROGRAM, SOURCE, ProgramTest
+
+
+class CiTest(ProgramTest):
+    def in_ci(self, fault="", **variables):
+        env = self.environment(fault)
+        env.update(variables)
+        return env
+
+    def run_in(self, env, *words, check, out=None):
+        return self.edgecase("run", "--renderer=reference", "-o", out or self.out, *words, env=env, check=check)
+
+
+class GitHub(CiTest):
+    def test_one_annotation_a_cause_and_a_summary(self):
+        summary = self.folder / "summary.md"
+        summary.write_text("# before\n")
+        env = self.in_ci("flip-pixel@fam/c1,flip-pixel@fam/c2,flip-pixel@fam/c3,flip-pixel@fam/c4,segv@fam/c7", GITHUB_ACTIONS="true", CI="true",
+                         GITHUB_STEP_SUMMARY=str(summary), GITHUB_WORKSPACE=str(self.folder))
+        lines = [x for x in self.run_in(env, check=1).stdout.splitlines() if x.startswith("::")]
+        self.assertEqual(len(lines), 2)
+        self.assertRegex(lines[0], r"^::error file=cases/suite/fam/c7\.toml,line=1,"
+                                   r"title=crash%3A SIGSEGV during \w+ in fam%2C 1 case::fam/c7")
+        self.assertRegex(lines[1], r"^::error file=cases/suite/fam/c1\.toml,line=1,title=fail%3A \S+ \w+ in fam%2C 4 cases::")
+        self.assertIn("%0Arerun: ", lines[1])
+        text = summary.read_text()
+        self.assertTrue(text.startswith("# before\n## Edgecase: exit 1: unexpected results\n"))
+        self.assertIn("| crash | 1 |", text)
+        self.assertIn("| pass | 5 |", text)
+        self.assertRegex(text, r"\n    .*edgecase\S* run fam/c7")
+
+    def test_ten_causes_and_the_number_of_the_others(self):
+        for k in range(13):
+            self.write_case(f"family{k}/x", (self.suite / "fam/c1.toml").read_text())
+        env = self.in_ci("flip-pixel", GITHUB_ACTIONS="true")
+        out = self.run_in(env, check=1).stdout
+        self.assertEqual(out.count("::error "), 10)
+        self.assertIn("+4 more causes of unexpected results: see the summary of the step\n", out)
+
+    def test_nothing_unexpected_is_silent(self):
+        env = self.in_ci(GITHUB_ACTIONS="true")
+        self.assertNotIn("::", self.run_in(env, check=0).stdout)
+
+    def test_json_on_standard_output_stays_json(self):
+        env = self.in_ci("flip-pixel@fam/c1", GITHUB_ACTIONS="true")
+        done = self.run_in(env, "--json", "-", check=1)
+        json.loads(done.stdout)
+        self.assertIn("::error ", done.stderr)
+
+    def test_not_without_being_asked(self):
+        self.assertNotIn("::error", self.run_suite(fault="flip-pixel@fam/c1", check=1).stdout)
+        env = self.in_ci("flip-pixel@fam/c1", GITHUB_ACTIONS="true")
+        self.assertNotIn("::error", self.run_in(env, "--ci", "none", check=1).stdout)
+        self.assertIn("::error", self.run_suite("--ci", "github", fault="flip-pixel@fam/c1", check=1).stdout)
+
+    def test_a_summary_that_cannot_be_written(self):
+        env = self.in_ci(GITHUB_ACTIONS="true", GITHUB_STEP_SUMMARY=str(self.folder / "no" / "where.md"))
+        done = self.run_in(env, check=7)
+        self.assertIn(f"edgecase: error: the step summary '{self.folder}/no/where.md' cannot be written: "
+                      "No such file or directory", done.stderr)
+
+    def test_unknown_ci(self):
+        done = self.run_suite("--ci", "gitlub", check=2)
+        self.assertEqual(done.stderr, "edgecase: --ci: 'gitlub' is none of auto, github, gitlab, none; "
+                                      "did you mean 'github'? See 'edgecase run --help'\n")
+
+
+class GitLab(CiTest):
+    def test_code_quality(self):
+        env = self.in_ci("flip-pixel@fam/c1,flip-pixel@fam/c2,segv@fam/c7", GITLAB_CI="true", CI_PROJECT_DIR=str(self.folder))
+        self.run_in(env, check=1)
+        issues = json.loads((self.out / "gl-code-quality.json").read_text())
+        self.assertEqual([i["location"] for i in issues],
+                         [{"path": f"cases/suite/fam/c{k}.toml", "lines": {"begin": 1}} for k in (1, 2, 7)])
+        self.assertEqual([i["severity"] for i in issues], ["critical", "critical", "blocker"])
+        self.assertEqual(len({i["fingerprint"] for i in issues}), 3)
+        for issue in issues:
+            self.assertEqual(set(issue), {"description", "check_name", "fingerprint", "severity", "location"})
+        self.run_in(env, check=1, out=self.folder / "again")
+        again = json.loads((self.folder / "again" / "gl-code-quality.json").read_text())
+        self.assertEqual([i["fingerprint"] for i in issues], [i["fingerprint"] for i in again])
+
+    def test_without_findings_an_empty_list(self):
+        self.run_in(self.in_ci(GITLAB_CI="true"), check=0)
+        self.assertEqual(json.loads((self.out / "gl-code-quality.json").read_text()), [])
+
+
+def told(results):
+    """What a case says in every run, by id."""
+    return {c["id"]: {k: v for k, v in c.items() if k not in ("seconds", "rerun", "attempts")} for c in results["cases"]}
+
+
+class Merge(CiTest):
+    FAULT = "flip-pixel@fam/c1,flip-pixel@fam/c4,segv@fam/c7"
+
+    def shards(self, count=3, fault=FAULT, **words):
+        folders = []
+        for k in range(1, count + 1):
+            folders.append(self.folder / f"shard-{k}")
+            self.run_suite("--shard", f"{k}/{count}", *words.get(f"words{k}", ()), out=folders[-1], fault=fault)
+        return [f for f in folders if f.exists()]
+
+    def test_the_parts_are_the_whole(self):
+        folders = self.shards()
+        self.assertEqual(len(folders), 3)
+        merged = self.folder / "merged"
+        done = self.edgecase("report", "--merge", *folders, "-o", merged, check=1)
+        self.assertIn("10 cases  7 pass  2 fail  1 crash", done.stdout)
+        self.run_suite(fault=self.FAULT, check=1)
+        self.assertEqual(told(self.results(merged)), told(self.results()))
+        # The merged folder is a run like any other.
+        self.edgecase("report", merged, check=0)
+        self.assertEqual(told(self.results(merged)), told(self.results()))
+        self.run_suite("--failed-in", merged, out=self.folder / "again", check=0)
+        self.assertEqual(set(self.statuses(self.folder / "again")), {"fam/c1", "fam/c4", "fam/c7"})
+
+    def test_all_as_expected(self):
+        self.edgecase("report", "--merge", *self.shards(fault=""), "-o", "merged", check=0)
+
+    def test_a_shard_is_missing(self):
+        folders = self.shards(fault="")
+        done = self.edgecase("report", "--merge", folders[0], folders[2], "-o", "merged", check=7)
+        self.assertEqual(done.stderr, "edgecase: shard 2 is not among the folders, so not every case of the run is "
+                                      "here; name the folders of all shards\n")
+        self.assertTrue((self.folder / "merged" / "report.html").exists())
+
+    def refused(self, sentence, *words, code=3):
+        done = self.edgecase("report", *words, check=code)
+        self.assertEqual(done.stderr, f"edgecase: {sentence}\n")
+        self.assertFalse((self.folder / "merged").exists())
+
+    def test_twice_the_same(self):
+        a = self.shards(1, fault="")[0]
+        b = self.folder / "b"
+        self.run_suite(out=b, check=0)
+        self.refused(f"the case 'fam/c0' is in {a} and in {b}; give each job its own --shard",
+                     "--merge", a, b, "-o", "merged")
+
+    def different(self, what, a, b, *, words=(), change=None):
+        one, two = self.folder / "one", self.folder / "two"
+        self.run_suite("--shard", "1/2", out=one, check=0)
+        if change:
+            change()
+        self.run_suite("--shard", "2/2", *words, out=two, check=0)
+        if b is None:
+            hashes = [self.results(x)["run"]["suite_hash"] for x in (one, two)]
+            a, b = hashes
+        self.refused(f"{what} is '{a}' in {one} and '{b}' in {two}; only parts of one run can be merged, "
+                     "use 'edgecase compare' for different ones", "--merge", one, two, "-o", "merged")
+
+    def test_two_profiles(self):
+        self.different("the profile", "direct3d", "vulkan", words=["--profile", "vulkan"])
+
+    def test_two_suites(self):
+        self.different("the suite (a hash of its files)", None, None,
+                       change=lambda: self.write_case("fam/c9", (self.suite / "fam/c9.toml").read_text() + "\n"))
+
+    def test_two_devices(self):
+        one, two = self.folder / "one", self.folder / "two"
+        self.run_suite("--shard", "1/2", out=one, check=0)
+        self.edgecase("run", "--renderer=tiles", "--shard", "2/2", "-o", two)
+        done = self.edgecase("report", "--merge", one, two, "-o", "merged", check=3)
+        self.assertIn("edgecase: the device is '", done.stderr)
+
+    def test_two_numbers_of_shards(self):
+        self.run_suite("--shard", "1/2", out=self.folder / "one", check=0)
+        self.run_suite("--shard", "2/3", out=self.folder / "two", check=0)
+        self.refused("the number of shards is '2' in one and '3' in two; only parts of one run can be merged, "
+                     "use 'edgecase compare' for different ones", "--merge", "one", "two", "-o", "merged")
+
+    def test_several_folders_without_merge(self):
+        self.refused("several folders need --merge; 'edgecase compare' sets runs side by side", *self.shards(2), code=2)
+
+    def test_not_over_a_part(self):
+        a, b = self.shards(2)
+        self.refused(f"the merged run would overwrite '{a}', which is one of its parts; choose another folder with -o",
+                     "--merge", a, b, "-o", a, code=2)
+
+    def test_no_run(self):
+        done = self.edgecase("report", "--merge", "nowhere", check=3)
+        self.assertIn("nowhere/journal.jsonl: No such file or directory; name the directory of a run", done.stderr)
+
+
+class Workflows(CiTest):
+    """The ready files parse, and their commands are carried out with the reference instead of a driver."""
+
+    def setUp(self):
+        super().setUp()
+        tools = self.folder / "tools"
+        tools.mkdir()
+        wrapper = tools / "edgecase"
+        wrapper.write_text("#!/bin/sh\ncommand=$1; shift\n"
+                           f"[ \"$command\" = run ] && set -- --renderer=reference \"$@\"\n"
+                           f"exec {shlex.quote(PROGRAM)} \"$command\" \"$@\"\n")
+        wrapper.chmod(0o755)
+        self.tools = tools
+
+    def carry_out(self, line, **variables):
+        env = self.environment("flip-pixel@fam/c1")
+        env.update(variables, PATH=f"{self.tools}:{os.environ['PATH']}")
+        return subprocess.run(["sh", "-c", line], env=env, cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, check=False)
+
+    def lines_of(self, script, command):
+        return [x for x in script if re.search(rf"\bedgecase {command}\b", x)]
+
+    def check_merged(self, done):
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(set(self.statuses(self.folder / "out/merged")), set(self.ids))
+
+    def test_github(self):
+        flow = yaml.safe_load((SOURCE / "docs/ci/github-actions.yml").read_text())
+        scripts = {name: [s["run"] for s in job["steps"] if "run" in s] for name, job in flow["jobs"].items()}
+        [run] = self.lines_of(scripts["suite"], "run")
+        shards = flow["jobs"]["suite"]["strategy"]["matrix"]["shard"]
+        for shard in shards:
+            self.assertIn(f"/{len(shards)} ", run)
+            self.assertIn(self.carry_out(run.replace("${{ matrix.shard }}", str(shard))).returncode, (0, 1, 4))
+        [report] = self.lines_of(scripts["report"], "report")
+        done = self.carry_out(report, GITHUB_STEP_SUMMARY=str(self.folder / "summary.md"))
+        self.check_merged(done)
+        self.assertEqual(done.stdout.count("::error "), 1)
+        self.assertTrue((self.folder / "summary.md").exists())
+        self.assert_scripts_exist(sum(scripts.values(), []))
+
+    def test_gitlab(self):
+        flow = yaml.safe_load((SOURCE / "docs/ci/gitlab-ci.yml").read_text())
+        count = flow["suite"]["parallel"]
+        [run] = self.lines_of(flow["suite"]["script"], "run")
+        for k in range(1, count + 1):
+            done = self.carry_out(run, CI_NODE_INDEX=str(k), CI_NODE_TOTAL=str(count))
+            self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        [report] = self.lines_of(flow["report"]["script"], "report")
+        self.check_merged(self.carry_out(report))
+        for file in flow["report"]["artifacts"]["reports"].values():
+            self.assertTrue((self.folder / file).exists(), file)
+        self.assert_scripts_exist(sum((job.get("script", []) + job.get("before_script", []) for job in flow.values()
+                                       if isinstance(job, dict)), []))
+
+    def assert_scripts_exist(self, lines):
+        for name in re.findall(r"scripts/[\w.-]+", "\n".join(lines)):
+            self.assertTrue((SOURCE / name).exists(), name)
+
+
+if __name__ == "__main__":
+    unittest.main()

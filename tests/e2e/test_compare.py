@@ -1,0 +1,230 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs side by side, and expectation files brought up to date with what a run has seen."""
+import json
+import unittest
+
+import jsonschema
+
+from support import SOURCE, ProgramTest
+
+TIES = """format = 1
+description = "The lower edge of the second triangle passes through the pixel centres of row 4: without the top-left rule it is free there."
+rules = ["cover.inside", "tie.top-left"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0], [0,32], [32,0],  [-8,4.5], [24,4.5], [8,-20]]
+"""
+
+
+class CompareTest(ProgramTest):
+    def run_as(self, name, *words, fault="", renderer="reference", profile="direct3d"):
+        folder = self.folder / name
+        self.edgecase("run", f"--renderer={renderer}", "--profile", profile, "-o", folder, *words, fault=fault)
+        return folder
+
+    def compare(self, *words, check):
+        return self.edgecase("compare", *words, "--json", "c.json", check=check)
+
+    def changes(self):
+        comparison = json.loads((self.folder / "c.json").read_text())
+        schema = json.loads((SOURCE / "docs/schema/comparison-1.json").read_text())
+        jsonschema.Draft7Validator(schema).validate(comparison)
+        self.assertEqual(sum(comparison["totals"].values()) - comparison["totals"]["same"], len(comparison["cases"]))
+        return {c["id"]: c["change"] for c in comparison["cases"]}
+
+
+class Compare(CompareTest):
+    def test_every_kind(self):
+        a = self.run_as("a", fault="flip-pixel@fam/c1,flip-pixel@fam/c2,segv@fam/c3,segv@fam/c6,flip-pixel@fam/c7")
+        b = self.run_as("b", "fam/*", "!fam/c9", fault="segv@fam/c1,flip-pixel@fam/c3,segv@fam/c5,segv@fam/c6,"
+                                                       "flip-pixel@fam/c7,unsupported@fam/c8")
+        done = self.compare(a, b, check=1)
+        self.assertEqual(self.changes(), {
+            "fam/c1": "regression", "fam/c2": "fix", "fam/c3": "fix", "fam/c5": "regression", "fam/c6": "fails alike",
+            "fam/c7": "fails alike", "fam/c8": "only in some", "fam/c9": "only in some"})
+        self.assertIn("regressions: 2 cases got worse\n", done.stdout)
+        self.assertRegex(done.stdout, r"  A +B +case\n  fail +crash +fam/c1   B: SIGSEGV")
+        self.assertIn("fixes: 2 cases got better\n", done.stdout)
+        self.assertTrue(done.stdout.endswith("exit 1: regressions\n"))
+        # The other way round the fixes are the regressions.
+        self.compare(b, a, check=1)
+        self.assertEqual(self.changes()["fam/c2"], "regression")
+        self.assertEqual(self.changes()["fam/c1"], "fix")
+
+    def test_nothing(self):
+        a, b = self.run_as("a"), self.run_as("b")
+        done = self.compare(a, b, check=0)
+        self.assertEqual(self.changes(), {})
+        self.assertIn("the same bit for bit: 10 cases\nexit 0: no regression\n", done.stdout)
+
+    def test_three_runs(self):
+        runs = [self.run_as("a"), self.run_as("b"), self.run_as("c", fault="flip-pixel@fam/c4")]
+        done = self.compare(*runs, check=1)
+        self.assertRegex(done.stdout, r"  A     B     C     case\n  pass  pass  fail  fam/c4   C: ")
+        self.assertEqual(self.changes(), {"fam/c4": "regression"})
+
+    def test_expected_failures_are_failures(self):
+        """An expectation file changes what a run says, not what happened."""
+        folder = self.suite.parent / "expectations"
+        folder.mkdir()
+        (folder / "x.txt").write_text("# edgecase-expectations 1\n# device: Edgecase*\nfam/c3 fail b#1  # Known.\n")
+        a = self.run_as("a", fault="flip-pixel@fam/c3")
+        self.assertEqual(self.statuses(a)["fam/c3"], "xfail")
+        b = self.run_as("b")
+        self.assertEqual(self.statuses(b)["fam/c3"], "xpass")
+        self.compare(a, b, check=0)
+        self.assertEqual(self.changes(), {"fam/c3": "fix"})
+
+    def test_the_reference_allows_both(self):
+        """Without the top-left rule ties are free: two devices pass with other samples hit."""
+        self.write_case("fam/ties", TIES)
+        words = ("fam/ties", "--capture", "all")
+        a = self.run_as("a", *words, profile="vulkan")
+        b = self.run_as("b", *words, profile="vulkan", fault="flip-pixel@fam/ties")  # one hit more at (0,4)
+        for run in (a, b):
+            self.assertEqual(self.statuses(run)["fam/ties"], "pass")
+        done = self.compare(a, b, check=0)
+        self.assertEqual(self.changes(), {"fam/ties": "other coverage"})
+        self.assertIn("the reference allows both, other samples are hit: 1 case\n", done.stdout)
+        self.assertIn("   1 of 64 samples hit otherwise in A and B, first (0,4)\n", done.stdout)
+        drawn = self.edgecase("compare", a, b, "-v", check=0).stdout
+        rows = [line.strip() for line in drawn.splitlines() if line.startswith("    ") and len(line) == 12]
+        self.assertEqual(rows, ["########"] * 4 + ["2#######"] + ["########"] * 3)
+        # Without pictures the checksums still tell.
+        c = self.run_as("c", "fam/ties", profile="vulkan", fault="flip-pixel@fam/ties")
+        self.assertIn("   8 of 64 samples are free\n", self.compare(a, c, check=0).stdout)
+
+    def test_unjudged_cases_are_not_success(self):
+        a, b = self.run_as("a"), self.run_as("b")
+        journal = (b / "journal.jsonl").read_text().splitlines(keepends=True)
+        (b / "journal.jsonl").write_text("".join(x for x in journal if not ('"end"' in x[:40] and "fam/c3" in x[:60])))
+        done = self.compare(a, b, check=7)
+        self.assertTrue(done.stdout.endswith("exit 7: no regression, but cases were not judged\n"))
+
+    def refused(self, sentence, *words, code=2):
+        done = self.edgecase("compare", *words, check=code)
+        self.assertEqual((done.stdout, done.stderr), ("", f"edgecase: {sentence}\n"))
+
+    def test_wrong_words(self):
+        a = self.run_as("a")
+        b = self.run_as("b", profile="vulkan")
+        self.refused("comparing needs the folders of at least two runs", a)
+        self.refused(f"{a} is judged at profile direct3d and {b} at vulkan; compare runs of one profile", a, b)
+        self.refused("error: cannot read nowhere/journal.jsonl: No such file or directory; name the directory of a run",
+                     a, "nowhere", code=3)
+        self.refused("DIR is required; see 'edgecase compare --help'")
+        self.refused("unknown option '--jsn'; did you mean '--json'? See 'edgecase compare --help'", a, a, "--jsn", "x")
+
+    def test_other_suites_are_told(self):
+        a = self.run_as("a")
+        self.write_case("fam/c9", TIES)
+        done = self.compare(a, self.run_as("b"), check=0)
+        self.assertIn("note: the suites of A and B are not the same: a case may ask something else\n", done.stdout)
+
+
+HEADER = "# edgecase-expectations 1\n# device: Edgecase*\n"
+
+
+class Update(CompareTest):
+    def setUp(self):
+        super().setUp()
+        self.file = self.folder / "mine.txt"
+
+    def update(self, *words, check=0, run=None):
+        return self.edgecase("expect", "--update", run or self.folder / "a", self.file, *words, check=check)
+
+    def test_a_new_file_makes_the_run_green(self):
+        self.run_as("a", fault="flip-pixel@fam/c1,segv@fam/c3")
+        self.update("--bug", "mesa#7", "--until", "2999-01-01")
+        text = self.file.read_text()
+        self.assertRegex(text, r"\A# edgecase-expectations 1\n# device: Edgecase reference   driver: \S+ =1\.0   profile: direct3d\n"
+                               r"fam/c1   fail   mesa#7   until=2999-01-01   # 1 \w+ of 64 samples, \S+ \[\w+\]\.\n"
+                               r"fam/c3   crash   mesa#7   until=2999-01-01   # .*SIGSEGV.*\n\Z")
+        self.run_suite("--expect", self.file, fault="flip-pixel@fam/c1,segv@fam/c3", check=0)
+        self.edgecase("expect", self.file, check=0)
+
+    def test_what_changed_and_nothing_else(self):
+        lines = ["", "# why c1 is here", "fam/c1    fail   b#1      # The first.", "fam/c2  fail  b#2  # The second.",
+                 "", "  # indented", "fam/c3 fail b#3 # The third.", "fam/c4 skip - # Too slow.",
+                 "fam/c5 flake b#5 # Now and then."]
+        self.file.write_text(HEADER + "\n".join(lines) + "\n")
+        self.run_as("a", "--expect", self.file, fault="flip-pixel@fam/c1,segv@fam/c3,flip-pixel@fam/c7")
+        done = self.update("--bug", "b#9", "--reason", "New today.")
+        lines[3:4] = []
+        lines[5] = "fam/c3 crash b#3 # The third."
+        lines.append("fam/c7   fail   b#9   # New today.")
+        self.assertEqual(self.file.read_text(), HEADER + "\n".join(lines) + "\n")
+        self.assertEqual(done.stdout, "- fam/c2  fail  b#2  # The second.\n- fam/c3 fail b#3 # The third.\n"
+                                      "+ fam/c3 crash b#3 # The third.\n+ fam/c7   fail   b#9   # New today.\n"
+                                      f"{self.file}: 1 removed, 1 changed, 1 added, 3 kept\n")
+        again = self.update("--bug", "b#9")
+        self.assertTrue(again.stdout.endswith("nothing to write\n"), again.stdout)
+
+    def test_a_glob_whose_cases_differ(self):
+        for k in range(3):
+            self.write_case(f"g/x{k}", (self.suite / "fam/c1.toml").read_text())
+        self.file.write_text(HEADER + "g/*  fail  b#1  # All of them.\n")
+        self.run_as("a", "g/x0", "g/x1", "--expect", self.file, fault="flip-pixel@g/x0")
+        self.update()
+        # g/x2 was not drawn, so the line still holds for it.
+        self.assertEqual(self.file.read_text(), HEADER + "g/x0   fail   b#1   # All of them.\n"
+                                                         "g/x2   fail   b#1   # All of them.\n")
+
+    def test_lines_of_cases_that_were_not_drawn_stay(self):
+        self.file.write_text(HEADER + "fam/c1  fail  b#1  # The first.\n")
+        self.run_as("a", "fam/c2", "--expect", self.file)
+        self.assertIn("nothing to write", self.update().stdout)
+
+    def test_a_line_that_ended(self):
+        self.file.write_text(HEADER + "fam/c1  fail  b#1  until=2020-01-01  # The first.\n")
+        self.run_as("a", "--expect", self.file, fault="flip-pixel@fam/c1")
+        self.assertIn("note: the expectation of 'fam/c1' ended on 2020-01-01 and is still needed; look at it again and "
+                      "give --until DATE to extend it\n", self.update().stdout)
+        self.update("--until", "2999-12-31")
+        self.assertEqual(self.file.read_text(), HEADER + "fam/c1  fail  b#1  until=2999-12-31  # The first.\n")
+        self.assertEqual(self.edgecase("expect", self.file, check=0).stdout,
+                         f"{self.file}: 1 expectation, 1 fail; for Edgecase*\n")
+
+    def test_dry_run_writes_nothing(self):
+        self.run_as("a", fault="flip-pixel@fam/c1")
+        self.assertIn("; not written (--dry-run)\n", self.update("--bug", "x", "--dry-run").stdout)
+        self.assertFalse(self.file.exists())
+
+    def test_another_file_speaks_of_it(self):
+        other = self.folder / "other.txt"
+        other.write_text(HEADER + "fam/c1  fail  b#1  # The first.\n")
+        self.run_as("a", "--expect", other)
+        self.assertIn(f"note: 'fam/c1' is spoken of by {other}:3; update that file\n", self.update().stdout)
+
+    def refused(self, sentence, *words, code=2, **more):
+        done = self.update(*words, check=code, **more)
+        self.assertEqual((done.stdout, done.stderr), ("", f"edgecase: {sentence}\n"))
+
+    def test_wrong_words(self):
+        self.run_as("a", fault="flip-pixel@fam/c1,flip-pixel@fam/c2")
+        self.refused("2 unexpected results need a line ('fam/c1', 'fam/c2'); give --bug REFERENCE, so that each says "
+                     "where it is followed up")
+        self.refused("--bug: 'two words' is no reference; give one word that does not begin with '#', like mesa#1234 or a link", "--bug", "two words")
+        self.refused("--until: '2026-02-30' is no day to come; write YYYY-MM-DD", "--bug", "x", "--until", "2026-02-30")
+        self.refused("--until: '2020-01-01' is no day to come; write YYYY-MM-DD", "--bug", "x", "--until", "2020-01-01")
+        self.refused("--update: error: cannot read nowhere/journal.jsonl: No such file or directory; name the directory "
+                     "of a run", code=3, run="nowhere")
+        self.file.write_text(HEADER.replace("Edgecase*", "Other*"))
+        self.refused(f"the expectation file '{self.file}' does not fit the run: it is for the device 'Other*', this is "
+                     "'Edgecase reference'", "--bug", "x", code=5)
+        self.file.write_text(HEADER + "fam/c1 fial x # y\n")
+        self.refused(f"{self.file}:3:1: error: 'fial' is no status that can be expected; did you mean 'fail'?",
+                     "--bug", "x", code=3)
+        self.assertEqual(self.file.read_text(), HEADER + "fam/c1 fial x # y\n")
+
+    def test_show(self):
+        self.file.write_text(HEADER + "fam/c1  fail  b#1  until=2020-01-01  # The first.\n")
+        done = self.edgecase("expect", self.file, check=1)
+        self.assertEqual(done.stderr, f"{self.file}:3:1: error: the expectation of 'fam/c1' ended on 2020-01-01; "
+                                      "re-check it, or extend the date\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,201 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a person sees: colours, widths, progress, help, completion, the manual page."""
+import fcntl
+import os
+import pty
+import re
+import shutil
+import struct
+import subprocess
+import termios
+import unittest
+
+from support import PROGRAM, SOURCE, ProgramTest
+
+
+class TerminalTest(ProgramTest):
+    def on_terminal(self, *words, columns=80, fault="", **variables):
+        """Output of the program on a terminal of that many columns."""
+        env = self.environment(fault)
+        env.update({"TERM": "xterm"}, **variables)
+        parent, child = pty.openpty()
+        fcntl.ioctl(child, termios.TIOCSWINSZ, struct.pack("HHHH", 30, columns, 0, 0))
+        with subprocess.Popen([PROGRAM, *map(str, words)], env=env, cwd=self.folder, stdin=child, stdout=child,
+                              stderr=child) as process:
+            os.close(child)
+            text = b""
+            while True:
+                try:
+                    part = os.read(parent, 65536)
+                except OSError:  # the other end is closed
+                    break
+                if not part:
+                    break
+                text += part
+        os.close(parent)
+        return text.decode().replace("\r\n", "\n")
+
+
+class Terminal(TerminalTest):
+    RUN = ("run", "--renderer=reference", "-o", "out")
+
+    def test_colours(self):
+        self.assertIn("\x1b[34m10 pass\x1b[0m", self.on_terminal(*self.RUN))
+        self.assertNotIn("\x1b[34m", self.on_terminal(*self.RUN, NO_COLOR="1"))
+        self.assertIn("\x1b[34m", self.on_terminal(*self.RUN, "--color", "always", NO_COLOR="1"))
+        self.assertNotIn("\x1b[34m", self.on_terminal(*self.RUN, "--color", "never"))
+        self.assertNotIn("\x1b[", self.run_suite(check=0).stdout)
+        self.assertIn("\x1b[34m", self.run_suite("--color", "always", check=0).stdout)
+
+    def test_forty_columns(self):
+        text = self.on_terminal(*self.RUN, "--color", "never", columns=40, fault="flip-pixel@fam/c1")
+        self.assertIn("FAIL fam/c1", text)
+        for line in re.sub(r"\r\x1b\[K[^\r\n]*", "", text).splitlines():
+            if "rerun: " not in line and "explain: " not in line and " " in line.strip():
+                self.assertLessEqual(len(line), 40, line)
+        # A command is never broken, so that it can be copied.
+        self.assertRegex(text, r"\n      rerun: \S+ run fam/c1 --renderer reference\n")
+
+    def test_a_picture_with_v(self):
+        text = self.run_suite("-v", fault="flip-pixel@fam/c1", check=1).stdout
+        rows = [line[6:] for line in text.splitlines() if re.fullmatch(r"      [#.~MXDVO]{8}", line)]
+        self.assertEqual(len(rows), 8)
+        self.assertEqual(sum(row.count("M") + row.count("X") + row.count("D") for row in rows), 1, rows)
+
+    def test_progress(self):
+        # The hanging case holds the run up for some of the fifth of a second between two lines.
+        words = (*self.RUN, "--timeout", "1", "--retries", "0")
+        text = self.on_terminal(*words, fault="hang@fam/c9")
+        self.assertRegex(text, r"\r\x1b\[K\[\d+/10\] \d+%  \d+ unexpected")
+        self.assertNotIn("\r\x1b[K[", self.on_terminal(*words, fault="hang@fam/c9", CI="true"))
+        self.assertNotIn("\r\x1b[K[", self.on_terminal(*words, "--progress", "none", fault="hang@fam/c9"))
+
+
+class Explain(TerminalTest):
+    def test_a_rule(self):
+        text = self.edgecase("explain", "--rule", "tie.top-left", check=0).stdout
+        self.assertTrue(text.startswith("tie.top-left: "))
+        for part in ("    profile   direct3d", "    text      ", "    Direct3D  ", "    code      ref/",
+                     "    cases     0 in 0 files ('edgecase run @rule:tie.top-left')"):
+            self.assertIn(part, text)
+        self.assertIn("    cases     10 in 10 files", self.edgecase("explain", "--rule", "cover.inside", check=0).stdout)
+
+    def test_a_drawing_and_what_follows(self):
+        text = self.edgecase("explain", "fam/c1", "--pixel", "1,1", check=0).stdout
+        self.assertIn("\n     . . . . . . . .\n     .[#]# # # # # .\n", text)
+        self.assertIn("therefore the sample must be covered exactly once\n", text)
+        self.assertIn("therefore the sample must not be covered\n",
+                      self.edgecase("explain", "fam/c1", "--pixel", "0,0", check=0).stdout)
+
+    def refused(self, sentence, *words, code=2):
+        done = self.edgecase("explain", *words, check=code)
+        self.assertEqual((done.stdout, done.stderr), ("", f"edgecase: {sentence}\n"))
+
+    def test_wrong_words(self):
+        self.refused("there is no rule 'tie.topleft'; did you mean 'tie.top-left'?", "--rule", "tie.topleft", code=4)
+        self.refused("--pixel is required; see 'edgecase explain --help'", "fam/c1")
+        self.refused("--rule explains a rule, not a case; leave out the selector and --pixel; see 'edgecase explain --help'",
+                     "fam/c1", "--rule", "tie.top-left")
+        self.refused("--rule explains a rule, not a case; leave out the selector and --pixel; see 'edgecase explain --help'",
+                     "--pixel", "1,1", "--rule", "tie.top-left")
+        self.refused("--pixel: 'x' is not a value that it takes; see 'edgecase explain --help'", "fam/c1", "--pixel", "x")
+
+
+class Table(ProgramTest):
+    """Help, completion, manual page and docs/cli.md are made of, or held to, one table."""
+
+    def commands(self):
+        text = self.edgecase("--help", check=0).stdout.split("Examples:")[0]
+        return re.findall(r"^  ([a-z]+) ", text, re.M)
+
+    def options(self, command):
+        text = self.edgecase(command, "--help", check=0).stdout.split("Examples:")[0]
+        return sorted(set(re.findall(r"--[a-z][a-z-]+", text)) - {"--help"})
+
+    def test_nothing_is_missing_anywhere(self):
+        outputs = {shell: self.edgecase("completion", shell, check=0).stdout for shell in ("bash", "zsh", "fish")}
+        man = self.edgecase("man", check=0).stdout.replace("\\-", "-")
+        docs = (SOURCE / "docs/cli.md").read_text()
+        commands = self.commands()
+        self.assertGreaterEqual(len(commands), 13)
+        for command in commands:
+            section = man.split(f".SS edgecase {command}\n")[1].split(".SS ")[0]
+            page = docs.split(f"## `edgecase {command}`", 1)[1].split("\n## ", 1)[0]
+            bash = re.findall(rf"^ +{command}\) COMPREPLY=.*$", outputs["bash"], re.M)
+            zsh = outputs["zsh"].split(f"({command}) entries=(")[1].split(") ;;")[0]
+            fish = "".join(x for x in outputs["fish"].splitlines(True) if f"from {command}'" in x)
+            for option in self.options(command):
+                self.assertIn(f"\\fB{option}\\fR", section)
+                self.assertIn(f"`{option}", page)
+                self.assertTrue(any(f'{option} ' in x or f'{option}"' in x for x in bash), (command, option))
+                self.assertIn(f"'{option}:", zsh)
+                self.assertIn(f"-l {option[2:]} ", fish)
+
+    def test_help_has_groups_and_examples(self):
+        text = self.edgecase("--help", check=0).stdout
+        for group in ("Checking a device:", "Cases:", "The program:", "Examples:", "Exit codes:"):
+            self.assertIn(group, text)
+        for command in self.commands():
+            if command != "version":
+                self.assertIn("Examples:", self.edgecase(command, "--help", check=0).stdout)
+
+    def complete(self, *words):
+        script = ('source <("$0" completion bash); COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _edgecase; '
+                  'printf "%s\\n" "${COMPREPLY[@]}"')
+        env = self.environment()
+        env["PATH"] = f"{os.path.dirname(PROGRAM)}:{env['PATH']}"
+        done = subprocess.run(["bash", "-c", script, PROGRAM, "edgecase", *words], env=env, cwd=self.folder,
+                              capture_output=True, text=True, timeout=60, check=True)
+        self.assertEqual(done.stderr, "")
+        return done.stdout.split()
+
+    def test_bash_completes(self):
+        self.assertEqual(self.complete("co"), ["compare", "completion"])
+        self.assertEqual(self.complete("run", "--pro"), ["--profile", "--progress"])
+        self.assertEqual(self.complete("run", "--profile", "d"), ["direct3d"])
+        self.assertEqual(self.complete("explain", "fam/c"), self.ids)
+        self.assertEqual(self.complete("completion", "z"), ["zsh"])
+        self.assertEqual(self.complete("report", "ca"), ["cases"])
+        self.assertEqual(self.complete("run", "--seed", ""), [])
+
+    def test_scripts_are_of_their_shells(self):
+        for shell, check in (("bash", ["-n"]), ("zsh", ["-n"]), ("fish", ["--no-execute"])):
+            if shutil.which(shell):
+                script = self.edgecase("completion", shell, check=0).stdout
+                done = subprocess.run([shell, *check], input=script, capture_output=True, text=True, timeout=60,
+                                      check=False)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), shell)
+
+    def test_manual_page(self):
+        text = self.edgecase("man", check=0).stdout
+        self.assertIn('.TH EDGECASE 1 "" "edgecase ', text)
+        self.assertIn(".SH NAME\nedgecase \\- check", text)
+        if shutil.which("groff"):
+            done = subprocess.run(["groff", "-man", "-Tutf8", "-ww"], input=text, capture_output=True, text=True,
+                                  timeout=60, check=True)
+            self.assertEqual(done.stderr, "")
+
+    def test_wrong_shell(self):
+        done = self.edgecase("completion", "csh", check=2)
+        self.assertEqual(done.stderr, "edgecase: SHELL: 'csh' is none of bash, fish, zsh; did you mean 'zsh'? "
+                                      "See 'edgecase completion --help'\n")
+
+
+class Doctor(ProgramTest):
+    def test_parts_and_commands(self):
+        env = self.environment()
+        env.update(XDG_DATA_DIRS=str(self.folder), HOME=str(self.folder))
+        text = self.edgecase("doctor", "--renderer=reference", env=env).stdout
+        self.assertIn("Parts\n  validation layer, for '--validation': missing\n"
+                      "     try: sudo apt install vulkan-validationlayers\n", text)
+        self.assertIn(f"  suite, for 'edgecase run' without a selector: {self.suite}\n", text)
+        layer = self.folder / "vulkan/explicit_layer.d/VkLayer_khronos_validation.json"
+        layer.parent.mkdir(parents=True)
+        layer.write_text("{}")
+        text = self.edgecase("doctor", "--renderer=reference", env=env).stdout
+        self.assertIn(f"for '--validation': {layer}\n", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/ci.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "report/causes.hpp"
+#include "report/merge.hpp"
+#include "report/utf8.hpp"
+#include "sample_run.hpp"
+
+namespace report {
+namespace {
+
+size_t lines_with(const std::string& text, const std::string& start) {
+    size_t count = text.starts_with(start) ? 1 : 0;
+    for (size_t at = 0; (at = text.find("\n" + start, at)) != std::string::npos; ++at) {
+        ++count;
+    }
+    return count;
+}
+
+TEST(causes, group_by_status_rule_kind_and_family) {
+    report::Run run = test::sample_run();
+    CaseRecord again = run.cases[4];
+    again.id = "ties/right";
+    run.cases.push_back(again);
+    again.id = "other/right";
+    run.cases.push_back(again);
+    const std::vector<Cause> list = causes(run);
+    size_t cases = 0;
+    for (const Cause& cause : list) {
+        cases += cause.cases.size();
+    }
+    EXPECT_EQ(cases, static_cast<size_t>(std::count_if(
+                         run.cases.begin(), run.cases.end(),
+                         [](const CaseRecord& r) { return !is_expected(r.status); })));
+    const auto ties =
+        std::find_if(list.begin(), list.end(), [](const Cause& c) { return c.family == "ties"; });
+    ASSERT_NE(ties, list.end());
+    EXPECT_EQ(cause_title(*ties), "fail: tie.top-left missing in ties, 2 cases");
+    // Deaths before failures, what breaks Vulkan before what breaks Direct3D, not run at last.
+    EXPECT_EQ(list.front().status, Status::error);
+    EXPECT_EQ(list[1].status, Status::crash);
+    EXPECT_EQ(cause_title(list[1]), "crash: SIGSEGV during pipeline in large, 1 case");
+    EXPECT_EQ(list[4].family, "shared-edge");
+    EXPECT_EQ(list[5].family, "ties");
+    EXPECT_EQ(list.back().status, Status::not_run);
+}
+
+TEST(github, at_most_ten_and_the_rest_is_counted) {
+    report::Run run = test::sample_run();
+    EXPECT_EQ(lines_with(to_github_annotations(run, "/x"), "::error "), 10U);
+    EXPECT_EQ(to_github_annotations(run, "/x").find("more cause"), std::string::npos);
+    const CaseRecord fail = run.cases[4];
+    for (const char* family : {"a", "b"}) {
+        run.cases.push_back(fail);
+        run.cases.back().id = std::string(family) + "/x";
+    }
+    const std::string text = to_github_annotations(run, "/x");
+    EXPECT_EQ(lines_with(text, "::error "), 10U);
+    EXPECT_TRUE(
+        text.ends_with("+2 more causes of unexpected results: see the summary of the step\n"));
+}
+
+TEST(github, paths_are_those_of_the_checkout) {
+    report::Run run = test::sample_run();
+    run.environment.emplace_back("PWD", "/home/ci/work/tree");
+    run.cases = {run.cases[4]};
+    run.cases[0].file = "cases/suite/../suite/a.toml";
+    EXPECT_TRUE(to_github_annotations(run, "/home/ci/work")
+                    .starts_with("::error file=tree/cases/suite/a.toml,line=1,title=fail%3A "
+                                 "tie.top-left missing in ties%2C 1 "
+                                 "case::ties/left   1 missing of 64 samples"));
+    EXPECT_TRUE(to_github_annotations(run, "/other")
+                    .starts_with("::error file=/home/ci/work/tree/cases/suite/a.toml,"));
+}
+
+TEST(github, bytes_of_drivers_cannot_make_commands_or_markup) {
+    report::Run run = test::hostile_run();
+    for (CaseRecord& r : run.cases) {
+        r.reason += "\n::error::injected\r\n| a | <script> `x` 100%";
+        r.rerun += "\n::warning::x";
+    }
+    const std::string text = to_github_annotations(run, "/x");
+    EXPECT_TRUE(is_utf8(text));
+    EXPECT_EQ(lines_with(text, "::error::"), 0U);
+    EXPECT_EQ(lines_with(text, "::"), lines_with(text, "::error file="));
+    const std::string summary = to_github_summary(run);
+    EXPECT_TRUE(is_utf8(summary));
+    std::istringstream lines(summary);
+    for (std::string line; std::getline(lines, line);) {
+        // Markdown shows an indented block as it is.
+        EXPECT_TRUE(line.starts_with("    ") || line.find('<') == std::string::npos) << line;
+    }
+    EXPECT_EQ(lines_with(summary, "::"), 0U);
+    EXPECT_EQ(summary.find('\x1b'), std::string::npos);
+}
+
+TEST(github, the_summary_stays_below_the_limit) {
+    report::Run run = test::sample_run();
+    const CaseRecord fail = run.cases[4];
+    for (size_t k = 0; k < 20000; ++k) {
+        run.cases.push_back(fail);
+        run.cases.back().id = "family" + std::to_string(k) + "/x";
+    }
+    const std::string text = to_github_summary(run);
+    EXPECT_LT(text.size(), size_t{1} << 20);
+    EXPECT_NE(text.find(" more causes, see the report.\n"), std::string::npos);
+}
+
+TEST(gitlab, is_an_issue_a_case_with_a_fingerprint_of_its_own) {
+    const report::Run run = test::hostile_run();
+    const auto json = nlohmann::json::parse(to_gitlab(run, "/x"));
+    ASSERT_EQ(json.size(), 10U);
+    std::set<std::string> fingerprints;
+    for (const auto& issue : json) {
+        fingerprints.insert(issue.at("fingerprint").get<std::string>());
+    }
+    EXPECT_EQ(fingerprints.size(), json.size());
+    report::Run later = run;
+    later.cases[3].seconds = 99;
+    later.cases[3].findings[0].x += 1;
+    EXPECT_EQ(nlohmann::json::parse(to_gitlab(later, "/x"))[0].at("fingerprint"),
+              json[0].at("fingerprint"));
+    later.cases[3].status = Status::crash;
+    EXPECT_NE(nlohmann::json::parse(to_gitlab(later, "/x"))[0].at("fingerprint"),
+              json[0].at("fingerprint"));
+}
+
+TEST(merge, puts_parts_together_or_says_why_not) {
+    report::Run whole = test::sample_run();
+    std::vector<Part> parts = {{"a", whole}, {"b", whole}};
+    for (size_t k = 0; k < 2; ++k) {
+        report::Run& run = parts[k].run;
+        run.shard = static_cast<uint32_t>(k) + 1;
+        run.shards = 2;
+        run.cases.clear();
+        for (size_t c = k; c < whole.cases.size(); c += 2) {
+            run.cases.push_back(whole.cases[c]);
+        }
+    }
+    const auto merged = merge_runs(parts);
+    ASSERT_TRUE(merged);
+    EXPECT_TRUE(merged->missing_shards.empty());
+    EXPECT_EQ(merged->run.cases.size(), whole.cases.size());
+    EXPECT_EQ(totals(merged->run), totals(whole));
+    EXPECT_EQ(exit_code(merged->run), exit_code(whole));
+    EXPECT_DOUBLE_EQ(merged->run.seconds, 2 * whole.seconds);
+
+    const auto one = merge_runs({parts[1]});
+    ASSERT_TRUE(one);
+    EXPECT_EQ(one->missing_shards, (std::vector<uint32_t>{1}));
+
+    auto wrong = parts;
+    wrong[1].run.interrupted = true;
+    EXPECT_EQ(exit_code(merge_runs(wrong)->run), kExitInterrupted);
+    wrong = parts;
+    wrong[1].run.ended.clear();
+    EXPECT_EQ(merge_runs(wrong)->run.ended, "");
+    wrong = parts;
+    wrong[1].run.device.subpixel_bits = 4;
+    EXPECT_FALSE(merge_runs(wrong));
+    wrong = parts;
+    wrong[1].run.device.driver_info += "x";
+    EXPECT_FALSE(merge_runs(wrong));
+    wrong = parts;
+    wrong[1].run.tool_version = "9";
+    ASSERT_FALSE(merge_runs(wrong));
+    EXPECT_EQ(merge_runs(wrong).error().message,
+              "the version of edgecase is '0.1.0' in a and '9' in b; only parts of one run can be "
+              "merged, use 'edgecase compare' for different ones");
+    EXPECT_FALSE(merge_runs({}));
+}
+
+}  // namespace
+}  // namespace report
