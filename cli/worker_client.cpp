@@ -111,19 +111,23 @@ void WorkerClient::add_poll(std::vector<pollfd>& fds) const {
 }
 
 void WorkerClient::write_pending() {
-    while (!pending_.empty()) {
-        const ssize_t n = ::write(child_.request.get(), pending_.data(), pending_.size());
+    while (written_ < pending_.size()) {
+        const ssize_t n =
+            ::write(child_.request.get(), pending_.data() + written_, pending_.size() - written_);
         if (n < 0) {
             if (errno == EINTR) {
                 continue;
             }
             if (errno != EAGAIN) {
                 pending_.clear();  // the worker is gone; the result pipe tells
+                written_ = 0;
             }
             return;
         }
-        pending_.erase(0, static_cast<size_t>(n));
+        written_ += static_cast<size_t>(n);
     }
+    pending_.clear();
+    written_ = 0;
 }
 
 void WorkerClient::read_output() {

@@ -96,7 +96,8 @@ class WorkerClient {
     State state_ = State::starting;
     std::chrono::milliseconds timeout_;
     Clock::time_point deadline_;
-    std::string pending_;  // request bytes not yet written
+    std::string pending_;  // request bytes, of which the first written_ are written
+    size_t written_ = 0;
     FrameReader reader_;
     HeadAndTail output_;
     std::string step_;

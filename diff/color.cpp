@@ -79,8 +79,7 @@ Finding ColorComparison::finding_of(size_t index, ref::SampleId id,
                                     const std::optional<ref::ColorWitness>& witness) {
     Finding finding;
     place(finding, case_.target, id);
-    const ref::color::Unit unit{case_.target.color->format, expectation_.profile};
-    const std::string got = unit.text_of(capture_.color[index]);
+    const std::string got = unit_.text_of(capture_.color[index]);
     const uint32_t hits = verdict.hits;
     switch (verdict.kind) {
         case Kind::missing:
@@ -127,8 +126,7 @@ uint8_t ColorComparison::hits_for_pictures(size_t index) {
     if (codes == last_drawn_) {
         return 1;
     }
-    const ref::color::Unit unit{case_.target.color->format, expectation_.profile};
-    const bool is_clear = unit.allows(unit.cleared(*case_.target.color), codes);
+    const bool is_clear = unit_.allows(cleared_, codes);
     (is_clear ? last_clear_ : last_drawn_) = codes;
     return is_clear ? 0 : 1;
 }

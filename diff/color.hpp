@@ -19,7 +19,12 @@ class ColorComparison {
     // All must outlive this object; the case has a colour target.
     ColorComparison(const cases::Case& c, const ref::Expectation& expectation,
                     const CaptureView& capture, Attribution& attribution)
-        : case_(c), expectation_(expectation), capture_(capture), attribution_(attribution) {}
+        : case_(c),
+          expectation_(expectation),
+          capture_(capture),
+          attribution_(attribution),
+          unit_{c.target.color->format, expectation.profile},
+          cleared_(unit_.cleared(*c.target.color)) {}
 
     // The finding at a sample that was drawn, if any. `writer`: with instruments, the triangle that
     // wrote last (any value if there are no hits).
@@ -39,6 +44,8 @@ class ColorComparison {
     const ref::Expectation& expectation_;
     const CaptureView& capture_;
     Attribution& attribution_;
+    ref::color::Unit unit_;
+    ref::color::Color cleared_;
     std::array<std::unique_ptr<ref::ColorReference>, 3> references_;  // by profile
     // Neighbours mostly hold the same: the last colours that were the clear colour, and that were
     // not.

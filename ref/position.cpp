@@ -107,28 +107,6 @@ bool add_exactly(double a, double b, double& sum) {
     return !(std::fabs(rest) > 0);
 }
 
-// True only if every step of the transform is exact in binary32, as axis_error asks it; answered in
-// binary64, where each step is exact or known not to be. False says nothing.
-bool is_exact_in_binary32(float c, float w, float origin, float extent) {
-    if (!is_power_of_two(w)) {
-        return false;
-    }
-    const double normalized = double{c} / double{w};  // exact: w is a power of two
-    const double half = double{extent} / 2;
-    if (!is_normal_binary32(normalized) || !is_normal_binary32(half)) {
-        return false;
-    }
-    const double t = normalized * half;  // exact: 24 bits by 24 bits
-    double offset = 0;
-    double x_f = 0;
-    double offset_rest = 0;
-    double x_rest = 0;
-    return add_exactly(double{origin}, half, offset) && add_exactly(t, offset, x_f) &&
-           add_exactly(offset, -0.5, offset_rest) && add_exactly(x_f, -0.5, x_rest) &&
-           is_normal_binary32(t) && is_normal_binary32(offset) && is_normal_binary32(x_f) &&
-           is_normal_binary32(offset_rest) && is_normal_binary32(x_rest);
-}
-
 mpq_class axis_error(float c, float w, const Axis& axis) {
     const mpq_class normalized = exact(c) / exact(w);
     const mpq_class t = normalized * axis.half;
@@ -208,6 +186,27 @@ bool is_in_range(const mpq_class& x, const mpq_class& y, const TransformError& e
 
 }  // namespace
 
+// Answered in binary64, where each step is exact or known not to be.
+bool is_transform_exact(float c, float w, float origin, float extent) {
+    if (!is_power_of_two(w)) {
+        return false;
+    }
+    const double normalized = double{c} / double{w};  // exact: w is a power of two
+    const double half = double{extent} / 2;
+    if (!is_normal_binary32(normalized) || !is_normal_binary32(half)) {
+        return false;
+    }
+    const double t = normalized * half;  // exact: 24 bits by 24 bits
+    double offset = 0;
+    double x_f = 0;
+    double offset_rest = 0;
+    double x_rest = 0;
+    return add_exactly(double{origin}, half, offset) && add_exactly(t, offset, x_f) &&
+           add_exactly(offset, -0.5, offset_rest) && add_exactly(x_f, -0.5, x_rest) &&
+           is_normal_binary32(t) && is_normal_binary32(offset) && is_normal_binary32(x_f) &&
+           is_normal_binary32(offset_rest) && is_normal_binary32(x_rest);
+}
+
 mpq_class rounding_bound(const mpq_class& t, const mpq_class& o, const mpq_class& x_f,
                          const mpq_class& u) {
     return u * (4 * abs(t) + abs(o) + 2 * abs(x_f) + 1) * (1 + 8 * u);
@@ -251,10 +250,10 @@ bool is_in_guaranteed_range(const glm::vec4& clip, cases::Profile profile) {
 
 TransformError transform_error(const glm::vec4& clip, const cases::Viewport& viewport) {
     TransformError error;  // zero
-    if (!is_exact_in_binary32(clip.x, clip.w, viewport.x, viewport.width)) {
+    if (!is_transform_exact(clip.x, clip.w, viewport.x, viewport.width)) {
         error.x = axis_error(clip.x, clip.w, axis_x(viewport));
     }
-    if (!is_exact_in_binary32(clip.y, clip.w, viewport.y, viewport.height)) {
+    if (!is_transform_exact(clip.y, clip.w, viewport.y, viewport.height)) {
         error.y = axis_error(clip.y, clip.w, axis_y(viewport));
     }
     return error;

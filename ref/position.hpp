@@ -48,6 +48,8 @@ struct TransformError {
     mpq_class x, y;
 };
 TransformError transform_error(const glm::vec4& clip, const cases::Viewport& viewport);
+// Whether the bound is 0 for a coordinate c, of a viewport from `origin` on, `extent` pixels long.
+bool is_transform_exact(float c, float w, float origin, float extent);
 
 // A closed box of positions, S47.16.
 struct Box {

@@ -270,6 +270,27 @@ Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, u
     return out;
 }
 
+namespace {
+
+// transform_error (position.cpp) of the coordinate c of a vertex.
+template <class T>
+T coordinate_error(float c, float w, float origin, float extent) {
+    if (is_transform_exact(c, w, origin, extent)) {
+        return T(0.0);
+    }
+    const T u(kUnitRoundoff);
+    const T half(static_cast<double>(extent) / 2);
+    const T offset = T(static_cast<double>(origin)) + half;
+    const T t = from_float<T>(c) / from_float<T>(w) * half;
+    const T sum = T(4.0) * magnitude(t) + magnitude(offset) + T(2.0) * magnitude(T(t + offset));
+    T error = u * T(sum + T(1.0)) * T(T(1.0) + T(8.0) * u);
+    error =
+        error + T(0x1p-120) * T(T(1.0) + magnitude(half)) * T(T(1.0) + magnitude(from_float<T>(c)));
+    return std::abs(w) > 0x1p125F ? T(error + magnitude(t)) : error;
+}
+
+}  // namespace
+
 template <class T>
 Vertices<T> ideal_vertices(const Primitive& primitive) {
     const auto t = transform_of<T>(*primitive.draw);
@@ -281,9 +302,9 @@ Vertices<T> ideal_vertices(const Primitive& primitive) {
         v.hy[i] = t.scale_y * from_float<T>(c.y) + t.offset_y * v.w[i];
         v.finite[i] = c.w > 0 || c.w < 0;
         if (v.finite[i]) {
-            const TransformError e = transform_error(c, primitive.draw->viewport);
-            v.ex[i] = from_exact<T>(e.x);
-            v.ey[i] = from_exact<T>(e.y);
+            const cases::Viewport& p = primitive.draw->viewport;
+            v.ex[i] = coordinate_error<T>(c.x, c.w, p.x, p.width);
+            v.ey[i] = coordinate_error<T>(c.y, c.w, p.y, p.height);
         }
     }
     return v;

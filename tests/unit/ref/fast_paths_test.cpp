@@ -111,5 +111,29 @@ TEST(FastPaths, TransformErrorIsZeroExactlyWhereEveryStepIsExact) {
     EXPECT_GT(inexact, 1000U);
 }
 
+TEST(FastPaths, ErrorsOfVerticesAreThoseOfTheTransform) {
+    std::mt19937 random(20240613);
+    size_t zero = 0;
+    for (int n = 0; n < 20000; ++n) {
+        const Sampled s = sampled(random);
+        cases::Draw draw;
+        draw.viewport = s.viewport;
+        value::Primitive primitive;
+        primitive.draw = &draw;
+        primitive.clip = {s.clip, s.clip, s.clip};
+        const TransformError want = transform_error(s.clip, s.viewport);
+        const auto exact = value::ideal_vertices<mpq_class>(primitive);
+        EXPECT_EQ(exact.ex[1], want.x);
+        EXPECT_EQ(exact.ey[1], want.y);
+        const auto ball = value::ideal_vertices<value::Ball>(primitive);
+        EXPECT_LE(abs(want.x - mpq_class(ball.ex[2].v)), mpq_class(ball.ex[2].e));
+        EXPECT_LE(abs(want.y - mpq_class(ball.ey[2].v)), mpq_class(ball.ey[2].e));
+        EXPECT_LE(ball.ex[2].e, 0x1p-40 * std::fabs(ball.ex[2].v) + 0x1p-500);
+        zero += want.x == 0 ? 1U : 0U;
+    }
+    EXPECT_GT(zero, 1000U);
+    EXPECT_LT(zero, 19000U);
+}
+
 }  // namespace
 }  // namespace ref
