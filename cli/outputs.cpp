@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "cli/ci.hpp"
 #include "cli/frame.hpp"
@@ -49,6 +50,39 @@ cases::Expected<void> write_text(const std::string& file, const std::string& tex
     return {};
 }
 
+namespace {
+
+// FILE of part k of the report, from 2 on: FILE-k.html beside FILE.html.
+std::string part_file(const std::string& file, size_t part) {
+    const std::filesystem::path path(file);
+    return (path.parent_path() /
+            (path.stem().string() + "-" + std::to_string(part) + path.extension().string()))
+        .string();
+}
+
+void write_pages(const report::Run& run, const ReportFiles& files, cases::Errors& errors) {
+    if (files.folder.empty() && files.html.empty()) {
+        return;
+    }
+    const std::vector<std::string> pages = report::to_html_parts(run);
+    const std::string in_folder =
+        files.folder.empty() ? std::string() : (files.folder / "report.html").string();
+    for (const std::string& file : {in_folder, files.html}) {
+        for (size_t k = 0; k < pages.size() && !file.empty(); ++k) {
+            if (k > 0 && file == "-") {
+                break;
+            }
+            if (cases::Expected<void> written =
+                    write_text(k == 0 ? file : part_file(file, k + 1), pages[k]);
+                !written) {
+                errors.push_back(written.error());
+            }
+        }
+    }
+}
+
+}  // namespace
+
 cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
     cases::Errors errors;
     const auto write = [&](const std::string& in_folder, const std::string& extra,
@@ -70,7 +104,7 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
     };
     write("results.json", files.json, report::to_json);
     write("junit.xml", files.junit, report::to_junit);
-    write("report.html", files.html, report::to_html);
+    write_pages(run, files, errors);
     return errors;
 }
 

@@ -164,15 +164,15 @@ std::string script() {
     return text;
 }
 
-}  // namespace
-
-std::string to_html(const Run& run) {
+// One page; `left_out` as page_data() fills it.
+std::string page_of(const Run& run, size_t part, std::vector<size_t>& left_out) {
+    const std::string part_text = part > 1 ? fmt::format(" (part {})", part) : "";
     const std::pair<std::string_view, std::string> fields[] = {
-        {"{{TITLE}}", escaped(title_of(run))},
+        {"{{TITLE}}", escaped(title_of(run)) + part_text},
         {"{{CSS}}", std::string(kStyle)},
         {"{{HEADER}}", header(run)},
         {"{{TABLE}}", table(run)},
-        {"{{DATA}}", script_data(page_data(run))},
+        {"{{DATA}}", script_data(page_data(run, part, left_out))},
         {"{{SCRIPT}}", script()},
     };
     // One pass in the page's order: what is put in is never searched for fields again.
@@ -186,6 +186,33 @@ std::string to_html(const Run& run) {
     }
     text += rest;
     return text;
+}
+
+}  // namespace
+
+std::string to_html(const Run& run) {
+    std::vector<size_t> left_out;
+    return page_of(run, 1, left_out);
+}
+
+std::vector<std::string> to_html_parts(const Run& run) {
+    std::vector<std::string> pages;
+    std::vector<size_t> left_out;
+    pages.push_back(page_of(run, 1, left_out));
+    Run rest = run;
+    while (!left_out.empty()) {
+        std::vector<CaseRecord> cases;
+        for (const size_t k : left_out) {
+            cases.push_back(std::move(rest.cases[k]));
+        }
+        const size_t before = rest.cases.size();
+        rest.cases = std::move(cases);
+        if (rest.cases.size() == before) {
+            break;  // a case that fits nowhere
+        }
+        pages.push_back(page_of(rest, pages.size() + 1, left_out));
+    }
+    return pages;
 }
 
 }  // namespace report

@@ -121,6 +121,7 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
     }
     if (!r.findings.empty()) {
         json["finding_total"] = finding_total(r);
+        json["counts"] = counts_text(r);
         const diff::Finding& lead = leading_finding(r);
         json["lead"] = finding_json(r, lead, strings);
         const auto is_here = [](const diff::Finding& a, const diff::Finding& b) {
@@ -150,17 +151,17 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
 }
 
 // Adds what fits to the cases: first all of the first case of every cause, then pictures with
-// triangles, then values. Returns how many cases had to be left without.
-size_t add_evidence(const Run& run, Json& list) {
+// triangles, then values. Returns the cases that had to be left without.
+std::vector<size_t> add_evidence(const Run& run, Json& list) {
     size_t left = kEvidenceBudget;
-    size_t without = 0;
+    std::vector<size_t> without;
     const auto add_picture = [&](size_t k) {
         const CaseRecord& r = run.cases[k];
         if (r.pictures.width > 0 && r.pictures.height > 0) {
             Json both = Json::array({encode_pictures(r.pictures), encode_geometry(r.geometry)});
             const size_t size = both.dump().size();
             if (size > left) {
-                ++without;
+                without.push_back(k);
                 return;
             }
             left -= size;
@@ -208,7 +209,7 @@ size_t add_evidence(const Run& run, Json& list) {
 
 }  // namespace
 
-Json page_data(const Run& run) {
+Json page_data(const Run& run, size_t part, std::vector<size_t>& left_out) {
     Json rules = Json::object();
     for (const cases::Rule& rule : cases::all_rules()) {
         rules[std::string(rule.id)] = Json{{"title", rule.title},
@@ -235,13 +236,17 @@ Json page_data(const Run& run) {
     for (const CaseRecord& record : run.cases) {
         list.push_back(case_json(record, most, strings));
     }
-    const size_t without = add_evidence(run, list);
+    left_out = add_evidence(run, list);
+    for (const size_t k : left_out) {
+        list[k]["part"] = part + 1;
+    }
     return Json{{"rules", rules},
                 {"meanings", meanings},
                 {"totals", total},
                 {"profile", cases::to_string(run.profile)},
                 {"subpixel_bits", run.device.subpixel_bits},
-                {"without_pictures", without},
+                {"part", part},
+                {"without_pictures", left_out.size()},
                 {"strings", strings.list()},
                 {"cases", list}};
 }

@@ -7,16 +7,18 @@
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 #include "report/run.hpp"
 
 namespace report {
 
 // Bytes of JSON that pictures, triangles and values may take together. With findings, the list of
-// cases and the script a page stays below 8 MB; the page says what was left out, results.json holds
-// every finding.
+// cases and the script a page stays below 8 MB; what does not fit goes to further pages.
 inline constexpr size_t kEvidenceBudget = size_t{9} << 19;  // 4.5 MiB
 
-nlohmann::ordered_json page_data(const Run& run);
+// `part`: 1 for the first page of a run. Cases whose pictures do not fit go into `left_out`, by
+// their numbers in the run; the page says that they stand in the next part.
+nlohmann::ordered_json page_data(const Run& run, size_t part, std::vector<size_t>& left_out);
 
 }  // namespace report

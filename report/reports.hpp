@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "report/run.hpp"
 
@@ -19,6 +20,9 @@ std::string to_junit(const Run& run);
 
 // report.html: one file that opens by double click and loads nothing.
 std::string to_html(const Run& run);
+// The same, and further pages with the cases whose pictures would make it larger than 8 MB: part k
+// (from 2 on) belongs beside the first in a file with "-k" before ".html".
+std::vector<std::string> to_html_parts(const Run& run);
 
 struct ConsoleStyle {
     bool color = false;

@@ -27,7 +27,7 @@ function paint(canvas, scene, shot) {
   paintRulers(view);
   if (scene.geometry) {
     if (shot.options.outlines) { paintRegions(view, scene.geometry); paintTriangles(view, scene.geometry); }
-    if (shot.options.samples) { paintSamples(view, scene); }
+    if (shot.options.samples && scene.geometry.blit.length === 0) { paintSamples(view, scene); }
   }
   if (shot.cursor && isInPicture(p, shot.cursor)) { paintCursor(view, scene, shot.cursor); }
 }
@@ -149,23 +149,26 @@ function strokeTwice(view, width) {
   context.stroke();
 }
 
-// Top and left edges, which own their samples, thick; the others thin. What clipping leaves is dashed.
+// Edges as thin lines where they are; along top and left edges, which own their samples, a thick one on the owner's side. What
+// clipping leaves is dashed.
 function paintTriangles(view, geometry) {
   const {context} = view;
   context.lineCap = "round";
   context.lineJoin = "round";
   const thin = view.zoom >= 6 ? 1 : .75, thick = view.zoom >= 24 ? 4 : view.zoom >= 12 ? 3 : view.zoom >= 6 ? 2.2 : 1.4;
-  const stroke = (edges, width) => {
+  const stroke = (edges, width, inwards) => {
     context.beginPath();
     for (const {a, b} of edges) {
-      context.moveTo(...pointOnScreen(view, a));
-      context.lineTo(...pointOnScreen(view, b));
+      const [ax, ay] = pointOnScreen(view, a), [bx, by] = pointOnScreen(view, b);
+      const length = Math.hypot(bx - ax, by - ay) || 1, x = -(by - ay) / length * inwards, y = (bx - ax) / length * inwards;  // where E grows
+      context.moveTo(ax + x, ay + y);
+      context.lineTo(bx + x, by + y);
     }
     strokeTwice(view, width);
   };
   const edges = geometry.triangles.flatMap((t) => t.edges.map((e) => ({...e, hasArea: t.hasArea})));
-  stroke(edges.filter((e) => !e.hasArea || !ownsTies(e.kind)), thin);
-  stroke(edges.filter((e) => e.hasArea && ownsTies(e.kind)), thick);
+  stroke(edges, thin, 0);
+  stroke(edges.filter((e) => e.hasArea && ownsTies(e.kind)), thick, thick / 2);
   context.setLineDash([6, 4]);
   for (const {piece} of geometry.triangles) {
     if (piece.length < 4) { continue; }

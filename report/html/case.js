@@ -41,8 +41,15 @@ function makeCasePage(record, neighbours, onChange) {
   return page;
 }
 
+// The file of another part of the report: report.html, report-2.html ...
+function partName(part) {
+  const name = decodeURIComponent(location.pathname.slice(location.pathname.lastIndexOf("/") + 1)), own = data.part > 1 ? "-" + data.part : "";
+  return name.replace(new RegExp(own + "(\\.[^.]*)?$"), (part > 1 ? "-" + part : "") + "$1");
+}
+
 function noPictureText(record) {
-  if (record.findings) { return "Its pictures were left out to keep this page small; run the case alone to see them."; }
+  if (record.part) { return ["To keep this page small its pictures stand in ", el("a", {href: partName(record.part) + "#case=" + encodeURIComponent(record.id)}, partName(record.part)), "."]; }
+  if (record.findings) { return "No pictures were kept; --capture=failed keeps them."; }
   if (record.status === "pass" || record.status === "xpass") { return "Nothing is wrong here, so no pictures were kept; --capture=all keeps them."; }
   return "Nothing was compared, so there are no pictures.";
 }

@@ -20,7 +20,7 @@ function causeOf(record) {
 const entries = data.cases.map((record) => ({record, family: familyOf(record.id), cause: causeOf(record), rank: STATUSES.indexOf(record.status),
   wrong: record.finding_total || 0, worst: record.worst ? numberOf(record.worst[0]) : -1, seconds: numberOf(record.seconds),
   rules: new Set([...(record.rules || []), ...(record.lead ? [string(record.lead[1])] : [])]),
-  text: [record.id, string(record.description), (record.rules || []).join(" "), record.what, word(record.status)].join("\n").toLowerCase()}));
+  text: [record.id, string(record.description), (record.rules || []).join(" "), record.what, word(record.status), record.lead ? string(record.lead[1]) : ""].join("\n").toLowerCase()}));
 const entryOf = new Map(entries.map((entry) => [entry.record.id, entry]));
 const SORTS = {status: (a, b) => b.rank - a.rank || (a.record.id < b.record.id ? -1 : 1), name: (a, b) => a.record.id < b.record.id ? -1 : 1,
   findings: (a, b) => b.wrong - a.wrong, error: (a, b) => b.worst - a.worst, time: (a, b) => b.seconds - a.seconds};
@@ -72,11 +72,18 @@ function statusBar(members) {
   return [bar, el("span", {class: "quiet counts"}, said)];
 }
 
+// In a line of the list.
+function happened(record) {
+  if (!record.lead) { return record.what; }
+  const f = finding(record.lead);
+  return [record.counts + " \u00b7 ", el("span", {class: "id"}, f.rule), " \u00b7 ", levelTag(f.level)];
+}
+
 function caseRow(entry) {
   const record = entry.record;
   return el("tr", {class: "case-row " + (isExpected(record) ? "" : "unexpected"), "data-case": record.id, onclick: (event) => { if (event.target.tagName !== "A") { openCase(record.id); } }},
     el("td", {}, statusTag(record.status)), el("td", {}, el("a", {class: "id", href: "#case=" + encodeURIComponent(record.id)}, record.id)),
-    el("td", {class: "quiet what"}, record.what), el("td", {class: "number right"}, entry.wrong ? String(entry.wrong) : ""),
+    el("td", {class: "quiet what"}, happened(record)), el("td", {class: "number right"}, entry.wrong ? String(entry.wrong) : ""),
     el("td", {class: "number right"}, record.worst ? record.worst[1] : ""), el("td", {class: "number right quiet"}, record.time));
 }
 
@@ -147,7 +154,8 @@ function buildOverview() {
   const causes = causesSection();
   if (causes) { byId("causes-slot").append(causes); }
   if (data.without_pictures) {
-    byId("causes-slot").append(el("p", {class: "note"}, "To keep this page small, pictures of " + plural(data.without_pictures, "case") + " were left out (every cause has one with pictures). A run of fewer cases shows them all."));
+    byId("causes-slot").append(el("p", {class: "note"}, "To keep this page small, the pictures of " + plural(data.without_pictures, "case") + " stand in ",
+      el("a", {href: partName(data.part + 1)}, partName(data.part + 1)), ". Every cause has one here."));
   }
   const choice = (id, name, values) => {
     const select = byId(id);

@@ -7,7 +7,7 @@ const KIND_OF_VIEW = {reference: "expected", device: "device", difference: "diff
 const PANE_TITLE = {expected: "reference", device: "device", difference: "difference", error: "error in budgets"};
 const MAX_ZOOM = 64;
 // Kept from case to case.
-const viewing = {view: "difference", zoom: 0, grid: true, outlines: true, samples: true, show: "hits"};
+const viewing = {view: "difference", zoom: 0, grid: true, outlines: true, samples: true, show: ""};
 
 const panesOf = (view) => view === "side" ? ["expected", "device", "difference"] : view === "blink" ? ["blink"] : [KIND_OF_VIEW[view]];
 
@@ -23,11 +23,13 @@ function makeViewer(record, onSample, onChange) {
   const legendList = el("ul", {class: "legend"});
   let panes = [];
 
+  const shownPlane = () => viewing.show || (pictures.expectedColors ? "colour" : "hits");  // a blit is seen by its colours
   const zoomNow = () => viewing.zoom || fitZoom();
   function fitZoom() {
     const count = viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1;
     const width = (stage.clientWidth || 640) / count - 14, height = Math.max(260, window.innerHeight - Math.min(360, stage.getBoundingClientRect().top + window.scrollY) - 70);
-    return Math.max(1, Math.min(MAX_ZOOM, Math.floor(Math.min(width / (pictures.width + 2), height / (pictures.height + 2)))));
+    const least = Math.min(pictures.width, pictures.height) <= 32 ? 8 : 1;  // long and narrow: better scrolled
+    return Math.max(least, Math.min(MAX_ZOOM, Math.floor(Math.min(width / (pictures.width + 2), height / (pictures.height + 2)))));
   }
 
   const kindOf = (pane) => pane.kind !== "blink" ? pane.kind : viewer.blinkOn ? "device" : "expected";
@@ -42,7 +44,7 @@ function makeViewer(record, onSample, onChange) {
       const shown = {width: Math.min(width, pane.frame.clientWidth), height: Math.min(height, pane.frame.clientHeight)};
       paint(pane.canvas, scene, {kind: kindOf(pane), zoom, left: pane.frame.scrollLeft, top: pane.frame.scrollTop, ...shown,
         cursor: viewer.cursor, options: {grid: viewing.grid, outlines: viewing.outlines, samples: viewing.samples,
-          colors: viewing.show === "colour", depth: viewing.show === "depth"}, theme: theme()});
+          colors: shownPlane() === "colour", depth: shownPlane() === "depth"}, theme: theme()});
       pane.title.textContent = PANE_TITLE[kindOf(pane)];
     }
     zoomText.textContent = zoom + "\u00d7";
@@ -103,7 +105,7 @@ function makeViewer(record, onSample, onChange) {
       el("label", {}, el("input", {type: "checkbox", checked: viewing[name], "data-option": name, onchange: (event) => { viewing[name] = event.target.checked; draw(); }}), title))),
     pictures.colors || pictures.depths ? el("label", {}, "show ", el("select", {onchange: (event) => { viewing.show = event.target.value; draw(); }},
       [["hits", "hits"], pictures.colors && ["colour", "colour"], pictures.depths && ["depth", "depth"]].filter(Boolean).map(([value, title]) =>
-        el("option", {value, selected: viewing.show === value}, title)))) : null);
+        el("option", {value, selected: shownPlane() === value}, title)))) : null);
 
   viewer.element = el("section", {class: "viewer", "aria-label": "pictures"}, bar, stage, legendList);
   viewer.draw = draw;

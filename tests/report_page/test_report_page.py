@@ -354,24 +354,43 @@ class Size(PageTest):
         self.assertIn("many/wrong", page.text("#case-title"))
         self.assertEqual(page.count(".frame canvas"), 1)
 
+    def test_what_does_not_fit_stands_in_further_pages(self):
+        folder = self.folder / "more"
+        folder.mkdir()
+        (folder / "journal.jsonl").write_text(self.journal_of(420, 400), encoding="utf-8")
+        self.edgecase("report", folder)
+        parts = sorted(folder.glob("report*.html"))
+        self.assertEqual([p.name for p in parts], ["report-2.html", "report.html"])
+        for part in parts:
+            self.assertLess(part.stat().st_size, MOST_BYTES)
+        page = self.open(file=folder / "report.html")
+        self.assertIn("stand in report-2.html", page.text(".note"))
+        elsewhere = page.run("data.cases.find((c) => c.part === 2).id")
+        page.run(f"openCase({json.dumps(elsewhere)})")
+        page.click(".case-page .note a")
+        page.wait_for("location.pathname.endsWith('report-2.html') && document.getElementById('case-title') !== null")
+        self.assertEqual(page.text("#case-title"), elsewhere)
+        self.assertEqual(page.count(".frame canvas"), 1)
+
     def journal_of(self, cases, failing):
         """A run as the program writes it, of as many cases: those that fail have 64 x 64 pixels, 300 findings, 32 samples with values."""
         records = [json.loads(line) for line in (self.out / "journal.jsonl").read_text(encoding="utf-8").splitlines()]
         ends = {r["id"]: r for r in records if r["record"] == "end"}
         noise = random.Random(1)
         wrong = ends["family/wrong"]
+        planes = {"expected_hits": [0, 1], "device_hits": [1] * 9 + [2], "marks": [0] * 9 + [4], "errors": [1, 128, 140]}
+        pictures = [{plane: self.picture(noise.choices(values, k=64 * 64)) for plane, values in planes.items()} for _ in range(4)]
         made = []
         for k in range(cases):
-            record = json.loads(json.dumps(wrong if k < failing else ends["family/good"]))
+            record = dict(wrong if k < failing else ends["family/good"])
+            record["pictures"] = dict(record["pictures"])
             record["id"] = f"many/{'wrong' if k < failing else 'good'}:n={k}"
             if k < failing:
                 place = [(noise.randrange(64), noise.randrange(64)) for _ in range(300)]
                 record["findings"] = [dict(wrong["findings"][0], x=x, y=y, why=f"number {k} of {x * y}") for x, y in place]
                 record["counts"] = [0, 0, 300, 0, 0]
                 record["evidence"] = [dict(wrong["evidence"][0], at=[x, y, 0]) for x, y in place[:32]]
-                record["pictures"].update(width=64, height=64, device_depths="", **{
-                    plane: self.picture(noise.choice(values) for _ in range(64 * 64)) for plane, values in (
-                        ("expected_hits", [0, 1]), ("device_hits", [1] * 9 + [2]), ("marks", [0] * 9 + [4]), ("errors", [1, 128, 140]))})
+                record["pictures"].update(pictures[k % len(pictures)], width=64, height=64, device_depths="")
             made.append(record)
         head = next(r for r in records if r["record"] == "run")
         head["cases"] = [dict(m, status="not_run", findings=[], evidence=[], pictures=ends["family/good"]["pictures"]) for m in made]
