@@ -270,8 +270,7 @@ void Attribution::attribute_writer(Finding& finding,
     const auto earlier = like_writer_.find(finding.level);
     if (explained_ >= explains_ && earlier != like_writer_.end()) {
         finding.rule = earlier->second.rule;
-        finding.why =
-            fmt::format("as at pixel ({}, {})", earlier->second.x, earlier->second.y);
+        finding.why = fmt::format("as at pixel ({}, {})", earlier->second.x, earlier->second.y);
         return;
     }
     ++explained_;

@@ -59,7 +59,7 @@ class Attribution {
     std::optional<ref::Expectation> looser_[2];
     size_t explains_;  // how many findings are explained before one takes over another's rule
     size_t explained_ = 0;
-    std::map<std::string, Finding> like_;  // by kind, level, expected and got
+    std::map<std::string, Finding> like_;            // by kind, level, expected and got
     std::map<cases::Profile, Finding> like_writer_;  // wrong writers, by level
 };
 

@@ -36,6 +36,11 @@ def is_deadly(name):
     return name.startswith(DEADLY)
 
 
+def is_caught(case):
+    """Whether a result says that the picture is wrong, or that there is none. Crashes and the like do not count."""
+    return case["status"] in ("fail", "flake") or (case["status"] == "error" and "was not copied from the device" in case["reason"])
+
+
 def run(fault, selectors, folder, words=(), limit=120):
     """One run of the suite under a fault ("" for none); its folder holds the reports and the count."""
     folder = pathlib.Path(folder)

@@ -13,27 +13,12 @@
 #include <cstring>
 #include <type_traits>
 
-#include "driver.hpp"
-#include "fault_table.hpp"
+#include "altering.hpp"
 #include "recording.hpp"
 
 namespace breaking {
 
 namespace {
-
-const Hooks& hooks() {
-    return chosen_fault()->hooks;
-}
-
-// Asks the fault, if it has this hook, and counts what it altered; whether it did.
-template <typename... Parameters, typename... Arguments>
-bool alter(bool (*hook)(Parameters...), Arguments&&... arguments) {
-    const bool altered = hook != nullptr && hook(std::forward<Arguments>(arguments)...);
-    if (altered) {
-        count_alteration();
-    }
-    return altered;
-}
 
 // What a call is to answer instead of asking the driver; nothing to do it as asked.
 VkResult answer(Answer (*hook)(uint64_t), uint64_t number) {
@@ -110,136 +95,6 @@ VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(VkDevice device, uint32_t count,
     return result != VK_SUCCESS
                ? result
                : driver_of_handle(device).WaitForFences(device, count, fences, all, timeout);
-}
-
-// A command that sets one value: altered, then set. Array arguments are copied, since it may be
-// held back.
-template <typename Value>
-void set_value(VkCommandBuffer commands, const char* key, Value value, bool (*hook)(Value&),
-               void(VKAPI_PTR* set)(VkCommandBuffer, Value)) {
-    alter(hook, value);
-    recording_of(commands).set_state({key, 0}, [=] { set(commands, value); });
-}
-
-VKAPI_ATTR void VKAPI_CALL set_viewport(VkCommandBuffer commands, uint32_t first, uint32_t count,
-                                        const VkViewport* given) {
-    std::vector<VkViewport> own(given, given + count);
-    alter(hooks().viewports, std::span(own));
-    recording_of(commands).set_state({"viewport", first}, [=] {
-        driver_of_handle(commands).CmdSetViewport(commands, first, count, own.data());
-    });
-}
-
-VKAPI_ATTR void VKAPI_CALL set_scissor(VkCommandBuffer commands, uint32_t first, uint32_t count,
-                                       const VkRect2D* given) {
-    std::vector<VkRect2D> own(given, given + count);
-    alter(hooks().scissors, std::span(own));
-    recording_of(commands).set_state({"scissor", first}, [=] {
-        driver_of_handle(commands).CmdSetScissor(commands, first, count, own.data());
-    });
-}
-
-VKAPI_ATTR void VKAPI_CALL set_cull_mode(VkCommandBuffer commands, VkCullModeFlags mode) {
-    set_value(commands, "cull mode", mode, hooks().cull_mode,
-              driver_of_handle(commands).CmdSetCullMode);
-}
-
-VKAPI_ATTR void VKAPI_CALL set_front_face(VkCommandBuffer commands, VkFrontFace face) {
-    set_value(commands, "front face", face, hooks().front_face,
-              driver_of_handle(commands).CmdSetFrontFace);
-}
-
-VKAPI_ATTR void VKAPI_CALL set_topology(VkCommandBuffer commands, VkPrimitiveTopology topology) {
-    recording_of(commands).topology = topology;
-    set_value(commands, "topology", topology, hooks().topology,
-              driver_of_handle(commands).CmdSetPrimitiveTopology);
-}
-
-VKAPI_ATTR void VKAPI_CALL set_restart(VkCommandBuffer commands, VkBool32 enable) {
-    set_value(commands, "restart", enable, hooks().primitive_restart,
-              driver_of_handle(commands).CmdSetPrimitiveRestartEnable);
-}
-
-VKAPI_ATTR void VKAPI_CALL set_depth_compare(VkCommandBuffer commands, VkCompareOp op) {
-    set_value(commands, "depth compare", op, hooks().depth_compare,
-              driver_of_handle(commands).CmdSetDepthCompareOp);
-}
-
-VKAPI_ATTR void VKAPI_CALL set_depth_write(VkCommandBuffer commands, VkBool32 enable) {
-    set_value(commands, "depth write", enable, hooks().depth_write,
-              driver_of_handle(commands).CmdSetDepthWriteEnable);
-}
-
-VKAPI_ATTR void VKAPI_CALL set_depth_bias_enable(VkCommandBuffer commands, VkBool32 enable) {
-    set_value(commands, "depth bias enable", enable, hooks().depth_bias_enable,
-              driver_of_handle(commands).CmdSetDepthBiasEnable);
-}
-
-VKAPI_ATTR void VKAPI_CALL set_depth_bias(VkCommandBuffer commands, float constant, float clamp,
-                                          float slope) {
-    DepthBias bias{constant, clamp, slope};
-    alter(hooks().depth_bias, bias);
-    recording_of(commands).set_state({"depth bias", 0}, [=] {
-        driver_of_handle(commands).CmdSetDepthBias(commands, bias.constant, bias.clamp, bias.slope);
-    });
-}
-
-VKAPI_ATTR void VKAPI_CALL set_blend_constants(VkCommandBuffer commands, const float given[4]) {
-    std::array<float, 4> own{};
-    std::copy_n(given, 4, own.begin());
-    alter(hooks().blend_constants, std::span<float, 4>(own));
-    recording_of(commands).set_state({"blend constants", 0}, [=] {
-        driver_of_handle(commands).CmdSetBlendConstants(commands, own.data());
-    });
-}
-
-VKAPI_ATTR void VKAPI_CALL bind_pipeline(VkCommandBuffer commands, VkPipelineBindPoint point,
-                                         VkPipeline pipeline) {
-    recording_of(commands).set_state({"pipeline", point}, [=] {
-        driver_of_handle(commands).CmdBindPipeline(commands, point, pipeline);
-    });
-}
-
-VKAPI_ATTR void VKAPI_CALL bind_descriptor_sets(VkCommandBuffer commands, VkPipelineBindPoint point,
-                                                VkPipelineLayout layout, uint32_t first,
-                                                uint32_t count, const VkDescriptorSet* sets,
-                                                uint32_t offset_count, const uint32_t* offsets) {
-    const std::vector<VkDescriptorSet> own(sets, sets + count);
-    const std::vector<uint32_t> own_offsets(offsets, offsets + offset_count);
-    recording_of(commands).set_state({"descriptor sets", first}, [=] {
-        driver_of_handle(commands).CmdBindDescriptorSets(
-            commands, point, layout, first, count, own.data(), offset_count, own_offsets.data());
-    });
-}
-
-VKAPI_ATTR void VKAPI_CALL push_constants(VkCommandBuffer commands, VkPipelineLayout layout,
-                                          VkShaderStageFlags stages, uint32_t offset, uint32_t size,
-                                          const void* given) {
-    std::vector<std::byte> own(size);
-    std::memcpy(own.data(), given, size);
-    recording_of(commands).set_state({"push constants", offset}, [=] {
-        driver_of_handle(commands).CmdPushConstants(commands, layout, stages, offset, size,
-                                                    own.data());
-    });
-}
-
-VKAPI_ATTR void VKAPI_CALL bind_vertex_buffers(VkCommandBuffer commands, uint32_t first,
-                                               uint32_t count, const VkBuffer* buffers,
-                                               const VkDeviceSize* offsets) {
-    const std::vector<VkBuffer> own(buffers, buffers + count);
-    const std::vector<VkDeviceSize> own_offsets(offsets, offsets + count);
-    recording_of(commands).set_state({"vertex buffers", first}, [=] {
-        driver_of_handle(commands).CmdBindVertexBuffers(commands, first, count, own.data(),
-                                                        own_offsets.data());
-    });
-}
-
-VKAPI_ATTR void VKAPI_CALL bind_index_buffer(VkCommandBuffer commands, VkBuffer buffer,
-                                             VkDeviceSize offset, VkIndexType type) {
-    alter(hooks().index_type, type);
-    recording_of(commands).set_state({"index buffer", 0}, [=] {
-        driver_of_handle(commands).CmdBindIndexBuffer(commands, buffer, offset, type);
-    });
 }
 
 void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances,
@@ -387,31 +242,11 @@ VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32
     driver_of_handle(commands).CmdDispatch(commands, x, y, z);
 }
 
-// The types are those of the headers: a signature that is not the command's does not compile.
-#define BREAKING_OWN(name, function) \
-    { "vk" #name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vk##name>(function)) }
-
-const std::pair<const char*, PFN_vkVoidFunction> kCommands[] = {
+const OwnCommand kCommands[] = {
     BREAKING_OWN(CreateShaderModule, create_shader_module),
     BREAKING_OWN(CreateGraphicsPipelines, create_graphics_pipelines),
     BREAKING_OWN(QueueSubmit, queue_submit),
     BREAKING_OWN(WaitForFences, wait_for_fences),
-    BREAKING_OWN(CmdSetViewport, set_viewport),
-    BREAKING_OWN(CmdSetScissor, set_scissor),
-    BREAKING_OWN(CmdSetCullMode, set_cull_mode),
-    BREAKING_OWN(CmdSetFrontFace, set_front_face),
-    BREAKING_OWN(CmdSetPrimitiveTopology, set_topology),
-    BREAKING_OWN(CmdSetPrimitiveRestartEnable, set_restart),
-    BREAKING_OWN(CmdSetDepthCompareOp, set_depth_compare),
-    BREAKING_OWN(CmdSetDepthWriteEnable, set_depth_write),
-    BREAKING_OWN(CmdSetDepthBiasEnable, set_depth_bias_enable),
-    BREAKING_OWN(CmdSetDepthBias, set_depth_bias),
-    BREAKING_OWN(CmdSetBlendConstants, set_blend_constants),
-    BREAKING_OWN(CmdBindPipeline, bind_pipeline),
-    BREAKING_OWN(CmdBindDescriptorSets, bind_descriptor_sets),
-    BREAKING_OWN(CmdPushConstants, push_constants),
-    BREAKING_OWN(CmdBindVertexBuffers, bind_vertex_buffers),
-    BREAKING_OWN(CmdBindIndexBuffer, bind_index_buffer),
     BREAKING_OWN(CmdDraw, draw),
     BREAKING_OWN(CmdDrawIndexed, draw_indexed),
     BREAKING_OWN(CmdBeginRendering, begin_rendering),
@@ -423,17 +258,12 @@ const std::pair<const char*, PFN_vkVoidFunction> kCommands[] = {
     BREAKING_OWN(CmdBlitImage, blit_image),
     BREAKING_OWN(CmdDispatch, dispatch),
 };
-#undef BREAKING_OWN
 
 }  // namespace
 
 PFN_vkVoidFunction own_device_command(const char* name) {
-    for (const auto& [own_name, command] : kCommands) {
-        if (std::strcmp(own_name, name) == 0) {
-            return command;
-        }
-    }
-    return nullptr;
+    const PFN_vkVoidFunction own = find_command(kCommands, name);
+    return own != nullptr ? own : find_command(state_commands(), name);
 }
 
 }  // namespace breaking

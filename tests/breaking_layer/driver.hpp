@@ -9,17 +9,39 @@
 namespace breaking {
 
 // Every device command that the layer takes on the way to the driver.
-#define BREAKING_COMMANDS(X)                                                                       \
-    X(CreateShaderModule)                                                                          \
-    X(CreateGraphicsPipelines) X(QueueSubmit) X(WaitForFences) X(CmdSetViewport) X(CmdSetScissor)  \
-        X(CmdSetCullMode) X(CmdSetFrontFace) X(CmdSetPrimitiveTopology)                            \
-            X(CmdSetPrimitiveRestartEnable) X(CmdSetDepthCompareOp) X(CmdSetDepthWriteEnable)      \
-                X(CmdSetDepthBiasEnable) X(CmdSetDepthBias) X(CmdSetBlendConstants)                \
-                    X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants)                \
-                        X(CmdBindVertexBuffers) X(CmdBindIndexBuffer) X(CmdDraw) X(CmdDrawIndexed) \
-                            X(CmdBeginRendering) X(CmdEndRendering) X(CmdPipelineBarrier2)         \
-                                X(CmdClearColorImage) X(CmdCopyImageToBuffer)                      \
-                                    X(CmdCopyBufferToImage) X(CmdBlitImage) X(CmdDispatch)
+// clang-format off
+#define BREAKING_COMMANDS(X) \
+    X(CreateShaderModule) \
+    X(CreateGraphicsPipelines) \
+    X(QueueSubmit) \
+    X(WaitForFences) \
+    X(CmdSetViewport) \
+    X(CmdSetScissor) \
+    X(CmdSetCullMode) \
+    X(CmdSetFrontFace) \
+    X(CmdSetPrimitiveTopology) \
+    X(CmdSetPrimitiveRestartEnable) \
+    X(CmdSetDepthCompareOp) \
+    X(CmdSetDepthWriteEnable) \
+    X(CmdSetDepthBiasEnable) \
+    X(CmdSetDepthBias) \
+    X(CmdSetBlendConstants) \
+    X(CmdBindPipeline) \
+    X(CmdBindDescriptorSets) \
+    X(CmdPushConstants) \
+    X(CmdBindVertexBuffers) \
+    X(CmdBindIndexBuffer) \
+    X(CmdDraw) \
+    X(CmdDrawIndexed) \
+    X(CmdBeginRendering) \
+    X(CmdEndRendering) \
+    X(CmdPipelineBarrier2) \
+    X(CmdClearColorImage) \
+    X(CmdCopyImageToBuffer) \
+    X(CmdCopyBufferToImage) \
+    X(CmdBlitImage) \
+    X(CmdDispatch)
+// clang-format on
 
 // The next layer's, or the driver's, commands of one device.
 struct Driver {

@@ -40,12 +40,14 @@ FOCUS = [  # families that are about the faults whose names match
 
 def judge_results(results):
     """What the run of one fault has found, as a plain dictionary."""
-    caught = [case for case in results["cases"] if case["status"] in ("fail", "flake")]
+    caught = [case for case in results["cases"] if broken.is_caught(case)]
     rules = collections.Counter()
     for case in caught:
         found = collections.Counter(finding["rule"] for finding in case["findings"])
         if found:
             rules[found.most_common(1)[0][0]] += 1
+        elif case["status"] == "error":
+            rules["(not copied)"] += 1
     return {
         "cases": {case["id"]: [case["level"], case["compared_samples"], case["seconds"]] for case in caught},
         "rules": dict(rules),
@@ -78,12 +80,20 @@ def representatives(cases):
     return out + (other or order[1:])[:1]
 
 
-def table(faults, found, part):
+def unseen():
+    """The faults that no case can see on this driver, and why."""
+    return json.loads((pathlib.Path(__file__).parent / "unseen.json").read_text())
+
+
+def table(faults, found):
     lines = []
     for name, sentence in faults:
         if name not in found:
             continue
         r = found[name]
+        if not r["cases"] and name in unseen():
+            lines.append(f"| `{name}` | {sentence} | - | {unseen()[name]} | 0 | - |")
+            continue
         levels = collections.Counter(level for level, _, _ in r["cases"].values())
         loosest = next((p for p in ("vulkan", "practice", "direct3d") if levels[p]), "-")
         families = len({family(i) for i in r["cases"]})
@@ -127,11 +137,14 @@ def main():
         begin, end = "<!-- table -->\n", "<!-- end of table -->\n"
         before, rest = page.read_text().split(begin)
         head = ["| fault | the driver's error | profile | cases | families | first rule |", "| --- | --- | --- | --- | --- | --- |"]
-        page.write_text(before + begin + "\n".join(head + table(faults, found, arguments.part)) + "\n" + end + rest.split(end)[1])
+        page.write_text(before + begin + "\n".join(head + table(faults, found)) + "\n" + end + rest.split(end)[1])
     if arguments.catches:
-        catches = {name: representatives(found[name]["cases"]) for name, _ in faults if name in found}
+        catches = {name: representatives(found[name]["cases"]) for name, _ in faults if found.get(name, {}).get("cases")}
         pathlib.Path(arguments.catches).write_text(json.dumps(catches, indent=1) + "\n")
-    return 0 if all(r["cases"] for r in found.values()) else 1
+    survivors = [name for name, r in found.items() if not r["cases"] and name not in unseen()]
+    if survivors:
+        print(f"not caught: {', '.join(survivors)}", file=sys.stderr)
+    return 1 if survivors else 0
 
 
 if __name__ == "__main__":

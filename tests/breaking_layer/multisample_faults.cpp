@@ -89,17 +89,6 @@ bool depth_sample_zero(Rendering& r) {
     return r.depth && r.depth->resolveMode != VK_RESOLVE_MODE_NONE &&
            change(r.depth->resolveMode, VK_RESOLVE_MODE_SAMPLE_ZERO_BIT);
 }
-// Averages of colour only: integers are resolved by sample zero anyway.
-bool color_sample_zero(Rendering& r) {
-    bool altered = false;
-    for (VkRenderingAttachmentInfo& color : r.colors) {
-        altered = (color.resolveMode == VK_RESOLVE_MODE_AVERAGE_BIT &&
-                   change(color.resolveMode, VK_RESOLVE_MODE_SAMPLE_ZERO_BIT)) ||
-                  altered;
-    }
-    return altered;
-}
-
 constexpr std::array kFaults = {
     Fault{"sample-mask-ignored",
           "The sample mask of the pipeline counts as all ones.",
@@ -146,9 +135,6 @@ constexpr std::array kFaults = {
     Fault{"resolve-depth-sample-zero",
           "Depth is resolved by sample 0 whatever is asked.",
           {.rendering = depth_sample_zero}},
-    Fault{"resolve-color-sample-zero",
-          "Colour is resolved by sample 0 where the average is asked.",
-          {.rendering = color_sample_zero}},
 };
 
 }  // namespace

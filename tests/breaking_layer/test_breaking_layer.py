@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""The suite on lavapipe under every fault of the breaking layer. Each fault has to be reached, and caught by the cases
+that catches.json names for it; matrix.py finds them. A machine without lavapipe fails these tests: they are never
+skipped."""
+import json
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import broken
+
+CATCHES = json.loads((pathlib.Path(__file__).parent / "catches.json").read_text())
+# The faults that no case can see on this driver, with the reason (README.md).
+UNSEEN = json.loads((pathlib.Path(__file__).parent / "unseen.json").read_text())
+
+
+class LayerTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-breaking-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def run_cases(self, fault, ids, *words):
+        """Runs these cases alone: a suite of their files, which loads faster than the whole one."""
+        suite = self.folder / "suite"
+        shutil.rmtree(suite, ignore_errors=True)
+        for case_id in ids:
+            file = case_id.split(":")[0] + ".toml"
+            (suite / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(broken.SOURCE / "cases" / "suite" / file, suite / file)
+        return broken.run(fault, ids, self.folder, ["--suite", str(suite), *words])
+
+    def statuses(self, run):
+        self.assertIsNotNone(run.results, run.err)
+        return {case["id"]: case["status"] for case in run.results["cases"]}
+
+
+class Table(LayerTest):
+    def test_every_fault_has_its_cases(self):
+        names = [name for name, _ in broken.faults() if not broken.is_deadly(name)]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertGreaterEqual(len(names), 100)
+        self.assertEqual(sorted(names), sorted([*CATCHES, *UNSEEN]))
+        for name, ids in CATCHES.items():
+            self.assertGreaterEqual(len(ids), 1, name)
+
+    def test_unknown_faults_stop_the_run(self):
+        for wrong in ("viewport-x", "nothing-every-nth:0", "nothing-every-nth:x", "nothing-every-nth:"):
+            run = self.run_cases(wrong, ["coverage/half-square"])
+            self.assertEqual(run.code, 5, run.err)
+
+    def test_without_a_fault_nothing_changes(self):
+        ids = sorted({case_id for ids in CATCHES.values() for case_id in ids})
+        run = self.run_cases("", ids)
+        self.assertEqual((run.code, run.altered), (0, 0), run.out)
+        self.assertEqual(set(self.statuses(run).values()), {"pass"})
+
+
+def part(number, parts):
+    """A part of the faults, as a test class of its own: ctest runs them side by side."""
+
+    class Part(LayerTest):
+        def test_faults_are_caught(self):
+            for name, ids in list(CATCHES.items())[number::parts]:
+                with self.subTest(fault=name):
+                    run = self.run_cases(name, ids, "--retries", "0")
+                    self.assertGreater(run.altered, 0, f"{name} was never reached")
+                    self.assertIn(run.code, (1, 7), run.out + run.err)
+                    self.assertEqual(set(self.statuses(run)), set(ids))
+                    self.assertEqual([c["id"] for c in run.results["cases"] if not broken.is_caught(c)], [])
+
+    Part.__name__ = Part.__qualname__ = f"Part{number}"
+    return Part
+
+
+Part0, Part1, Part2, Part3 = (part(number, 4) for number in range(4))
+
+
+class Device(LayerTest):
+    """A device that dies: told as what it is, charged to no innocent case, and never a pass."""
+
+    ids = ["coverage/half-square", "coverage/no-centre", "ties/apex"]
+
+    def setUp(self):
+        super().setUp()
+        if not all((broken.SOURCE / "cases" / "suite" / (i + ".toml")).exists() for i in self.ids):
+            self.fail("the cases of this test have been renamed")
+
+    def run_dying(self, fault, *words):
+        run = self.run_cases(fault, self.ids, *words)
+        self.assertGreater(run.altered, 0)
+        return run
+
+    def test_lost_at_every_submission(self):
+        for fault in ("lost-at-submit", "lost-every-nth-submit", "lost-at-wait"):
+            run = self.run_dying(fault)
+            self.assertEqual(run.code, 1, run.out + run.err)
+            self.assertEqual(set(self.statuses(run).values()), {"device_lost"})
+
+    def test_lost_now_and_then_is_a_flake(self):
+        # The second submission of a worker is lost; a case alone is the first of its worker.
+        run = self.run_dying("lost-every-nth-submit:2", "--batch", "1")
+        self.assertEqual(run.code, 1, run.out + run.err)
+        statuses = list(self.statuses(run).values())
+        self.assertIn("flake", statuses)
+        self.assertEqual(set(statuses), {"flake", "pass"})
+
+    def test_hang(self):
+        run = self.run_dying("hang-at-wait", "--timeout", "1")
+        self.assertEqual(run.code, 1, run.out + run.err)
+        self.assertEqual(set(self.statuses(run).values()), {"timeout"})
+
+    def test_crash(self):
+        for fault in ("crash-at-submit", "crash-at-pipeline"):
+            run = self.run_dying(fault)
+            self.assertEqual(run.code, 1, run.out + run.err)
+            self.assertEqual(set(self.statuses(run).values()), {"crash"})
+            self.assertEqual({case["signal"] for case in run.results["cases"]}, {"SIGSEGV"})
+
+    def test_pipeline_refused(self):
+        run = self.run_dying("pipeline-refused")
+        self.assertEqual(run.code, 7, run.out + run.err)
+        self.assertIn("error", self.statuses(run).values())
+
+    def test_nothing_every_second_rendering(self):
+        run = self.run_dying("nothing-every-nth:2", "--batch", "1", "--retries", "1")
+        self.assertEqual(run.code, 1, run.out + run.err)
+        self.assertIn("flake", self.statuses(run).values())
+
+
+if __name__ == "__main__":
+    unittest.main()
