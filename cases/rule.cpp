@@ -70,7 +70,7 @@ constexpr std::array kRules = {
          "A triangle is drawn to the layer it names, and to no other",
          "gl_Layer of its vertices chooses the layer of every attachment; without it the first "
          "layer is drawn to. Coverage, depth test and colours are those of that layer alone.",
-         "interfaces-builtin-variables-layer", "15.11", "ref/expectation.cpp"},
+         "interfaces-builtin-variables", "", "ref/expectation.cpp"},
     Rule{"clip.depth", Profile::vulkan, "The depth planes clip as the state says",
          "z_m <= z <= w with z_m = 0, or -w with negativeOneToOne; with depth clipping disabled "
          "neither plane cuts, and the borders of the viewport still keep w from being negative.",

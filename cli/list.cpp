@@ -31,9 +31,12 @@ void print_long(const cases::Case& c) {
     for (const std::string& rule : c.rules) {
         rules += (rules.empty() ? "" : ", ") + rule;
     }
-    std::printf("    rules: %s\n    file: %s:%u\n    target: %u x %u, %u sample(s), %zu draw(s)\n",
-                rules.c_str(), c.where.file.c_str(), c.where.line, c.target.width, c.target.height,
-                c.target.samples, c.draws.size());
+    const std::string layers =
+        c.target.layers > 1 ? std::to_string(c.target.layers) + " layers, " : "";
+    std::printf(
+        "    rules: %s\n    file: %s:%u\n    target: %u x %u, %s%u sample(s), %zu draw(s)\n",
+        rules.c_str(), c.where.file.c_str(), c.where.line, c.target.width, c.target.height,
+        layers.c_str(), c.target.samples, c.draws.size());
     for (const std::string& link : c.links) {
         std::printf("    link: %s\n", link.c_str());
     }
@@ -47,18 +50,20 @@ nlohmann::ordered_json to_json(const cases::Case& c) {
     for (const auto& [key, value] : c.parameters) {
         parameters[key] = value;
     }
-    return {
-        {"id", c.id},
-        {"file", c.where.file},
-        {"line", c.where.line},
-        {"description", c.description},
-        {"catches", c.catches},
-        {"rules", c.rules},
-        {"links", c.links},
-        {"parameters", parameters},
-        {"target",
-         {{"width", c.target.width}, {"height", c.target.height}, {"samples", c.target.samples}}},
-        {"notes", c.notes}};
+    return {{"id", c.id},
+            {"file", c.where.file},
+            {"line", c.where.line},
+            {"description", c.description},
+            {"catches", c.catches},
+            {"rules", c.rules},
+            {"links", c.links},
+            {"parameters", parameters},
+            {"target",
+             {{"width", c.target.width},
+              {"height", c.target.height},
+              {"samples", c.target.samples},
+              {"layers", c.target.layers}}},
+            {"notes", c.notes}};
 }
 
 // What is wrong with one case beyond its file's form: its picture, its rules, its control samples.

@@ -131,11 +131,11 @@ enum class Fault : uint8_t {
     scissor_ignored,
     scissor_follows_viewport,  // the scissor's origin is taken relative to the viewport
     // layers
-    layer_ignored,        // everything goes to the first layer
-    layer_off_by_one,     // everything goes to the next layer, the last to the first
-    layer_of_viewport,    // gl_ViewportIndex is taken for gl_Layer
-    layer_of_first_draw,  // gl_Layer is read once
-    all_layers_written,   // every fragment goes to all layers
+    layer_ignored,         // everything goes to the first layer
+    layer_off_by_one,      // everything goes to the next layer, the last to the first
+    layer_of_viewport,     // gl_ViewportIndex is taken for gl_Layer
+    layer_of_first_draw,   // gl_Layer is read once
+    all_layers_written,    // every fragment goes to all layers
     layer_depth_of_first,  // the depth test looks at the first layer
     // values
     affine,                   // smooth is linear on screen

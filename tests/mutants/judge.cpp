@@ -103,8 +103,8 @@ std::string describe(const cases::Case& c, const diff::Verdict& verdict) {
         "{}: {} finding(s), first: {} {} [{}] at {} sample {} {}: expected {}, "
         "got {}: {} (ratio {:.3g})",
         c.id, total, diff::to_string(f.kind), f.rule, cases::to_string(f.level),
-        diff::pixel_text(c.target, diff::place_of(f)), f.sample,
-        f.quantity, f.expected, f.got, f.why, f.ratio);
+        diff::pixel_text(c.target, diff::place_of(f)), f.sample, f.quantity, f.expected, f.got,
+        f.why, f.ratio);
 }
 
 void for_each_parallel(size_t count, const std::function<void(size_t)>& work) {

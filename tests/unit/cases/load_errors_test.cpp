@@ -474,7 +474,7 @@ format = "rgba8-unorm"
 [blit]
 size = [8, 8]
 )~"),
-     R"~(f:9:2: error: a blit writes to one sample a pixel and to one layer)~"},
+     R"~(f:9:1: error: a blit writes to one sample a pixel and to one layer)~"},
     {whole(R"~(format = 1
 description = "d"
 rules = ["cover.inside"]

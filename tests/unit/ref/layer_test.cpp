@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Targets with several layers: a triangle exists in the layer of its draw alone, for coverage, shared
-// edges, depth and colours.
+// Targets with several layers: a triangle exists in the layer of its draw alone, for coverage,
+// shared edges, depth and colours.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -117,21 +117,25 @@ TEST(Layers, AnEdgeIsSharedInOneLayerOnly) {
     }
 }
 
-// Off the grid a diagonal's band is open at every profile; partners in another layer would close it.
+// A vertical edge half a subpixel from the centres of a column: it may snap to either side of them.
+// In one layer one of both triangles has each centre; in two layers each triangle may have it or
+// not. A neighbour that does not show in the layer settles nothing there, at direct3d either.
 TEST(Layers, OpenSamplesStayOpen) {
-    const double third = 8.0 + 1.0 / 3.0;
-    const std::vector<Point> upper = {{0, 0}, {8, 0}, {0, third}};
-    const std::vector<Point> lower = {{8, 0}, {8, third}, {0, third}};
-    uint64_t open = 0;
+    constexpr double kEdge = 4.5 + 1.0 / 512;
+    const std::vector<Point> left = {{0, 0}, {kEdge, 0}, {kEdge, 8}};
+    const std::vector<Point> right = {{kEdge, 0}, {8, 0}, {kEdge, 8}};
     for (const Profile profile : cases::kProfiles) {
-        const Count one =
-            count_hits(expect(layered(8, 2, {upper, lower}, {0, 0}), Limits{4}, profile));
-        const Count two =
-            count_hits(expect(layered(8, 2, {upper, lower}, {0, 1}), Limits{4}, profile));
-        EXPECT_LE(one.open, two.open);
-        open += two.open;
+        const Expectation one = expect(layered(8, 2, {left, right}, {1, 1}), Limits{8}, profile);
+        const Expectation two = expect(layered(8, 2, {left, right}, {1, 0}), Limits{8}, profile);
+        for (uint32_t j = 1; j < 6; ++j) {
+            EXPECT_EQ(hits_at(one, 4, j, 0, 1).total_min, 1U) << cases::to_string(profile);
+            EXPECT_EQ(hits_at(one, 4, j, 0, 1).total_max, 1U) << cases::to_string(profile);
+            for (const uint32_t layer : {0U, 1U}) {
+                EXPECT_EQ(hits_at(two, 4, j, 0, layer).total_min, 0U) << cases::to_string(profile);
+                EXPECT_EQ(hits_at(two, 4, j, 0, layer).total_max, 1U) << cases::to_string(profile);
+            }
+        }
     }
-    EXPECT_GT(open, 0U);
 }
 
 // Random triangles over shared vertices, in random layers, with and without depth test: each layer
@@ -140,7 +144,7 @@ TEST(Layers, EachIsAsAloneAndExactAgrees) {
     std::mt19937_64 random(4711);
     const auto below = [&](uint64_t n) { return random() % n; };
     uint64_t open = 0;
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < 16; ++round) {
         const uint32_t samples = round % 3 == 0 ? 4 : 1;
         std::vector<Point> points;
         for (int k = 0; k < 6; ++k) {
@@ -151,8 +155,8 @@ TEST(Layers, EachIsAsAloneAndExactAgrees) {
         std::vector<std::vector<Point>> draws;
         std::vector<uint32_t> layers;
         for (int d = 0; d < 6; ++d) {
-            draws.push_back({points[below(6)], points[below(6)], points[below(6)],
-                             points[below(6)], points[below(6)], points[below(6)]});
+            draws.push_back({points[below(6)], points[below(6)], points[below(6)], points[below(6)],
+                             points[below(6)], points[below(6)]});
             layers.push_back(static_cast<uint32_t>(below(3)));
         }
         cases::Case c = layered(8, 3, draws, layers, samples);

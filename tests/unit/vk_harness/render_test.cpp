@@ -49,9 +49,8 @@ TEST(Render, ADrawGoesToItsLayer) {
         for (const uint32_t layer : {0U, 1U, 2U}) {
             cases::Case c = make_case({64, 32, samples, 3}, {{4, 4}, {20, 4}, {4, 20}});
             c.draws[0].layer = layer;
-            c.draws[0].attributes = {
-                attribute(cases::Interpolation::smooth,
-                          {glm::vec4(1), glm::vec4(1), glm::vec4(1)})};
+            c.draws[0].attributes = {attribute(cases::Interpolation::smooth,
+                                               {glm::vec4(1), glm::vec4(1), glm::vec4(1)})};
             const Rendered rendered = renderer().render({&c, 1}, {}).front();
             ASSERT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
             const diff::Capture& capture = rendered.capture;
