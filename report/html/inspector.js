@@ -42,8 +42,9 @@ function verdictPart(scene, at, known) {
   if (!isInPicture(p, at)) { return el("p", {class: "quiet"}, "Outside the picture that was kept."); }
   const k = indexOf(p, at), mark = p.marks[k];
   const swatch = el("canvas", {width: 44, height: 44, class: "swatch", "aria-hidden": "true"}), context = swatch.getContext("2d");
-  if (mark > 1) { drawMark(context, mark, 0, 0, 44, 44); } else if (mark === 1) { drawFree(context, PALETTES[theme()], 0, 0, 44, 44); }
-  else { context.fillStyle = PALETTES[theme()].hits[Math.min(3, p.expected[k])]; context.fillRect(0, 0, 44, 44); }
+  context.scale(2, 2);
+  if (mark > 1) { drawMark(context, mark, 0, 0, 22, 22); } else if (mark === 1) { drawFree(context, PALETTES[theme()], 0, 0, 22, 22); }
+  else { context.fillStyle = PALETTES[theme()].hits[Math.min(3, p.expected[k])]; context.fillRect(0, 0, 22, 22); }
   const rows = [];
   const fact = (name, value) => { if (value) { rows.push(el("dt", {}, name), el("dd", {}, value)); } };
   const expected = p.expected[k];
@@ -111,7 +112,7 @@ function valuesPart(scene, at, known, told, isComplete) {
     return drawn ? el("p", {class: "quiet small"}, "Values are kept for wrong samples and their neighbours; the command \u201cexplain\u201d tells them for any sample.") : null;
   }
   return el("div", {class: "values"}, el("h3", {}, "Values"), el("div", {class: "scroll"},
-    table("", ["quantity", "exact, accepted", "device", "off by", el("span", {class: "hidden-text"}, "verdict")], [...known.values].sort((a, b) => told.some((f) => f.quantity === b[0]) - told.some((f) => f.quantity === a[0]))
+    table("", ["quantity", "exact, [all set-ups]", "device", "off by", el("span", {class: "hidden-text"}, "verdict")], [...known.values].sort((a, b) => told.some((f) => f.quantity === b[0]) - told.some((f) => f.quantity === a[0]))
       .map((v) => valueRow(v, told, isComplete)), "compact")));
 }
 

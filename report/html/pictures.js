@@ -72,7 +72,7 @@ function errorOf(code) {
 }
 function errorText(code) {
   const error = errorOf(code);
-  return error === null ? "nothing compared" : error === 0 ? "exact" : error === Infinity ? "no number of budgets" : "about " + shortNumber(error, 2) + " budgets";
+  return error === null ? "nothing compared" : error === 0 ? "exact" : error === Infinity ? "beyond any budget" : "about " + shortNumber(error, 2) + " budgets";
 }
 // 2^-8 to 2^8 budgets. Large errors stand out of the paper: bright on dark, dark on light.
 const HEAT_SPAN = 8;
@@ -118,7 +118,9 @@ function drawMark(context, mark, x, y, w, h) {
     context.fill();
   }
   context.restore();
-  if (size >= 18) { drawLetter(context, LETTERS[mark], x + w / 2, y + h / 2, Math.min(22, size * .5)); }
+  // In a corner as soon as there is room: the sample is in the middle.
+  if (size >= 26) { drawLetter(context, LETTERS[mark], x + 9, y + 9, 12); }
+  else if (size >= 18) { drawLetter(context, LETTERS[mark], x + w / 2, y + h / 2, size * .5); }
 }
 
 function drawLetter(context, text, x, y, size) {

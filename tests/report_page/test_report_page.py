@@ -30,7 +30,7 @@ vertices = [[1,1], [7,1], [1,7],  [7,1], [7,7], [1,7]]
 {draw}
 """
 CASES = {
-    "family/good": SQUARE.format(more="", target="", draw=""),
+    "family/good": SQUARE.format(more=" and <img src=x onerror=alert(1)> </script> &amp;", target="", draw=""),
     "family/wrong": SQUARE.format(more=" that is drawn wrong", target="", draw="[[draw.attribute]]\nvalues = [0, 1, 2, 3, 4, 5]"),
     "samples/four": SQUARE.format(more=" of four samples", target="\nsamples = 4", draw=""),
     "texels/blit": """format = 1
@@ -170,6 +170,11 @@ class CasePage(PageTest):
         self.assertEqual(page.count(".findings tbody tr"), 1)
         page.key("Escape")
         self.assertEqual(page.count("#list tr.case-row"), 4)
+
+    def test_text_never_becomes_markup(self):
+        page = self.open("#case=family%2Fgood")
+        self.assertEqual(page.text(".described"), "A square of two triangles and <img src=x onerror=alert(1)> </script> &amp;.")
+        self.assertEqual(page.run("document.images.length"), 0)
 
     def test_the_address_leads_to_a_pixel_a_view_and_a_zoom(self):
         page = self.open("#case=family%2Fwrong&px=2,5&view=reference&zoom=32")
