@@ -54,9 +54,9 @@ constexpr const char* kDiffFooter =
     "first line says why, it is 'unsupported'. Planes that are missing are not judged.\n";
 constexpr const char* kRenderFooter =
     "Examples:\n"
-    "  edgecase render ties/diagonal -o picture.png                    what is allowed\n"
-    "  edgecase render ties/diagonal -o picture.png --renderer tiles   what an algorithm draws\n"
-    "  edgecase render 'blit/mirror:*x=1*' -o blit.png                 what a blit must leave\n";
+    "  edgecase render ties/apex-up -o picture.png                    what is allowed\n"
+    "  edgecase render ties/apex-up -o picture.png --renderer tiles   what an algorithm draws\n"
+    "  edgecase render blit/mirrored:sx=1,sy=0,dx=0,dy=0 -o blit.png  what a blit must leave\n";
 
 const std::map<std::string, cases::Profile> kProfileNames = {
     {"vulkan", cases::Profile::vulkan},
