@@ -50,9 +50,9 @@ constexpr Examples kExamples[] = {
      "  edgecase explain 'ties/diagonal-edge:rotation=0' --pixel 3,4\n"
      "  edgecase explain --rule tie.top-left      what a rule demands\n"},
     {"render",
-     "  edgecase render ties/diagonal -o picture.png                    what is allowed\n"
-     "  edgecase render ties/diagonal -o picture.png --renderer tiles   what an algorithm draws\n"
-     "  edgecase render 'blit/mirror:*x=1*' -o blit.png                 what a blit must leave\n"},
+     "  edgecase render ties/apex-up -o picture.png                    what is allowed\n"
+     "  edgecase render ties/apex-up -o picture.png --renderer tiles   what an algorithm draws\n"
+     "  edgecase render blit/mirrored:sx=1,sy=0,dx=0,dy=0 -o blit.png  what a blit must leave\n"},
     {"export",
      "  edgecase export 'ties/**' -o cases               what a renderer elsewhere has to draw\n"
      "  my-renderer cases captures                       yours: draws them, writes planes\n"

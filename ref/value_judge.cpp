@@ -126,6 +126,7 @@ struct ValueReference::Impl {
     std::optional<value::Basis<mpq_class>> text_basis;
     FragmentPart part = FragmentPart::all;  // of the fragment being judged
     ValueSelection selection;
+    std::vector<std::vector<Quantity>> selected;  // the quantities of it, by draw
 
     Impl(const cases::Case& the_case, const Limits& the_limits, Profile the_profile)
         : c(the_case), limits(the_limits), profile(the_profile), triangles(assemble(the_case)) {
@@ -133,6 +134,7 @@ struct ValueReference::Impl {
             quantities.push_back(value::quantities(draw, c.target));
         }
         loaded.resize(triangles.size());
+        selected = quantities;
     }
 
     const std::vector<Quantity>& quantities_of(uint32_t t) const {
@@ -490,7 +492,7 @@ bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues&
                   sample,
                   {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
     }
-    const std::span<const Quantity> all(quantities_of(t));
+    const std::span<const Quantity> all(selected.at(triangles[t].draw));
     const value::ProbePlace place = probe_place(t, id, profile);
     const auto accepts = [&](const value::Filter& filter, double& ratio) {
         return filter_accepts(filter, all, places, device, kBudgetFactor, ratio) &&
@@ -526,7 +528,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
     if (part != FragmentPart::depth) {
         judge_samples(t, id, device, exact_only, out);
     }
-    const bool is_decided = !exact_only && part == FragmentPart::all && selection.is_all() &&
+    const bool is_decided = !exact_only && part == FragmentPart::all &&
                             is_plain_depth(triangle.primitive) && filter(t, id, device, out);
     // Accepted, but above one budget: another basis may explain it better.
     if (!is_decided || out.worst_ratio > 1) {
@@ -552,6 +554,10 @@ ValueReference::ValueReference(ValueReference&&) noexcept = default;
 
 void ValueReference::judge_only(const ValueSelection& selection) {
     impl_->selection = selection;
+    impl_->selected = impl_->quantities;
+    for (std::vector<Quantity>& draw : impl_->selected) {
+        std::erase_if(draw, [&](const Quantity& q) { return !selection.has(q.attribute); });
+    }
 }
 
 FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device,
