@@ -6,6 +6,7 @@
 #include <map>
 
 #include "cases/selector.hpp"
+#include "cli/command_examples.hpp"
 #include "ref/algorithms/device.hpp"
 
 namespace cli {
@@ -35,71 +36,6 @@ constexpr const char* kFooter =
     "    6  everything was skipped or unsupported\n"
     "    7  internal error, or cases were not run or could not be judged\n"
     "  130  interrupted; the reports hold what was done\n";
-
-// What the help of a command ends with.
-struct Examples {
-    const char* command;
-    const char* text;
-};
-constexpr Examples kExamples[] = {
-    {"list",
-     "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
-     "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
-    {"lint", "  edgecase lint my-case.toml                is a file of your own well formed\n"},
-    {"explain",
-     "  edgecase explain 'ties/diagonal-edge:rotation=0' --pixel 3,4\n"
-     "  edgecase explain --rule tie.top-left      what a rule demands\n"},
-    {"render",
-     "  edgecase render ties/apex-up -o picture.png                    what is allowed\n"
-     "  edgecase render ties/apex-up -o picture.png --renderer tiles   what an algorithm draws\n"
-     "  edgecase render blit/mirrored:sx=1,sy=0,dx=0,dy=0 -o blit.png  what a blit must leave\n"},
-    {"export",
-     "  edgecase export 'ties/**' -o cases               what a renderer elsewhere has to draw\n"
-     "  my-renderer cases captures                       yours: draws them, writes planes\n"
-     "  edgecase diff 'ties/**' --captures captures      judges what it has drawn\n"
-     "\n"
-     "docs/other-renderers.md tells it step by step; docs/schema/case-1.json is the format.\n"},
-    {"diff",
-     "  edgecase diff --captures captures                      every case of the suite\n"
-     "  edgecase diff 'ties/**' --captures captures -o out/me  one family, reports in out/me\n"
-     "  edgecase diff --captures captures --subpixel-bits 4    of a renderer that snaps to 1/16\n"
-     "\n"
-     "A case whose folder holds no plane is 'not run' (exit 7); with a file unsupported.txt, whose\n"
-     "first line says why, it is 'unsupported'. Planes that are missing are not judged.\n"},
-    {"doctor", "  edgecase doctor --icd my_icd.json         is my driver found and usable\n"},
-    {"report",
-     "  edgecase report out/mine                  write the reports of a run again\n"
-     "  edgecase report --merge out/shard-* -o out/all\n"},
-    {"expect",
-     "  edgecase expect cases/expectations/llvmpipe.txt\n"
-     "  edgecase expect --update out/mine my-driver.txt --bug mesa#1234\n"},
-    {"compare",
-     "  edgecase compare out/before out/after     regressions and fixes\n"
-     "  edgecase compare out/lavapipe out/swiftshader -v --json differences.json\n"},
-    {"bench", "  edgecase bench 'coverage/**' --runs 5\n"},
-    {"completion",
-     "  source <(edgecase completion bash)\n"
-     "  edgecase completion fish > ~/.config/fish/completions/edgecase.fish\n"},
-    {"man", "  edgecase man | man -l -\n"},
-};
-
-// Commands in the groups of 'edgecase --help'.
-struct Group {
-    const char* command;
-    const char* name;
-};
-constexpr Group kGroups[] = {
-    {"run", "Checking a device"},
-    {"report", "Checking a device"},
-    {"compare", "Checking a device"},
-    {"expect", "Checking a device"},
-    {"list", "Cases"},
-    {"lint", "Cases"},
-    {"explain", "Cases"},
-    {"render", "Cases"},
-    {"export", "Renderers elsewhere"},
-    {"diff", "Renderers elsewhere"},
-};
 
 const std::map<std::string, std::string>& shell_names() {
     static const std::map<std::string, std::string> kNames = {

@@ -136,6 +136,9 @@ class Updater {
         for (const auto& [id, status] : cases) {
             all.insert(status);
         }
+        if (cases.empty()) {
+            result_.notes.push_back("'" + line.glob + "' matches no case of the suite");
+        }
         if (seen.empty() || (all.size() == 1 && *all.begin() == line.status)) {
             keep_line(line, raw, !seen.empty());
         } else if (all.size() == 1 && !*all.begin()) {

@@ -146,8 +146,16 @@ std::string detail_of(const ComparedCase& c, const std::vector<std::string>& let
                     }
                 }
             }
-            return fmt::format("{} of {} samples are free", first->either_samples,
-                               first->compared_samples);
+            // Each by its own subpixel grid.
+            std::string text;
+            for (size_t k = 0; k < c.records.size(); ++k) {
+                if (c.records[k] != nullptr) {
+                    text += fmt::format("{}{} of {} samples are free in {}", k == 0 ? "" : ", ",
+                                        c.records[k]->either_samples,
+                                        c.records[k]->compared_samples, letters[k]);
+                }
+            }
+            return text;
         }
         case Change::only_in_some:
             for (size_t k = 0; k < c.records.size(); ++k) {

@@ -94,7 +94,7 @@ class Compare(CompareTest):
         self.assertEqual(rows, ["########"] * 4 + ["2#######"] + ["########"] * 3)
         # Without pictures the checksums still tell.
         c = self.run_as("c", "fam/ties", profile="vulkan", fault="flip-pixel@fam/ties")
-        self.assertIn("   8 of 64 samples are free\n", self.compare(a, c, check=0).stdout)
+        self.assertIn("   8 of 64 samples are free in A, 8 of 64 samples are free in B\n", self.compare(a, c, check=0).stdout)
 
     def test_unjudged_cases_are_not_success(self):
         a, b = self.run_as("a"), self.run_as("b")
@@ -173,9 +173,12 @@ class Update(CompareTest):
                                                          "g/x2   fail   b#1   # All of them.\n")
 
     def test_lines_of_cases_that_were_not_drawn_stay(self):
-        self.file.write_text(HEADER + "fam/c1  fail  b#1  # The first.\n")
+        text = HEADER + "fam/c1  fail  b#1  # The first.\nfam/gone  fail  b#1  # Its case is gone.\n"
+        self.file.write_text(text)
         self.run_as("a", "fam/c2", "--expect", self.file)
-        self.assertIn("nothing to write", self.update().stdout)
+        self.assertEqual(self.update().stdout, "note: 'fam/gone' matches no case of the suite\n"
+                                               f"{self.file}: 0 removed, 0 changed, 0 added, 2 kept; nothing to write\n")
+        self.assertEqual(self.file.read_text(), text)
 
     def test_a_line_that_ended(self):
         self.file.write_text(HEADER + "fam/c1  fail  b#1  until=2020-01-01  # The first.\n")

@@ -52,7 +52,8 @@ TEST(comparison, bits_tell_what_statuses_do_not) {
     EXPECT_EQ(compare_runs(runs)->cases[0].change, Change::other_values);
     b.hit_bits = "2";
     EXPECT_EQ(compare_runs(runs)->cases[0].change, Change::other_coverage);
-    EXPECT_EQ(compare_runs(runs)->cases[0].detail, "8 of 64 samples are free");
+    EXPECT_EQ(compare_runs(runs)->cases[0].detail,
+              "8 of 64 samples are free in A, 8 of 64 samples are free in B");
     runs[1].run.cases[3].counts[0] += 1;
     EXPECT_EQ(compare_runs(runs)->cases[3].change, Change::fails_otherwise);
     EXPECT_EQ(exit_code(*compare_runs(runs)), kExitInternal);  // the sample run is not whole
