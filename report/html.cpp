@@ -205,11 +205,7 @@ std::vector<std::string> to_html_parts(const Run& run) {
         for (const size_t k : left_out) {
             cases.push_back(std::move(rest.cases[k]));
         }
-        const size_t before = rest.cases.size();
-        rest.cases = std::move(cases);
-        if (rest.cases.size() == before) {
-            break;  // a case that fits nowhere
-        }
+        rest.cases = std::move(cases);  // fewer than before: the first case of a page always fits
         pages.push_back(page_of(rest, pages.size() + 1, left_out));
     }
     return pages;

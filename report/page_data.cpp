@@ -22,8 +22,9 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 // results.json holds everything.
-constexpr size_t kMostFindings = 200;     // of a case
-constexpr size_t kLeastFindings = 5;      // of a case
+constexpr size_t kMostFindings = 200;  // of a case
+constexpr size_t kLeastFindings = 5;   // of a case
+constexpr size_t kMostOfSample = 24;   // four attributes of four numbers, FragCoord, depth, colour
 constexpr size_t kFindingBudget = 12000;  // of a page
 constexpr size_t kMaxOutput = 8192;       // bytes of a driver's output, a case
 
@@ -127,17 +128,17 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
         const auto is_here = [](const diff::Finding& a, const diff::Finding& b) {
             return a.x == b.x && a.y == b.y && a.sample == b.sample;
         };
-        // Those of the leading sample, then the others in order; never some of a sample without the
-        // rest.
+        // Those of the leading sample, then the others in order; of a sample all, within reason.
+        const size_t most_of_sample = std::min(most_findings + 4, kMostOfSample);
         Json& list = json["findings"] = Json::array();
         for (const diff::Finding& f : r.findings) {
-            if (is_here(f, lead)) {
+            if (is_here(f, lead) && list.size() < most_of_sample) {
                 list.push_back(finding_json(r, f, strings));
             }
         }
         for (size_t k = 0; k < r.findings.size(); ++k) {
-            if (k > 0 && list.size() >= most_findings &&
-                !is_here(r.findings[k], r.findings[k - 1])) {
+            const bool is_new = k == 0 || !is_here(r.findings[k], r.findings[k - 1]);
+            if (list.size() >= (is_new ? most_findings : most_findings + kMostOfSample)) {
                 break;
             }
             if (!is_here(r.findings[k], lead)) {
@@ -160,11 +161,13 @@ std::vector<size_t> add_evidence(const Run& run, Json& list) {
         if (r.pictures.width > 0 && r.pictures.height > 0) {
             Json both = Json::array({encode_pictures(r.pictures), encode_geometry(r.geometry)});
             const size_t size = both.dump().size();
-            if (size > left) {
+            const bool is_first =
+                left == kEvidenceBudget;  // fits by definition: parts come to an end
+            if (size > left && !is_first) {
                 without.push_back(k);
                 return;
             }
-            left -= size;
+            left -= std::min(size, left);
             list[k]["pictures"] = std::move(both[0]);
             list[k]["geometry"] = std::move(both[1]);
         }

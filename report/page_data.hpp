@@ -15,7 +15,7 @@ namespace report {
 
 // Bytes of JSON that pictures, triangles and values may take together. With findings, the list of
 // cases and the script a page stays below 8 MB; what does not fit goes to further pages.
-inline constexpr size_t kEvidenceBudget = size_t{9} << 19;  // 4.5 MiB
+inline constexpr size_t kEvidenceBudget = size_t{4} << 20;
 
 // `part`: 1 for the first page of a run. Cases whose pictures do not fit go into `left_out`, by
 // their numbers in the run; the page says that they stand in the next part.

@@ -3,6 +3,9 @@
 // All that is known of one sample: what the rules say, why, and what the device wrote.
 
 const SHOWN_TRIANGLES = 6;
+// Whether all findings of a sample are here: page_data.cpp cuts off the list of a case, but of a sample never below this many.
+const LEAST_OF_SAMPLE = 9;
+const isComplete = (record, findings, told) => findings.length === (record.finding_total || 0) || (told.length > 0 && told.length < LEAST_OF_SAMPLE);
 
 function makeInspector(record, scene) {
   const body = el("div", {class: "inspector-body"});
@@ -15,7 +18,7 @@ function makeInspector(record, scene) {
     const known = evidence.get(at.x + "," + at.y + "," + at.sample);
     summary.className = "sample-title";
     summary.replaceChildren(...sampleTitle(scene, at));
-    body.replaceChildren(...[verdictPart(scene, at, known), findingsPart(told), valuesPart(scene, at, known, told, told.length > 0 || findings.length === (record.finding_total || 0)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
+    body.replaceChildren(...[verdictPart(scene, at, known), findingsPart(told), valuesPart(scene, at, known, told, isComplete(record, findings, told)), trianglesPart(scene, at), blitPart(scene, at)].filter(Boolean));
   }, sentence: (at) => sampleSentence(scene, at)};
 }
 
@@ -83,7 +86,7 @@ function findingsPart(told) {
 
 const MAX_STEPS = 1e7;
 const MOST_BUDGETS = 2;  // ref::kBudgetFactor
-function valueRow(value, told, isComplete) {
+function valueRow(value, told, complete) {
   const [quantity, exact, nearestText, budgetText, lowText, highText, bits] = value;
   const nearest = numberOf(nearestText), budget = numberOf(budgetText), low = numberOf(lowText), high = numberOf(highText);
   const f = told.find((g) => g.quantity === quantity), got = bits === null ? NaN : floatOf(bits);
@@ -93,9 +96,9 @@ function valueRow(value, told, isComplete) {
   else if (f) { budgets = "another number"; }
   else if (budget > 0 && bits !== null) {
     const off = Math.abs(got - nearest) / budget;
-    budgets = off <= MOST_BUDGETS ? shortNumber(off, 3) + " budgets" : inside || isComplete ? "another set-up" : shortNumber(off, 3) + " budgets";
+    budgets = off <= MOST_BUDGETS ? shortNumber(off, 3) + " budgets" : inside || complete ? "another set-up" : shortNumber(off, 3) + " budgets";
   }
-  const verdict = bits === null ? "" : f ? el("strong", {class: "bad"}, "\u2717 wrong") : inside || isComplete ? "\u2713" : "outside";
+  const verdict = bits === null ? "" : f ? el("strong", {class: "bad"}, "\u2717 wrong") : inside || complete ? "\u2713" : "outside";
   return el("tr", {class: f ? "wrong" : ""},
     el("th", {scope: "row"}, quantity),
     el("td", {}, el("span", {class: "number"}, exact && exact !== shortNumber(nearest) ? exact + " = " : "", shortNumber(nearest)),
@@ -105,15 +108,15 @@ function valueRow(value, told, isComplete) {
     el("td", {}, verdict));
 }
 
-// `isComplete`: all findings of the sample are here, so that a value without one was accepted.
-function valuesPart(scene, at, known, told, isComplete) {
+// `complete`: all findings of the sample are here, so that a value without one was accepted.
+function valuesPart(scene, at, known, told, complete) {
   if (!known || known.values.length === 0) {
     const drawn = isInPicture(scene.pictures, at) && scene.pictures.device[indexOf(scene.pictures, at)] > 0 && scene.pictures.errors;
     return drawn ? el("p", {class: "quiet small"}, "Values are kept for wrong samples and their neighbours; the command \u201cexplain\u201d tells them for any sample.") : null;
   }
   return el("div", {class: "values"}, el("h3", {}, "Values"), el("div", {class: "scroll"},
     table("", ["quantity", "exact, [all set-ups]", "device", "off by", el("span", {class: "hidden-text"}, "verdict")], [...known.values].sort((a, b) => told.some((f) => f.quantity === b[0]) - told.some((f) => f.quantity === a[0]))
-      .map((v) => valueRow(v, told, isComplete)), "compact")));
+      .map((v) => valueRow(v, told, complete)), "compact")));
 }
 
 function edgeRow(e) {

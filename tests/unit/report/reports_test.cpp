@@ -254,7 +254,51 @@ TEST(html, thousands_of_failures_stay_small) {
         run.cases[k].id += std::to_string(k);
         run.cases[k].findings.assign(1000, fail.findings[0]);
     }
-    EXPECT_LT(to_html(run).size(), size_t{16} << 20);
+    EXPECT_LT(to_html(run).size(), size_t{8} << 20);
+}
+
+TEST(html, every_picture_stands_in_one_part) {
+    report::Run run = test::sample_run();
+    const CaseRecord fail = run.cases[3];
+    run.cases.assign(300, fail);
+    uint32_t noise = 1;
+    for (size_t k = 0; k < run.cases.size(); ++k) {
+        CaseRecord& r = run.cases[k];
+        r.id += std::to_string(k);
+        r.findings.assign(1000, fail.findings[0]);
+        r.pictures.width = r.pictures.height = 64;
+        for (std::vector<uint8_t>* plane :
+             {&r.pictures.expected_hits, &r.pictures.device_hits, &r.pictures.marks}) {
+            plane->clear();
+            for (size_t at = 0; at < 64 * 64; ++at) {
+                noise = noise * 1664525U + 1013904223U;
+                plane->push_back(static_cast<uint8_t>(noise >> 30U));
+            }
+        }
+    }
+    const std::vector<std::string> parts = to_html_parts(run);
+    EXPECT_GT(parts.size(), 1U);
+    EXPECT_EQ(parts.front(), to_html(run));
+    size_t pictures = 0;
+    for (const std::string& part : parts) {
+        EXPECT_LT(part.size(), size_t{8} << 20);
+        pictures += count_of(part, "\"expected_hits\":");
+    }
+    EXPECT_EQ(pictures, run.cases.size());
+    // A run that fits has one part.
+    EXPECT_EQ(to_html_parts(test::sample_run()).size(), 1U);
+}
+
+TEST(html, a_picture_larger_than_a_page_may_be_is_shown_all_the_same) {
+    report::Run run = test::sample_run();
+    run.cases = {run.cases[3]};
+    run.cases[0].pictures.expected_colors.clear();
+    for (size_t k = 0; k < (size_t{3} << 20); ++k) {
+        run.cases[0].pictures.expected_colors.push_back(static_cast<uint8_t>(k));
+    }
+    const std::vector<std::string> parts = to_html_parts(run);
+    ASSERT_EQ(parts.size(), 1U);
+    EXPECT_EQ(count_of(parts[0], "\"expected_hits\":"), 1U);
 }
 
 TEST(reports, never_blame_vulkan_for_what_only_breaks_direct3d) {
