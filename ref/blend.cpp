@@ -59,10 +59,16 @@ mpq_class spacing(const Floating& format, const mpq_class& x) {
     return power_of_two(std::max(e, format.least) - format.fraction);
 }
 
+mpq_class largest_of(const Floating& format) {
+    return power_of_two(format.most + 1) - power_of_two(format.most - format.fraction);
+}
+
 mpq_class round_to(const Floating& format, const mpq_class& x, bool upwards) {
-    const mpq_class largest =
-        power_of_two(format.most + 1) - power_of_two(format.most - format.fraction);
-    if (sgn(x) == 0 || abs(x) > largest) {
+    const mpq_class largest = largest_of(format);
+    if (abs(x) > largest) {  // towards zero the largest number, away from it the overflow itself
+        return upwards == (sgn(x) > 0) ? x : sgn(x) > 0 ? largest : mpq_class(-largest);
+    }
+    if (sgn(x) == 0) {
         return x;
     }
     const mpq_class step = spacing(format, x);
@@ -259,6 +265,17 @@ bool Component::value_of(uint32_t code, mpq_class& value) const {
     return is_number;
 }
 
+bool Component::is_overflow(uint32_t code, const Interval& v) const {
+    const bool is_half = format_.kind == ComponentKind::half;
+    if (!is_half && format_.kind != ComponentKind::binary32) {
+        return false;
+    }
+    const mpq_class largest = largest_of(is_half ? kHalf : kBinary32);
+    return code == (is_half ? 0x7c00U : 0x7f800000U)   ? v.high > largest
+           : code == (is_half ? 0xfc00U : 0xff800000U) ? v.low < -largest
+                                                       : false;
+}
+
 uint32_t Component::code_of(const mpq_class& value) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
@@ -401,6 +418,9 @@ bool Unit::allows(const Color& color, const std::array<uint32_t, 4>& codes) cons
     for (uint32_t k = 0; k < 4; ++k) {
         const Component component(cases::component_of(format, k));
         if (!component.exists()) {
+            continue;
+        }
+        if (component.is_overflow(codes[k], color[k])) {
             continue;
         }
         mpq_class value;

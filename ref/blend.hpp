@@ -8,7 +8,10 @@
 // docs/rules.md): the value is clamped to [0, 1], r = f (2^b - 1), and one of the two integers
 // nearest to r is stored; a whole r is stored as it is. Trap: k/255 rounded to binary32 is not
 // k/255, so its r is no integer and k + 1 may be stored. Direct3D ("FLOAT -> UNORM") allows 0.6 of
-// a unit. Halves: either neighbour. binary32 and integers: the value itself.
+// a unit. Halves: either neighbour, and beyond the
+// largest one that one or infinity ("Floating-Point Format Conversions": finite values of a larger
+// magnitude "may be rounded either to the closest representable finite value or to the
+// appropriately signed infinity"). binary32 and integers: the value itself.
 //
 // Blending ("Blending"): "as if carried out in floating-point", "with a precision and dynamic range
 // no lower than that used to represent destination components". So every intermediate (source,
@@ -50,7 +53,7 @@ class Component {
     bool is_fixed_point() const;
 
     // The neighbours in the format: the largest value that is <= x, the smallest that is >= x.
-    // Values beyond the largest finite one are left as they are.
+    // Beyond the largest finite one, that one and x itself, which stands for infinity.
     mpq_class down(const mpq_class& x) const;
     mpq_class up(const mpq_class& x) const;
     // Either neighbour of every value.
@@ -62,6 +65,9 @@ class Component {
     // The value that a stored code means; nothing if the code is no number (NaN, infinity).
     // sRGB: rounded to binary64, see kSrgbError.
     bool value_of(uint32_t code, mpq_class& value) const;
+    // The code is an infinity and a value of v may be stored as one: its size is larger than the
+    // largest finite number's.
+    bool is_overflow(uint32_t code, const Interval& v) const;
     // The code of a value of the format's grid; the nearest one of other values.
     uint32_t code_of(const mpq_class& value) const;
     // A range of codes as text: "127", "127 or 128", "0x3f800000 (1)".

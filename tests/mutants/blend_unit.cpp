@@ -66,8 +66,7 @@ struct Operands {
 };
 
 template <class Math>
-typename Math::Value factor_of(BlendFactor factor, size_t k, const Operands<Math>& o,
-                               Fault fault) {
+typename Math::Value factor_of(BlendFactor factor, size_t k, const Operands<Math>& o, Fault fault) {
     const auto one = Math::kOne;
     const auto minus = [&](auto v) {
         return fault == Fault::blend_complement_forgotten ? v : one - v;
@@ -183,7 +182,8 @@ BlendUnit::BlendUnit(cases::ColorFormat format, const Device& device)
 }
 
 bool BlendUnit::is_fixed() const {
-    return layout_.channels[0].number == Number::unorm || layout_.channels[0].number == Number::srgb;
+    return layout_.channels[0].number == Number::unorm ||
+           layout_.channels[0].number == Number::srgb;
 }
 
 Texel BlendUnit::cleared(const glm::vec4& color) const {
@@ -232,8 +232,7 @@ uint8_t BlendUnit::mask_of(const cases::ColorOutput& output) const {
 
 glm::vec4 BlendUnit::blend(const cases::Blend& blend, const glm::vec4& source,
                            const glm::vec4& destination) const {
-    const Operands<FloatMath> o{to_array(source), to_array(destination),
-                                to_array(blend.constants)};
+    const Operands<FloatMath> o{to_array(source), to_array(destination), to_array(blend.constants)};
     const auto out = blend_all(blend, o, FloatMath{device_.fused}, device_.fault);
     return {out[0], out[1], out[2], out[3]};
 }
@@ -243,8 +242,8 @@ std::array<uint32_t, 4> BlendUnit::blend_fixed(const cases::Blend& blend,
                                                const std::array<uint32_t, 4>& destination) const {
     Operands<FixedMath> o{source, destination, {}};
     for (size_t k = 0; k < 4; ++k) {
-        o.constants[k] = store_channel(blend.constants[static_cast<int>(k)], {Number::unorm, 8},
-                                       device_);
+        o.constants[k] =
+            store_channel(blend.constants[static_cast<int>(k)], {Number::unorm, 8}, device_);
     }
     const FixedMath math{device_.multiply, device_.unorm == UnormRounding::down,
                          device_.fault == Fault::blend_shift_only};
@@ -299,7 +298,8 @@ Texel BlendUnit::write(const cases::ColorOutput& output, const glm::vec4& source
         }
         const glm::vec4 result = blend(clamped, s, d);
         Device rounding = device_;  // what binary32 missed by its rounding is not rounded away
-        rounding.unorm = device_.unorm == UnormRounding::down ? UnormRounding::nearest : device_.unorm;
+        rounding.unorm =
+            device_.unorm == UnormRounding::down ? UnormRounding::nearest : device_.unorm;
         for (size_t k = 0; k < 4; ++k) {
             codes[k] = channels[k].bits != 0
                            ? store_channel(result[static_cast<int>(k)], channels[k], rounding)
@@ -326,8 +326,9 @@ ColorAttachment::ColorAttachment(const cases::Case& c, const Device& device)
     }
     const size_t count = size_t{c.target.width} * c.target.rows() * c.target.samples;
     texels_.assign(count, unit_.cleared(c.target.color->clear));
-    last_.assign(device.fault == Fault::blend_stale || device.fault == Fault::blend_merges ? count : 0,
-                 Last{});
+    last_.assign(
+        device.fault == Fault::blend_stale || device.fault == Fault::blend_merges ? count : 0,
+        Last{});
     for (const cases::Draw& draw : c.draws) {
         cases::ColorOutput output = draw.color;
         const cases::ColorOutput& first = c.draws.front().color;

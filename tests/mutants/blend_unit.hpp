@@ -63,7 +63,8 @@ class ColorAttachment {
 
     const cases::Case& case_;
     const Device& device_;
-    std::vector<cases::ColorOutput> outputs_;  // by draw, with the state that the device has in mind
+    std::vector<cases::ColorOutput>
+        outputs_;  // by draw, with the state that the device has in mind
     BlendUnit unit_;
     std::vector<Texel> texels_;
     struct Last {  // the fragment before

@@ -25,9 +25,9 @@ using cases::ColorFormat;
 using cases::Profile;
 
 constexpr std::array kBlendable = {
-    ColorFormat::rgba8_unorm,  ColorFormat::bgra8_unorm,  ColorFormat::rgba8_srgb,
+    ColorFormat::rgba8_unorm,   ColorFormat::bgra8_unorm,  ColorFormat::rgba8_srgb,
     ColorFormat::rgb10a2_unorm, ColorFormat::r5g6b5_unorm, ColorFormat::rgba16_unorm,
-    ColorFormat::rgba16_float, ColorFormat::rgba32_float, ColorFormat::r32_float};
+    ColorFormat::rgba16_float,  ColorFormat::rgba32_float, ColorFormat::r32_float};
 
 bool is_float(ColorFormat format) {
     const Number number = layout_of(format).channels[0].number;
@@ -307,10 +307,10 @@ TEST(BlendUnit, MultipliesBytesToNearest) {
     const BlendUnit a(ColorFormat::rgba8_unorm, divides);
     const BlendUnit b(ColorFormat::rgba8_unorm, shifts);
     cases::ColorOutput output;
-    output.blend = cases::Blend{
-        {cases::BlendFactor::dst_color, cases::BlendFactor::zero, cases::BlendOp::add},
-        {cases::BlendFactor::zero, cases::BlendFactor::zero, cases::BlendOp::add},
-        glm::vec4(0)};
+    output.blend =
+        cases::Blend{{cases::BlendFactor::dst_color, cases::BlendFactor::zero, cases::BlendOp::add},
+                     {cases::BlendFactor::zero, cases::BlendFactor::zero, cases::BlendOp::add},
+                     glm::vec4(0)};
     for (uint32_t x = 0; x < 256; ++x) {
         for (uint32_t y = 0; y < 256; ++y) {
             const glm::vec4 source(static_cast<float>(x) / 255.0F);

@@ -61,6 +61,7 @@ struct Device {
     bool reciprocal_w = false;     // x * (1/w) instead of x / w
     Centroid centroid = Centroid::first_sample;
     bool inputs_follow_samples = true;  // with sample shading inputs are evaluated at the sample
+    bool odd_quads = false;             // quads of derivatives begin at odd pixels
     UnormRounding unorm = UnormRounding::nearest;
     BlendMath blend = BlendMath::fixed;
     FixedMultiply multiply = FixedMultiply::shifts;

@@ -6,7 +6,7 @@ namespace mutants {
 
 std::vector<ExpectedCatch> expected_catches() {
     using cases::Profile;
-    return {
+    std::vector<ExpectedCatch> out = {
         {Fault::provoking_last,
          Profile::vulkan,
          {"coverage/one-pixel", "field/mesa-3101", "facing/cull"}},
@@ -353,7 +353,44 @@ std::vector<ExpectedCatch> expected_catches() {
         {Fault::bias_slope_sum, Profile::vulkan, {"depth-bias/slope"}},
         {Fault::bias_clamp_ignored, Profile::vulkan, {"depth-bias/clamp"}},
         {Fault::bias_clamp_both_ends, Profile::vulkan, {"depth-bias/clamp"}},
+        {Fault::primitives_paired,
+         Profile::vulkan,
+         {"order/blended-stack", "depth-test/repeat", "order/same-triangle"}},
+        {Fault::ceil_snapping,
+         Profile::direct3d,
+         {"snap/third-of-a-subpixel", "attributes/random"}},
+        {Fault::clip_reversed, Profile::vulkan, {"clip/seam", "clip/mesh", "depth-clip/volumes"}},
+        {Fault::ties_top_right,
+         Profile::direct3d,
+         {"field/drtk-9", "facing/cull", "coverage/many-in-a-pixel"}},
+        {Fault::ties_bottom_left,
+         Profile::direct3d,
+         {"field/drtk-9", "facing/cull", "coverage/many-in-a-pixel", "shared-edge/fan",
+          "coverage/bow-tie"}},
+        {Fault::ties_left_only,
+         Profile::direct3d,
+         {"shared-edge/fan", "field/drtk-9", "coverage/bow-tie", "coverage/every-block-corner",
+          "field/mesa-3101"}},
+        {Fault::ties_bottom_too,
+         Profile::direct3d,
+         {"shared-edge/fan", "field/drtk-9", "coverage/bow-tie", "coverage/every-block-corner",
+          "blend/shared-edge"}},
+        {Fault::ties_right_too, Profile::vulkan, {"shared-edge/fan", "scissor/beyond-the-target"}},
+        {Fault::box_last_row, Profile::vulkan, {"coverage/many-in-a-pixel", "ties/apex"}},
+        {Fault::box_first_column,
+         Profile::vulkan,
+         {"coverage/one-pixel", "field/mesa-3101", "facing/cull"}},
+        {Fault::plane_origin_far,
+         Profile::practice,
+         {"attributes/off-grid", "attributes/flat", "batch/rect-attributes"}},
+        {Fault::derivative_halved,
+         Profile::vulkan,
+         {"derivative/linear", "lod/powers", "combination/probes-together"}},
+        {Fault::lod_norm, Profile::vulkan, {"combination/probes-together", "lod/one-axis"}},
     };
+    const std::vector<ExpectedCatch> colors = expected_color_catches();
+    out.insert(out.end(), colors.begin(), colors.end());
+    return out;
 }
 
 }  // namespace mutants

@@ -18,5 +18,7 @@ struct ExpectedCatch {
 };
 // One row for each fault.
 std::vector<ExpectedCatch> expected_catches();
+// The part of it that is about colours, stencil and resolves.
+std::vector<ExpectedCatch> expected_color_catches();
 
 }  // namespace mutants

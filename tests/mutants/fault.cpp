@@ -143,7 +143,6 @@ constexpr FaultInfo kFaults[] = {
     {Fault::derivative_partial, "derivative_partial"},
     {Fault::derivative_y_up, "derivative_y_up"},
     {Fault::derivative_halved, "derivative_halved"},
-    {Fault::quads_misplaced, "quads_misplaced"},
     {Fault::offset_ignored, "offset_ignored"},
     {Fault::lod_one_less, "lod_one_less"},
     {Fault::lod_norm, "lod_norm"},

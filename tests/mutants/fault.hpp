@@ -161,7 +161,6 @@ enum class Fault : uint8_t {
     derivative_partial,   // the limit instead of a difference between pixels
     derivative_y_up,      // dFdy with the opposite sign
     derivative_halved,    // over a quad of two pixels' distance
-    quads_misplaced,      // quads begin at odd pixels
     offset_ignored,       // interpolateAtOffset at the centre
     lod_one_less,         // one level too fine
     lod_norm,             // the smaller of the two lengths

@@ -39,6 +39,25 @@ std::vector<LegalDevice> legal_devices() {
     add("guard_band", Profile::direct3d, [](Device& d) { d.clip = ClipMethod::guard_band; });
     add("fused", Profile::direct3d, [](Device& d) { d.fused = true; });
     add("reciprocal_w", Profile::direct3d, [](Device& d) { d.reciprocal_w = true; });
+    add("odd_quads", Profile::direct3d, [](Device& d) { d.odd_quads = true; });
+    add("blend_in_binary32", Profile::direct3d, [](Device& d) { d.blend = BlendMath::binary32; });
+    add("blend_in_fused_binary32", Profile::direct3d, [](Device& d) {
+        d.blend = BlendMath::binary32;
+        d.unorm = UnormRounding::nearest_even;
+        d.fused = true;
+    });
+    add("bytes_divided_by_255", Profile::direct3d, [](Device& d) {
+        d.multiply = FixedMultiply::divide;
+        d.half_toward_zero = true;
+    });
+    for (const Profile profile : {Profile::vulkan, Profile::practice}) {
+        add(fmt::format("unorm_rounds_down_at_{}", cases::to_string(profile)), profile,
+            [](Device& d) { d.unorm = UnormRounding::down; });
+    }
+    add("resolve_truncates", Profile::direct3d, [](Device& d) {
+        d.resolve_truncates = true;
+        d.srgb_resolved_encoded = true;
+    });
     add("inputs_at_the_centre_of_shaded_samples", Profile::direct3d,
         [](Device& d) { d.inputs_follow_samples = false; });
     add("centroid_is_the_mean", Profile::practice, [](Device& d) { d.centroid = Centroid::mean; });

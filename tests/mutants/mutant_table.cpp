@@ -31,15 +31,11 @@ bool is_small(const cases::Case& c) {
     return c.target.width * c.target.height * c.target.samples <= 64U * 64U && vertices <= 1024;
 }
 
-// The first leaf of each file, without large ones; or all.
-std::vector<size_t> leaves_of(const std::vector<cases::Case>& suite, bool all) {
+// Small leaves by turn, then the others.
+std::vector<size_t> leaves_of(const std::vector<cases::Case>& suite) {
     std::vector<size_t> leaves = mutants::leaves_by_turn(suite);
-    if (!all) {
-        std::set<std::string> seen;
-        std::erase_if(leaves, [&](size_t k) {
-            return !is_small(suite[k]) || !seen.insert(mutants::file_of(suite[k])).second;
-        });
-    }
+    std::stable_partition(leaves.begin(), leaves.end(),
+                          [&](size_t k) { return is_small(suite[k]); });
     return leaves;
 }
 
@@ -53,7 +49,10 @@ void print_faults(const std::vector<cases::Case>& suite, const std::set<std::str
             rows.push_back(row);
         }
     }
-    const std::vector<size_t> leaves = leaves_of(suite, all);
+    std::vector<size_t> leaves = leaves_of(suite);
+    if (!all) {
+        std::erase_if(leaves, [&](size_t k) { return !is_small(suite[k]); });
+    }
     mutants::measure(
         suite, leaves, rows,
         [&](const mutants::MatrixRow& row) { return with_cases || all || row.files.size() < 2; },
@@ -79,7 +78,10 @@ void print_faults(const std::vector<cases::Case>& suite, const std::set<std::str
 int print_legal(const std::vector<cases::Case>& suite, const std::set<std::string>& wanted,
                 bool all) {
     size_t alarms = 0;
-    const std::vector<size_t> leaves = leaves_of(suite, all);
+    std::vector<size_t> leaves = leaves_of(suite);
+    if (!all) {
+        std::erase_if(leaves, [&](size_t k) { return !is_small(suite[k]); });
+    }
     for (const mutants::LegalDevice& legal : mutants::legal_devices()) {
         if (!wanted.empty() && wanted.count(legal.name) == 0) {
             continue;

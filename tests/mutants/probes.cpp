@@ -20,8 +20,8 @@ class Prober {
         : device_(device),
           planes_(planes),
           a_(a),
-          right_(static_cast<int>((i + (device.fault == Fault::quads_misplaced ? 1 : 0)) & 1)),
-          bottom_(static_cast<int>((j + (device.fault == Fault::quads_misplaced ? 1 : 0)) & 1)),
+          right_(static_cast<int>((i + (device.odd_quads ? 1 : 0)) & 1)),
+          bottom_(static_cast<int>((j + (device.odd_quads ? 1 : 0)) & 1)),
           place_(place) {}
 
     // Along x or y in the quad, in the pixel's own line or in the quad's first.

@@ -21,13 +21,11 @@ float clamp_to_unit(float v) {
 
 // Khronos Data Format Specification, sRGB transfer functions.
 float encode_srgb(float linear) {
-    return linear <= 0.0031308F ? linear * 12.92F
-                                : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
+    return linear <= 0.0031308F ? linear * 12.92F : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
 }
 
 float decode_srgb(float encoded) {
-    return encoded <= 0.04045F ? encoded / 12.92F
-                               : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
+    return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
 }
 
 uint32_t to_code(float v, uint32_t bits, const Device& device) {
