@@ -34,7 +34,8 @@ inline constexpr Examples kExamples[] = {
      "  edgecase diff 'ties/**' --captures captures -o out/me  one family, reports in out/me\n"
      "  edgecase diff --captures captures --subpixel-bits 4    of a renderer that snaps to 1/16\n"
      "\n"
-     "A case whose folder holds no plane is 'not run' (exit 7); with a file unsupported.txt, whose\n"
+     "A case whose folder holds no plane is 'not run' (exit 7); with a file unsupported.txt, "
+     "whose\n"
      "first line says why, it is 'unsupported'. Planes that are missing are not judged.\n"},
     {"doctor", "  edgecase doctor --icd my_icd.json         is my driver found and usable\n"},
     {"report",

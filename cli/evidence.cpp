@@ -21,7 +21,7 @@ using report::SampleValue;
 
 // Wrong samples, the first of each rule before the rest; then their neighbours.
 std::vector<size_t> chosen_samples(const Window& window, const cases::Target& target,
-                                          const diff::Verdict& verdict) {
+                                   const diff::Verdict& verdict) {
     std::vector<size_t> chosen;
     std::set<size_t> seen;
     const auto choose = [&](size_t index, size_t most) {

@@ -29,7 +29,7 @@ struct Shape {
 
 // Where everything lies.
 struct Geometry {
-    uint32_t width = 0, height = 0, samples = 1;           // of all layers, stacked; 0: nothing is known
+    uint32_t width = 0, height = 0, samples = 1;  // of all layers, stacked; 0: nothing is known
     std::vector<std::array<uint8_t, 2>> sample_locations;  // in 1/16 pixel, one a sample
     std::vector<Shape> triangles;                          // those that the picture shows, capped
     uint64_t triangle_total = 0;                           // of the case
@@ -54,10 +54,10 @@ struct SampleValue {
 
 struct SampleEvidence {
     uint32_t x = 0, y = 0, sample = 0;  // y: a row of the stacked layers
-    std::string writer;               // the triangle that wrote last, as the device says
-    std::string allowed;              // the hits that are allowed here
-    std::string hits;                 // what the device's hit counter says
-    std::vector<SampleValue> values;  // of the writer, or of the triangle that ought to be it
+    std::string writer;                 // the triangle that wrote last, as the device says
+    std::string allowed;                // the hits that are allowed here
+    std::string hits;                   // what the device's hit counter says
+    std::vector<SampleValue> values;    // of the writer, or of the triangle that ought to be it
     friend bool operator==(const SampleEvidence&, const SampleEvidence&) = default;
 };
 inline constexpr size_t kMaxEvidence = 32;  // samples of a case
