@@ -115,17 +115,21 @@ Json encode_texts(const std::vector<std::string>& list) {
 }
 
 Json encode_finding(const diff::Finding& f) {
-    return Json{{"kind", diff::to_string(f.kind)},
-                {"rule", encode_text(f.rule)},
-                {"level", cases::to_string(f.level)},
-                {"x", f.x},
-                {"y", f.y},
-                {"sample", f.sample},
-                {"quantity", encode_text(f.quantity)},
-                {"expected", encode_text(f.expected)},
-                {"got", encode_text(f.got)},
-                {"why", encode_text(f.why)},
-                {"ratio", encode_number(f.ratio)}};
+    Json json{{"kind", diff::to_string(f.kind)},
+              {"rule", encode_text(f.rule)},
+              {"level", cases::to_string(f.level)},
+              {"x", f.x},
+              {"y", f.y},
+              {"sample", f.sample},
+              {"quantity", encode_text(f.quantity)},
+              {"expected", encode_text(f.expected)},
+              {"got", encode_text(f.got)},
+              {"why", encode_text(f.why)},
+              {"ratio", encode_number(f.ratio)}};
+    if (f.layer) {
+        json["layer"] = *f.layer;
+    }
+    return json;
 }
 
 diff::Finding decode_finding(const Json& json) {
@@ -136,6 +140,9 @@ diff::Finding decode_finding(const Json& json) {
     read(json, "x", f.x);
     read(json, "y", f.y);
     read(json, "sample", f.sample);
+    if (json.contains("layer")) {
+        read(json, "layer", f.layer.emplace());
+    }
     read(json, "quantity", f.quantity);
     read(json, "expected", f.expected);
     read(json, "got", f.got);

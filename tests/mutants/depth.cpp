@@ -14,14 +14,19 @@ double steps_of(cases::DepthFormat format) {
     return format == cases::DepthFormat::d24_unorm ? 16777215.0 : 65535.0;
 }
 
-float unit(cases::DepthFormat format, float largest_z, const Device& device) {
-    switch (format) {
-        case cases::DepthFormat::d16_unorm:
-            return device.fault == Fault::bias_unit_doubled ? 0x4p-16F : 0x1p-16F;
-        case cases::DepthFormat::d24_unorm:
-            return device.fault == Fault::bias_unit_doubled ? 0x4p-24F : 0x1p-24F;
-        case cases::DepthFormat::d32_float:
-            break;
+float unit(const cases::DepthBias& bias, cases::DepthFormat format, float largest_z,
+           const Device& device) {
+    using Representation = cases::DepthBiasRepresentation;
+    if (bias.representation == Representation::floating) {
+        return 1;
+    }
+    const float scale = device.fault == Fault::bias_unit_doubled ? 4 : 1;
+    if (format == cases::DepthFormat::d16_unorm) {
+        return scale * 0x1p-16F;
+    }
+    if (format == cases::DepthFormat::d24_unorm ||
+        bias.representation == Representation::force_unorm) {
+        return scale * 0x1p-24F;
     }
     const int exponent = largest_z > 0 ? std::max(std::ilogb(largest_z), -126) : -126;
     const int bits = device.fault == Fault::bias_exponent ? 24 : 23;
@@ -44,7 +49,7 @@ float depth_bias(const cases::Draw& draw, cases::DepthFormat format, float dzdx,
     } else if (device.fault == Fault::bias_slope_sum) {
         slope = std::fabs(dzdx) + std::fabs(dzdy);
     }
-    float o = slope * bias.slope + unit(format, largest_z, device) * bias.constant;
+    float o = slope * bias.slope + unit(bias, format, largest_z, device) * bias.constant;
     if (device.fault == Fault::bias_sign) {
         o = -o;
     }
