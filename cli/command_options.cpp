@@ -18,7 +18,7 @@ constexpr const char* kFooter =
     "  edgecase run                                   the whole suite on the first device\n"
     "  edgecase run 'coverage/**' -o out/mine         one family, reports in out/mine\n"
     "  edgecase run my-case.toml --device llvmpipe    a file of your own on a chosen device\n"
-    "  edgecase explain 'ties/diagonal' --pixel 3,4   why a sample must be covered\n"
+    "  edgecase explain ties/apex-up --pixel 3,4      why a sample must be covered\n"
     "  edgecase doctor                                what is installed, what is missing\n"
     "\n"
     "Selectors: globs on ids ('*' within a part, '**' across), '@rule:PATTERN', a case file or "
