@@ -227,7 +227,7 @@ void define_run(CLI::App& app, RunOptions& o) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Judging");
     run->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
-    run->add_option("-j,--jobs", o.jobs, "workers [1]")
+    run->add_option("-j,--jobs", o.jobs, "workers [one a core, at most 4]")
         ->type_name("N")
         ->envname("EDGECASE_JOBS")
         ->check(CLI::Range(1, 256))

@@ -5,9 +5,11 @@
 // command_line.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "cases/profile.hpp"
@@ -49,7 +51,7 @@ struct RunOptions {
     std::vector<std::string> expect;
     bool no_expect = false;
     cases::Profile profile = cases::Profile::direct3d;
-    uint32_t jobs = 1;
+    uint32_t jobs = std::clamp(std::thread::hardware_concurrency(), 1U, 4U);
     uint32_t batch = 16;
     uint32_t retries = 1;
     std::string output;

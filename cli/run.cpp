@@ -266,7 +266,7 @@ LoopConfig loop_config(const Program& program, const RunOptions& options) {
     config.command = worker_command(program);
     config.worker = worker_options(options.device);
     config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
-    config.jobs = options.jobs;
+    config.schedule.lanes = options.jobs;
     config.schedule.batch = options.batch;
     config.schedule.repeat = options.repeat;
     config.schedule.retries = options.retries;

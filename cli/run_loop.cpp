@@ -55,7 +55,7 @@ RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, repor
 
 RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& device) {
     device_ = device;
-    slots_.resize(std::max(1U, config_.jobs));
+    slots_.resize(std::max(size_t{1}, config_.schedule.lanes));
     slots_.front().client.emplace(std::move(first));
     for (size_t k = 0; k < cases_.size(); ++k) {
         const PlannedCase& c = cases_[k];
@@ -136,7 +136,7 @@ void RunLoop::start_worker(Slot& slot) {
 void RunLoop::feed(Slot& slot) {
     const bool judging_too_much = judging_bytes_ > kMaxJudgingBytes;
     if (!slot.batch && !judging_too_much) {
-        slot.batch = schedule_.next();
+        slot.batch = schedule_.next(static_cast<size_t>(&slot - slots_.data()));
         slot.sent = false;
     }
     if (!slot.batch || slot.sent) {

@@ -36,8 +36,7 @@ struct LoopConfig {
     std::vector<std::string> command;  // starts a worker
     WorkerOptions worker;
     std::chrono::milliseconds timeout{30000};
-    uint32_t jobs = 1;
-    Schedule::Options schedule;
+    Schedule::Options schedule;  // its lanes: workers
     cases::Profile profile = cases::Profile::direct3d;
     ref::Limits limits;
     KeepPictures pictures = KeepPictures::failed;

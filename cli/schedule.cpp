@@ -10,7 +10,10 @@ namespace cli {
 using report::Status;
 
 Schedule::Schedule(std::vector<uint64_t> bytes, const Options& options)
-    : bytes_(std::move(bytes)), options_(options), states_(bytes_.size()) {
+    : bytes_(std::move(bytes)),
+      options_(options),
+      states_(bytes_.size()),
+      lanes_(std::max(options.lanes, size_t{1})) {
     for (State& state : states_) {
         state.needed = options_.repeat;
     }
@@ -35,9 +38,35 @@ std::optional<Batch> Schedule::take(std::deque<size_t>& queue, size_t count, boo
     return batch.cases.empty() ? std::nullopt : std::optional(std::move(batch));
 }
 
-std::optional<Batch> Schedule::next() {
-    if (!pending_.empty()) {
-        return take(pending_, options_.batch, false);
+// A share of less than two batches is not worth splitting, one of less than eight not the start of
+// another worker: starting a driver takes as long as drawing some hundred small cases.
+void Schedule::refill(Lane& lane) {
+    const auto is_shorter = [](const Lane& a, const Lane& b) {
+        return a.cases.size() < b.cases.size();
+    };
+    std::deque<size_t>& longest = std::max_element(lanes_.begin(), lanes_.end(), is_shorter)->cases;
+    if (longest.size() < (lane.has_worker ? 2 : 8) * options_.batch) {
+        return;
+    }
+    const auto half = longest.begin() + static_cast<ptrdiff_t>(longest.size() / 2);
+    lane.cases.assign(half, longest.end());
+    longest.erase(half, longest.end());
+}
+
+bool Schedule::has_waiting() const {
+    return !again_.empty() || !retry_.empty() || !fresh_.empty() ||
+           std::any_of(lanes_.begin(), lanes_.end(),
+                       [](const Lane& lane) { return !lane.cases.empty(); });
+}
+
+std::optional<Batch> Schedule::next(size_t lane) {
+    Lane& own = lanes_.at(lane);
+    if (own.cases.empty()) {
+        refill(own);
+    }
+    if (!own.cases.empty()) {
+        own.has_worker = true;
+        return take(own.cases, options_.batch, false);
     }
     if (!again_.empty()) {
         return take(again_, options_.batch, false);

@@ -7,6 +7,10 @@
 // one by one in fresh workers, so that only the culprit is charged, confirmed alone; if none of
 // them dies alone, the first of the batch is charged as a flake, because the death must not be
 // lost. Unexpected failures are rendered again alone; different bits make a flake.
+//
+// Each worker has a lane of cases that follow each other in the suite: neighbours share pipelines,
+// and what one worker has compiled no other compiles again. A worker whose lane is empty takes over
+// the back half of the longest one.
 #pragma once
 
 #include <cstdint>
@@ -34,21 +38,20 @@ class Schedule {
         uint64_t batch_bytes = uint64_t{8} << 20;  // of captures, a case alone may be larger
         uint32_t repeat = 1;                       // renderings of each case
         uint32_t retries = 1;                      // more renderings of an unexpected failure
+        size_t lanes = 1;                          // workers
     };
 
     // `bytes[k]` is the size of case k's capture.
     Schedule(std::vector<uint64_t> bytes, const Options& options);
 
     // Puts a case into the first round, or into the round of fresh workers.
-    void add(size_t k) { pending_.push_back(k); }
+    void add(size_t k) { lanes_.front().cases.push_back(k); }
     void add_alone(size_t k) { fresh_.push_back(k); }
 
-    // The next batch, or nothing (yet).
-    std::optional<Batch> next();
+    // The next batch of the worker of this lane, or nothing (yet).
+    std::optional<Batch> next(size_t lane = 0);
     // True while a case waits for its batch.
-    bool has_waiting() const {
-        return !pending_.empty() || !again_.empty() || !retry_.empty() || !fresh_.empty();
-    }
+    bool has_waiting() const;
 
     // A case was drawn; `bits` is a hash of its capture.
     enum class Drawn { judge, same, differs };
@@ -96,12 +99,19 @@ class Schedule {
         bool released = false;
     };
 
+    struct Lane {
+        std::deque<size_t> cases;
+        bool has_worker = false;  // has handed out a batch
+    };
+
     std::optional<Batch> take(std::deque<size_t>& queue, size_t count, bool fresh);
+    void refill(Lane& lane);
 
     std::vector<uint64_t> bytes_;
     Options options_;
     std::vector<State> states_;
-    std::deque<size_t> pending_, again_, retry_, fresh_;
+    std::vector<Lane> lanes_;
+    std::deque<size_t> again_, retry_, fresh_;
     std::vector<Group> groups_;
 };
 

@@ -34,6 +34,27 @@ TEST(Schedule, BatchesAreBoundedByCountAndBytes) {
     EXPECT_FALSE(schedule.next());
 }
 
+TEST(Schedule, WorkersTakeNeighboursAndHalfOfTheLongestLane) {
+    Schedule::Options options;
+    options.batch = 2;
+    options.lanes = 3;
+    Schedule schedule = make(20, options);
+    EXPECT_EQ(schedule.next(0)->cases, (Ids{0, 1}));
+    EXPECT_EQ(schedule.next(1)->cases, (Ids{11, 12}));  // 18 were left: 2..10 and 11..19
+    EXPECT_FALSE(schedule.next(2)) << "9 cases are too few for the start of a worker";
+    EXPECT_EQ(schedule.next(0)->cases, (Ids{2, 3}));
+    for (const Ids& expected : {Ids{13, 14}, Ids{15, 16}, Ids{17, 18}, Ids{19}}) {
+        EXPECT_EQ(schedule.next(1)->cases, expected);
+    }
+    EXPECT_EQ(schedule.next(1)->cases, (Ids{7, 8})) << "7 cases were left to lane 0: 4..6, 7..10";
+    EXPECT_EQ(schedule.next(0)->cases, (Ids{4, 5}));
+    EXPECT_EQ(schedule.next(0)->cases, (Ids{6}));
+    EXPECT_FALSE(schedule.next(0)) << "2 cases are not worth splitting";
+    EXPECT_TRUE(schedule.has_waiting());
+    EXPECT_EQ(schedule.next(1)->cases, (Ids{9, 10}));
+    EXPECT_FALSE(schedule.has_waiting());
+}
+
 TEST(Schedule, OnlyTheCulpritOfADeathIsCharged) {
     Schedule schedule = make(3);
     const Batch batch = *schedule.next();
