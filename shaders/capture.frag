@@ -19,46 +19,35 @@
 layout(push_constant) uniform Draw {
     layout(offset = 0) uint index;
     layout(offset = 16) uvec4 color;  // bits
+    // Of the probes, by attribute, and gl_SampleMask: no constants of the pipeline, so that no other
+    // shader has to be compiled for each value.
+    layout(offset = 32) vec2 offsets[4];
+    layout(offset = 64) ivec4 sample_numbers;
+    layout(offset = 80) uint sample_mask;
 }
 draw;
 
 layout(location = 0) flat in uint in_vertex;
 layout(location = 7) flat in uint in_primitive;
 
-// Constants 4k .. 4k+3 belong to attribute k.
 #if ATTRIBUTES > 0
 layout(constant_id = 0) const uint kChoice0 = 0u;
-layout(constant_id = 1) const float kOffsetX0 = 0.0;
-layout(constant_id = 2) const float kOffsetY0 = 0.0;
-layout(constant_id = 3) const int kSample0 = 0;
 layout(location = 1) in vec4 in_attribute0;
 #endif
 #if ATTRIBUTES > 1
-layout(constant_id = 4) const uint kChoice1 = 0u;
-layout(constant_id = 5) const float kOffsetX1 = 0.0;
-layout(constant_id = 6) const float kOffsetY1 = 0.0;
-layout(constant_id = 7) const int kSample1 = 0;
+layout(constant_id = 1) const uint kChoice1 = 0u;
 layout(location = 2) in vec4 in_attribute1;
 #endif
 #if ATTRIBUTES > 2
-layout(constant_id = 8) const uint kChoice2 = 0u;
-layout(constant_id = 9) const float kOffsetX2 = 0.0;
-layout(constant_id = 10) const float kOffsetY2 = 0.0;
-layout(constant_id = 11) const int kSample2 = 0;
+layout(constant_id = 2) const uint kChoice2 = 0u;
 layout(location = 3) in vec4 in_attribute2;
 #endif
 #if ATTRIBUTES > 3
-layout(constant_id = 12) const uint kChoice3 = 0u;
-layout(constant_id = 13) const float kOffsetX3 = 0.0;
-layout(constant_id = 14) const float kOffsetY3 = 0.0;
-layout(constant_id = 15) const int kSample3 = 0;
+layout(constant_id = 3) const uint kChoice3 = 0u;
 layout(location = 4) in vec4 in_attribute3;
 #endif
-#if MASK_OUT
-layout(constant_id = 16) const uint kShaderMask = 0xffffffffu;
-#endif
 #if COLOR
-layout(constant_id = 17) const int kColorAttribute = -1;
+layout(constant_id = 4) const int kColorAttribute = -1;
 #endif
 #if LOD
 layout(set = 0, binding = 0) uniform sampler2D lod_texture;
@@ -94,10 +83,10 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
 
 // Choices are numbered as shaders::Choice.
 #if PROBES
-#define PROBE_CASES(value, choice, offset_x, offset_y, sample_number, result) \
+#define PROBE_CASES(value, k, result)                                            \
     case 1u: result = interpolateAtCentroid(value); break;                    \
-    case 2u: result = interpolateAtSample(value, sample_number); break;       \
-    case 3u: result = interpolateAtOffset(value, vec2(offset_x, offset_y)); break; \
+    case 2u: result = interpolateAtSample(value, draw.sample_numbers[k]); break; \
+    case 3u: result = interpolateAtOffset(value, draw.offsets[k]); break;      \
     case 4u: result = dFdx(value); break;                                     \
     case 5u: result = dFdy(value); break;                                     \
     case 6u: result = dFdxFine(value); break;                                 \
@@ -108,7 +97,7 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
     case 11u: result = fwidthFine(value); break;                              \
     case 12u: result = fwidthCoarse(value); break;
 #else
-#define PROBE_CASES(value, choice, offset_x, offset_y, sample_number, result)
+#define PROBE_CASES(value, k, result)
 #endif
 #if LOD
 #define LOD_CASES(value, result) \
@@ -137,9 +126,9 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
 #define SAMPLE_CASES(result)
 #endif
 #if PROBES || LOD || BARYCENTRICS || MASK_IN || SAMPLE
-#define CHOOSE(value, choice, offset_x, offset_y, sample_number, result)       \
+#define CHOOSE(value, choice, k, result)                                      \
     switch (choice) {                                                          \
-        PROBE_CASES(value, choice, offset_x, offset_y, sample_number, result)  \
+        PROBE_CASES(value, k, result)                                          \
         LOD_CASES(value, result)                                               \
         BARYCENTRIC_CASES(result)                                              \
         MASK_CASES(result)                                                     \
@@ -147,7 +136,7 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
         default: result = value; break;                                        \
     }
 #else
-#define CHOOSE(value, choice, offset_x, offset_y, sample_number, result) result = value;
+#define CHOOSE(value, choice, k, result) result = value;
 #endif
 
 void main() {
@@ -157,16 +146,16 @@ void main() {
     out_writer = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex), -1.0);
     out_frag_coord = gl_FragCoord;
 #if ATTRIBUTES > 0
-    CHOOSE(in_attribute0, kChoice0, kOffsetX0, kOffsetY0, kSample0, out_attribute0)
+    CHOOSE(in_attribute0, kChoice0, 0, out_attribute0)
 #endif
 #if ATTRIBUTES > 1
-    CHOOSE(in_attribute1, kChoice1, kOffsetX1, kOffsetY1, kSample1, out_attribute1)
+    CHOOSE(in_attribute1, kChoice1, 1, out_attribute1)
 #endif
 #if ATTRIBUTES > 2
-    CHOOSE(in_attribute2, kChoice2, kOffsetX2, kOffsetY2, kSample2, out_attribute2)
+    CHOOSE(in_attribute2, kChoice2, 2, out_attribute2)
 #endif
 #if ATTRIBUTES > 3
-    CHOOSE(in_attribute3, kChoice3, kOffsetX3, kOffsetY3, kSample3, out_attribute3)
+    CHOOSE(in_attribute3, kChoice3, 3, out_attribute3)
 #endif
 #endif
 #if COLOR
@@ -190,6 +179,6 @@ void main() {
 #endif
 #endif
 #if MASK_OUT
-    gl_SampleMask[0] = int(kShaderMask);
+    gl_SampleMask[0] = int(draw.sample_mask);
 #endif
 }

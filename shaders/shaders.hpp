@@ -51,12 +51,9 @@ enum class Choice : uint32_t {
     sample_id = 19,
     sample_position = 20,
 };
-// Ids of the specialization constants of capture.frag: 4k choice (uint), 4k+1 and 4k+2 offset
-// (float), 4k+3 sample (int) of attribute k; the mask that is written; the attribute that is the
-// colour (-1: the push constant).
-inline constexpr uint32_t kConstantsPerAttribute = 4;
-inline constexpr uint32_t kMaskConstant = 16;
-inline constexpr uint32_t kColorAttributeConstant = 17;
+// Ids of the specialization constants of capture.frag: k the choice (uint) of attribute k; then the
+// attribute that is the colour (-1: the push constant).
+inline constexpr uint32_t kColorAttributeConstant = kMaxAttributes;
 
 // The input of capture.frag that stands for gl_PrimitiveID.
 inline constexpr uint32_t kPrimitiveLocation = 7;
@@ -67,8 +64,13 @@ struct DrawConstants {
     uint32_t layer = 0, viewport_index = 0;
     uint32_t unused = 0;
     uint32_t color[4] = {};  // bits of the colour that is written
+    // Of interpolateAtOffset (pixels) and interpolateAtSample, by attribute.
+    float offsets[kMaxAttributes][2] = {};
+    int32_t sample_numbers[kMaxAttributes] = {};
+    uint32_t sample_mask = 0xffffffffU;  // gl_SampleMask, if the shader writes it
 };
-static_assert(sizeof(DrawConstants) == 32);
+// Below maxPushConstantsSize, which is at least 128.
+static_assert(sizeof(DrawConstants) == 84);
 
 // The module of a variant; empty if the build made none of that combination.
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);

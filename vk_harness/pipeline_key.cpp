@@ -19,13 +19,6 @@ AttributeKey attribute_key(const cases::Attribute& attribute) {
     key.auxiliary = attribute.auxiliary;
     key.source = attribute.source;
     key.probe = attribute.probe;
-    if (attribute.probe == cases::Probe::at_offset) {
-        key.offset_bits = {std::bit_cast<uint32_t>(attribute.probe_offset[0]),
-                           std::bit_cast<uint32_t>(attribute.probe_offset[1])};
-    }
-    if (attribute.probe == cases::Probe::at_sample) {
-        key.sample = attribute.probe_sample;
-    }
     return key;
 }
 
@@ -64,7 +57,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
     key.cull_count = draw.distances.cull_count;
     key.negative_one_to_one = draw.depth.negative_one_to_one;
     key.provoking = draw.provoking;
-    key.shader_mask = draw.multisample.shader_mask;
+    key.writes_mask = draw.multisample.shader_mask.has_value();
     key.sample_mask = draw.multisample.sample_mask;
     if (draw.multisample.min_sample_shading) {
         key.min_shading_bits = std::bit_cast<uint32_t>(*draw.multisample.min_sample_shading);
@@ -95,7 +88,7 @@ shaders::VertexVariant vertex_variant(const PipelineKey& key) {
 shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
     shaders::FragmentVariant v;
     v.attributes = key.attribute_count;
-    v.mask_out = key.shader_mask.has_value();
+    v.mask_out = key.writes_mask;
     v.color = key.color;
     v.instruments = key.instruments;
     for (const AttributeKey& attribute : key.attributes) {

@@ -22,8 +22,6 @@ struct AttributeKey {
     cases::Auxiliary auxiliary = cases::Auxiliary::none;
     cases::Source source = cases::Source::vertex;
     cases::Probe probe = cases::Probe::value;
-    std::array<uint32_t, 2> offset_bits{};  // of Attribute::probe_offset, if the probe uses it
-    uint32_t sample = 0;                    // Attribute::probe_sample, likewise
     friend auto operator<=>(const AttributeKey&, const AttributeKey&) = default;
 };
 
@@ -47,7 +45,7 @@ struct PipelineKey {
     bool negative_one_to_one = false;  // depth clip control
     cases::ProvokingVertex provoking = cases::ProvokingVertex::first;
     // Multisampling.
-    std::optional<uint32_t> shader_mask = {};
+    bool writes_mask = false;  // gl_SampleMask
     uint32_t sample_mask = 0xffffffffU;
     std::optional<uint32_t> min_shading_bits = {};  // of Multisample::min_sample_shading
     std::vector<std::array<uint8_t, 2>> sample_locations = {};  // 1/16 pixel; empty: standard

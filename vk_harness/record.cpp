@@ -238,6 +238,12 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         constants.color[k] =
             plan.has_integer_color ? static_cast<uint32_t>(value) : std::bit_cast<uint32_t>(value);
     }
+    for (size_t k = 0; k < draw.attributes.size(); ++k) {
+        constants.offsets[k][0] = draw.attributes[k].probe_offset[0];
+        constants.offsets[k][1] = draw.attributes[k].probe_offset[1];
+        constants.sample_numbers[k] = static_cast<int32_t>(draw.attributes[k].probe_sample);
+    }
+    constants.sample_mask = draw.multisample.shader_mask.value_or(0xffffffffU);
     vk.vkCmdPushConstants(commands, pipelines.layout(), kDrawStages, 0, sizeof constants,
                           &constants);
     const glm::vec4 blend = draw.color.blend ? draw.color.blend->constants : glm::vec4(0);

@@ -72,14 +72,8 @@ void specialize(const PipelineKey& key, Specialization& out) {
         out.words.push_back(word);
     };
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
-        const AttributeKey& attribute = key.attributes[k];
-        const uint32_t first = shaders::kConstantsPerAttribute * k;
-        set(first, static_cast<uint32_t>(choice_of(attribute)));
-        set(first + 1, attribute.offset_bits[0]);
-        set(first + 2, attribute.offset_bits[1]);
-        set(first + 3, attribute.sample);
+        set(k, static_cast<uint32_t>(choice_of(key.attributes[k])));
     }
-    set(shaders::kMaskConstant, key.shader_mask.value_or(0xffffffffU));
     set(shaders::kColorAttributeConstant, std::bit_cast<uint32_t>(key.color_attribute));
     out.info.mapEntryCount = static_cast<uint32_t>(out.entries.size());
     out.info.pMapEntries = out.entries.data();
