@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is wrong with a fragment: the value, the rule that it breaks, the loosest profile that forbids
-// it, and what was expected instead.
+// What is wrong with a fragment: the value, the rule that it breaks, the loosest profile that
+// forbids it, and what was expected instead.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace ref {
 using cases::Profile;
 using value::Answer;
 using value::Ball;
-using value::Kind;
-using value::Quantity;
 using value::bits_of;
 using value::is_plain_depth;
+using value::Kind;
 using value::nominal_depth;
+using value::Quantity;
 
 namespace {
 

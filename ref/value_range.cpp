@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What to expect of a fragment: the interval of a value that its profile allows, and the exact value of
-// each plane.
+// What to expect of a fragment: the interval of a value that its profile allows, and the exact
+// value of each plane.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace ref {
 using cases::Profile;
 using value::Answer;
 using value::Ball;
-using value::Kind;
-using value::Quantity;
 using value::is_plain_depth;
+using value::Kind;
 using value::nominal_depth;
+using value::Quantity;
 
 ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
                                  uint32_t component) {

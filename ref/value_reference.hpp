@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ValueReference keeps of a case: bases and filters by triangle, sets of candidates, coverage by
-// profile. Judging is value_judge.cpp, what is wrong and at which level value_mismatch.cpp, what to
-// expect value_range.cpp.
+// What ValueReference keeps of a case: bases and filters by triangle, sets of candidates, coverage
+// by profile. Judging is value_judge.cpp, what is wrong and at which level value_mismatch.cpp, what
+// to expect value_range.cpp.
 #pragma once
 
 #include <fmt/format.h>
@@ -64,7 +64,7 @@ class WideCache {
 struct Loaded {
     Primitive primitive;
     Filter unsnapped, snapped;
-    bool has_snapped = false;                             // and it differs from the unsnapped one
+    bool has_snapped = false;                      // and it differs from the unsnapped one
     std::optional<std::vector<Promise>> promises;  // filled when first asked for
 };
 
