@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How the samples of an outline are tested: which of its edges by the top-left rule, which as strict,
-// which as parallel to the hull of their boxes; in snapped positions or in boxes.
+// How the samples of an outline are tested: which of its edges by the top-left rule, which as
+// strict, which as parallel to the hull of their boxes; in snapped positions or in boxes.
 #pragma once
 
 #include "cases/profile.hpp"

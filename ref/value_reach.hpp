@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which numbers one candidate accepts for a quantity: the hull of the values at its sites, widened by
-// the budgets of binary32, then bias, clamp and store of a depth. Part of value_wide.cpp.
+// Which numbers one candidate accepts for a quantity: the hull of the values at its sites, widened
+// by the budgets of binary32, then bias, clamp and store of a depth. Part of value_wide.cpp.
 #pragma once
 
 #include <algorithm>
