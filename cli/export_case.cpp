@@ -34,6 +34,7 @@ constexpr std::array kProvoking = {"first", "last"};
 constexpr std::array kCompares = {
     "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
     "always"};
+constexpr std::array kRepresentations = {"format", "force-unorm", "float"};
 constexpr std::array kDepthFormats = {"d32-float", "d24-unorm", "d16-unorm"};
 constexpr std::array kSources = {"vertex", "barycentric", "sample-mask-in", "sample-id",
                                  "sample-position"};
@@ -134,7 +135,9 @@ Json depth_json(const cases::DepthState& d) {
     if (d.bias) {
         out["bias"] = {{"constant", number(d.bias->constant)},
                        {"slope", number(d.bias->slope)},
-                       {"clamp", number(d.bias->clamp)}};
+                       {"clamp", number(d.bias->clamp)},
+                       {"representation", word(kRepresentations, d.bias->representation)},
+                       {"exact", d.bias->is_exact}};
     }
     return out;
 }
@@ -325,6 +328,7 @@ class Needs {
         add(d.depth.compare != cases::CompareOp::always, "depth-test");
         add(!d.depth.write, "depth-write-mask");
         add(d.depth.bias.has_value(), "depth-bias");
+        add(d.depth.bias && d.depth.bias->is_controlled(), "depth-bias-control");
         add(d.depth.clamp || d.depth.clip.value_or(true) != true, "depth-clamp");
         add(d.depth.negative_one_to_one, "depth-volume");
         add(d.distances.clip_count > 0, "clip-distance");

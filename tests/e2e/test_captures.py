@@ -200,6 +200,19 @@ class Contract(Captures):
         self.deliver("coverage.u8", bytes(planes[64:] + planes[:64]))
         self.judge(check=1)
 
+    def test_rows_of_layers_lie_one_below_the_other(self):
+        text = (self.suite / "fam/c1.toml").read_text()
+        self.write_case(CASE, text.replace("size = [8, 8]", "size = [8, 8]\nlayers = 3").replace("[[draw]]", "[[draw]]\nlayer = 1"))
+        nothing = bytes(SIDE * SIDE)
+        self.deliver("coverage.u8", nothing + bytes(INSIDE) + nothing)
+        self.judge(check=0)
+        self.deliver("coverage.u8", nothing + nothing + bytes(INSIDE))
+        self.judge(check=1)
+        self.assertEqual({(f["kind"], f["sample"]["layer"]) for f in self.record()["findings"]}, {("missing", 1), ("extra", 2)})
+        (self.captures / CASE / "coverage.u8").unlink()
+        self.deliver("coverage.png", png(SIDE, 3 * SIDE, [255 * v for v in nothing + bytes(INSIDE) + nothing]))
+        self.judge(check=0)
+
     def test_profile_and_reports(self):
         self.write_case(CASE, TIES)
         # All ties to the first triangle: allowed by Vulkan, not by Direct3D.
