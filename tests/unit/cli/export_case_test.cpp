@@ -57,9 +57,10 @@ cases::Attribute& attribute(Case& c) {
 }
 
 std::vector<Change> target_changes() {
-    [[maybe_unused]] const auto& [width, height, samples, layers, depth_format, sample_locations, color, instruments,  // no part of the picture
-                 has_depth, depth_clear, color_resolve, depth_resolve, has_stencil] =
-        cases::Target{};
+    [[maybe_unused]] const auto& [width, height, samples, layers, depth_format, sample_locations,
+                                  color, instruments,  // no part of the picture
+                                  has_depth, depth_clear, color_resolve, depth_resolve,
+                                  has_stencil] = cases::Target{};
     [[maybe_unused]] const auto& [format, clear] = cases::ColorTarget{};
     return {
         {"width", [](Case& c) { ++c.target.width; }},
@@ -84,12 +85,13 @@ std::vector<Change> target_changes() {
 }
 
 std::vector<Change> draw_changes() {
-    [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes, viewport, scissor,
-                 cull, front_face, provoking, depth, distances, multisample, color, layer,
-                 viewport_index, where] = cases::Draw{};
+    [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
+                                  viewport, scissor, cull, front_face, provoking, depth, distances,
+                                  multisample, color, layer, viewport_index, where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
     [[maybe_unused]] const auto& [left, top, columns, rows] = cases::Rect{};
-    [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] = cases::Multisample{};
+    [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] =
+        cases::Multisample{};
     return {
         {"topology", [](Case& c) { draw(c).topology = cases::Topology::triangle_strip; }},
         {"positions", [](Case& c) { draw(c).positions[3].w = 2; }},
@@ -119,8 +121,10 @@ std::vector<Change> draw_changes() {
 }
 
 std::vector<Change> depth_changes() {
-    [[maybe_unused]] const auto& [compare, write, bias, clamp, clip, negative_one_to_one] = cases::DepthState{};
-    [[maybe_unused]] const auto& [constant, limit, slope, representation, is_exact] = cases::DepthBias{};
+    [[maybe_unused]] const auto& [compare, write, bias, clamp, clip, negative_one_to_one] =
+        cases::DepthState{};
+    [[maybe_unused]] const auto& [constant, limit, slope, representation, is_exact] =
+        cases::DepthBias{};
     using Representation = cases::DepthBiasRepresentation;
     return {
         {"compare", [](Case& c) { draw(c).depth.compare = cases::CompareOp::less; }},
@@ -171,8 +175,8 @@ std::vector<Change> color_changes() {
 }
 
 std::vector<Change> attribute_changes() {
-    [[maybe_unused]] const auto& [name, interpolation, components, values, auxiliary, source, probe, offset, sample,
-                 size] = cases::Attribute{};
+    [[maybe_unused]] const auto& [name, interpolation, components, values, auxiliary, source, probe,
+                                  offset, sample, size] = cases::Attribute{};
     using cases::Probe;
     const auto probed = [](Probe to, const std::function<void(cases::Attribute&)>& more) {
         return [to, more](Case& c) {
@@ -181,19 +185,30 @@ std::vector<Change> attribute_changes() {
         };
     };
     return {
-        {"interpolation",
-         [](Case& c) { attribute(c).interpolation = cases::Interpolation::flat; }},
+        {"interpolation", [](Case& c) { attribute(c).interpolation = cases::Interpolation::flat; }},
         {"components", [](Case& c) { attribute(c).components = 2; }},
         {"values", [](Case& c) { attribute(c).values[3].x = 7; }},
         {"auxiliary", [](Case& c) { attribute(c).auxiliary = cases::Auxiliary::centroid; }},
         {"source", [](Case& c) { attribute(c).source = cases::Source::sample_id; }},
         {"probe", [](Case& c) { attribute(c).probe = Probe::dx; }},
-        {"offset", probed(Probe::at_offset, [](auto& a) { a.probe_offset = {0.25F, 0}; })},
-        {"offset y", probed(Probe::at_offset, [](auto& a) { a.probe_offset = {0, 0.25F}; })},
+        {"offset", probed(Probe::at_offset,
+                          [](auto& a) {
+                              a.probe_offset = {0.25F, 0};
+                          })},
+        {"offset y", probed(Probe::at_offset,
+                            [](auto& a) {
+                                a.probe_offset = {0, 0.25F};
+                            })},
         {"sample 1", probed(Probe::at_sample, [](auto& a) { a.probe_sample = 1; })},
         {"sample 2", probed(Probe::at_sample, [](auto& a) { a.probe_sample = 2; })},
-        {"texture 4 x 2", probed(Probe::lod, [](auto& a) { a.texture_size = {4, 2}; })},
-        {"texture 4 x 4", probed(Probe::lod, [](auto& a) { a.texture_size = {4, 4}; })},
+        {"texture 4 x 2", probed(Probe::lod,
+                                 [](auto& a) {
+                                     a.texture_size = {4, 2};
+                                 })},
+        {"texture 4 x 4", probed(Probe::lod,
+                                 [](auto& a) {
+                                     a.texture_size = {4, 4};
+                                 })},
     };
 }
 
@@ -210,11 +225,11 @@ Case blit_case() {
 }
 
 std::vector<Change> blit_changes() {
-    [[maybe_unused]] const auto& [format, width, height, pattern, seed, filter, from, to] = cases::Blit{};
+    [[maybe_unused]] const auto& [format, width, height, pattern, seed, filter, from, to] =
+        cases::Blit{};
     [[maybe_unused]] const auto& [x0, y0, x1, y1] = cases::Corners{};
     return {
-        {"source_format",
-         [](Case& c) { c.blit->source_format = cases::ColorFormat::bgra8_unorm; }},
+        {"source_format", [](Case& c) { c.blit->source_format = cases::ColorFormat::bgra8_unorm; }},
         {"source_width", [](Case& c) { ++c.blit->source_width; }},
         {"source_height", [](Case& c) { ++c.blit->source_height; }},
         {"pattern", [](Case& c) { c.blit->pattern = cases::BlitPattern::ramp; }},
@@ -261,8 +276,8 @@ TEST(ExportCase, EveryFieldThatAltersThePictureIsTold) {
 
 TEST(ExportCase, AControlledDepthBiasIsToldAndNeeded) {
     Case c = full_case();
-    c.draws[0].depth.bias = cases::DepthBias{
-        3, 0, 0, cases::DepthBiasRepresentation::floating, false};
+    c.draws[0].depth.bias =
+        cases::DepthBias{3, 0, 0, cases::DepthBiasRepresentation::floating, false};
     const auto json = nlohmann::json::parse(cli::export_case(c));
     EXPECT_EQ(json["draws"][0]["depth"]["bias"]["representation"], "float");
     EXPECT_EQ(json["draws"][0]["depth"]["bias"]["exact"], false);
