@@ -34,8 +34,8 @@ template <>
 inline constexpr WordList<2> kWords<ProvokingVertex> = {"first", "last"};
 template <>
 inline constexpr WordList<8> kWords<CompareOp> = {
-    "never",   "less",      "equal",            "less-or-equal",
-    "greater", "not-equal", "greater-or-equal", "always"};
+    "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
+    "always"};
 template <>
 inline constexpr WordList<3> kWords<DepthFormat> = {"d32-float", "d24-unorm", "d16-unorm"};
 template <>

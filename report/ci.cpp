@@ -51,20 +51,11 @@ std::string command_text(std::string_view bytes, bool is_property) {
 // Text in a cell of a Markdown table.
 std::string cell(std::string_view bytes) {
     std::string text;
-    for (const char c : printable(bytes)) {
+    for (const char c : markup(bytes)) {
         switch (c) {
             case '\n':
             case '\t':
                 text += ' ';
-                break;
-            case '&':
-                text += "&amp;";
-                break;
-            case '<':
-                text += "&lt;";
-                break;
-            case '>':
-                text += "&gt;";
                 break;
             case '|':
             case '`':

@@ -46,32 +46,6 @@ constexpr std::string_view kScripts[] = {
     ,
 };
 
-std::string escaped(std::string_view bytes) {
-    std::string text;
-    for (const char c : printable(bytes)) {
-        switch (c) {
-            case '&':
-                text += "&amp;";
-                break;
-            case '<':
-                text += "&lt;";
-                break;
-            case '>':
-                text += "&gt;";
-                break;
-            case '"':
-                text += "&quot;";
-                break;
-            case '\'':
-                text += "&#39;";
-                break;
-            default:
-                text += c;
-        }
-    }
-    return text;
-}
-
 // JSON inside <script>: no "<" at all, so neither "</script>" nor "<!--" can end or change it.
 std::string script_data(const Json& json) {
     std::string text;
@@ -94,7 +68,7 @@ std::string script_data(const Json& json) {
 }
 
 std::string fact(std::string_view name, const std::string& value) {
-    return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escaped(value));
+    return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, markup(value));
 }
 
 std::string key_fact(std::string_view name, const std::string& value) {
@@ -112,9 +86,9 @@ std::string title_of(const Run& run) {
 std::string header(const Run& run) {
     const Device& d = run.device;
     std::string text =
-        fmt::format("<h1>{}</h1>\n", escaped(d.name.empty() ? std::string("no device") : d.name));
+        fmt::format("<h1>{}</h1>\n", markup(d.name.empty() ? std::string("no device") : d.name));
     text += fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n",
-                        escaped(exit_text(exit_code(run))));
+                        markup(exit_text(exit_code(run))));
     text += key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info);
     text += key_fact("Vulkan", d.api_version);
     text += key_fact("subpixel bits", fmt::format("{}", d.subpixel_bits));
@@ -134,10 +108,10 @@ std::string header(const Run& run) {
     text += fact("expectations", run.expectation_file);
     text += "</dl><pre>";
     for (const auto& [name, value] : run.environment) {
-        text += escaped(name + "=" + value) + "\n";
+        text += markup(name + "=" + value) + "\n";
     }
     for (size_t k = 0; k < run.arguments.size(); ++k) {
-        text += (k > 0 ? " " : "") + escaped(run.arguments[k]);
+        text += (k > 0 ? " " : "") + markup(run.arguments[k]);
     }
     return text + "</pre></details>";
 }
@@ -150,8 +124,8 @@ std::string table(const Run& run) {
     for (const CaseRecord& r : run.cases) {
         const std::string what = what_happened(r);
         text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", to_string(r.status),
-                            escaped(r.id), escaped(what),
-                            is_expected(r.status) ? "" : "<br>" + escaped(why_it_happened(r)));
+                            markup(r.id), markup(what),
+                            is_expected(r.status) ? "" : "<br>" + markup(why_it_happened(r)));
     }
     return text + "</tbody></table>";
 }
@@ -168,7 +142,7 @@ std::string script() {
 std::string page_of(const Run& run, size_t part, std::vector<size_t>& left_out) {
     const std::string part_text = part > 1 ? fmt::format(" (part {})", part) : "";
     const std::pair<std::string_view, std::string> fields[] = {
-        {"{{TITLE}}", escaped(title_of(run)) + part_text},
+        {"{{TITLE}}", markup(title_of(run)) + part_text},
         {"{{CSS}}", std::string(kStyle)},
         {"{{HEADER}}", header(run)},
         {"{{TABLE}}", table(run)},
