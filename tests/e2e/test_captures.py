@@ -415,6 +415,20 @@ class Render(Captures):
         for name in ("x.png", "x.exr"):
             self.edgecase("render", CASE, "--renderer", "tiles", "-o", name, check=0)
 
+    def test_layers_are_stacked(self):
+        text = (self.suite / "fam/c1.toml").read_text()
+        self.write_case(CASE, text.replace("size = [8, 8]", "size = [8, 8]\nlayers = 2").replace("[[draw]]", "[[draw]]\nlayer = 1"))
+        for words in ((), ("--renderer", "reference")):
+            picture = self.json(CASE, *words)
+            self.assertEqual((picture["height"], picture["layers"]), (8, 2))
+            self.assertEqual({s["layer"] for s in picture["samples"]}, {1})
+            self.assertEqual(sorted((s["y"], s["x"]) for s in picture["samples"]),
+                             [divmod(i, SIDE) for i, v in enumerate(INSIDE) if v])
+            self.edgecase("render", CASE, *words, "-o", "x.png", check=0)
+            self.assertEqual(struct.unpack(">II", (self.folder / "x.png").read_bytes()[16:24]), (8, 16))
+        told = self.edgecase("explain", CASE, "--pixel", "0,0", "--layer", "1", check=0).stdout
+        self.assertIn("    [.]. . . . . .\n     . # # # # # #", told)
+
     def test_what_cannot_be_drawn(self):
         self.write_case("fam/blit", BLIT)
         done = self.edgecase("render", "fam/blit", "--renderer", "tiles", "-o", "x.png", check=2)
