@@ -161,6 +161,28 @@ class Contract(Captures):
         self.judge(check=1)
         self.assertEqual([(f["sample"]["x"], f["sample"]["y"]) for f in self.record()["findings"]], [(3, 3)])
 
+    def test_special_numbers(self):
+        """What docs/other-renderers.md says of each kind of number."""
+        # Attribute 0 is 1 at x = 1 and 7 at x = 7, attribute 1 is 0: at pixel (3, 3) they are 3.5 and 0.
+        self.write_case(CASE, (self.suite / "fam/c1.toml").read_text() + "[[draw.attribute]]\nvalues = [[1], [7], [1], [7], [7], [1]]\n"
+                        "[[draw.attribute]]\nconstant = [0]\n")
+        planes = {"attribute0": [i % SIDE + 0.5 if v else 0 for i, v in enumerate(INSIDE)], "attribute1": [0.0] * 64,
+                  "fragcoord": [n for i in range(64) for n in (i % SIDE + 0.5, i // SIDE + 0.5, 0.5, 1)]}
+        self.deliver("coverage.u8", bytes(INSIDE))
+        up = struct.unpack("<f", struct.pack("<I", struct.unpack("<I", struct.pack("<f", 3.5))[0] + 1))[0]
+        for plane, number, code in (("attribute0", 3.5, 0), ("attribute0", up, 0), ("attribute0", math.nan, 1),
+                                    ("attribute0", math.inf, 1), ("attribute0", -math.inf, 1), ("attribute1", -0.0, 0),
+                                    ("attribute1", math.nan, 1), ("attribute1", -math.inf, 1), ("fragcoord", up, 1),
+                                    ("fragcoord", math.nan, 1)):
+            with self.subTest(plane=plane, number=number):
+                values = list(planes[plane])
+                values[27 * (4 if plane == "fragcoord" else 1)] = number
+                file = self.deliver(plane + ".f32", array.array("f", values).tobytes())
+                self.judge(check=code)
+                places = {(f["sample"]["x"], f["sample"]["y"]) for f in self.record()["findings"]}
+                self.assertEqual(places, {(3, 3)} if code else set())
+                file.unlink()
+
     def test_what_cannot_tell_nothing_from_something_is_not_judged(self):
         text = (self.suite / "fam/c1.toml").read_text()
         self.write_case("fam/c1", text.replace("[[draw]]", "[[draw]]\ndepth = { write = false }"))
