@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/page_data.hpp"
+#include "report/page_parts.hpp"
 #include "report/reports.hpp"
 #include "report/sentences.hpp"
 
@@ -18,9 +19,6 @@ namespace {
 // The page, from report/html/ (cmake/Embed.cmake).
 constexpr std::string_view kPage =
 #include "embedded/report.html.inc"
-    ;
-constexpr std::string_view kStyle =
-#include "embedded/report.css.inc"
     ;
 // In an order in which each file uses only what stands above it at load time.
 constexpr std::string_view kScripts[] = {
@@ -45,27 +43,6 @@ constexpr std::string_view kScripts[] = {
 #include "embedded/main.js.inc"
     ,
 };
-
-// JSON inside <script>: no "<" at all, so neither "</script>" nor "<!--" can end or change it.
-std::string script_data(const Json& json) {
-    std::string text;
-    for (const char c : json.dump()) {
-        switch (c) {
-            case '<':
-                text += "\\u003c";
-                break;
-            case '>':
-                text += "\\u003e";
-                break;
-            case '&':
-                text += "\\u0026";
-                break;
-            default:
-                text += c;
-        }
-    }
-    return text;
-}
 
 std::string fact(std::string_view name, const std::string& value) {
     return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, markup(value));
@@ -141,25 +118,15 @@ std::string script() {
 // One page; `left_out` as page_data() fills it.
 std::string page_of(const Run& run, size_t part, std::vector<size_t>& left_out) {
     const std::string part_text = part > 1 ? fmt::format(" (part {})", part) : "";
-    const std::pair<std::string_view, std::string> fields[] = {
+    const PageField fields[] = {
         {"{{TITLE}}", markup(title_of(run)) + part_text},
-        {"{{CSS}}", std::string(kStyle)},
+        {"{{CSS}}", std::string(page_style())},
         {"{{HEADER}}", header(run)},
         {"{{TABLE}}", table(run)},
         {"{{DATA}}", script_data(page_data(run, part, left_out))},
         {"{{SCRIPT}}", script()},
     };
-    // One pass in the page's order: what is put in is never searched for fields again.
-    std::string text;
-    std::string_view rest = kPage;
-    for (const auto& [name, value] : fields) {
-        const size_t at = rest.find(name);
-        text += rest.substr(0, at);
-        text += value;
-        rest.remove_prefix(std::min(rest.size(), at + name.size()));
-    }
-    text += rest;
-    return text;
+    return fill_page(kPage, fields);
 }
 
 }  // namespace
