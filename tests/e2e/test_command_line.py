@@ -36,7 +36,18 @@ class Usage(ProgramTest):
         self.refused(["run", "--profile", "direct3"], "did you mean 'direct3d'?")
 
     def test_missing_value(self):
-        self.refused(["run", "--shard"], "--shard")
+        self.refused(["run", "--shard"], "--shard needs a value; write --shard I/N")
+        self.refused(["run", "--seed"], "--seed needs a value; write --seed N")
+
+    def test_form_of_a_value(self):
+        self.refused(["explain", "fam/c1", "--pixel", "3"], "--pixel: '3' is not a value that it takes; write X,Y")
+
+    def test_files_that_are_not_there(self):
+        self.refused(["run", "my-case.toml"], "there is no case file my-case.toml", 4)
+        self.refused(["expect", "nowhere.txt"], "nowhere.txt: error: there is no such expectation file", 3)
+
+    def test_family(self):
+        self.refused(["run", "fam"], "did you mean fam/**?", 4)
 
     def test_numbers(self):
         for words in (["--timeout", "x"], ["-j", "0"], ["--repeat", "-1"], ["--shard", "3/2"], ["--shard", "0/2"],
