@@ -4,21 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <string_view>
-
 namespace cases {
 
 namespace {
-
-constexpr std::array<std::string_view, 3> kAuxiliary = {"none", "centroid", "sample"};
-constexpr std::array<std::string_view, 5> kSource = {"vertex", "barycentric", "sample-mask-in",
-                                                     "sample-id", "sample-position"};
-constexpr std::array<std::string_view, 14> kProbe = {
-    "value",  "at-centroid", "at-sample",     "at-offset",   "dfdx",
-    "dfdy",   "dfdx-fine",   "dfdy-fine",     "dfdx-coarse", "dfdy-coarse",
-    "fwidth", "fwidth-fine", "fwidth-coarse", "query-lod"};
-static_assert(static_cast<size_t>(Probe::lod) + 1 == kProbe.size());
 
 uint32_t components_of(Source source) {
     switch (source) {
@@ -81,7 +69,7 @@ bool read_texture(LeafContext& context, const TomlValue& value, Attribute& attri
 bool belongs(LeafContext& context, const TomlValue& table, const char* key, bool is_wanted,
              Probe probe) {
     const TomlValue* value = table.find(key);
-    const std::string_view word = kProbe[static_cast<size_t>(probe)];
+    const std::string_view word = word_of(probe);
     if (is_wanted && value == nullptr) {
         context.error(table.where, fmt::format("probe = \"{}\" needs the key {}", word, key));
         return false;
@@ -100,11 +88,11 @@ bool read_source(LeafContext& context, const TomlValue& table, Attribute& attrib
     if (value == nullptr) {
         return true;
     }
-    const std::optional<size_t> word = context.word(*value, "source", kSource);
-    if (!word) {
+    const std::optional<Source> source = context.enumerator<Source>(*value, "source");
+    if (!source) {
         return false;
     }
-    attribute.source = static_cast<Source>(*word);
+    attribute.source = *source;
     if (attribute.source == Source::vertex) {
         return true;
     }
@@ -137,11 +125,12 @@ bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
                 Attribute& attribute) {
     const bool is_flat = attribute.interpolation == Interpolation::flat;
     if (const TomlValue* value = table.find("auxiliary")) {
-        const std::optional<size_t> word = context.word(*value, "auxiliary", kAuxiliary);
-        if (!word) {
+        const std::optional<Auxiliary> auxiliary =
+            context.enumerator<Auxiliary>(*value, "auxiliary");
+        if (!auxiliary) {
             return false;
         }
-        attribute.auxiliary = static_cast<Auxiliary>(*word);
+        attribute.auxiliary = *auxiliary;
         if (is_flat && attribute.auxiliary != Auxiliary::none) {
             context.error(value->where,
                           "a flat attribute is the same everywhere; leave auxiliary out");
@@ -149,11 +138,11 @@ bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
         }
     }
     if (const TomlValue* value = table.find("probe")) {
-        const std::optional<size_t> word = context.word(*value, "probe", kProbe);
-        if (!word) {
+        const std::optional<Probe> probe = context.enumerator<Probe>(*value, "probe");
+        if (!probe) {
             return false;
         }
-        attribute.probe = static_cast<Probe>(*word);
+        attribute.probe = *probe;
         if (is_flat && attribute.probe != Probe::value) {
             context.error(value->where, "a flat attribute is the same everywhere; leave probe out");
             return false;

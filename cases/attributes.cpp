@@ -16,9 +16,7 @@ namespace cases {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kInterpolation = {"smooth", "noperspective", "flat"};
 constexpr std::array<std::string_view, 2> kFrom = {"barycentric", "random"};
-constexpr std::array<std::string_view, 4> kVertexNames = {"x", "y", "z", "w"};
 
 class AttributeReader {
   public:
@@ -40,8 +38,8 @@ class AttributeReader {
             }
         }
         if (const TomlValue* value = table_.find("interpolation")) {
-            attribute_.interpolation = static_cast<Interpolation>(
-                context_.word(*value, "interpolation", kInterpolation).value_or(0));
+            attribute_.interpolation = context_.enumerator<Interpolation>(*value, "interpolation")
+                                           .value_or(Interpolation::smooth);
         }
         if (!read_source(context_, table_, attribute_) ||
             (attribute_.source == Source::vertex && !read_vertex_values()) ||
@@ -173,14 +171,8 @@ class AttributeReader {
         if (attribute_.components == 0) {
             return false;
         }
-        for (const auto& [key, parameter] : context_.parameters()) {
-            if (std::find(kVertexNames.begin(), kVertexNames.end(), key) != kVertexNames.end()) {
-                context_.error(value.where,
-                               fmt::format("plane cannot tell the matrix key {} from the vertex's "
-                                           "own {}; rename the key",
-                                           key, key));
-                return false;
-            }
+        if (!check_plane_keys(context_, value.where)) {
+            return false;
         }
         for (size_t v = 0; v < source_.vertices.size(); ++v) {
             const ExactVertex& vertex = source_.vertices[v];
@@ -193,10 +185,7 @@ class AttributeReader {
                                 is_finite(vertex) ? "w is 0" : "position is not finite"));
                 return false;
             }
-            const Names names = context_.names({{"x", {at->x, false}},
-                                                {"y", {at->y, false}},
-                                                {"z", vertex.xyzw[2]},
-                                                {"w", vertex.xyzw[3]}});
+            const Names names = plane_names(context_, vertex, *at);
             for (size_t i = 0; i < attribute_.components; ++i) {
                 const TomlValue& element = component(value, i);
                 const std::optional<Number> n = context_.number(element, "plane", names);
@@ -251,6 +240,24 @@ class AttributeReader {
 };
 
 }  // namespace
+
+bool check_plane_keys(LeafContext& context, const SourceLocation& where) {
+    for (const auto& [key, parameter] : context.parameters()) {
+        if (key == "x" || key == "y" || key == "z" || key == "w") {
+            context.error(where,
+                          fmt::format("plane cannot tell the matrix key {} from the vertex's "
+                                      "own {}; rename the key",
+                                      key, key));
+            return false;
+        }
+    }
+    return true;
+}
+
+Names plane_names(LeafContext& context, const ExactVertex& vertex, const PixelPosition& at) {
+    return context.names(
+        {{"x", {at.x, false}}, {"y", {at.y, false}}, {"z", vertex.xyzw[2]}, {"w", vertex.xyzw[3]}});
+}
 
 std::vector<Attribute> read_attributes(LeafContext& context, const TomlValue& value,
                                        const AttributeSource& source) {

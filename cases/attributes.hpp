@@ -25,4 +25,9 @@ struct AttributeSource {
 std::vector<Attribute> read_attributes(LeafContext& context, const TomlValue& value,
                                        const AttributeSource& source);
 
+// "plane" expressions: x and y of the vertex in pixels, z and w of its clip-space position.
+Names plane_names(LeafContext& context, const ExactVertex& vertex, const PixelPosition& at);
+// False after a mistake: a matrix key has the name of one of these.
+bool check_plane_keys(LeafContext& context, const SourceLocation& where);
+
 }  // namespace cases

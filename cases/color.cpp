@@ -13,28 +13,6 @@ namespace {
 
 using Kind = TomlValue::Kind;
 
-constexpr std::array<std::string_view, 11> kFormats = {
-    "rgba8-unorm",  "bgra8-unorm",  "rgba8-srgb", "rgb10a2-unorm", "r5g6b5-unorm", "rgba16-unorm",
-    "rgba16-float", "rgba32-float", "r32-float",  "r32-uint",      "rgba8-uint"};
-static_assert(kFormats.size() == static_cast<size_t>(kLastColorFormat) + 1);
-
-constexpr std::array<std::string_view, 15> kFactors = {"zero",
-                                                       "one",
-                                                       "src-color",
-                                                       "one-minus-src-color",
-                                                       "dst-color",
-                                                       "one-minus-dst-color",
-                                                       "src-alpha",
-                                                       "one-minus-src-alpha",
-                                                       "dst-alpha",
-                                                       "one-minus-dst-alpha",
-                                                       "constant-color",
-                                                       "one-minus-constant-color",
-                                                       "constant-alpha",
-                                                       "one-minus-constant-alpha",
-                                                       "src-alpha-saturate"};
-constexpr std::array<std::string_view, 5> kOps = {"add", "subtract", "reverse-subtract", "min",
-                                                  "max"};
 constexpr std::array<std::string_view, 8> kPresets = {
     "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
 
@@ -96,14 +74,13 @@ BlendEquation read_equation(LeafContext& context, const TomlValue& table) {
         const TomlValue* value = table.find(key);
         return value == nullptr
                    ? otherwise
-                   : static_cast<BlendFactor>(
-                         context.word(*value, std::string("the blend factor ") + key, kFactors)
-                             .value_or(0));
+                   : context.enumerator<BlendFactor>(*value, std::string("the blend factor ") + key)
+                         .value_or(BlendFactor::zero);
     };
     out.source = factor("source", BlendFactor::one);
     out.destination = factor("destination", BlendFactor::zero);
     if (const TomlValue* op = table.find("op")) {
-        out.op = static_cast<BlendOp>(context.word(*op, "the blend op", kOps).value_or(0));
+        out.op = context.enumerator<BlendOp>(*op, "the blend op").value_or(BlendOp::add);
     }
     return out;
 }
@@ -197,7 +174,7 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
 }  // namespace
 
 std::string_view name_of(ColorFormat format) {
-    return kFormats.at(static_cast<size_t>(format));
+    return word_of(format);
 }
 
 ComponentFormat component_of(ColorFormat format, uint32_t k) {
@@ -240,11 +217,10 @@ std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlVal
     const TomlValue* format = value.find("format");
     if (format == nullptr) {
         context.error(value.where, fmt::format("[target.color] has no format; write {}",
-                                               alternatives(kFormats)));
+                                               alternatives(kWords<ColorFormat>)));
         return std::nullopt;
     }
-    out.format =
-        static_cast<ColorFormat>(context.word(*format, "the colour format", kFormats).value_or(0));
+    out.format = read_format(context, *format).value_or(ColorFormat::rgba8_unorm);
     if (const TomlValue* clear = value.find("clear")) {
         out.clear = read_color(context, *clear, "clear", out.format).value_or(glm::vec4(0));
     }
@@ -252,8 +228,7 @@ std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlVal
 }
 
 std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& value) {
-    const std::optional<size_t> word = context.word(value, "the colour format", kFormats);
-    return word ? std::optional(static_cast<ColorFormat>(*word)) : std::nullopt;
+    return context.enumerator<ColorFormat>(value, "the colour format");
 }
 
 ColorOutput read_color_output(LeafContext& context, const TomlValue& value,

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "cases/words.hpp"
+
 namespace cases {
 
 namespace {
@@ -58,21 +60,7 @@ void copy_attributes(Case& c) {
 }  // namespace
 
 std::string_view to_string(RelationKind kind) {
-    switch (kind) {
-        case RelationKind::same_twice:
-            return "same-twice";
-        case RelationKind::scissor_tiles:
-            return "scissor-tiles";
-        case RelationKind::other_clears:
-            return "other-clears";
-        case RelationKind::write_masks:
-            return "write-masks";
-        case RelationKind::fewer_attributes:
-            return "fewer-attributes";
-        case RelationKind::more_attributes:
-            break;
-    }
-    return "more-attributes";
+    return word_of(kind);
 }
 
 uint64_t tile_count(const Target& target, const Relation& relation) {

@@ -19,6 +19,7 @@
 #include "cases/binary32.hpp"
 #include "cases/expression.hpp"
 #include "cases/toml_reader.hpp"
+#include "cases/words.hpp"
 
 namespace cases {
 
@@ -54,6 +55,12 @@ class LeafContext {
     // The index of a word in a list; a matrix key may stand for it.
     std::optional<size_t> word(const TomlValue& value, const std::string& what,
                                std::span<const std::string_view> words);
+    // The value whose word (words.hpp) this is.
+    template <class Enum>
+    std::optional<Enum> enumerator(const TomlValue& value, const std::string& what) {
+        const std::optional<size_t> index = word(value, what, kWords<Enum>);
+        return index ? std::optional(static_cast<Enum>(*index)) : std::nullopt;
+    }
     // An array of numbers, exactly `count` of them.
     std::optional<std::vector<Number>> numbers(const TomlValue& value, const std::string& what,
                                                size_t count);

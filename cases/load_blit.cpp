@@ -12,8 +12,6 @@ namespace cases {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kFilters = {"nearest", "linear"};
-constexpr std::array<std::string_view, 2> kPatterns = {"unique", "ramp"};
 constexpr int64_t kMaxSide = 1024;  // texels of a source
 constexpr int64_t kFar = 4096;      // how far outside its image a region to be clipped may reach
 
@@ -28,9 +26,8 @@ class BlitLoader {
         read_formats();
         read_size();
         if (const TomlValue* value = table_.find("pattern")) {
-            blit_.pattern = context_.word(*value, "pattern", kPatterns).value_or(0) == 0
-                                ? BlitPattern::unique
-                                : BlitPattern::ramp;
+            blit_.pattern =
+                context_.enumerator<BlitPattern>(*value, "pattern").value_or(BlitPattern::unique);
         }
         if (const TomlValue* value = table_.find("seed")) {
             blit_.seed =
@@ -101,7 +98,7 @@ class BlitLoader {
         if (value == nullptr) {
             return;
         }
-        if (context_.word(*value, "filter", kFilters).value_or(0) == 1) {
+        if (context_.enumerator<BlitFilter>(*value, "filter") == BlitFilter::linear) {
             blit_.filter = BlitFilter::linear;
             if (target_.color && is_integer(blit_.source_format)) {
                 context_.error(value->where, "integers are not filtered; write \"nearest\"");

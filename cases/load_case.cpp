@@ -351,7 +351,7 @@ void check_used(const Matrix& matrix, const std::set<std::string>& used, Errors&
 }  // namespace
 
 ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::string& file_name,
-                                         const std::string& id_base) {
+                                         const std::string& id_base, Contents contents) {
     const Expected<TomlValue> root = read_toml(toml, file_name);
     if (!root) {
         return tl::unexpected(Errors{root.error()});
@@ -373,9 +373,17 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
             parameters.emplace_back(axis.key, axis.values[choice[i]]);
             texts.emplace_back(axis.key, axis.texts[choice[i]]);
         }
+        const std::string leaf_text = matrix->text(leaf);
+        const std::string id = leaf_text.empty() ? id_base : id_base + ":" + leaf_text;
+        if (contents == Contents::ids) {
+            Case& c = cases.emplace_back();
+            c.id = id;
+            c.where = {root->where.file, 1, 1};
+            c.parameters = std::move(texts);
+            continue;
+        }
         LeafContext context(std::move(parameters));
         Case c = CaseLoader(*root, context).load();
-        const std::string leaf_text = matrix->text(leaf);
         if (context.errors().empty()) {
             read_expectation(context, *root, leaf_text, c);
         }
@@ -390,11 +398,11 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
             break;
         }
         used.insert(context.used().begin(), context.used().end());
-        c.id = leaf_text.empty() ? id_base : id_base + ":" + leaf_text;
+        c.id = id;
         c.parameters = std::move(texts);
         cases.push_back(std::move(c));
     }
-    if (errors.empty()) {
+    if (errors.empty() && contents == Contents::all) {
         check_used(*matrix, used, errors);
     }
     if (!errors.empty()) {

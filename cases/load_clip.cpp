@@ -15,7 +15,6 @@ namespace cases {
 namespace {
 
 constexpr size_t kMaxPlanes = 4;
-constexpr std::array<std::string_view, 4> kVertexNames = {"x", "y", "z", "w"};
 
 // One distance: a number for each vertex.
 class DistanceReader {
@@ -106,14 +105,8 @@ class DistanceReader {
     }
 
     bool plane(const TomlValue& value, std::vector<float>& out) {
-        for (const auto& [key, parameter] : context_.parameters()) {
-            if (std::find(kVertexNames.begin(), kVertexNames.end(), key) != kVertexNames.end()) {
-                context_.error(value.where,
-                               fmt::format("plane cannot tell the matrix key {} from the vertex's "
-                                           "own {}; rename the key",
-                                           key, key));
-                return false;
-            }
+        if (!check_plane_keys(context_, value.where)) {
+            return false;
         }
         for (size_t v = 0; v < out.size(); ++v) {
             const ExactVertex& vertex = source_.vertices[v];
@@ -126,10 +119,7 @@ class DistanceReader {
                                            v));
                 return false;
             }
-            const Names names = context_.names({{"x", {at->x, false}},
-                                                {"y", {at->y, false}},
-                                                {"z", vertex.xyzw[2]},
-                                                {"w", vertex.xyzw[3]}});
+            const Names names = plane_names(context_, vertex, *at);
             const std::optional<Number> n = context_.number(value, "plane", names);
             if (!n || !store(*n, value.where, out[v])) {
                 return false;

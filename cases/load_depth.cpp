@@ -2,18 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/load_depth.hpp"
 
-#include <array>
-#include <string_view>
-
 namespace cases {
 
 namespace {
-
-constexpr std::array<std::string_view, 3> kFormats = {"d32-float", "d24-unorm", "d16-unorm"};
-constexpr std::array<std::string_view, 3> kRepresentations = {"format", "force-unorm", "float"};
-constexpr std::array<std::string_view, 8> kCompare = {
-    "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
-    "always"};
 
 DepthBias read_bias(LeafContext& context, const TomlValue& value) {
     DepthBias bias;
@@ -30,8 +21,8 @@ DepthBias read_bias(LeafContext& context, const TomlValue& value) {
     read("slope", bias.slope);
     read("clamp", bias.clamp);
     if (const TomlValue* word = value.find("representation")) {
-        bias.representation = static_cast<DepthBiasRepresentation>(
-            context.word(*word, "representation", kRepresentations).value_or(0));
+        bias.representation = context.enumerator<DepthBiasRepresentation>(*word, "representation")
+                                  .value_or(DepthBiasRepresentation::format);
     }
     if (const TomlValue* exact = value.find("exact")) {
         bias.is_exact = context.boolean(*exact, "exact").value_or(false);
@@ -43,8 +34,8 @@ DepthBias read_bias(LeafContext& context, const TomlValue& value) {
 
 void read_depth_target(LeafContext& context, const TomlValue& table, Target& target) {
     if (const TomlValue* value = table.find("depth")) {
-        const std::optional<size_t> word = context.word(*value, "depth", kFormats);
-        target.depth_format = static_cast<DepthFormat>(word.value_or(0));
+        target.depth_format =
+            context.enumerator<DepthFormat>(*value, "depth").value_or(DepthFormat::d32_float);
     }
     if (const TomlValue* value = table.find("depth_clear")) {
         const std::optional<Number> number = context.number(*value, "depth_clear");
@@ -63,8 +54,8 @@ DepthState read_depth_state(LeafContext& context, const TomlValue& value) {
     }
     context.known_keys(value, "depth", {"compare", "write", "bias", "clamp", "clip"});
     if (const TomlValue* compare = value.find("compare")) {
-        const std::optional<size_t> word = context.word(*compare, "compare", kCompare);
-        state.compare = static_cast<CompareOp>(word.value_or(0));
+        state.compare =
+            context.enumerator<CompareOp>(*compare, "compare").value_or(CompareOp::never);
     }
     if (const TomlValue* write = value.find("write")) {
         state.write = context.boolean(*write, "write").value_or(true);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 #include "cases/attributes.hpp"
@@ -24,13 +25,7 @@ namespace {
 
 using Kind = TomlValue::Kind;
 
-constexpr std::array<std::string_view, 3> kTopology = {"triangle-list", "triangle-strip",
-                                                       "triangle-fan"};
 constexpr std::array<std::string_view, 3> kSpace = {"pixels", "ndc", "clip"};
-constexpr std::array<std::string_view, 4> kCull = {"none", "front", "back", "front-and-back"};
-constexpr std::array<std::string_view, 2> kFrontFace = {"counter-clockwise", "clockwise"};
-constexpr std::array<std::string_view, 2> kProvoking = {"first", "last"};
-constexpr std::array<std::string_view, 2> kDepthVolume = {"zero-to-one", "negative-one-to-one"};
 constexpr float kViewportLow = -32768;     // pixels; what common devices take
 constexpr int64_t kMaxViewportIndex = 15;  // maxViewports is at least 16 with multiViewport
 constexpr float kViewportHigh = 32767;
@@ -52,10 +47,10 @@ class DrawLoader {
                              "first",         "order",          "color",
                              "sample_mask",   "shader_mask",    "min_sample_shading"});
         draw_.where = table_.where;
-        draw_.topology = enumerated("topology", kTopology, Topology::triangle_list);
-        draw_.cull = enumerated("cull", kCull, CullMode::none);
-        draw_.front_face = enumerated("front_face", kFrontFace, FrontFace::counter_clockwise);
-        space_ = enumerated("space", kSpace, Space::pixels);
+        draw_.topology = enumerated("topology", Topology::triangle_list);
+        draw_.cull = enumerated("cull", CullMode::none);
+        draw_.front_face = enumerated("front_face", FrontFace::counter_clockwise);
+        space_ = worded("space", kSpace, Space::pixels);
         draw_.multisample = load_multisample(context_, table_);
         read_viewport();
         read_scissor();
@@ -104,8 +99,13 @@ class DrawLoader {
     }
 
   private:
-    template <class Enum, size_t N>
-    Enum enumerated(const char* key, const std::array<std::string_view, N>& words, Enum otherwise) {
+    template <class Enum>
+    Enum enumerated(const char* key, Enum otherwise) {
+        return worded(key, kWords<Enum>, otherwise);
+    }
+
+    template <class Enum>
+    Enum worded(const char* key, std::span<const std::string_view> words, Enum otherwise) {
         const TomlValue* value = table_.find(key);
         if (value == nullptr) {
             return otherwise;
@@ -140,8 +140,8 @@ class DrawLoader {
     // What a draw says of clipping and of its provoking vertices.
     void read_clipping(const AttributeSource& source, const std::vector<glm::vec4>& positions,
                        const std::vector<uint32_t>& order) {
-        draw_.provoking = enumerated("provoking", kProvoking, ProvokingVertex::first);
-        draw_.depth.negative_one_to_one = enumerated("depth_volume", kDepthVolume, size_t{0}) != 0;
+        draw_.provoking = enumerated("provoking", ProvokingVertex::first);
+        draw_.depth.negative_one_to_one = worded("depth_volume", kVolumeWords, size_t{0}) != 0;
         draw_.distances = read_distances(context_, table_, source, positions);
         if (!draw_.distances.clip.empty()) {
             draw_.distances.clip = ordered(draw_.distances.clip, order);
@@ -302,7 +302,7 @@ class DrawLoader {
         if (table_.find("topology") != nullptr && draw_.topology != generated->topology) {
             context_.error(table_.find("topology")->where,
                            fmt::format("this generator makes a \"{}\"; leave topology out",
-                                       kTopology.at(static_cast<size_t>(generated->topology))));
+                                       word_of(generated->topology)));
             return false;
         }
         draw_.topology = generated->topology;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cases/derive.hpp"
+#include "cases/words.hpp"
 
 namespace cases {
 
@@ -14,11 +15,17 @@ namespace {
 
 constexpr uint64_t kMaxTiles = 4096;
 
-constexpr std::array<std::string_view, 5> kWords = {"same-twice", "other-clears", "write-masks",
-                                                    "fewer-attributes", "more-attributes"};
-constexpr std::array<RelationKind, 5> kKinds = {
+// What is written as a word; scissor tiles are a table.
+constexpr std::array<RelationKind, 5> kPlainKinds = {
     RelationKind::same_twice, RelationKind::other_clears, RelationKind::write_masks,
     RelationKind::fewer_attributes, RelationKind::more_attributes};
+constexpr WordList<kPlainKinds.size()> kPlainWords = [] {
+    WordList<kPlainKinds.size()> words{};
+    for (size_t k = 0; k < words.size(); ++k) {
+        words[k] = word_of(kPlainKinds[k]);
+    }
+    return words;
+}();
 
 bool shades_samples(const Draw& draw) {
     return draw.multisample.min_sample_shading.has_value() ||
@@ -103,11 +110,11 @@ std::vector<Relation> load_relations(LeafContext& context, const TomlValue& valu
                         .value_or(1));
             }
         } else {
-            const std::optional<size_t> word = context.word(element, "a relation", kWords);
+            const std::optional<size_t> word = context.word(element, "a relation", kPlainWords);
             if (!word) {
                 continue;
             }
-            relation.kind = kKinds[*word];
+            relation.kind = kPlainKinds[*word];
         }
         if (!context.errors().empty()) {
             continue;

@@ -94,13 +94,11 @@ void read_attachments(LeafContext& context, const TomlValue& table, Target& targ
 
 void read_resolve(LeafContext& context, const TomlValue& table, const char* key, uint32_t samples,
                   Resolve& to) {
-    constexpr std::array<std::string_view, 5> kModes = {"none", "sample-zero", "average", "min",
-                                                        "max"};
     const TomlValue* value = table.find(key);
     if (value == nullptr) {
         return;
     }
-    to = static_cast<Resolve>(context.word(*value, key, kModes).value_or(0));
+    to = context.enumerator<Resolve>(*value, key).value_or(Resolve::none);
     if (to != Resolve::none && samples < 2) {
         context.error(value->where,
                       fmt::format("{} needs several samples; write samples = 4", key));

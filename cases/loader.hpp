@@ -5,6 +5,7 @@
 // one sentence and the nearest valid name; a file with any error yields no case.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,10 +15,17 @@
 
 namespace cases {
 
+// How much of a case is read.
+enum class Contents : uint8_t {
+    all,
+    ids  // id, where and parameters; the file has to be TOML with a right matrix, no more
+};
+
 // All matrix leaves of one case file, in file order. `id_base` is the id without the matrix part
 // ("coverage/half-square"); `file_name` is what error locations say.
 ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::string& file_name,
-                                         const std::string& id_base);
+                                         const std::string& id_base,
+                                         Contents contents = Contents::all);
 
 // As load_text, from disk. The id is the path below `suite_root` without ".toml"; a file outside
 // the root has its stem as id.
@@ -29,6 +37,6 @@ struct Suite {
     Errors errors;            // of all files; ids are unique over the suite
 };
 // Every *.toml below root (except dotfiles). A missing or empty root is an error.
-Suite load_suite(const std::filesystem::path& root);
+Suite load_suite(const std::filesystem::path& root, Contents contents = Contents::all);
 
 }  // namespace cases

@@ -141,14 +141,31 @@ struct Matcher {
             chosen = by_path(word);
         }
         if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
-            std::vector<std::string> ids;
-            for (const Case& c : all) {
-                ids.push_back(word.find(':') == std::string::npos ? part_before_leaf(c.id) : c.id);
-            }
-            return tl::unexpected(
-                Error{{}, with_hint("no case matches " + word, nearest_name(word, ids))});
+            return tl::unexpected(Error{{}, nothing_matches(word)});
         }
         return chosen;
+    }
+
+    // Why no case matches, and what may have been meant: a family, a case, a file.
+    std::string nothing_matches(const std::string& word) const {
+        if (word.ends_with(".toml")) {
+            return "there is no case file " + word;
+        }
+        std::string bare = word;
+        for (const std::string_view ending : {"/**", "/*", "/"}) {
+            bare = bare.ends_with(ending) ? bare.substr(0, bare.size() - ending.size()) : bare;
+        }
+        std::vector<std::string> ids, folders;
+        for (const Case& c : all) {
+            ids.push_back(word.find(':') == std::string::npos ? part_before_leaf(c.id) : c.id);
+            for (size_t at = c.id.find('/'); at != std::string::npos; at = c.id.find('/', at + 1)) {
+                folders.push_back(c.id.substr(0, at));
+            }
+        }
+        const bool is_folder = std::find(folders.begin(), folders.end(), bare) != folders.end();
+        const std::string id = is_folder ? "" : nearest_name(word, ids);
+        const std::string folder = is_folder ? bare : id.empty() ? nearest_name(bare, folders) : "";
+        return with_hint("no case matches " + word, folder.empty() ? id : folder + "/**");
     }
 };
 

@@ -66,23 +66,27 @@ bool is_hidden(const fs::path& path) {
     return path.filename().string().rfind('.', 0) == 0;
 }
 
-}  // namespace
-
-ExpectedAll<std::vector<Case>> load_file(const fs::path& file, const fs::path& suite_root) {
+ExpectedAll<std::vector<Case>> load_as(const fs::path& file, const std::string& id,
+                                       Contents contents) {
     const Expected<std::string> text = read_file(file);
     if (!text) {
         return tl::unexpected(Errors{text.error()});
     }
-    const std::string id = case_id(file, suite_root);
     if (!is_plain_id(id)) {
         return tl::unexpected(Errors{
             {{file.string(), 0, 0},
              "the file's name cannot be an id; use letters, digits, '_', '-' and '.' only"}});
     }
-    return load_text(*text, file.string(), id);
+    return load_text(*text, file.string(), id, contents);
 }
 
-Suite load_suite(const fs::path& root) {
+}  // namespace
+
+ExpectedAll<std::vector<Case>> load_file(const fs::path& file, const fs::path& suite_root) {
+    return load_as(file, case_id(file, suite_root), Contents::all);
+}
+
+Suite load_suite(const fs::path& root, Contents contents) {
     Suite suite;
     std::error_code error;
     if (!fs::is_directory(root, error)) {
@@ -110,7 +114,9 @@ Suite load_suite(const fs::path& root) {
     }
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
-        ExpectedAll<std::vector<Case>> loaded = load_file(file, root);
+        const fs::path below = file.lexically_relative(root);
+        ExpectedAll<std::vector<Case>> loaded =
+            load_as(file, fs::path(below).replace_extension().generic_string(), contents);
         if (!loaded) {
             suite.errors.insert(suite.errors.end(), loaded.error().begin(), loaded.error().end());
             continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/backend.hpp"
+#include "diff/blank_capture.hpp"
 #include "diff/color_planes.hpp"
 #include "ref/expectation.hpp"
 
@@ -10,22 +11,8 @@ namespace cli {
 
 diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Device& device) {
     const std::vector<ref::algorithms::DrawnSample> drawn = ref::algorithms::draw(c, device);
-    diff::Capture capture;
-    capture.target = c.target;
-    capture.has_primitive = true;
-    for (const cases::Draw& draw : c.draws) {
-        capture.attribute_count =
-            std::max(capture.attribute_count, static_cast<uint32_t>(draw.attributes.size()));
-    }
+    diff::Capture capture = diff::blank_capture(c);
     const size_t n = capture.sample_count();
-    const glm::vec4 clear(diff::kClearValue);
-    capture.hits.assign(n, glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
-    capture.writers.assign(n, diff::Writer{});
-    capture.frag_coord.assign(n, clear);
-    capture.depth.assign(n, diff::kClearDepth);
-    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
-        capture.attributes[a].assign(n, clear);
-    }
     for (size_t index = 0; index < n; ++index) {
         const ref::algorithms::DrawnSample& sample = drawn[index];
         const uint32_t hits = sample.front + sample.back;
@@ -40,7 +27,8 @@ diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Dev
         capture.depth[index] = sample.values.depth;
         for (uint32_t a = 0; a < capture.attribute_count; ++a) {
             const bool is_written = a < c.draws[sample.last.draw].attributes.size();
-            capture.attributes[a][index] = is_written ? sample.values.attributes[a] : clear;
+            capture.attributes[a][index] =
+                is_written ? sample.values.attributes[a] : glm::vec4(diff::kClearValue);
         }
     }
     if (c.target.color) {

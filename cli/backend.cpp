@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "diff/blank_capture.hpp"
 #include "diff/capture.hpp"
 #include "diff/color_planes.hpp"
 #include "diff/consistency.hpp"
@@ -177,24 +178,8 @@ diff::Capture draw_by_reference(const cases::Case& c) {
     const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
     ref::ValueReference values(c, limits, cases::Profile::direct3d);
 
-    diff::Capture capture;
-    capture.target = c.target;
-    capture.has_primitive = true;
-    for (const cases::Draw& draw : c.draws) {
-        capture.attribute_count =
-            std::max(capture.attribute_count, static_cast<uint32_t>(draw.attributes.size()));
-    }
+    diff::Capture capture = diff::blank_capture(c);
     const size_t n = capture.sample_count();
-    const glm::vec4 clear(diff::kClearValue);
-    capture.hits.assign(n, glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
-    capture.writers.assign(n, diff::Writer{});
-    capture.frag_coord.assign(n, clear);
-    capture.depth.assign(n, c.target.depth_format == cases::DepthFormat::d32_float
-                                ? c.target.depth_clear
-                                : diff::nearest_depth(c.target.depth_clear, c.target.depth_format));
-    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
-        capture.attributes[a].assign(n, clear);
-    }
     for (size_t index = 0; index < n; ++index) {
         const ref::SampleExpectation& sample = expectation.samples[index];
         const auto [front, back] = pick_hits(sample.hits);

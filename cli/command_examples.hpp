@@ -46,7 +46,8 @@ inline constexpr Examples kExamples[] = {
      "  edgecase expect --update out/mine my-driver.txt --bug mesa#1234\n"},
     {"compare",
      "  edgecase compare out/before out/after     regressions and fixes\n"
-     "  edgecase compare out/lavapipe out/swiftshader -v --json differences.json\n"},
+     "  edgecase compare out/lavapipe out/swiftshader -v --json differences.json\n"
+     "  edgecase compare out/lavapipe out/swiftshader --html differences.html\n"},
     {"bench", "  edgecase bench 'coverage/**' --runs 5\n"},
     {"completion",
      "  source <(edgecase completion bash)\n"

@@ -63,7 +63,7 @@ Stop unknown_words(CLI::App& command) {
 }
 
 // What CLI11 says, as one sentence.
-Stop parse_error(const CLI::ParseError& error, const std::string& command) {
+Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) {
@@ -73,8 +73,20 @@ Stop parse_error(const CLI::ParseError& error, const std::string& command) {
     constexpr std::string_view kConversion = "Could not convert: ";
     const size_t equals = text.find(" = ");
     if (text.starts_with(kConversion) && equals != std::string::npos) {
-        text = text.substr(kConversion.size(), equals - kConversion.size()) + ": '" +
-               text.substr(equals + 3) + "' is not a value that it takes";
+        const std::string name = text.substr(kConversion.size(), equals - kConversion.size());
+        const CLI::Option* option =
+            command.empty() ? nullptr : app.get_subcommand(command)->get_option_no_throw(name);
+        const std::string form = option == nullptr ? "" : option->get_type_name();
+        text = name + ": '" + text.substr(equals + 3) + "' is not a value that it takes" +
+               (form.empty() ? "" : "; write " + form);
+    }
+    // "--seed: 1 required N missing"
+    constexpr std::string_view kRequired = ": 1 required ", kMissing = " missing";
+    if (const size_t at = text.find(kRequired);
+        at != std::string::npos && text.ends_with(kMissing)) {
+        const size_t begin = at + kRequired.size();
+        text = text.substr(0, at) + " needs a value; write " + text.substr(0, at) + " " +
+               text.substr(begin, text.size() - kMissing.size() - begin);
     }
     return usage_error(text, command);
 }
@@ -152,7 +164,7 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
         std::fputs((is_command ? command->help("edgecase") : app.help()).c_str(), stdout);
         return std::string("help");
     } catch (const CLI::ParseError& error) {
-        return tl::unexpected(parse_error(error, is_command ? first : ""));
+        return tl::unexpected(parse_error(error, app, is_command ? first : ""));
     }
     if (!is_command) {
         return std::string("version");

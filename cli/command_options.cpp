@@ -390,6 +390,10 @@ void define_others(CLI::App& app, AllOptions& all) {
         ->add_option("--json", all.compare.json,
                      "write the comparison to FILE ('-': standard output)")
         ->type_name("FILE");
+    compare
+        ->add_option("--html", all.compare.html,
+                     "write a page with both sides of each case to FILE")
+        ->type_name("FILE");
     compare->add_flag("-v,--verbose", all.compare.verbose,
                       "list every difference, draw where kept pictures differ");
     add_choice(compare, "--color", all.compare.color, kWhenNames, "colours");

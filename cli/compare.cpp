@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command "compare": the folders of runs side by side.
+#include <fmt/format.h>
+
 #include <cstdio>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/outputs.hpp"
@@ -11,6 +16,32 @@
 #include "report/journal.hpp"
 
 namespace cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The address of a run's page, seen from another page; empty if there is none.
+std::string report_address(const std::string& page, const std::string& folder) {
+    std::error_code error;
+    const fs::path report = fs::path(folder) / "report.html";
+    if (!fs::exists(report, error)) {
+        return {};
+    }
+    const fs::path from = page == "-" ? fs::path() : fs::path(page).parent_path();
+    const fs::path way = fs::proximate(report, from.empty() ? fs::path(".") : from, error);
+    std::string address = way.is_absolute() ? "file://" : "";
+    for (const char c : way.generic_string()) {
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                              (c >= '0' && c <= '9') ||
+                              std::string_view("/-._~").find(c) != std::string_view::npos;
+        address +=
+            is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return address;
+}
+
+}  // namespace
 
 int compare_command(const Program&, const CompareOptions& options) {
     std::vector<report::NamedRun> runs;
@@ -25,10 +56,21 @@ int compare_command(const Program&, const CompareOptions& options) {
     if (!comparison) {
         return report_stop({report::kExitUsage, {comparison.error().message}});
     }
-    std::FILE* console = options.json == "-" ? stderr : stdout;
+    const bool stdout_taken = options.json == "-" || options.html == "-";
+    std::FILE* console = stdout_taken ? stderr : stdout;
     const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     std::fputs(report::comparison_text(runs, *comparison, style).c_str(), console);
     std::fflush(console);
+    if (!options.html.empty()) {
+        std::vector<std::string> reports;
+        for (const std::string& folder : options.directories) {
+            reports.push_back(report_address(options.html, folder));
+        }
+        const std::string page = report::comparison_html(runs, *comparison, reports);
+        if (const auto written = write_text(options.html, page); !written) {
+            return report_stop({report::kExitInternal, {written.error().message}});
+        }
+    }
     if (!options.json.empty()) {
         const std::string json = report::comparison_json(runs, *comparison);
         if (const auto written = write_text(options.json, json); !written) {

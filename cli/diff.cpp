@@ -198,8 +198,9 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     std::error_code ignored;
     header.suite_root = fs::absolute(selection.root, ignored).lexically_normal().string();
     header.jobs = std::max(1U, std::thread::hardware_concurrency());
-    header.device.name = options.name.empty() ? "captures in " + options.captures : options.name;
+    header.device.name = options.name.empty() ? "captures" : options.name;
     header.device.driver_name = "files";
+    header.device.driver_info = "in " + options.captures;
     header.device.type = "other";
     header.device.subpixel_bits = options.subpixel_bits;
     header.device.has_primitive_id = true;

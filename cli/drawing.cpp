@@ -14,6 +14,7 @@
 #include "cases/derive.hpp"
 #include "cli/backend.hpp"
 #include "ref/blit.hpp"
+#include "ref/sample.hpp"
 #include "ref/texel.hpp"
 #include "report/run.hpp"
 
@@ -77,32 +78,35 @@ std::string drawing_json(const cases::Case& c, const diff::Capture& capture,
         if (!is_hit(capture, index)) {
             continue;
         }
-        const size_t pixel = index / c.target.samples;
+        const ref::SampleId at = ref::sample_at(c.target, index);
         Json values = Json::object();
         for (const Value& v : values_at(c, capture, index)) {
             values[v.name] = number(v.value);
         }
-        samples.push_back({{"x", pixel % c.target.width},
-                           {"y", pixel / c.target.width},
-                           {"sample", index % c.target.samples},
-                           {"front", static_cast<uint32_t>(capture.hits[index].x)},
-                           {"back", static_cast<uint32_t>(capture.hits[index].y)},
-                           {"draw", capture.writers[index].draw},
-                           {"primitive", capture.writers[index].primitive},
-                           {"values", std::move(values)}});
+        Json sample = {{"x", at.x}, {"y", at.y}, {"sample", at.sample}};
+        if (c.target.layers > 1) {
+            sample["layer"] = at.layer;
+        }
+        sample["front"] = static_cast<uint32_t>(capture.hits[index].x);
+        sample["back"] = static_cast<uint32_t>(capture.hits[index].y);
+        sample["draw"] = capture.writers[index].draw;
+        sample["primitive"] = capture.writers[index].primitive;
+        sample["values"] = std::move(values);
+        samples.push_back(std::move(sample));
     }
     return dump({{"schema", "edgecase-drawing-1"},
                  {"id", c.id},
                  {"renderer", renderer},
                  {"width", c.target.width},
                  {"height", c.target.height},
+                 {"layers", c.target.layers},
                  {"samples_per_pixel", c.target.samples},
                  {"note", "samples that were not hit are left out"},
                  {"samples", std::move(samples)}});
 }
 
 report::Image drawing_values(const cases::Case& c, const diff::Capture& capture) {
-    report::Image image{c.target.width, c.target.height, {}, {}};
+    report::Image image{c.target.width, c.target.rows(), {}, {}};  // layers stacked
     for (uint32_t s = 0; s < c.target.samples; ++s) {
         const std::string prefix = c.target.samples > 1 ? fmt::format("sample{}.", s) : "";
         for (const char* name : {"front", "back", "draw", "primitive"}) {
@@ -128,7 +132,7 @@ report::Image drawing_values(const cases::Case& c, const diff::Capture& capture)
 
 // White where all samples of a pixel were hit, black where none was.
 report::Image drawing_picture(const cases::Case& c, const diff::Capture& capture) {
-    report::Image image{c.target.width, c.target.height, {"R", "G", "B"}, {}};
+    report::Image image{c.target.width, c.target.rows(), {"R", "G", "B"}, {}};
     for (size_t first = 0; first < capture.sample_count(); first += c.target.samples) {
         float sum = 0;
         for (uint32_t s = 0; s < c.target.samples; ++s) {

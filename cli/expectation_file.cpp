@@ -243,8 +243,11 @@ cases::ExpectedAll<ExpectationFile> load_expectations(const std::filesystem::pat
     std::ifstream in(path, std::ios::binary);
     std::ostringstream text;
     if (!in || !(text << in.rdbuf())) {
-        return tl::unexpected(
-            Errors{{{path.string(), 0, 0}, "the expectation file is empty or cannot be read"}});
+        std::error_code ignored;
+        return tl::unexpected(Errors{{{path.string(), 0, 0},
+                                      std::filesystem::exists(path, ignored)
+                                          ? "the expectation file is empty or cannot be read"
+                                          : "there is no such expectation file"}});
     }
     return parse_expectations(text.str(), path, today_utc());
 }

@@ -104,7 +104,8 @@ std::string drawing(const cases::Case& c, const ref::Limits& limits, cases::Prof
     for (uint32_t y = top; y <= bottom; ++y) {
         text += "    ";
         for (uint32_t x = left; x <= right; ++x) {
-            const size_t at = (size_t{y} * c.target.width + x) * c.target.samples + sample.sample;
+            const size_t row = size_t{sample.layer} * c.target.height + y;
+            const size_t at = (row * c.target.width + x) * c.target.samples + sample.sample;
             const ref::HitBounds& hits = expectation.samples[at].hits;
             const char mark = !hits.is_decided()    ? '~'
                               : hits.total_max == 0 ? '.'

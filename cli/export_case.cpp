@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/blit.hpp"
-#include "cases/color.hpp"
+#include "cases/words.hpp"
 #include "cli/plane_files.hpp"
 #include "diff/capture.hpp"
 #include "ref/sample.hpp"
@@ -23,46 +23,6 @@ namespace cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// As in case files.
-constexpr std::array kTopologies = {"triangle-list", "triangle-strip", "triangle-fan"};
-constexpr std::array kCulls = {"none", "front", "back", "front-and-back"};
-constexpr std::array kFrontFaces = {"counter-clockwise", "clockwise"};
-constexpr std::array kInterpolations = {"smooth", "noperspective", "flat"};
-constexpr std::array kAuxiliaries = {"none", "centroid", "sample"};
-constexpr std::array kProvoking = {"first", "last"};
-constexpr std::array kCompares = {
-    "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
-    "always"};
-constexpr std::array kDepthFormats = {"d32-float", "d24-unorm", "d16-unorm"};
-constexpr std::array kSources = {"vertex", "barycentric", "sample-mask-in", "sample-id",
-                                 "sample-position"};
-constexpr std::array kProbes = {"value",         "at-centroid", "at-sample", "at-offset",
-                                "dfdx",          "dfdy",        "dfdx-fine", "dfdy-fine",
-                                "dfdx-coarse",   "dfdy-coarse", "fwidth",    "fwidth-fine",
-                                "fwidth-coarse", "query-lod"};
-constexpr std::array kFactors = {"zero",
-                                 "one",
-                                 "src-color",
-                                 "one-minus-src-color",
-                                 "dst-color",
-                                 "one-minus-dst-color",
-                                 "src-alpha",
-                                 "one-minus-src-alpha",
-                                 "dst-alpha",
-                                 "one-minus-dst-alpha",
-                                 "constant-color",
-                                 "one-minus-constant-color",
-                                 "constant-alpha",
-                                 "one-minus-constant-alpha",
-                                 "src-alpha-saturate"};
-constexpr std::array kOps = {"add", "subtract", "reverse-subtract", "min", "max"};
-constexpr std::array kResolves = {"none", "sample-zero", "average", "min", "max"};
-
-template <class Words, class Enum>
-const char* word(const Words& words, Enum value) {
-    return words.at(static_cast<size_t>(value));
-}
 
 // A binary32 as the shortest decimal text of the same binary64, so that it comes back bit for bit
 // through either format; what JSON cannot hold as a word.
@@ -104,10 +64,10 @@ Vectors vectors(const std::vector<glm::vec4>& from, uint32_t count) {
 
 Json attribute_json(const cases::Attribute& a) {
     Json out = {{"name", a.name},
-                {"interpolation", word(kInterpolations, a.interpolation)},
-                {"auxiliary", word(kAuxiliaries, a.auxiliary)},
-                {"source", word(kSources, a.source)},
-                {"probe", word(kProbes, a.probe)},
+                {"interpolation", cases::word_of(a.interpolation)},
+                {"auxiliary", cases::word_of(a.auxiliary)},
+                {"source", cases::word_of(a.source)},
+                {"probe", cases::word_of(a.probe)},
                 {"components", a.components}};
     if (a.probe == cases::Probe::at_sample) {
         out["probe_sample"] = a.probe_sample;
@@ -125,24 +85,26 @@ Json attribute_json(const cases::Attribute& a) {
 }
 
 Json depth_json(const cases::DepthState& d) {
-    Json out = {{"compare", word(kCompares, d.compare)},
+    Json out = {{"compare", cases::word_of(d.compare)},
                 {"write", d.write},
                 {"bias", nullptr},
                 {"clamp", d.clamp},
                 {"clip", d.clip.value_or(!d.clamp)},
-                {"volume", d.negative_one_to_one ? "negative-one-to-one" : "zero-to-one"}};
+                {"volume", cases::kVolumeWords.at(d.negative_one_to_one ? 1 : 0)}};
     if (d.bias) {
         out["bias"] = {{"constant", number(d.bias->constant)},
                        {"slope", number(d.bias->slope)},
-                       {"clamp", number(d.bias->clamp)}};
+                       {"clamp", number(d.bias->clamp)},
+                       {"representation", cases::word_of(d.bias->representation)},
+                       {"exact", d.bias->is_exact}};
     }
     return out;
 }
 
 Json equation_json(const cases::BlendEquation& e) {
-    return {{"source", word(kFactors, e.source)},
-            {"destination", word(kFactors, e.destination)},
-            {"op", word(kOps, e.op)}};
+    return {{"source", cases::word_of(e.source)},
+            {"destination", cases::word_of(e.destination)},
+            {"op", cases::word_of(e.op)}};
 }
 
 Json color_json(const cases::ColorOutput& c) {
@@ -170,7 +132,7 @@ Json draw_json(const cases::Draw& d, const std::vector<ref::Triangle>& triangles
         provoking.push_back(t.provoking);
     }
     Json out = {
-        {"topology", word(kTopologies, d.topology)},  {"positions", std::move(positions.values)},
+        {"topology", cases::word_of(d.topology)},     {"positions", std::move(positions.values)},
         {"position_bits", std::move(positions.bits)}, {"indices", nullptr},
         {"primitive_restart", d.primitive_restart},   {"triangles", std::move(assembled)},
         {"provoking_vertices", std::move(provoking)}};
@@ -189,9 +151,9 @@ Json draw_json(const cases::Draw& d, const std::vector<ref::Triangle>& triangles
                       {"y", d.scissor.y},
                       {"width", d.scissor.width},
                       {"height", d.scissor.height}};
-    out["cull"] = word(kCulls, d.cull);
-    out["front_face"] = word(kFrontFaces, d.front_face);
-    out["provoking_vertex"] = word(kProvoking, d.provoking);
+    out["cull"] = cases::word_of(d.cull);
+    out["front_face"] = cases::word_of(d.front_face);
+    out["provoking_vertex"] = cases::word_of(d.provoking);
     out["depth"] = depth_json(d.depth);
     Json multisample = {{"sample_mask", d.multisample.sample_mask},
                         {"shader_mask", nullptr},
@@ -230,15 +192,15 @@ Json target_json(const cases::Target& t) {
                 {"depth", nullptr},
                 {"color", nullptr},
                 {"stencil", t.has_stencil},
-                {"color_resolve", word(kResolves, t.color_resolve)},
-                {"depth_resolve", word(kResolves, t.depth_resolve)}};
+                {"color_resolve", cases::word_of(t.color_resolve)},
+                {"depth_resolve", cases::word_of(t.depth_resolve)}};
     if (t.has_depth) {
-        out["depth"] = {{"format", word(kDepthFormats, t.depth_format)},
+        out["depth"] = {{"format", cases::word_of(t.depth_format)},
                         {"clear", number(t.depth_clear)},
                         {"clear_bits", bits(glm::vec4(t.depth_clear), 1)}};
     }
     if (t.color) {
-        out["color"] = {{"format", cases::name_of(t.color->format)},
+        out["color"] = {{"format", cases::word_of(t.color->format)},
                         {"clear", numbers(t.color->clear, 4)}};
     }
     return out;
@@ -249,9 +211,9 @@ Json corners_json(const cases::Corners& c) {
 }
 
 Json blit_json(const cases::Blit& b) {
-    return {{"filter", b.filter == cases::BlitFilter::linear ? "linear" : "nearest"},
+    return {{"filter", cases::word_of(b.filter)},
             {"source",
-             {{"format", cases::name_of(b.source_format)},
+             {{"format", cases::word_of(b.source_format)},
               {"width", b.source_width},
               {"height", b.source_height},
               {"codes", cases::blit_source(b)}}},
@@ -325,6 +287,7 @@ class Needs {
         add(d.depth.compare != cases::CompareOp::always, "depth-test");
         add(!d.depth.write, "depth-write-mask");
         add(d.depth.bias.has_value(), "depth-bias");
+        add(d.depth.bias && d.depth.bias->is_controlled(), "depth-bias-control");
         add(d.depth.clamp || d.depth.clip.value_or(true) != true, "depth-clamp");
         add(d.depth.negative_one_to_one, "depth-volume");
         add(d.distances.clip_count > 0, "clip-distance");

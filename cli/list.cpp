@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The commands that look at case files only: "list", "lint" and "explain".
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -124,7 +125,14 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
 }  // namespace
 
 int list_command(const Program& program, const ListOptions& options) {
-    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    // Names alone need no cases, unless something else than names is asked for: "@rule:...".
+    const bool names_only = options.ids && !options.json && !options.long_form &&
+                            std::none_of(options.suite.selectors.begin(),
+                                         options.suite.selectors.end(), [](const std::string& s) {
+                                             return s.find('@') != std::string::npos || s == "-";
+                                         });
+    const OrStop<LoadedSuite> suite = load_and_select(
+        program, options.suite, names_only ? cases::Contents::ids : cases::Contents::all);
     if (!suite) {
         return report_stop(suite.error());
     }

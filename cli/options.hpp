@@ -92,7 +92,7 @@ struct ExpectOptions {
 
 struct CompareOptions {
     std::vector<std::string> directories;
-    std::string json;
+    std::string json, html;
     bool verbose = false;
     When color = When::automatic;
 };

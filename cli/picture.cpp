@@ -75,6 +75,7 @@ Shape shape_of(const cases::Draw& draw, const ref::Triangle& t, const ref::Limit
     Shape shape;
     shape.draw = t.draw;
     shape.primitive = t.primitive;
+    shape.layer = draw.layer;
     shape.vertex = t.vertex;
     shape.has_points = true;
     shape.is_exact = true;
@@ -102,16 +103,6 @@ Shape shape_of(const cases::Draw& draw, const ref::Triangle& t, const ref::Limit
         shape.piece = clipped_piece(draw, t, profile);
     }
     return shape;
-}
-
-// By `rows` pixels, to where the triangle's layer lies in the stack.
-void move_down(Shape& shape, uint32_t rows) {
-    for (size_t k = 1; k < shape.points.size(); k += 2) {
-        shape.points.at(k) += rows * ref::kFixedOne;
-    }
-    for (size_t k = 1; k < shape.piece.size(); k += 2) {
-        shape.piece[k] += rows;
-    }
 }
 
 }  // namespace
@@ -213,9 +204,8 @@ Geometry geometry_of(const Window& window, const cases::Case& c, const ref::Limi
         return g;
     }
     for (const cases::Draw& draw : c.draws) {
-        g.scissors.push_back({draw.scissor.x,
-                              int64_t{draw.layer} * c.target.height + draw.scissor.y,
-                              draw.scissor.width, draw.scissor.height});
+        g.scissors.push_back(
+            {draw.scissor.x, draw.scissor.y, draw.scissor.width, draw.scissor.height});
     }
     g.triangle_total = expectation.triangles.size();
     for (const ref::Triangle& t : expectation.triangles) {
@@ -223,12 +213,12 @@ Geometry geometry_of(const Window& window, const cases::Case& c, const ref::Limi
             break;
         }
         Shape shape = shape_of(c.draws[t.draw], t, limits, expectation.profile);
-        move_down(shape, c.draws[t.draw].layer * c.target.height);
+        const int64_t down = int64_t{shape.layer} * c.target.height * ref::kFixedOne;
         const auto& p = shape.points;
         const bool shows =
             shape.has_points
-                ? window.meets(std::min({p[0], p[2], p[4]}), std::min({p[1], p[3], p[5]}),
-                               std::max({p[0], p[2], p[4]}), std::max({p[1], p[3], p[5]}))
+                ? window.meets(std::min({p[0], p[2], p[4]}), std::min({p[1], p[3], p[5]}) + down,
+                               std::max({p[0], p[2], p[4]}), std::max({p[1], p[3], p[5]}) + down)
                 : !shape.piece.empty();
         if (shows) {
             g.triangles.push_back(std::move(shape));

@@ -16,6 +16,8 @@
 #include "cases/selector.hpp"
 #include "cli/plane_numbers.hpp"
 #include "diff/capture.hpp"
+#include "diff/verdict.hpp"
+#include "ref/sample.hpp"
 #include "report/reports.hpp"
 
 namespace cli {
@@ -130,7 +132,7 @@ namespace {
 class Placement {
   public:
     explicit Placement(const cases::Target& target)
-        : pixels_(size_t{target.width} * target.height), samples_(target.samples) {}
+        : pixels_(size_t{target.width} * target.rows()), samples_(target.samples) {}
     size_t count() const { return pixels_ * samples_; }
     size_t in_file(size_t index) const { return index % samples_ * pixels_ + index / samples_; }
 
@@ -140,10 +142,9 @@ class Placement {
 
 // Where an entry lies, in words: "pixel (3, 4)", "sample 1 of pixel (3, 4)".
 std::string place(const cases::Target& target, size_t index) {
-    const size_t pixel = index / target.samples;
-    const std::string at =
-        fmt::format("pixel ({}, {})", pixel % target.width, pixel / target.width);
-    return target.samples == 1 ? at : fmt::format("sample {} of {}", index % target.samples, at);
+    const ref::SampleId id = ref::sample_at(target, index);
+    const std::string at = diff::pixel_text(target, id);
+    return target.samples == 1 ? at : fmt::format("sample {} of {}", id.sample, at);
 }
 
 class Reader {

@@ -5,7 +5,8 @@
 // and how those are read. docs/other-renderers.md tells it to people.
 //
 // A file holds the samples of a plane row by row from the top; with several samples a pixel, the
-// rows of sample 0 come first, then those of sample 1. The channels of a sample stand together.
+// rows of sample 0 come first, then those of sample 1; of several layers, the rows of layer 0 come
+// first, then those of layer 1, within each sample. The channels of a sample stand together.
 #pragma once
 
 #include <filesystem>

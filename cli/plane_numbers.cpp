@@ -33,7 +33,8 @@ std::string quoted(const fs::path& file) {
 }
 
 std::string size_text(const cases::Target& target) {
-    return fmt::format("{} x {} pixels{}", target.width, target.height,
+    return fmt::format("{} x {} pixels{}{}", target.width, target.height,
+                       target.layers == 1 ? "" : fmt::format(", {} layers", target.layers),
                        target.samples == 1 ? "" : fmt::format(", {} samples", target.samples));
 }
 
@@ -43,7 +44,7 @@ uint32_t little_endian(const unsigned char* bytes) {
 
 cases::Expected<PlaneNumbers> read_raw(const fs::path& file, const std::string& ending,
                                        const PlaneSpec& spec, const cases::Target& target) {
-    const uint64_t entries = uint64_t{target.width} * target.height * target.samples;
+    const uint64_t entries = uint64_t{target.width} * target.rows() * target.samples;
     const size_t bytes = ending == "u8" ? 1 : 4;
     std::error_code error;
     const uint64_t size = fs::file_size(file, error);
@@ -138,10 +139,11 @@ cases::Expected<PlaneNumbers> read_picture(const fs::path& file, const PlaneSpec
     if (!image) {
         return tl::unexpected(image.error());
     }
-    if (image->width != target.width || image->height != target.height * target.samples) {
+    if (image->width != target.width || image->height != target.rows() * target.samples) {
         return failure(fmt::format(
-            "{} has {} x {} pixels; {} take an image of {} x {}{}", quoted(file), image->width,
-            image->height, size_text(target), target.width, target.height * target.samples,
+            "{} has {} x {} pixels; {} take an image of {} x {}{}{}", quoted(file), image->width,
+            image->height, size_text(target), target.width, target.rows() * target.samples,
+            target.layers == 1 ? "" : ", the rows of each layer below those of the one before",
             target.samples == 1 ? "" : ", the rows of each sample below those of the one before"));
     }
     const bool needs_floats = spec.kind == PlaneKind::value || spec.kind == PlaneKind::id;

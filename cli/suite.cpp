@@ -121,12 +121,13 @@ OrStop<fs::path> find_suite_root(const Program& program, const std::string& opti
                                 source_tree_suite().string() + "'; name it with --suite DIR"}});
 }
 
-OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options) {
+OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,
+                                    cases::Contents contents) {
     const OrStop<fs::path> root = find_suite_root(program, options.suite);
     if (!root) {
         return tl::unexpected(root.error());
     }
-    cases::Suite loaded = cases::load_suite(*root);
+    cases::Suite loaded = cases::load_suite(*root, contents);
     if (!loaded.errors.empty()) {
         return tl::unexpected(invalid_files(loaded.errors));
     }

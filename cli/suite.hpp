@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cases/case.hpp"
+#include "cases/loader.hpp"
 #include "cli/options.hpp"
 #include "cli/program.hpp"
 
@@ -40,7 +41,8 @@ struct LoadedSuite {
     std::vector<size_t> selected;    // indices into cases, in suite order
 };
 // Loads all and selects. Errors: invalid files (3), a selector that matches nothing (4).
-OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options);
+OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,
+                                    cases::Contents contents = cases::Contents::all);
 
 // As load_and_select, for commands on a single case.
 OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options);

@@ -5,7 +5,7 @@
 # edgecase_report as raw string literals ("embedded/report.css.inc" and so on).
 set(EDGECASE_EMBED_DIR ${CMAKE_BINARY_DIR}/embedded)
 foreach(part report.html report.css dom.js exact.js geometry.js pictures.js canvas.js viewer.js inspector.js
-        case.js overview.js main.js)
+        case.js overview.js main.js compare.html compare.js)
     set(source ${CMAKE_SOURCE_DIR}/report/html/${part})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
     file(READ ${source} text)

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cases/derive.hpp"
+#include "diff/blank_capture.hpp"
 #include "diff/pixel_check.hpp"
 #include "ref/color.hpp"
 
@@ -74,21 +75,8 @@ class Completion {
     }
 
     Capture run() {
-        out_.target = case_.target;
-        out_.has_primitive = true;
-        out_.attribute_count = cases::attributes_of(case_);
+        out_ = blank_capture(case_);
         const size_t count = out_.sample_count();
-        out_.hits.assign(count, {0, 0, kHitGuard, kHitGuard});
-        out_.writers.assign(count, Writer{});
-        out_.frag_coord.assign(count, glm::vec4(kClearValue));
-        const float depth =
-            case_.target.depth_format == cases::DepthFormat::d32_float
-                ? case_.target.depth_clear
-                : nearest_depth(case_.target.depth_clear, case_.target.depth_format);
-        out_.depth.assign(count, depth);
-        for (uint32_t a = 0; a < out_.attribute_count; ++a) {
-            out_.attributes.at(a).assign(count, glm::vec4(kClearValue));
-        }
         for (size_t index = 0; index < count; ++index) {
             complete(index);
         }

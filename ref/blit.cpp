@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "cases/words.hpp"
+
 namespace ref {
 
 using cases::BlitFilter;
@@ -346,8 +348,7 @@ std::string BlitReference::explain(uint32_t x, uint32_t y) const {
         blit_coordinate(static_cast<int32_t>(y), down_.s0, down_.s1, down_.d0, down_.d1);
     return fmt::format("u = {}/{} = {}, v = {}/{} = {} in texels of the source, filter {}",
                        u.numerator, u.denominator, rational(u).get_d(), v.numerator, v.denominator,
-                       rational(v).get_d(),
-                       blit_.filter == BlitFilter::linear ? "linear" : "nearest");
+                       rational(v).get_d(), cases::word_of(blit_.filter));
 }
 
 }  // namespace ref

@@ -51,20 +51,11 @@ std::string command_text(std::string_view bytes, bool is_property) {
 // Text in a cell of a Markdown table.
 std::string cell(std::string_view bytes) {
     std::string text;
-    for (const char c : printable(bytes)) {
+    for (const char c : markup(bytes)) {
         switch (c) {
             case '\n':
             case '\t':
                 text += ' ';
-                break;
-            case '&':
-                text += "&amp;";
-                break;
-            case '<':
-                text += "&lt;";
-                break;
-            case '>':
-                text += "&gt;";
                 break;
             case '|':
             case '`':
@@ -152,10 +143,11 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
 std::string to_github_summary(const Run& run) {
     const Device& d = run.device;
     std::string text = fmt::format("## Edgecase: {}\n\n", exit_text(exit_code(run)));
-    text += fmt::format("{}, {} {}, Vulkan {}, {} subpixel bits, profile {}, seed {}, {}\n\n",
-                        cell(d.name), cell(d.driver_name), cell(d.driver_info), cell(d.api_version),
-                        d.subpixel_bits, cases::to_string(run.profile), run.seed,
-                        seconds_text(run.seconds));
+    text +=
+        fmt::format("{}, {}{}{}{}, {} subpixel bits, profile {}, seed {}, {}\n\n", cell(d.name),
+                    cell(d.driver_name), d.driver_info.empty() ? "" : " ", cell(d.driver_info),
+                    d.api_version.empty() ? "" : ", Vulkan " + cell(d.api_version), d.subpixel_bits,
+                    cases::to_string(run.profile), run.seed, seconds_text(run.seconds));
     text += "| status | cases |\n| --- | ---: |\n";
     const auto count = totals(run);
     for (size_t k = 0; k < kStatuses; ++k) {

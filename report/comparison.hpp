@@ -58,11 +58,21 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs);
 // 1 with a regression, else 7 if a run is not whole, else 0.
 int exit_code(const Comparison& comparison);
 
+// "regressions: 2 cases got worse"
+std::string heading(Change change, size_t count);
+// "exit 1: regressions"
+std::string exit_words(const Comparison& comparison);
+
 // The table for a terminal. style.verbose lists every case that is not the same and draws where the
 // kept pictures (--capture all) differ.
 std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison& comparison,
                             const ConsoleStyle& style);
 // docs/schema/comparison-1.json
 std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison& comparison);
+// One page that loads nothing: the runs, every case that is not the same, and where kept pictures
+// differ, at most some 6 MiB of them. `reports`: the address of each run's report.html as the page
+// sees it, to which the cases lead; empty without one.
+std::string comparison_html(const std::vector<NamedRun>& runs, const Comparison& comparison,
+                            const std::vector<std::string>& reports);
 
 }  // namespace report

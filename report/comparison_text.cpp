@@ -25,31 +25,6 @@ std::string status_word(const CaseRecord* record) {
     return word;
 }
 
-std::string heading(Change change, size_t count) {
-    const std::string_view cases = count == 1 ? "case" : "cases";
-    switch (change) {
-        case Change::regression:
-            return fmt::format("regressions: {} {} got worse", count, cases);
-        case Change::fix:
-            return fmt::format("fixes: {} {} got better", count, cases);
-        case Change::fails_otherwise:
-            return fmt::format("fail in all, in different ways: {} {}", count, cases);
-        case Change::fails_alike:
-            return fmt::format("fail in all, bit for bit alike: {} {}", count, cases);
-        case Change::other_coverage:
-            return fmt::format("the reference allows both, other samples are hit: {} {}", count,
-                               cases);
-        case Change::other_values:
-            return fmt::format("pass with the same hits and other values within the budgets: {} {}",
-                               count, cases);
-        case Change::only_in_some:
-            return fmt::format("judged in some of the runs only: {} {}", count, cases);
-        case Change::same:
-            break;
-    }
-    return fmt::format("the same bit for bit: {} {}", count, cases);
-}
-
 size_t listed(Change change, bool verbose) {
     if (change == Change::same) {
         return 0;
@@ -104,6 +79,33 @@ std::string picture(const ComparedCase& c, const std::vector<std::string>& lette
     return {};
 }
 
+}  // namespace
+
+std::string heading(Change change, size_t count) {
+    const std::string_view cases = count == 1 ? "case" : "cases";
+    switch (change) {
+        case Change::regression:
+            return fmt::format("regressions: {} {} got worse", count, cases);
+        case Change::fix:
+            return fmt::format("fixes: {} {} got better", count, cases);
+        case Change::fails_otherwise:
+            return fmt::format("fail in all, in different ways: {} {}", count, cases);
+        case Change::fails_alike:
+            return fmt::format("fail in all, bit for bit alike: {} {}", count, cases);
+        case Change::other_coverage:
+            return fmt::format("the reference allows both, other samples are hit: {} {}", count,
+                               cases);
+        case Change::other_values:
+            return fmt::format("pass with the same hits and other values within the budgets: {} {}",
+                               count, cases);
+        case Change::only_in_some:
+            return fmt::format("judged in some of the runs only: {} {}", count, cases);
+        case Change::same:
+            break;
+    }
+    return fmt::format("the same bit for bit: {} {}", count, cases);
+}
+
 std::string exit_words(const Comparison& comparison) {
     const int code = exit_code(comparison);
     return fmt::format("exit {}: {}", code,
@@ -111,8 +113,6 @@ std::string exit_words(const Comparison& comparison) {
                        : code == kExitUnexpected ? "regressions"
                                                  : "no regression, but cases were not judged");
 }
-
-}  // namespace
 
 std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison& comparison,
                             const ConsoleStyle& style) {

@@ -136,11 +136,14 @@ std::string or_unknown(const std::string& text) {
 
 std::string console_header(const Run& run, const ConsoleStyle& style) {
     const Device& d = run.device;
+    // Captures of another renderer have no Vulkan.
+    const bool is_other = d.type == "other" && d.api_version.empty();
     std::string text = fmt::format(
-        "{}  {}  {}{}{}  Vulkan {}  {} subpixel bits  profile {}  seed {}",
+        "{}  {}  {}{}{}{}  {} subpixel bits  profile {}  seed {}",
         painted("edgecase " + or_unknown(run.tool_version), "1", style), or_unknown(d.name),
         or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ", printable(d.driver_info),
-        or_unknown(d.api_version), d.subpixel_bits, cases::to_string(run.profile), run.seed);
+        is_other ? std::string() : "  Vulkan " + or_unknown(d.api_version), d.subpixel_bits,
+        cases::to_string(run.profile), run.seed);
     std::replace(text.begin(), text.end(), '\n', ' ');
     text += '\n';
     return style.wrap ? wrapped(text, style.width) : text;

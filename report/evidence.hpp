@@ -15,6 +15,7 @@ namespace report {
 // One assembled triangle.
 struct Shape {
     uint32_t draw = 0, primitive = 0;  // gl_PrimitiveID
+    uint32_t layer = 0;                // that it goes to; coordinates are those of the layer
     std::array<uint32_t, 3> vertex{};  // numbers in the draw
     // x0, y0, x1, y1, x2, y2 after snapping to the nearest subpixel position, in 2^-16 pixels
     // (ref/sample.hpp); meaningless unless has_points.

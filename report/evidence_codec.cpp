@@ -56,7 +56,8 @@ Json shape(const Shape& t) {
             points.push_back(p);
         }
     }
-    Json json{{"of", Json::array({t.draw, t.primitive})},
+    Json json{{"of", t.layer == 0 ? Json::array({t.draw, t.primitive})
+                                  : Json::array({t.draw, t.primitive, t.layer})},
               {"v", Json::array({t.vertex[0], t.vertex[1], t.vertex[2]})},
               {"p", points},
               {"flags", (t.is_exact ? 1U : 0U) | (t.is_clipped ? 2U : 0U)}};
@@ -73,6 +74,7 @@ Shape read_shape(const Json& json) {
     Shape t;
     t.draw = u32(entry(field(json, "of"), 0, "\"of\""), "of");
     t.primitive = u32(entry(field(json, "of"), 1, "\"of\""), "of");
+    t.layer = field(json, "of").size() > 2 ? u32(field(json, "of")[2], "of") : 0;
     for (size_t k = 0; k < 3; ++k) {
         t.vertex.at(k) = u32(entry(field(json, "v"), k, "\"v\""), "v");
     }

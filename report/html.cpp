@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/page_data.hpp"
+#include "report/page_parts.hpp"
 #include "report/reports.hpp"
 #include "report/sentences.hpp"
 
@@ -18,9 +19,6 @@ namespace {
 // The page, from report/html/ (cmake/Embed.cmake).
 constexpr std::string_view kPage =
 #include "embedded/report.html.inc"
-    ;
-constexpr std::string_view kStyle =
-#include "embedded/report.css.inc"
     ;
 // In an order in which each file uses only what stands above it at load time.
 constexpr std::string_view kScripts[] = {
@@ -46,55 +44,8 @@ constexpr std::string_view kScripts[] = {
     ,
 };
 
-std::string escaped(std::string_view bytes) {
-    std::string text;
-    for (const char c : printable(bytes)) {
-        switch (c) {
-            case '&':
-                text += "&amp;";
-                break;
-            case '<':
-                text += "&lt;";
-                break;
-            case '>':
-                text += "&gt;";
-                break;
-            case '"':
-                text += "&quot;";
-                break;
-            case '\'':
-                text += "&#39;";
-                break;
-            default:
-                text += c;
-        }
-    }
-    return text;
-}
-
-// JSON inside <script>: no "<" at all, so neither "</script>" nor "<!--" can end or change it.
-std::string script_data(const Json& json) {
-    std::string text;
-    for (const char c : json.dump()) {
-        switch (c) {
-            case '<':
-                text += "\\u003c";
-                break;
-            case '>':
-                text += "\\u003e";
-                break;
-            case '&':
-                text += "\\u0026";
-                break;
-            default:
-                text += c;
-        }
-    }
-    return text;
-}
-
 std::string fact(std::string_view name, const std::string& value) {
-    return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escaped(value));
+    return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, markup(value));
 }
 
 std::string key_fact(std::string_view name, const std::string& value) {
@@ -112,9 +63,9 @@ std::string title_of(const Run& run) {
 std::string header(const Run& run) {
     const Device& d = run.device;
     std::string text =
-        fmt::format("<h1>{}</h1>\n", escaped(d.name.empty() ? std::string("no device") : d.name));
+        fmt::format("<h1>{}</h1>\n", markup(d.name.empty() ? std::string("no device") : d.name));
     text += fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n",
-                        escaped(exit_text(exit_code(run))));
+                        markup(exit_text(exit_code(run))));
     text += key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info);
     text += key_fact("Vulkan", d.api_version);
     text += key_fact("subpixel bits", fmt::format("{}", d.subpixel_bits));
@@ -134,10 +85,10 @@ std::string header(const Run& run) {
     text += fact("expectations", run.expectation_file);
     text += "</dl><pre>";
     for (const auto& [name, value] : run.environment) {
-        text += escaped(name + "=" + value) + "\n";
+        text += markup(name + "=" + value) + "\n";
     }
     for (size_t k = 0; k < run.arguments.size(); ++k) {
-        text += (k > 0 ? " " : "") + escaped(run.arguments[k]);
+        text += (k > 0 ? " " : "") + markup(run.arguments[k]);
     }
     return text + "</pre></details>";
 }
@@ -150,8 +101,8 @@ std::string table(const Run& run) {
     for (const CaseRecord& r : run.cases) {
         const std::string what = what_happened(r);
         text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", to_string(r.status),
-                            escaped(r.id), escaped(what),
-                            is_expected(r.status) ? "" : "<br>" + escaped(why_it_happened(r)));
+                            markup(r.id), markup(what),
+                            is_expected(r.status) ? "" : "<br>" + markup(why_it_happened(r)));
     }
     return text + "</tbody></table>";
 }
@@ -167,25 +118,15 @@ std::string script() {
 // One page; `left_out` as page_data() fills it.
 std::string page_of(const Run& run, size_t part, std::vector<size_t>& left_out) {
     const std::string part_text = part > 1 ? fmt::format(" (part {})", part) : "";
-    const std::pair<std::string_view, std::string> fields[] = {
-        {"{{TITLE}}", escaped(title_of(run)) + part_text},
-        {"{{CSS}}", std::string(kStyle)},
+    const PageField fields[] = {
+        {"{{TITLE}}", markup(title_of(run)) + part_text},
+        {"{{CSS}}", std::string(page_style())},
         {"{{HEADER}}", header(run)},
         {"{{TABLE}}", table(run)},
         {"{{DATA}}", script_data(page_data(run, part, left_out))},
         {"{{SCRIPT}}", script()},
     };
-    // One pass in the page's order: what is put in is never searched for fields again.
-    std::string text;
-    std::string_view rest = kPage;
-    for (const auto& [name, value] : fields) {
-        const size_t at = rest.find(name);
-        text += rest.substr(0, at);
-        text += value;
-        rest.remove_prefix(std::min(rest.size(), at + name.size()));
-    }
-    text += rest;
-    return text;
+    return fill_page(kPage, fields);
 }
 
 }  // namespace

@@ -23,20 +23,12 @@ Json texts(const std::vector<std::string>& list) {
     return json;
 }
 
-Json device_json(const Device& d) {
-    return Json{{"name", printable(d.name)},
-                {"driver_name", printable(d.driver_name)},
-                {"driver_info", printable(d.driver_info)},
-                {"uuid", printable(d.uuid)},
-                {"type", printable(d.type)},
-                {"api_version", printable(d.api_version)},
-                {"vendor_id", d.vendor_id},
-                {"device_id", d.device_id},
-                {"driver_version", d.driver_version},
-                {"driver_id", d.driver_id},
-                {"subpixel_bits", d.subpixel_bits},
-                {"viewport_subpixel_bits", d.viewport_subpixel_bits},
-                {"has_primitive_id", d.has_primitive_id}};
+Json device_json(Device d) {
+    for (std::string* text :
+         {&d.name, &d.driver_name, &d.driver_info, &d.uuid, &d.type, &d.api_version}) {
+        *text = printable(*text);
+    }
+    return encode_device(d);
 }
 
 Json finding_json(const diff::Finding& f) {

@@ -14,35 +14,10 @@ namespace {
 constexpr size_t kMaxPixels = 10;         // findings told in the text of a case
 constexpr size_t kMaxOutput = 64 * 1024;  // bytes of a driver's output, head and tail
 
-// Element text. printable() leaves only what XML 1.0 allows (section 2.2); ">" is escaped too, so
-// that "]]>" never appears.
-std::string escaped(std::string_view bytes) {
-    std::string text;
-    for (const char c : printable(bytes)) {
-        switch (c) {
-            case '&':
-                text += "&amp;";
-                break;
-            case '<':
-                text += "&lt;";
-                break;
-            case '>':
-                text += "&gt;";
-                break;
-            case '"':
-                text += "&quot;";
-                break;
-            default:
-                text += c;
-        }
-    }
-    return text;
-}
-
 // Attribute value: parsers turn a bare newline or tab into a space (section 3.3.3).
 std::string attribute(std::string_view bytes) {
     std::string text;
-    for (const char c : escaped(bytes)) {
+    for (const char c : markup(bytes)) {
         if (c == '\n') {
             text += "&#10;";
         } else if (c == '\t') {
@@ -147,11 +122,10 @@ std::string test_case(const CaseRecord& record) {
         const std::string_view tag = element == Element::failure ? "failure" : "error";
         text += fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n", tag,
                             to_string(record.status), attribute(what + "\n" + why),
-                            escaped(body_of(record)));
+                            markup(body_of(record)));
     }
     if (!record.stderr_text.empty()) {
-        text +=
-            fmt::format("      <system-err>{}</system-err>\n", escaped(cut(record.stderr_text)));
+        text += fmt::format("      <system-err>{}</system-err>\n", markup(cut(record.stderr_text)));
     }
     return text + "    </testcase>\n";
 }

@@ -77,4 +77,27 @@ std::string printable(std::string_view bytes) {
     return text;
 }
 
+std::string markup(std::string_view bytes) {
+    std::string text;
+    for (const char c : printable(bytes)) {
+        switch (c) {
+            case '&':
+                text += "&amp;";
+                break;
+            case '<':
+                text += "&lt;";
+                break;
+            case '>':
+                text += "&gt;";
+                break;
+            case '"':
+                text += "&quot;";
+                break;
+            default:
+                text += c;
+        }
+    }
+    return text;
+}
+
 }  // namespace report

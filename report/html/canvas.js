@@ -19,14 +19,15 @@ function paint(canvas, scene, shot) {
   context.translate(-shot.left, -shot.top);
   const zoom = shot.zoom, margin = zoom;
   const range = (from, length, size) => [Math.max(0, Math.floor((from - margin) / zoom)), Math.min(size - 1, Math.ceil((from + length - margin) / zoom))];
-  const view = {context, palette, zoom, p, theme: shot.theme, margin, columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
+  const view = {context, palette, zoom, p, theme: shot.theme, margin, above: 0, columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
   context.fillStyle = palette.paper;
   context.fillRect(margin, margin, p.width * zoom, p.height * zoom);
   paintCells(view, scene, shot);
   if (zoom >= 6 && shot.options.grid) { paintGrid(view); }
   paintRulers(view);
+  paintLayers(view);
   if (scene.geometry) {
-    if (shot.options.outlines) { paintRegions(view, scene.geometry); paintTriangles(view, scene.geometry); }
+    if (shot.options.outlines) { paintRegions(view, scene.geometry); eachLayer(view, scene.geometry, paintTriangles); }
     if (shot.options.samples && scene.geometry.blit.length === 0) { paintSamples(view, scene); }
   }
   if (shot.cursor && isInPicture(p, shot.cursor)) { paintCursor(view, scene, shot.cursor); }
@@ -131,11 +132,50 @@ function paintRulers(view) {
     if ((p.left + i) % step === 0) { context.fillText(String(p.left + i), margin + (i + .5) * zoom, margin - Math.min(9, zoom / 2)); }
   }
   for (let j = view.rows[0]; j <= view.rows[1]; ++j) {
-    if ((p.top + j) % step === 0) { context.fillText(String(p.top + j), margin - Math.min(10, zoom / 2), margin + (j + .5) * zoom); }
+    const row = rowInLayer(p, p.top + j);
+    if (row % step === 0) { context.fillText(String(row), margin - Math.min(10, zoom / 2), margin + (j + .5) * zoom); }
   }
 }
 
-const toScreen = (view, x, y) => [view.margin + (x - view.p.left) * view.zoom, view.margin + (y - view.p.top) * view.zoom];
+// Where one of several layers ends and the next begins: a line through both margins, and their numbers beside it.
+function paintLayers(view) {
+  const {context, zoom, margin, p, palette} = view;
+  if (!p.layerHeight) { return; }
+  for (let layer = layerOf(p, p.top); layer <= layerOf(p, p.top + p.height - 1); ++layer) {
+    const y = margin + (Math.max(p.top, layer * p.layerHeight) - p.top) * zoom;
+    context.fillStyle = palette.layer;
+    if (layer * p.layerHeight > p.top) { context.fillRect(0, y - 1, (p.width + 2) * zoom, 3); }
+    if (zoom < 5) { continue; }
+    context.save();
+    context.translate(margin + p.width * zoom + zoom / 2, y + 4);
+    context.rotate(Math.PI / 2);
+    context.font = "600 " + Math.min(12, Math.max(8, zoom * .8)) + "px system-ui, sans-serif";
+    context.textAlign = "left";
+    context.textBaseline = "middle";
+    context.fillText("layer " + layer, 0, 0);
+    context.restore();
+  }
+}
+
+// Calls `draw` with each layer that has triangles, and a view that is cut to its rows, a pixel more at the ends of the picture.
+function eachLayer(view, geometry, draw) {
+  const {context, p, zoom, margin} = view;
+  if (!p.layerHeight) { draw(view, geometry.triangles); return; }
+  for (const layer of new Set(geometry.triangles.map((t) => t.layer))) {
+    const rows = rowsOfLayer(p, layer), isLast = rows.above + rows.last === p.top + p.height - 1;
+    if (rows.last < rows.first) { continue; }
+    const from = margin + (rows.above + rows.first - p.top) * zoom - (rows.above + rows.first === p.top ? margin : 0);
+    const to = margin + (rows.above + rows.last + 1 - p.top) * zoom + (isLast ? margin : 0);
+    context.save();
+    context.beginPath();
+    context.rect(0, from, (p.width + 2) * zoom, to - from);
+    context.clip();
+    draw({...view, above: rows.above}, geometry.triangles.filter((t) => t.layer === layer));
+    context.restore();
+  }
+}
+
+const toScreen = (view, x, y) => [view.margin + (x - view.p.left) * view.zoom, view.margin + (y + view.above - view.p.top) * view.zoom];
 // A fixed-point coordinate is exact in binary64 up to 2^37 pixels.
 const pointOnScreen = (view, point) => toScreen(view, Number(point.x) / 65536, Number(point.y) / 65536);
 
@@ -151,7 +191,7 @@ function strokeTwice(view, width) {
 
 // Edges as thin lines where they are; along top and left edges, which own their samples, a thick one on the owner's side. What
 // clipping leaves is dashed.
-function paintTriangles(view, geometry) {
+function paintTriangles(view, triangles) {
   const {context} = view;
   context.lineCap = "round";
   context.lineJoin = "round";
@@ -166,11 +206,11 @@ function paintTriangles(view, geometry) {
     }
     strokeTwice(view, width);
   };
-  const edges = geometry.triangles.flatMap((t) => t.edges.map((e) => ({...e, hasArea: t.hasArea})));
+  const edges = triangles.flatMap((t) => t.edges.map((e) => ({...e, hasArea: t.hasArea})));
   stroke(edges, thin, 0);
   stroke(edges.filter((e) => e.hasArea && ownsTies(e.kind)), thick, thick / 2);
   context.setLineDash([6, 4]);
-  for (const {piece} of geometry.triangles) {
+  for (const {piece} of triangles) {
     if (piece.length < 4) { continue; }
     context.beginPath();
     for (let k = 0; k + 1 < piece.length; k += 2) {

@@ -108,7 +108,7 @@ function geometrySection(page) {
     const box = ([x0, y0, x1, y1]) => "(" + x0 + ", " + y0 + ") to (" + x1 + ", " + y1 + ")";
     return el("section", {}, el("h2", {}, "What is drawn"), el("p", {}, "A blit of texels " + box(g.blit[0]) + " of the source to " + box(g.blit[1]) + " of the target."));
   }
-  const rows = g.triangles.slice(0, SHOWN_SHAPES).map((t) => el("tr", {}, el("td", {}, triangleName(t, g)),
+  const rows = g.triangles.slice(0, SHOWN_SHAPES).map((t) => el("tr", {}, el("td", {}, triangleName(t, g) + (page.viewer.scene.pictures.layerHeight ? ", layer " + t.layer : "")),
     t.corners.length ? t.corners.map((c) => el("td", {class: "number"}, pointText(c))) : el("td", {colspan: 3, class: "quiet"}, "a vertex has no position on screen"),
     el("td", {}, t.edges.filter((e) => t.hasArea && ownsTies(e.kind)).map((e) => e.kind + " v" + e.a.number + "\u2192v" + e.b.number).join(", ")),
     el("td", {class: "number right"}, t.corners.length ? fractionText(abs(t.area), 33) : "")));

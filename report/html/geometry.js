@@ -12,7 +12,7 @@ function openGeometry(record) {
 }
 
 function openTriangle(t) {
-  const triangle = {draw: t.of[0], primitive: t.of[1], numbers: t.v, isExact: (t.flags & 1) !== 0, isClipped: (t.flags & 2) !== 0,
+  const triangle = {draw: t.of[0], primitive: t.of[1], layer: t.of[2] || 0, numbers: t.v, isExact: (t.flags & 1) !== 0, isClipped: (t.flags & 2) !== 0,
     piece: (t.piece || []).map(Number), corners: [], edges: [], isBackward: false, hasArea: false};
   if (t.p.length !== 6) { return triangle; }
   const corner = (k) => ({number: t.v[k], x: BigInt(t.p[2 * k]), y: BigInt(t.p[2 * k + 1])});
@@ -32,6 +32,7 @@ function openTriangle(t) {
 
 const triangleName = (t, g) => "triangle " + t.primitive + (g.scissors.length > 1 || t.draw > 0 ? " of draw " + t.draw : "");
 
+// `y` is a row of its layer, as those of triangles.
 function samplePosition(g, x, y, s) {
   const at = g.locations[s] || g.locations[0] || {x: ONE / 2n, y: ONE / 2n};
   return {x: BigInt(x) * ONE + at.x, y: BigInt(y) * ONE + at.y};
@@ -65,11 +66,11 @@ function nearness(seen) {
   }
   return least;
 }
-// Triangles that hold the point, then those that miss it by less than two pixels.
-function trianglesAt(g, point) {
+// Triangles of a layer that hold the point, then those that miss it by less than two pixels.
+function trianglesAt(g, point, layer) {
   const found = [];
   for (const triangle of g.triangles) {
-    if (triangle.edges.length === 0) { continue; }
+    if (triangle.edges.length === 0 || triangle.layer !== layer) { continue; }
     const seen = seenFrom(triangle, point);
     seen.nearness = nearness(seen);
     const box = triangle.edges.map((e) => e.a);
@@ -96,7 +97,8 @@ function tiesIn(g, p) {
 function addTies(g, p, triangle, a, b, s, ties) {
   const [top, bottom] = a.y < b.y ? [a.y, b.y] : [b.y, a.y];
   const at = g.locations[s];
-  const first = Math.max(p.top, Number((top - at.y) / ONE) - 1), last = Math.min(p.top + p.height - 1, Number((bottom - at.y) / ONE) + 1);
+  const rows = rowsOfLayer(p, triangle.layer);
+  const first = Math.max(rows.first, Number((top - at.y) / ONE) - 1), last = Math.min(rows.last, Number((bottom - at.y) / ONE) + 1);
   for (let y = first; y <= last; ++y) {
     const row = BigInt(y) * ONE + at.y;
     if (row < top || row > bottom) { continue; }
@@ -115,7 +117,7 @@ function addTies(g, p, triangle, a, b, s, ties) {
       const point = {x: BigInt(x) * ONE + at.x, y: row};
       if (edgeFunction(a, b, point) !== 0n) { continue; }
       if (triangle.edges.every((e) => edgeFunction(e.a, e.b, point) >= 0n)) {
-        ties.add(((y - p.top) * p.width + (x - p.left)) * p.samples + s);
+        ties.add(((y + rows.above - p.top) * p.width + (x - p.left)) * p.samples + s);
       }
     }
   }

@@ -27,7 +27,7 @@ const sampleName = (scene, at) => pixelName(scene.pictures.layerHeight, at.x, at
 function sampleTitle(scene, at) {
   const parts = [el("strong", {}, (scene.geometry && scene.geometry.blit.length ? "Texel " : "Pixel ") + sampleName(scene, at))];
   if (scene.geometry && !scene.geometry.blit.length) {
-    parts.push(el("span", {class: "quiet"}, " at " + pointText(samplePosition(scene.geometry, at.x, at.y, at.sample))));
+    parts.push(el("span", {class: "quiet"}, " at " + pointText(samplePosition(scene.geometry, at.x, rowInLayer(scene.pictures, at.y), at.sample))));
   }
   return parts;
 }
@@ -132,7 +132,7 @@ function edgeRow(e) {
 function trianglesPart(scene, at) {
   const g = scene.geometry;
   if (!g || g.blit.length > 0) { return null; }
-  const point = samplePosition(g, at.x, at.y, at.sample), list = trianglesAt(g, point);
+  const p = scene.pictures, point = samplePosition(g, at.x, rowInLayer(p, at.y), at.sample), list = trianglesAt(g, point, layerOf(p, at.y));
   const parts = [el("h3", {}, "Triangles")];
   if (list.length === 0) { parts.push(el("p", {class: "quiet"}, "No triangle within two pixels.")); }
   for (const seen of list.slice(0, SHOWN_TRIANGLES)) {

@@ -11,9 +11,9 @@ const MARK_COLOR = ["", "#999999", "#D55E00", "#56B4E9", "#CC79A7", "#F0B429", "
 const SEVERAL = 255;  // Verdict::expected_hits: more than one number of hits is allowed
 const PALETTES = {
   light: {paper: "#ffffff", margin: "#eef1f4", hits: ["#ffffff", "#cfd8e1", "#9aa8b6", "#66727e"], free: "#b4bac1", grid: "rgba(30,42,54,.16)",
-    line: "#17212b", halo: "rgba(255,255,255,.85)", quiet: "#5b6670", cursor: "#0059b3", ok: "#e6ebf0"},
+    line: "#17212b", halo: "rgba(255,255,255,.85)", quiet: "#5b6670", cursor: "#0059b3", ok: "#e6ebf0", layer: "#0072b2"},
   dark: {paper: "#171b20", margin: "#21262d", hits: ["#171b20", "#3d4a58", "#62758a", "#93a6ba"], free: "#5a626b", grid: "rgba(225,235,245,.15)",
-    line: "#eef3f8", halo: "rgba(12,15,18,.8)", quiet: "#a2abb5", cursor: "#6cc0ff", ok: "#2b333c"},
+    line: "#eef3f8", halo: "rgba(12,15,18,.8)", quiet: "#a2abb5", cursor: "#6cc0ff", ok: "#2b333c", layer: "#56b4e9"},
 };
 // Magma, after Smith and van der Walt (matplotlib): one path from dark to light, the same without colour.
 const MAGMA = [[0, 0, 4], [28, 16, 68], [79, 18, 123], [129, 37, 129], [181, 54, 122], [229, 80, 100], [251, 135, 97], [254, 194, 135], [252, 253, 191]];
@@ -55,7 +55,14 @@ function openPictures(p) {
 
 // A pixel's name; layers are stacked in pictures, each `layerHeight` rows high (0: one layer).
 const pixelName = (layerHeight, x, y) =>
-  layerHeight ? "layer " + Math.floor(y / layerHeight) + " (" + x + ", " + y % layerHeight + ")" : "(" + x + ", " + y + ")";
+  layerHeight ? "(" + x + ", " + y % layerHeight + ") of layer " + Math.floor(y / layerHeight) : "(" + x + ", " + y + ")";
+const layerOf = (p, y) => p.layerHeight ? Math.floor(y / p.layerHeight) : 0;
+const rowInLayer = (p, y) => p.layerHeight ? y % p.layerHeight : y;
+// Which rows of a layer the picture shows, first to last, and how many rows of other layers lie above the layer.
+function rowsOfLayer(p, layer) {
+  const above = layer * p.layerHeight, height = p.layerHeight || p.top + p.height;
+  return {above, first: Math.max(0, p.top - above), last: Math.min(height, p.top + p.height - above) - 1};
+}
 
 const indexOf = (p, at) => ((at.y - p.top) * p.width + (at.x - p.left)) * p.samples + at.sample;
 const isInPicture = (p, at) => at.x >= p.left && at.y >= p.top && at.x < p.left + p.width && at.y < p.top + p.height && at.sample < p.samples;

@@ -36,7 +36,18 @@ class Usage(ProgramTest):
         self.refused(["run", "--profile", "direct3"], "did you mean 'direct3d'?")
 
     def test_missing_value(self):
-        self.refused(["run", "--shard"], "--shard")
+        self.refused(["run", "--shard"], "--shard needs a value; write --shard I/N")
+        self.refused(["run", "--seed"], "--seed needs a value; write --seed N")
+
+    def test_form_of_a_value(self):
+        self.refused(["explain", "fam/c1", "--pixel", "3"], "--pixel: '3' is not a value that it takes; write X,Y")
+
+    def test_files_that_are_not_there(self):
+        self.refused(["run", "my-case.toml"], "there is no case file my-case.toml", 4)
+        self.refused(["expect", "nowhere.txt"], "nowhere.txt: error: there is no such expectation file", 3)
+
+    def test_family(self):
+        self.refused(["run", "fam"], "did you mean fam/**?", 4)
 
     def test_numbers(self):
         for words in (["--timeout", "x"], ["-j", "0"], ["--repeat", "-1"], ["--shard", "3/2"], ["--shard", "0/2"],
@@ -55,6 +66,11 @@ class Usage(ProgramTest):
     def test_invalid_case_file(self):
         self.write_case("fam/bad", "format = 1\ndescriptoin = 'x'\n")
         self.refused(["run"], "bad.toml:2:", 3)
+
+    def test_help_needs_nothing(self):
+        env = self.environment() | {"EDGECASE_SUITE": "nowhere", "VK_DRIVER_FILES": "nowhere", "VK_ICD_FILENAMES": "nowhere"}
+        for words in (["--help"], ["run", "--help"], ["man"], ["completion", "bash"], ["version"]):
+            self.edgecase(*words, env=env, check=0)
 
     def test_no_suite(self):
         self.refused(["run", "--suite", "nowhere"], "nowhere", 3)
@@ -97,6 +113,25 @@ class Usage(ProgramTest):
 class Listing(ProgramTest):
     def test_ids(self):
         self.assertEqual(self.edgecase("list", "--ids", check=0).stdout.split(), self.ids)
+
+    def test_ids_look_at_names_alone(self):
+        self.write_case("fam/m", 'format = 1\n[matrix]\nk = [1, 2]\nname = ["a", "b"]\n')  # no case: lint says so
+        leaves = [f"fam/m:k={k},name={n}" for k in (1, 2) for n in "ab"]
+        self.assertEqual(self.edgecase("list", "--ids", check=0).stdout.split(), self.ids + leaves)
+        self.assertEqual(self.edgecase("list", "--ids", "fam/m:k=2,*", "!fam/m:k=2,name=a", check=0).stdout.split(), leaves[3:])
+        self.assertIn("did you mean", self.edgecase("list", "--ids", "fam/mm", check=4).stderr)
+        # What asks for more than names looks at all.
+        for words in (["list"], ["list", "--ids", "--json"], ["list", "--ids", "@rule:cover.inside"], ["lint"]):
+            self.assertIn("m.toml:1:", self.edgecase(*words, check=3).stderr)
+        self.write_case("fam/m", "format = \n")
+        self.assertIn("m.toml:1:", self.edgecase("list", "--ids", check=3).stderr)
+
+    def test_ids_are_those_of_the_cases(self):
+        env = self.environment()
+        del env["EDGECASE_SUITE"]
+        ids = self.edgecase("list", "--ids", env=env, check=0).stdout.split("\n")[:-1]
+        whole = [c["id"] for c in json.loads(self.edgecase("list", "--json", env=env, check=0).stdout)]
+        self.assertEqual(ids, whole)
 
     def test_json(self):
         listed = json.loads(self.edgecase("list", "--json", "fam/c[12]", check=None).stdout or "[]")

@@ -53,6 +53,16 @@ class Compare(CompareTest):
         self.assertEqual(self.changes()["fam/c2"], "regression")
         self.assertEqual(self.changes()["fam/c1"], "fix")
 
+    def test_a_page_without_reports_has_no_links(self):
+        a, b = self.run_as("a"), self.run_as("b", fault="flip-pixel@fam/c1")
+        for folder in (a, b):
+            (folder / "report.html").unlink()
+        done = self.edgecase("compare", a, b, "--html", "-", check=1)
+        self.assertIn('"report":""', done.stdout)
+        self.assertNotIn("report.html", done.stdout)
+        self.assertIn("regressions: 1 case got worse", done.stderr)
+        self.assertIn("cannot be written", self.edgecase("compare", a, b, "--html", "no/such/folder.html", check=7).stderr)
+
     def test_nothing(self):
         a, b = self.run_as("a"), self.run_as("b")
         done = self.compare(a, b, check=0)

@@ -169,6 +169,16 @@ class Page:
         x, y, width, height = self.box(selector)
         self.click_at(x + width / 2, y + height / 2)
 
+    def click_seen(self, selector):
+        """As click(), of something that a reader sees there: nothing lies over it."""
+        x, y, width, height = self.box(selector)
+        spot = [x + min(width / 2, 40), y + height / 2]
+        seen = self.run(f"(() => {{ const e = document.querySelector({json.dumps(selector)}), at = document.elementFromPoint(...{spot}); "
+                        "return Boolean(at) && (e === at || e.contains(at)); })()")
+        if not seen:
+            raise AssertionError(f"{selector} is not to be seen at {spot}")
+        self.click_at(*spot)
+
     def key(self, key):
         """Presses a key as a keyboard would: "n", "+", "ArrowLeft", "Escape"."""
         codes = {"Escape": 27, "Enter": 13, "ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40}

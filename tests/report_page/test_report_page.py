@@ -141,6 +141,17 @@ class CasePage(PageTest):
         page.click("[data-step=p]")
         self.assertEqual(page.text("#case-title"), "family/wrong")
 
+    def test_j_and_k_walk_through_findings(self):
+        page = self.open("#case=samples%2Ffour")
+        self.assertEqual(page.count(".findings tbody tr"), 1)
+        at = page.run("location.hash")
+        page.key("ArrowLeft")
+        self.assertNotEqual(page.run("location.hash"), at)
+        for key in "jk":
+            page.key("ArrowLeft")
+            page.key(key)
+            self.assertEqual(page.run("location.hash"), at)
+
     def test_what_is_painted_are_the_device_s_hits(self):
         page = self.open("#case=family%2Fwrong&view=reference&zoom=16&px=0,0")
         page.run("['outlines', 'samples', 'grid'].forEach(toggle)")

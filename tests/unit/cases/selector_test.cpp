@@ -107,6 +107,12 @@ TEST(Selector, SaysWhatIsWrong) {
         {"!", "error: a selector is empty; write a case id or a pattern"},
         // "*" does not cross ':'.
         {"ties/a*90", "error: no case matches ties/a*90; did you mean ties/apex?"},
+        // A family is no case.
+        {"ties", "error: no case matches ties; did you mean ties/**?"},
+        {"ties/", "error: no case matches ties/; did you mean ties/**?"},
+        {"tise/**", "error: no case matches tise/**; did you mean ties/**?"},
+        {"coverage/nothing-like-it/**", "error: no case matches coverage/nothing-like-it/**"},
+        {"nowhere.toml", "error: there is no case file nowhere.toml"},
         {"!tie/apex-up", "error: no case matches tie/apex-up; did you mean ties/apex-up?"},
     };
     for (const auto& [selector, message] : rows) {

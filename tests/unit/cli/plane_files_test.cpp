@@ -69,6 +69,26 @@ TEST_F(PlaneFiles, SamplesOfAFileLieSampleBySample) {
                 testing::ElementsAre(0, 0, 1, 0));
 }
 
+TEST_F(PlaneFiles, RowsOfLayersLieLayerByLayerWithinASample) {
+    cases::Case c = plain_case(2);
+    c.target.layers = 2;
+    // Sample 0: pixels of layer 0, of layer 1; then sample 1.
+    write("coverage.u8", std::string("\0\0\1\0\0\1\0\0", 8));
+    const auto read = cli::read_planes(folder_, c);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_THAT(read->planes.front, testing::ElementsAre(0, 0, 0, 1, 1, 0, 0, 0));
+    write("coverage.u8", std::string("\0\0\0\1", 4));
+    EXPECT_EQ(cli::read_planes(folder_, c).error().message,
+              "'" + (folder_ / "coverage.u8").string() +
+                  "' has 4 bytes; 2 x 1 pixels, 2 layers, 2 samples take 8 bytes (1 channel of 1 "
+                  "byte)");
+    write("coverage.u8", std::string("\0\0\0\0\0\0\0\7", 8));
+    EXPECT_EQ(cli::read_planes(folder_, c).error().message,
+              "'" + (folder_ / "coverage.u8").string() +
+                  "' holds 7 at sample 1 of layer 1, pixel (1, 0); a mask holds 0 and the largest "
+                  "number of its format only");
+}
+
 TEST_F(PlaneFiles, NumbersAreLittleEndian) {
     write("writer.u32", std::string("\1\2\0\0\3\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff", 16));
     const auto read = cli::read_planes(folder_, plain_case(1));

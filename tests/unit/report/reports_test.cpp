@@ -93,6 +93,29 @@ TEST(console, golden) {
     expect_golden("console.txt", console_of(test::sample_run(), style));
 }
 
+TEST(console, golden_at_forty_columns) {
+    ConsoleStyle style;
+    style.width = 40;
+    style.wrap = true;
+    style.verbose = true;
+    expect_golden("console-40.txt", console_of(test::sample_run(), style));
+}
+
+TEST(console, captures_say_where_they_come_from) {
+    report::Run run;
+    run.tool_version = "1.2.3";
+    run.device.name = "mine";
+    run.device.type = "other";
+    run.device.driver_name = "files";
+    run.device.driver_info = "in out/captures";
+    run.device.subpixel_bits = 8;
+    EXPECT_EQ(console_header(run, {}),
+              "edgecase 1.2.3  mine  files in out/captures  8 subpixel "
+              "bits  profile direct3d  seed 0\n");
+    run.device = {};
+    EXPECT_NE(console_header(run, {}).find("Vulkan unknown"), std::string::npos);
+}
+
 TEST(console, color_is_only_escape_sequences) {
     const ConsoleStyle plain, colored{true, false, 100};
     std::string text = console_of(test::sample_run(), colored);

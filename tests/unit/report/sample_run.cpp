@@ -77,6 +77,7 @@ Geometry make_geometry() {
     upper.has_points = upper.is_exact = true;
     Shape cut;  // one vertex behind the eye
     cut.primitive = 1;
+    cut.layer = 2;
     cut.vertex = {2, 1, 0xffffffffU};
     cut.is_clipped = true;
     cut.piece = {0.1, -0.5, 8, 0, 3.25, 1e300};

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+// The page of "edgecase compare --html": kinds of change, cases, and where the runs hit other samples.
+
+const hidden = new Set(data.kinds.filter((k) => k.count === 0 || k.name === "same").map((k) => k.name));
+const MOST_ROWS = 500;  // shown at once; the filter finds the others
+
+function theme() {
+  return document.documentElement.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+}
+function turnTheme() {
+  const name = theme() === "dark" ? "light" : "dark";
+  document.documentElement.dataset.theme = name;
+  byId("theme").setAttribute("aria-pressed", String(name === "dark"));
+  for (const repaint of painters) { repaint(); }
+}
+const painters = new Set();
+
+// Where a case stands in the report of a run.
+function caseLink(k, id, child) {
+  const run = data.runs[k];
+  return run.report ? el("a", {href: run.report + "#case=" + encodeURIComponent(id), rel: "noreferrer"}, child) : child;
+}
+
+function runsTable() {
+  return el("div", {class: "scroll"}, table("", ["run", "device", "driver", "subpixel bits", "cases", "ended with", "folder"], data.runs.map((run) => el("tr", {},
+    el("th", {scope: "row"}, el("strong", {}, run.name)), el("td", {}, run.device), el("td", {}, run.driver), el("td", {}, String(run.subpixel_bits)),
+    el("td", {}, String(run.cases)), el("td", {}, run.exit), el("td", {class: "id"}, run.report ? el("a", {href: run.report, rel: "noreferrer"}, run.folder) : run.folder)))));
+}
+
+function tiles() {
+  return data.kinds.filter((kind) => kind.count > 0).map((kind) => {
+    const isListed = kind.name !== "same";
+    const tile = el(isListed ? "button" : "div", {type: isListed ? "button" : null, class: "tile", "data-kind": kind.name, title: kind.text, "aria-pressed": isListed ? String(!hidden.has(kind.name)) : null},
+      el("span", {class: "tally"}, String(kind.count)), kind.name === "same" ? "the same bit for bit" : kind.name);
+    if (isListed) { tile.addEventListener("click", () => {
+      if (hidden.has(kind.name)) { hidden.delete(kind.name); } else { hidden.add(kind.name); }
+      tile.setAttribute("aria-pressed", String(!hidden.has(kind.name)));
+      showList();
+    }); }
+    return tile;
+  });
+}
+
+// What two runs make of a sample: 0 nothing, 1 both hit it alike, 2 the first alone, 3 the other alone, 4 both, not as often.
+const relation = (a, b) => a === b ? (a === 0 ? 0 : 1) : a > 0 && b > 0 ? 4 : a > 0 ? 2 : 3;
+
+function paintHits(canvas, p, samples, code) {
+  const columns = Math.ceil(Math.sqrt(samples)), rows = Math.ceil(samples / columns), zoom = Math.max(2, Math.min(16, Math.floor(320 / Math.max(p.width, p.height))));
+  const palette = PALETTES[theme()], context = canvas.getContext("2d", {alpha: false});
+  canvas.width = p.width * zoom;
+  canvas.height = p.height * zoom;
+  context.fillStyle = palette.paper;
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  for (let k = 0; k < p.width * p.height * samples; ++k) {
+    const pixel = Math.floor(k / samples), s = k % samples, w = zoom / columns, h = zoom / rows;
+    const x = pixel % p.width * zoom + s % columns * w, y = Math.floor(pixel / p.width) * zoom + Math.floor(s / columns) * h;
+    const drawn = code(k);
+    if (drawn.mark) { drawMark(context, drawn.mark, x, y, w, h); }
+    else if (drawn.hits) { context.fillStyle = palette.hits[Math.min(drawn.hits, 3)]; context.fillRect(x, y, w, h); }
+  }
+}
+
+function picturePart(entry) {
+  const p = entry.pictures, planes = p.hits.map((text) => text && decodePicture(text));
+  const base = planes.findIndex(Boolean), samples = planes[base].length / (p.width * p.height);
+  const figures = [];
+  const figure = (title, text, code) => {
+    const canvas = el("canvas", {role: "img", "aria-label": text});
+    const repaint = () => paintHits(canvas, p, samples, code);
+    repaint();
+    painters.add(repaint);
+    figures.push(el("figure", {}, el("figcaption", {}, title), el("div", {class: "frame"}, canvas)));
+  };
+  const name = (k) => data.runs[k].name;
+  planes.forEach((plane, k) => {
+    if (plane) { figure(name(k) + ": " + data.runs[k].device, "hits of run " + name(k), (at) => ({hits: plane[at]})); }
+  });
+  planes.forEach((plane, k) => {
+    if (!plane || k === base) { return; }
+    const counts = [0, 0, 0, 0, 0];
+    plane.forEach((hits, at) => { ++counts[relation(planes[base][at], hits)]; });
+    const text = counts[2] + " samples hit by " + name(base) + " alone, " + counts[3] + " by " + name(k) + " alone, " + counts[4] + " by both, not as often";
+    figure("difference: " + text, text, (at) => {
+      const what = relation(planes[base][at], plane[at]);
+      return what > 1 ? {mark: what} : {hits: what};
+    });
+  });
+  return el("div", {class: "stage"}, figures);
+}
+
+function resultCell(entry, k) {
+  const result = entry.results[k];
+  if (!result) { return el("td", {class: "quiet"}, "not there"); }
+  return el("td", {}, caseLink(k, entry.id, statusTag(result.status)), result.status === "pass" ? null : el("div", {class: "quiet small what"}, result.what));
+}
+
+function showDetail(entry, row) {
+  const open = row.nextSibling && row.nextSibling.classList.contains("detail");
+  row.querySelector("button").setAttribute("aria-expanded", String(!open));
+  if (open) { row.nextSibling.remove(); return; }
+  const told = entry.results.map((result, k) => result && el("li", {}, el("strong", {}, data.runs[k].name + ": "), result.what || word(result.status), result.why ? el("div", {class: "quiet"}, result.why) : null));
+  row.after(el("tr", {class: "detail"}, el("td", {colspan: data.runs.length + 2}, el("ul", {class: "plain"}, told),
+    entry.pictures ? picturePart(entry) : el("p", {class: "quiet"}, "No pictures of both: the runs hit the same samples, or did not keep them (run --capture all keeps them)."))));
+}
+
+function showList() {
+  painters.clear();
+  const words = byId("filter").value.toLowerCase().split(/\s+/).filter(Boolean);
+  const text = (entry) => (entry.id + " " + entry.detail + " " + entry.results.map((r) => r ? r.status + " " + r.what + " " + r.why : "").join(" ")).toLowerCase();
+  const shown = data.cases.filter((entry) => !hidden.has(entry.change) && words.every((w) => text(entry).includes(w)));
+  byId("shown").textContent = shown.length + " of " + data.cases.length + " cases that are not the same" + (shown.length > MOST_ROWS ? ", the first " + MOST_ROWS + " here" : "");
+  const sections = [];
+  let left = MOST_ROWS;
+  for (const kind of data.kinds) {
+    const entries = shown.filter((entry) => entry.change === kind.name).slice(0, left);
+    left -= entries.length;
+    if (entries.length === 0) { continue; }
+    sections.push(el("section", {"data-kind": kind.name}, el("h2", {}, kind.text), el("div", {class: "scroll"},
+      table("", ["case", ...data.runs.map((run) => run.name), "detail"], entries.map((entry) => {
+        const button = el("button", {type: "button", class: "link id", "aria-expanded": "false"}, entry.id);
+        const row = el("tr", {class: "compared", "data-case": entry.id}, el("td", {}, button), data.runs.map((_, k) => resultCell(entry, k)), el("td", {class: "quiet"}, entry.detail));
+        button.addEventListener("click", () => showDetail(entry, row));
+        return row;
+      })))));
+  }
+  byId("list").replaceChildren(...sections);
+}
+
+(function start() {
+  add(byId("runs"), runsTable(), data.remarks.map((remark) => el("p", {class: "note"}, remark)),
+    data.pictures_left_out ? el("p", {class: "note"}, "Pictures of " + plural(data.pictures_left_out, "case") + " are left out to keep this page small.") : null);
+  add(byId("statuses"), tiles());
+  byId("filter").addEventListener("input", showList);
+  byId("theme").addEventListener("click", turnTheme);
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "INPUT") { return; }
+    if (event.key === "t") { turnTheme(); }
+    if (event.key === "/") { event.preventDefault(); byId("filter").focus(); }
+  });
+  showList();
+})();

@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Cases exported for renderers elsewhere, pictures of them, and the example programs."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import unittest
+
+import jsonschema
+from captures_support import Captures, CASE, INSIDE, png, schema, SIDE, TIES
+from support import PROGRAM, SOURCE
+
+EXAMPLES = SOURCE / "docs" / "examples"
+RASTER2D = os.environ.get("EDGECASE_RASTER2D", "raster2d")
+
+
+class Export(Captures):
+    def export(self, *words, check=0):
+        return self.edgecase("export", *words, "-o", self.folder / "exported", check=check)
+
+    def test_every_family_keeps_to_the_schema(self):
+        case, index = (jsonschema.Draft7Validator(schema(name)) for name in ("case-1", "export-1"))
+        env = self.environment()
+        del env["EDGECASE_SUITE"]
+        folder = self.folder / "exported"
+        done = self.edgecase("export", "!scale/**", "!limits/**", "-o", folder, env=env)
+        if done.returncode == 4:
+            done = self.edgecase("export", "-o", folder, env=env)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        listed = json.loads((folder / "index.json").read_text(encoding="utf-8"))
+        index.validate(listed)
+        seen = set()
+        for entry in listed["cases"]:
+            base = entry["id"].split(":")[0]
+            needs = frozenset(entry["needs"])
+            size = (folder / entry["file"]).stat().st_size
+            if (base in seen and needs in seen) or size > 200000:
+                continue  # one leaf of each file and of each set of needs
+            seen |= {base, needs}
+            data = json.loads((folder / entry["file"]).read_text(encoding="utf-8"))
+            case.validate(data)
+            self.assertEqual((data["id"], data["needs"], data["captures"]["folder"]), (entry["id"], entry["needs"], entry["folder"]))
+            for draw in data["draws"]:
+                for numbers, bits in zip(draw["positions"], draw["position_bits"]):
+                    for number, word in zip(numbers, bits.split()):
+                        self.assertIn(struct.pack(">f", float(number)).hex(), (word, word[:2] + "c00000"))
+        self.assertGreater(len(seen), 100)
+        self.assertEqual(len({e["folder"] for e in listed["cases"]}), len(listed["cases"]))
+
+    def test_state(self):
+        self.write_case(CASE, TIES.replace("[[draw]]", "[[draw]]\ncull = \"front\"\nscissor = [1, 2, 3, 4]"))
+        self.export(CASE)
+        case = json.loads((self.folder / "exported" / "fam" / "c1.json").read_text(encoding="utf-8"))
+        self.assertEqual(case["needs"], ["scissor", "cull"])
+        draw = case["draws"][0]
+        self.assertEqual(draw["scissor"], {"x": 1, "y": 2, "width": 3, "height": 4})
+        self.assertEqual(draw["position_bits"][1], "3f800000 bf800000 3f000000 3f800000")
+        self.assertEqual(draw["positions"][1], [1, -1, 0.5, 1])
+        self.assertEqual(draw["triangles"], [[0, 1, 2], [3, 4, 5]])
+        self.assertEqual(draw["provoking_vertices"], [0, 3])
+        self.assertEqual(draw["attributes"][0]["values"][1], [8])
+        self.assertEqual(case["target"]["sample_locations"], [[0.5, 0.5]])
+        self.assertEqual([p["name"] for p in case["captures"]["planes"]],
+                         ["coverage", "hits", "writer", "attribute0", "fragcoord", "depth"])
+
+    def test_folder_that_cannot_be_made(self):
+        (self.folder / "exported").write_text("")
+        self.assertIn("cannot be made", self.export(CASE, check=2).stderr)
+
+
+BLIT = """format = 1
+description = "One texel to the right, mirrored."
+rules = ["blit.nearest", "blit.outside"]
+[target]
+size = [4, 2]
+color = { format = "rgba8-unorm", clear = [0, 0, 0, 1] }
+[blit]
+size = [4, 4]
+from = [0, 0, 2, 1]
+to   = [3, 0, 1, 1]
+"""
+
+
+class Render(Captures):
+    def json(self, *words):
+        self.edgecase("render", *words, "-o", self.folder / "x.json", check=0)
+        return json.loads((self.folder / "x.json").read_text(encoding="utf-8"))
+
+    def test_a_blit(self):
+        self.write_case("fam/blit", BLIT)
+        picture = self.json("fam/blit")
+        self.assertEqual([(t["x"], t["y"]) for t in picture["texels"]], [(1, 0), (2, 0)])
+        self.assertEqual(picture["clear_codes"], [0, 0, 0, 255])
+        self.edgecase("export", "fam/blit", "-o", self.folder / "exported", check=0)
+        case = json.loads((self.folder / "exported" / "fam" / "blit.json").read_text(encoding="utf-8"))
+        jsonschema.Draft7Validator(schema("case-1")).validate(case)
+        source = case["blit"]["source"]["codes"]
+        # Destination texel 1 is the mirrored second texel of the source.
+        self.assertEqual([t["codes"] for t in picture["texels"]], [source[1], source[0]])
+        for name in ("x.png", "x.exr"):
+            self.edgecase("render", "fam/blit", "-o", name, check=0)
+            self.assertGreater((self.folder / name).stat().st_size, 60)
+        # The same texels, delivered as a picture, pass; without the blit they do not.
+        texels = {(t["x"], t["y"]): t["codes"] for t in picture["texels"]}
+        right = [n for y in range(2) for x in range(4) for n in texels.get((x, y), [0, 0, 0, 255])]
+        self.deliver("color.png", png(4, 2, right, 4), "fam/blit")
+        self.judge(check=0, case="fam/blit")
+        self.deliver("color.png", png(4, 2, [0, 0, 0, 255] * 8, 4), "fam/blit")
+        self.judge(check=1, case="fam/blit")
+
+    def test_by_an_algorithm(self):
+        for name in ("tiles", "brown", "reference"):
+            picture = self.json(CASE, "--renderer", name)
+            self.assertEqual(picture["renderer"], name)
+            self.assertEqual(sorted((s["y"], s["x"]) for s in picture["samples"]),
+                             [divmod(i, SIDE) for i, v in enumerate(INSIDE) if v])
+            self.assertEqual({s["front"] + s["back"] for s in picture["samples"]}, {1})
+            depths = {s["values"]["depth"]["bits"] for s in picture["samples"]}
+            self.assertLessEqual(depths, {"3f000000"} if name == "reference" else {"3f000000", "3effffff"})
+        for name in ("x.png", "x.exr"):
+            self.edgecase("render", CASE, "--renderer", "tiles", "-o", name, check=0)
+
+    def test_layers_are_stacked(self):
+        text = (self.suite / "fam/c1.toml").read_text()
+        self.write_case(CASE, text.replace("size = [8, 8]", "size = [8, 8]\nlayers = 2").replace("[[draw]]", "[[draw]]\nlayer = 1"))
+        for words in ((), ("--renderer", "reference")):
+            picture = self.json(CASE, *words)
+            self.assertEqual((picture["height"], picture["layers"]), (8, 2))
+            self.assertEqual({s["layer"] for s in picture["samples"]}, {1})
+            self.assertEqual(sorted((s["y"], s["x"]) for s in picture["samples"]),
+                             [divmod(i, SIDE) for i, v in enumerate(INSIDE) if v])
+            self.edgecase("render", CASE, *words, "-o", "x.png", check=0)
+            self.assertEqual(struct.unpack(">II", (self.folder / "x.png").read_bytes()[16:24]), (8, 16))
+        told = self.edgecase("explain", CASE, "--pixel", "0,0", "--layer", "1", check=0).stdout
+        self.assertIn("    [.]. . . . . .\n     . # # # # # #", told)
+
+    def test_what_cannot_be_drawn(self):
+        self.write_case("fam/blit", BLIT)
+        done = self.edgecase("render", "fam/blit", "--renderer", "tiles", "-o", "x.png", check=2)
+        self.assertEqual(done.stderr, "edgecase: 'tiles' draws triangles, and the case is a blit; leave --renderer out\n")
+        self.write_case("fam/clipped", TIES.replace("[[draw]]", '[[draw]]\ncull_distance = [{ values = [1, 1, 1, 1, 1, 1] }]'))
+        done = self.edgecase("render", "fam/clipped", "--renderer", "tiles", "-o", "x.png", check=2)
+        self.assertEqual(done.stderr, "edgecase: 'tiles' cannot draw the case: the algorithms have no depth state, clip distances, "
+                         "sample masks, layers and provoking vertices\n")
+        self.assertIn("did you mean 'tiles'?",
+                      self.edgecase("render", CASE, "--renderer", "tile", "-o", "x.png", check=2).stderr)
+
+
+class Examples(Captures):
+    """The programs of docs/examples on families of the real suite."""
+    SELECTORS = ["ties/**", "coverage/**"]
+
+    def draw(self, program, *options, selectors=None):
+        env = self.environment()
+        del env["EDGECASE_SUITE"]
+        selectors = selectors or self.SELECTORS
+        cases = self.folder / "exported"
+        self.edgecase("export", *selectors, "-o", cases, env=env, check=0)
+        subprocess.run([*program, cases, self.captures, *options], check=True, timeout=240)
+        return self.edgecase("diff", *selectors, "--captures", self.captures, "-o", self.out, env=env)
+
+    def check(self, program):
+        done = self.draw(program)
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
+        statuses = list(self.statuses().values())
+        self.assertEqual(set(statuses) - {"unsupported"}, {"pass"})
+        self.assertGreater(statuses.count("pass"), 20)
+        shutil.rmtree(self.captures)
+        done = self.draw(program, "--reverse-ties", selectors=["ties/**"])
+        self.assertEqual(done.returncode, 1)
+        rules = {f["rule"] for c in self.results()["cases"] for f in c["findings"]}
+        self.assertIn("tie.top-left", rules)
+        self.assertEqual({f["level"] for c in self.results()["cases"]
+                          for f in c["findings"] if f["rule"] == "tie.top-left"}, {"direct3d"})
+
+    def test_python(self):
+        self.check([sys.executable, EXAMPLES / "rasterize.py"])
+
+    def test_commands_of_the_page(self):
+        """docs/other-renderers.md, as it stands; but the C++ program comes from this build."""
+        steps, examples = (SOURCE / "docs" / "other-renderers.md").read_text(encoding="utf-8").split("## Complete examples")
+        env = self.environment()
+        del env["EDGECASE_SUITE"]
+        env["PATH"] = str(pathlib.Path(PROGRAM).resolve().parent) + ":" + env.get("PATH", "")
+        (self.folder / "docs").symlink_to(SOURCE / "docs")
+        shutil.copy(RASTER2D, self.folder / "raster2d")
+        blocks = [re.findall(r"```sh\n(.*?)```", text, re.S) for text in (examples, steps)]
+        self.assertEqual([len(b) for b in blocks], [3, 2])
+        said = ""
+        for block in blocks[0] + blocks[1]:
+            script = "".join(line + "\n" for line in block.splitlines() if not line.startswith("c++ "))
+            done = subprocess.run(["sh", "-e", "-c", script], cwd=self.folder, env=env, capture_output=True, text=True,
+                                  timeout=240, check=False)
+            self.assertEqual(done.returncode, 1 if "--reverse-ties" in block else 0, script + done.stdout[-2000:] + done.stderr)
+            said += done.stdout
+        for line in re.search(r"```text\n(.*?)```", examples, re.S).group(1).splitlines():
+            self.assertIn(line, said)
+
+    def test_cpp(self):
+        self.check([RASTER2D])
+        self.assertLess(len((EXAMPLES / "raster2d.cpp").read_text().splitlines()), 150)
+
+
+if __name__ == "__main__":
+    unittest.main()

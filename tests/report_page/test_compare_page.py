@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""The page of "edgecase compare --html"."""
+import unittest
+
+from page_support import CASES, SQUARE, PageTest
+
+HOSTILE = SQUARE.format(more="", target="", draw="")
+
+
+class ComparePage(PageTest):
+    cases = CASES | {"family/fixed": HOSTILE, "family/same": HOSTILE, "family/gone": HOSTILE}
+
+    @classmethod
+    def make_run(cls):
+        cls.a, cls.b = cls.folder / "run of <A> & 1%", cls.folder / "b"
+        cls.edgecase("run", "--renderer=reference", "--capture", "all", "-o", cls.a, check=1,
+                     fault="flip-pixel@family/fixed,segv@family/gone")
+        cls.edgecase("run", "--renderer=reference", "--capture", "all", "-o", cls.b, check=1,
+                     fault="flip-pixel@family/wrong,flip-pixel@samples/four,segv@family/gone")
+        cls.page = cls.folder / "pages" / "compared.html"
+        cls.page.parent.mkdir()
+        cls.edgecase("compare", cls.a, cls.b, "--html", cls.page, check=1)
+
+    def sections(self, page):
+        return page.run("Object.fromEntries([...document.querySelectorAll('#list section')].map((s) => [s.dataset.kind, "
+                        "[...s.querySelectorAll('tr.compared')].map((r) => r.dataset.case)]))")
+
+    def test_kinds_cases_and_runs(self):
+        page = self.open(file=self.page)
+        self.assertEqual(self.sections(page), {"regression": ["family/wrong", "samples/four"], "fix": ["family/fixed"],
+                                               "fails alike": ["family/gone"]})
+        self.assertEqual(page.text("[data-kind=regression] .tally"), "2")
+        self.assertEqual(page.text("[data-kind=same] .tally"), "3")
+        self.assertEqual(page.text(".verdict"), "exit 1: regressions")
+        self.assertIn("run of <A> & 1%", page.text("#runs"))
+        row = page.text("tr[data-case='family/wrong']")
+        for part in ("pass", "fail", "1 double of 64 samples"):
+            self.assertIn(part, row)
+
+    def test_tiles_and_words_filter(self):
+        page = self.open(file=self.page)
+        page.click_seen("[data-kind=regression].tile")
+        self.assertNotIn("regression", self.sections(page))
+        page.key("/")
+        page.type("fixed")
+        self.assertEqual(self.sections(page), {"fix": ["family/fixed"]})
+        self.assertEqual(page.text("#shown"), "1 of 4 cases that are not the same")
+
+    def test_pictures_stand_side_by_side(self):
+        page = self.open(file=self.page)
+        page.click_seen("tr[data-case='family/wrong'] button")
+        self.assertEqual(page.count(".detail canvas"), 3)
+        captions = page.run("[...document.querySelectorAll('.detail figcaption')].map((f) => f.innerText)")
+        self.assertEqual(captions[2], "difference: 0 samples hit by A alone, 0 by B alone, 1 by both, not as often")
+        # Of 64 pixels one is painted otherwise in B, the one with the cross in the difference.
+        other = page.run("(() => { const [a, b, d] = [...document.querySelectorAll('.detail canvas')], zoom = a.width / 8;"
+                         "const at = (c, i, j) => [...c.getContext('2d').getImageData(i * zoom + 2, (j + .5) * zoom, 1, 1).data].join();"
+                         "const places = []; for (let j = 0; j < 8; ++j) for (let i = 0; i < 8; ++i) {"
+                         "if (at(a, i, j) !== at(b, i, j)) places.push([i, j]); if (at(a, i, j) !== at(d, i, j)) places.push([i, j]); } return places; })()")
+        self.assertEqual(len(other), 2)
+        self.assertEqual(other[0], other[1])
+        page.click_seen("tr[data-case='family/wrong'] button")
+        self.assertEqual(page.count(".detail canvas"), 0)
+        page.click_seen("tr[data-case='family/gone'] button")
+        self.assertIn("No pictures of both", page.text(".detail"))
+
+    def test_links_lead_to_the_case_in_each_report(self):
+        for column, status in ((2, "pass"), (3, "fail")):
+            page = self.open(file=self.page)
+            page.click_seen(f"tr[data-case='samples/four'] td:nth-child({column}) a")
+            page.wait_for("document.getElementById('case-title') !== null")
+            self.assertEqual(page.text("#case-title"), "samples/four")
+            self.assertIn(status, page.text(".case-title"))
+
+    def test_dark_light_and_narrow(self):
+        page = self.open(file=self.page, width=480)
+        paper = "getComputedStyle(document.body).backgroundColor"
+        light = page.run(paper)
+        page.key("t")
+        self.assertNotEqual(page.run(paper), light)
+        page.click("tr[data-case='family/wrong'] button")
+        self.assertEqual(page.run("document.documentElement.scrollWidth"), 480)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Of [[draw]], its vertices and its state.
+#include "load_errors.hpp"
+
+namespace cases {
+
+namespace {
+
+// clang-format off
+const Row kRows[] = {
+    {draw(R"~(vertexes = 1)~"),
+     R"~(f:7:1: error: [[draw]] has no key "vertexes"; did you mean "vertices"?)~"},
+    {draw(R"~(topology = "triangle-list")~"),
+     R"~(f:6:1: error: [[draw]] has no vertices; write vertices or generate)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
+generate = {})~"),
+     R"~(f:6:1: error: [[draw]] has both vertices and generate; keep one)~"},
+    {draw(R"~(vertices = 1)~"),
+     R"~(f:7:12: error: vertices is the number 1; write an array)~"},
+    {draw(R"~(vertices = [1,2,3])~"),
+     R"~(f:7:13: error: vertex 0 is the number 1; write an array
+f:7:15: error: vertex 1 is the number 2; write an array
+f:7:17: error: vertex 2 is the number 3; write an array)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0]])~"),
+     R"~(f:7:25: error: vertex 2 has 1 numbers; write [x,y], [x,y,z] or [x,y,z,w])~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8,1,1,1]])~"),
+     R"~(f:7:25: error: vertex 2 has 5 numbers; write [x,y], [x,y,z] or [x,y,z,w])~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,true]])~"),
+     R"~(f:7:28: error: y of vertex 2 is true; write a number or an expression in quotes)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,nan]])~"),
+     R"~(f:7:28: error: y of vertex 2 is not a finite number; inf and nan cannot be drawn)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[inf,0]])~"),
+     R"~(f:7:26: error: x of vertex 2 is not a finite number; inf and nan cannot be drawn)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,"1/0"]])~"),
+     R"~(f:7:28: error: y of vertex 2: "1/0" is not a number: it divides by zero)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,"inf"]])~"),
+     R"~(f:7:28: error: y of vertex 2: "inf" is not a number: inf is no number here)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,"2^999"]])~"),
+     R"~(f:6:1: error: y of vertex 2 is larger than the largest binary32 in clip space)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8,0,0]])~"),
+     R"~(f:7:32: error: w of vertex 2 is 0, which only the space "clip" can express)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
+viewport_index = 16)~"),
+     R"~(f:8:18: error: viewport_index is not an integer from 0 to 15)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
+layer = 1)~"),
+     R"~(f:8:9: error: the target has one layer; write layers = N in [target])~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
+layer = -1)~"),
+     R"~(f:8:9: error: layer is not an integer from 0 to 255)~"},
+    {draw(R"~(vertices = [[0,0],[8,0],[0,8]]
+layers = 1)~"),
+     R"~(f:8:1: error: [[draw]] has no key "layers"; did you mean "layer"?)~"},
+    {draw(R"~(generate = { kind = "surface", columns = 4, rows = 4, shape = "disk" })~"),
+     R"~(f:7:63: error: shape is "disk"; did you mean "disc"?)~"},
+    {draw(R"~(generate = { kind = "surface", columns = 4, rows = 4 }
+offset = [1, 1])~"),
+     R"~(f:8:10: error: offset does not go with the generator "surface"; leave it out)~"},
+    {draw(R"~(generate = { kind = "surface", columns = 4000, rows = 4000 })~"),
+     R"~(f:7:42: error: 16008001 vertices are too many; a draw has at most 1048576)~"},
+    {draw(R"~(vertices = [[0,0],[8,0]])~"),
+     R"~(f:7:12: error: 2 vertices make no triangle; write at least 3)~"},
+    {draw(R"~(vertices = [])~"),
+     R"~(f:7:12: error: 0 vertices make no triangle; write at least 3)~"},
+    {draw(R"~(space = "clip"
+vertices = [[0,0,0,1],[0.1,0,0,1],[0,1,0,1]])~"),
+     R"~(f:8:24: error: x of vertex 1 is not a binary32; its neighbours are "0x1.999998p-4" (0.099999994) and "0x1.99999ap-4" (0.1))~"},
+    {draw(R"~(space = "clip"
+vertices = [[0,0,0,1],[1,0,0,1],[0,1,0]])~"),
+     R"~(f:8:33: error: vertex 2 has 3 numbers; write [x,y,z,w])~"},
+    {draw(R"~(space = "clip"
+vertices = [[0,0,0,1],["2^128",0,0,1],[0,1,0,1]])~"),
+     R"~(f:8:24: error: x of vertex 1 is larger than the largest binary32)~"},
+    {draw(R"~(space = "clip"
+vertices = [[0,0,0,1],["bits(0x7fc)",0,0,1],[0,1,0,1]])~"),
+     R"~(f:8:24: error: x of vertex 1: "bits(0x7fc)" is not the bits of a binary32; write eight hexadecimal digits as in "bits(0x7fc00001)")~"},
+    {draw(R"~(space = "ndc"
+vertices = [[0,0],["nan",0],[0,1]])~"),
+     R"~(f:8:20: error: x of vertex 1: "nan" is not a number: nan is no number here)~"},
+    {draw(R"~(space = "ndc"
+vertices = [[0,0],["1/3",0],[0,1]])~"),
+     R"~(f:8:20: error: x of vertex 1 is not a binary32; its neighbours are "0x1.555554p-2" (0.3333333) and "0x1.555556p-2" (0.33333334))~"},
+    {draw(R"~(space = "ndc"
+vertices = [[0,0],["2^127",0,0,4],[0,1]])~"),
+     R"~(f:6:1: error: x of vertex 1 is larger than the largest binary32 in clip space)~"},
+    {draw(R"~(space = "screen"
+vertices = [[0,0],[8,0],[0,8]])~"),
+     R"~(f:7:9: error: space is "screen"; write "pixels", "ndc" or "clip")~"},
+    {draw(R"~(space = 3
+vertices = [[0,0],[8,0],[0,8]])~"),
+     R"~(f:7:9: error: space is the number 3; write a string)~"},
+    {draw(R"~(vertices = [[0,0,0,"2^-200"],[8,0],[0,8]])~"),
+     R"~(f:6:1: error: w of vertex 0 is not a binary32 other than zero)~"},
+    {draw(R"~(topology = "triangle-lists"
+vertices = [[0,0],[8,0],[0,8]])~"),
+     R"~(f:7:12: error: topology is "triangle-lists"; did you mean "triangle-list"?)~"},
+    {triangle(R"~(cull = "both")~"),
+     R"~(f:8:8: error: cull is "both"; write "none", "front", "back" or "front-and-back")~"},
+    {triangle(R"~(front_face = "clockwse")~"),
+     R"~(f:8:14: error: front_face is "clockwse"; did you mean "clockwise"?)~"},
+    {triangle(R"~(indices = [0,1,3])~"),
+     R"~(f:8:16: error: an index is not an integer from 0 to 2)~"},
+    {triangle(R"~(indices = [0,1])~"),
+     R"~(f:8:11: error: 2 indices make no triangle; write at least 3)~"},
+    {triangle(R"~(indices = 0)~"),
+     R"~(f:8:11: error: indices is the number 0; write an array)~"},
+    {triangle(R"~(indices = [0,1,2,"restart"])~"),
+     R"~(f:8:18: error: "restart" needs a strip or a fan; a list has no restart)~"},
+    {triangle(R"~(indices = [0,1,"reset"])~"),
+     R"~(f:8:16: error: an index: "reset" is not a number: the name reset is unknown; names are the keys of [matrix])~"},
+    {triangle(R"~(indices = [0,1,-1])~"),
+     R"~(f:8:16: error: an index is not an integer from 0 to 2)~"},
+    {triangle(R"~(depth = "less")~"), R"~(f:8:9: error: depth is the string "less"; write a table)~"},
+    {triangle(R"~(depth = { compair = "less" })~"),
+     R"~(f:8:11: error: depth has no key "compair"; did you mean "compare"?)~"},
+    {triangle(R"~(depth = { compare = "smaller" })~"),
+     R"~(f:8:21: error: compare is "smaller"; write "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal" or "always")~"},
+    {triangle(R"~(depth = { write = 1 })~"),
+     R"~(f:8:19: error: write is the number 1; write true or false)~"},
+    {triangle(R"~(depth = { clamp = "yes" })~"),
+     R"~(f:8:19: error: clamp is the string "yes"; write true or false)~"},
+    {triangle(R"~(depth = { clip = 0 })~"),
+     R"~(f:8:18: error: clip is the number 0; write true or false)~"},
+    {triangle(R"~(depth = { bias = 2 })~"),
+     R"~(f:8:18: error: bias is the number 2; write a table)~"},
+    {triangle(R"~(depth = { bias = { scale = 2 } })~"),
+     R"~(f:8:20: error: bias has no key "scale"; its keys are constant, slope, clamp, representation, exact)~"},
+    {triangle(R"~(depth = { bias = { representation = "unorm" } })~"),
+     R"~(f:8:37: error: representation is "unorm"; write "format", "force-unorm" or "float")~"},
+    {triangle(R"~(depth = { bias = { slope = true } })~"),
+     R"~(f:8:28: error: slope is true; write a number or an expression in quotes)~"},
+    {triangle(R"~(viewport = [0,0,8])~"),
+     R"~(f:8:12: error: viewport has 3 numbers instead of 4)~"},
+    {triangle(R"~(viewport = 8)~"),
+     R"~(f:8:12: error: viewport is the number 8; write an array of 4 numbers)~"},
+    {triangle(R"~(viewport = [0,0,0,8])~"),
+     R"~(f:8:17: error: the viewport's width is not larger than 0)~"},
+    {triangle(R"~(viewport = [0,0,-8,8])~"),
+     R"~(f:8:17: error: the viewport's width is not larger than 0)~"},
+    {triangle(R"~(viewport = [0,0,8,0])~"),
+     R"~(f:8:19: error: the viewport's height is 0; write another, negative ones flip)~"},
+    {triangle(R"~(viewport = [0,0,16385,8])~"),
+     R"~(f:8:12: error: the viewport is larger than 16384 pixels)~"},
+    {triangle(R"~(viewport = [40000,0,8,8])~"),
+     R"~(f:8:12: error: the viewport reaches beyond -32768..32767 pixels)~"},
+    {triangle(R"~(viewport = [0,0,8,"2^200"])~"),
+     R"~(f:8:19: error: viewport is larger than the largest binary32)~"},
+    {triangle(R"~(viewport = { rect = [0,0,8,8], depth = [0,1.5] })~"),
+     R"~(f:8:43: error: depth is outside 0..1, which Vulkan does not allow)~"},
+    {triangle(R"~(viewport = { depth = [0] })~"),
+     R"~(f:8:22: error: depth has 1 numbers instead of 2)~"},
+    {triangle(R"~(viewport = { rct = [0,0,8,8] })~"),
+     R"~(f:8:14: error: viewport has no key "rct"; did you mean "rect"?)~"},
+    {triangle(R"~(scissor = [0,0,8])~"),
+     R"~(f:8:11: error: scissor has 3 numbers instead of 4)~"},
+    {triangle(R"~(scissor = [-1,0,8,8])~"),
+     R"~(f:8:12: error: scissor is not an integer from 0 to 2147483647)~"},
+    {triangle(R"~(scissor = [0,0,8.5,8])~"),
+     R"~(f:8:16: error: scissor is not an integer from 0 to 2147483647)~"},
+    {triangle(R"~(scissor = [2147483647,0,8,8])~"),
+     R"~(f:8:11: error: the scissor rectangle reaches beyond 2^31 - 1 pixels)~"},
+    {triangle(R"~(mirror = "z")~"),
+     R"~(f:8:10: error: mirror is "z"; write "none", "x", "y" or "xy")~"},
+    {triangle(R"~(rotate = 45)~"),
+     R"~(f:8:10: error: rotate is not 0, 90, 180 or 270)~"},
+    {triangle(R"~(rotate = "a quarter")~"),
+     R"~(f:8:10: error: rotate: "a quarter" is not a number: the name a is unknown; names are the keys of [matrix])~"},
+    {triangle(R"~(offset = [1])~"),
+     R"~(f:8:10: error: offset has 1 numbers instead of 2)~"},
+    {triangle(R"~(offset = [1,2,3])~"),
+     R"~(f:8:10: error: offset has 3 numbers instead of 2)~"},
+    {triangle(R"~(winding = "reverse")~"),
+     R"~(f:8:11: error: winding is "reverse"; did you mean "reversed"?)~"},
+    {triangle(R"~(first = 3)~"),
+     R"~(f:8:9: error: first is not an integer from 0 to 2)~"},
+    {triangle(R"~(order = 1)~"),
+     R"~(f:8:9: error: order is the number 1; write a string)~"},
+    {triangle(R"~(topology = "triangle-fan"
+winding = "reversed")~"),
+     R"~(f:9:11: error: winding needs a triangle list without indices)~"},
+    {triangle(R"~(topology = "triangle-strip"
+first = 1)~"),
+     R"~(f:9:9: error: first needs a triangle list without indices)~"},
+    {triangle(R"~(indices = [0,1,2]
+order = "reversed")~"),
+     R"~(f:9:9: error: order needs a triangle list without indices)~"},
+    {draw(R"~(space = "clip"
+vertices = [[0,0,0,1],[1,0,0,1],[0,1,0,1]]
+rotate = 90)~"),
+     R"~(f:9:10: error: rotate does not go with the space "clip"; write the vertices in pixels or ndc)~"},
+    {triangle(R"~(attribute = 1)~"),
+     R"~(f:8:13: error: attribute is the number 1; write an array)~"},
+    {triangle(R"~(attribute = [1])~"),
+     R"~(f:8:14: error: attribute is the number 1; write a table)~"},
+    {triangle(R"~(attribute = [{constant=1},{constant=1},{constant=1},{constant=1},{constant=1}])~"),
+     R"~(f:8:13: error: 5 attributes are too many; a draw has at most 4)~"},
+    {triangle(R"~([expect]
+hits = """
+........
+""")~"),
+     R"~(f:9:8: error: hits has 1 rows, but the target is 8 pixels high)~"},
+    {triangle(R"~([expect]
+hits = """
+.......
+.......
+.......
+.......
+.......
+.......
+.......
+.......
+""")~"),
+     R"~(f:9:8: error: row 0 of hits has 7 characters, but the target is 8 pixels wide)~"},
+    {triangle(R"~([expect]
+hits = """
+........
+........
+........
+........
+........
+........
+........
+....x...
+""")~"),
+     R"~(f:9:8: error: column 4 of row 7 of hits is not ., 1 to 9 or ?)~"},
+    {triangle(R"~([expect]
+hit = "")~"),
+     R"~(f:9:1: error: [expect] has no key "hit"; did you mean "hits"?
+f:8:1: error: [expect] has no hits; draw one row a pixel row)~"},
+    {triangle(R"~([expect]
+hits = 1)~"),
+     R"~(f:9:8: error: hits is the number 1; write a string)~"},
+    {draw(R"~(generate = 1)~"),
+     R"~(f:7:12: error: generate is the number 1; write a table)~"},
+    {draw(R"~(space = "ndc"
+generate = { kind = "mesh", points = 1 })~"),
+     R"~(f:7:9: error: generate works in pixels; leave space out)~"},
+    {draw(R"~(indices = [0,1,2]
+generate = { kind = "mesh", points = 1 })~"),
+     R"~(f:7:11: error: indices do not go with generate; leave them out)~"},
+    {draw(R"~(topology = "triangle-fan"
+generate = { kind = "mesh", points = 1 })~"),
+     R"~(f:7:12: error: this generator makes a "triangle-list"; leave topology out)~"},
+};
+// clang-format on
+
+}  // namespace
+
+TEST(LoadErrors, OfDraws) {
+    expect_words(kRows);
+}
+
+}  // namespace cases

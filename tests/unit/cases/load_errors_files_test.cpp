@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Of the file as a whole and its top.
+#include "load_errors.hpp"
+
+namespace cases {
+
+namespace {
+
+// clang-format off
+const Row kRows[] = {
+    {whole(R"~(format = 
+)~"),
+     R"~(f:1:10: error: this is not TOML: Error while parsing key-value pair: expected value, saw '\n')~"},
+    {whole(R"~(format = 1
+format = 1
+)~"),
+     R"~(f:2:10: error: this is not TOML: Error while parsing key-value pair: cannot redefine existing integer 'format')~"},
+    {whole(R"~(x = "a
+)~"),
+     R"~(f:1:7: error: this is not TOML: Error while parsing string: unescaped control characters other than TAB (U+0009) are explicitly prohibited)~"},
+    {whole(R"~(x = 99999999999999999999
+)~"),
+     R"~(f:1:25: error: this is not TOML: Error while parsing decimal integer: '99999999999999999999' is not representable in 64 bits)~"},
+    {whole(R"~(x = [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]
+)~"),
+     R"~(f:1:37: error: the file nests arrays and tables too deeply; at most 32 levels are read)~"},
+    {whole(R"~(description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:1:1: error: the key format is missing; write format = 1)~"},
+    {whole(R"~(format = 2
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:1:10: error: format is not 1, the only one that is read)~"},
+    {whole(R"~(format = 1
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:1:1: error: the key description is missing; say in one sentence what is claimed)~"},
+    {whole(R"~(format = 1
+description = " "
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:2:15: error: description is empty; write a sentence)~"},
+    {whole(R"~(format = 1
+description = 3
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:2:15: error: description is the number 3; write a string)~"},
+    {whole(R"~(format = 1
+description = "d"
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:1:1: error: the key rules is missing; name at least one rule of docs/rules.md)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = []
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:3:9: error: rules is empty, so the case claims nothing; name at least one rule of docs/rules.md)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = "cover.inside"
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:3:9: error: rules is the string "cover.inside"; write an array)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = [1]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:3:10: error: a rule is the number 1; write a string)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.insid"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:3:10: error: no rule is called "cover.insid"; did you mean "cover.inside"?)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["quality"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:3:10: error: no rule is called "quality"; docs/rules.md lists all)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside", "cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:3:26: error: the rule "cover.inside" stands twice)~"},
+    {top(R"~(catches = "")~"),
+     R"~(f:4:11: error: catches is empty; write a sentence)~"},
+    {top(R"~(catches = [1])~"),
+     R"~(f:4:11: error: catches is an array; write a string)~"},
+    {top(R"~(links = "https://x")~"),
+     R"~(f:4:9: error: links is the string "https://x"; write an array)~"},
+    {top(R"~(links = ["ftp://x"])~"),
+     R"~(f:4:10: error: the link "ftp://x" does not start with https://)~"},
+    {top(R"~(links = [1979-05-27])~"),
+     R"~(f:4:10: error: a link is a date or time; write a string)~"},
+    {top(R"~(catchs = "x")~"),
+     R"~(f:4:1: error: a case file has no key "catchs"; did you mean "catches"?)~"},
+    {top(R"~(zzz = 1)~"),
+     R"~(f:4:1: error: a case file has no key "zzz"; its keys are format, description, catches, rules, links, matrix, target, draw, blit, expect, relations)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:1:1: error: the key target is missing; write [target] with size = [width, height])~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+target = 1
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:4:10: error: target is the number 1; write a table)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+)~"),
+     R"~(f:1:1: error: the key draw is missing; write [[draw]] with vertices)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[draw]
+vertices = []
+)~"),
+     R"~(f:6:1: error: draw is not an array of tables; write [[draw]])~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+draw = []
+[target]
+size = [8, 8]
+)~"),
+     R"~(f:4:8: error: a case has 1 to 256 draws, not 0)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+draw = [1]
+[target]
+size = [8, 8]
+)~"),
+     R"~(f:4:9: error: draw is the number 1; write a table)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+layers = 3
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+layer = 3
+)~"),
+     R"~(f:9:9: error: the target has 3 layers, 0 to 2)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+layers = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[[draw.clip_distance]]
+values = [1, 1, -1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+layer = 1
+)~"),
+     R"~(f:9:1: error: clip_distance does not go with draws to several layers; leave out layer)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["blit.nearest"]
+[target]
+size = [8, 8]
+layers = 2
+[target.color]
+format = "rgba8-unorm"
+[blit]
+size = [8, 8]
+)~"),
+     R"~(f:9:1: error: a blit writes to one sample a pixel and to one layer)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+layers = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[expect]
+hits = "11"
+)~"),
+     R"~(f:10:8: error: the target has 2 layers, so hits is an array of 2 pictures, layer 0 first)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 4
+layers = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[expect]
+hits = ["11", "11"]
+)~"),
+     R"~(f:11:8: error: the target has 2 layers of 4 samples a pixel, so hits is an array of 8 pictures, all samples of layer 0 first)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 4]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+rotate = 90
+)~"),
+     R"~(f:8:10: error: rotate by 90 or 270 needs a square target; make its sides equal)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[expect]
+hits = "11"
+)~"),
+     R"~(f:10:8: error: the target has 2 samples a pixel, so hits is an array of 2 pictures, sample 0 first)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[expect]
+hits = ["11", "111"]
+)~"),
+     R"~(f:10:15: error: row 0 of picture 1 of hits has 3 characters, but the target is 2 pixels wide)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 2
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+sample_mask = -1
+)~"),
+     R"~(f:9:15: error: sample_mask is not an integer from 0 to 4294967295)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+shader_mask = 0.5
+)~"),
+     R"~(f:8:15: error: shader_mask is not an integer from 0 to 4294967295)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+min_sample_shading = 1.5
+)~"),
+     R"~(f:8:22: error: min_sample_shading is outside 0..1; write the fraction of the samples that is shaded at least)~"},
+    {whole(R"~(expect = 1
+format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+)~"),
+     R"~(f:1:10: error: expect is the number 1; write a table)~"},
+};
+// clang-format on
+
+}  // namespace
+
+TEST(LoadErrors, OfFiles) {
+    expect_words(kRows);
+}
+
+}  // namespace cases
