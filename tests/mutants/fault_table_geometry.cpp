@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faults of input assembly, vertices, clipping, facing and coverage.
+#include "mutants/fault.hpp"
+
+namespace mutants {
+
+namespace {
+
+constexpr FaultInfo kFaults[] = {
+    {Fault::provoking_last, "provoking_last", "Flat values come from the last vertex of each triangle.", "provoking.first interp.flat"},
+    {Fault::strip_parity, "strip_parity", "Odd triangles of a strip keep the order i, i+1, i+2.", "face.area-sign face.cull"},
+    {Fault::fan_hub_provoking, "fan_hub_provoking", "The hub is the provoking vertex of a fan.", "provoking.first interp.flat"},
+    {Fault::restart_ignored, "restart_ignored", "The restart index ends nothing.", "cover.inside cover.outside order.primitive"},
+    {Fault::restart_keeps_one, "restart_keeps_one", "After a restart the strip still remembers its last vertex.", "cover.inside cover.outside order.primitive"},
+    {Fault::indices_ignored, "indices_ignored", "An indexed draw reads its vertices in order.", "cover.inside cover.outside"},
+    {Fault::strip_batch_parity, "strip_batch_parity", "The parity of a strip starts anew after 9 triangles.", "face.area-sign face.cull"},
+    {Fault::fan_batch_hub, "fan_batch_hub", "A fan of more than 9 triangles goes on round another hub.", "cover.inside cover.outside cover.shared-edge"},
+    {Fault::vertex_cache_aliased, "vertex_cache_aliased", "Transformed vertices are found by their index modulo 32.", "cover.inside cover.outside"},
+    {Fault::primitive_id_restarts, "primitive_id_restarts", "gl_PrimitiveID is reset by a restart.", "order.primitive"},
+    {Fault::primitive_id_skips_culled, "primitive_id_skips_culled", "gl_PrimitiveID counts what was drawn, not what was assembled.", "order.primitive"},
+    {Fault::state_of_first_draw, "state_of_first_draw", "Viewport, scissor, culling and front face stay as the first draw set them.", "cover.inside cover.outside scissor.half-open clip.viewport face.cull face.area-sign"},
+    {Fault::batch_tail_lost, "batch_tail_lost", "The last triangle of a draw is lost.", "cover.inside"},
+    {Fault::draws_reversed, "draws_reversed", "Later draws are rendered first.", "order.primitive"},
+    {Fault::primitives_reversed, "primitives_reversed", "Later triangles of a draw are rendered first.", "order.primitive"},
+    {Fault::primitives_paired, "primitives_paired", "Of each two triangles the second is rendered first.", "order.primitive"},
+    {Fault::draw_doubled, "draw_doubled", "Each triangle is rasterized twice.", "cover.outside cover.shared-edge"},
+    {Fault::draws_nothing, "draws_nothing", "Nothing is drawn.", "cover.inside"},
+    {Fault::draws_everything, "draws_everything", "Every triangle covers the whole target.", "cover.outside clip.viewport scissor.half-open"},
+    {Fault::height_sign_ignored, "height_sign_ignored", "A negative viewport height mirrors nothing.", "face.area-sign face.cull cover.inside cover.outside"},
+    {Fault::depth_range_ignored, "depth_range_ignored", "minDepth and maxDepth are taken as 0 and 1.", "depth.linear interp.hull depth.compare"},
+    {Fault::viewport_rounded, "viewport_rounded", "The viewport is taken in whole pixels.", "depth.linear interp.linear interp.perspective snap.nearest cover.inside cover.outside"},
+    {Fault::half_pixel_shift, "half_pixel_shift", "The pixel's centre is added twice.", "cover.inside cover.outside interp.linear interp.perspective depth.linear"},
+    {Fault::viewport_nudge, "viewport_nudge", "The viewport's origin is 1/256 pixel off.", "depth.linear interp.linear interp.perspective snap.nearest cover.inside cover.outside"},
+    {Fault::floor_snapping, "floor_snapping", "Vertices snap downwards.", "snap.nearest"},
+    {Fault::ceil_snapping, "ceil_snapping", "Vertices snap upwards.", "snap.nearest"},
+    {Fault::coarse_snapping, "coarse_snapping", "Vertices snap to 1/16 pixel whatever subPixelPrecisionBits says.", "snap.nearest cover.inside cover.outside"},
+    {Fault::position_half, "position_half", "Window positions are held in 11-bit floats.", "snap.nearest cover.inside cover.outside interp.linear interp.perspective depth.linear"},
+    {Fault::clip_none, "clip_none", "Nothing is clipped.", "clip.volume clip.viewport cover.inside cover.outside"},
+    {Fault::clip_no_near, "clip_no_near", "The near plane does not clip.", "clip.volume clip.depth"},
+    {Fault::clip_no_far, "clip_no_far", "The far plane does not clip.", "clip.volume clip.depth"},
+    {Fault::clip_band_unscissored, "clip_band_unscissored", "A guard band clips, but the viewport's rectangle bounds nothing.", "clip.viewport"},
+    {Fault::clip_seam, "clip_seam", "The cut is computed from the first end point of an edge, not from the inner one.", "cover.clipped-edge cover.shared-edge"},
+    {Fault::clip_reversed, "clip_reversed", "The cut is at 1 - t.", "clip.volume cover.inside cover.outside clip.depth"},
+    {Fault::clip_copies_value, "clip_copies_value", "A vertex made by clipping takes the values of the inner vertex.", "interp.linear interp.perspective"},
+    {Fault::clip_screen_linear, "clip_screen_linear", "The values of a vertex made by clipping are interpolated as if w were constant.", "interp.perspective interp.linear interp.hull"},
+    {Fault::clip_flat_piece, "clip_flat_piece", "Flat values come from the clipped polygon's first vertex.", "interp.flat provoking.first"},
+    {Fault::clip_last_piece_lost, "clip_last_piece_lost", "The last triangle of a clipped polygon's fan is lost.", "cover.inside"},
+    {Fault::clip_rejects_any, "clip_rejects_any", "A triangle with a vertex outside is dropped.", "cover.inside"},
+    {Fault::distance_flipped, "distance_flipped", "The half-space of a clip distance is c <= 0.", "clip.distance clip.complement"},
+    {Fault::distance_reversed, "distance_reversed", "The cut by a clip distance is at 1 - t.", "clip.distance clip.complement"},
+    {Fault::distance_linear, "distance_linear", "Clip distances are interpolated linearly on the screen.", "clip.distance clip.complement"},
+    {Fault::distance_last_ignored, "distance_last_ignored", "The last clip distance does not clip.", "clip.distance clip.complement"},
+    {Fault::distance_rotated, "distance_rotated", "Clip distances are read as y, z, w, x.", "clip.distance clip.complement"},
+    {Fault::distance_zero_outside, "distance_zero_outside", "A vertex at clip distance 0 is outside.", "clip.complement clip.distance"},
+    {Fault::distance_by_order, "distance_by_order", "Clip distances are fetched by the position in the index list.", "clip.distance clip.complement"},
+    {Fault::distance_plane_twice, "distance_plane_twice", "c >= 0 is tested at each sample: both sides of the plane draw it.", "clip.complement"},
+    {Fault::distance_plane_never, "distance_plane_never", "c > 0 is tested at each sample: neither side of the plane draws it.", "clip.complement"},
+    {Fault::cull_distance_any, "cull_distance_any", "One negative vertex culls.", "cover.inside cull.distance"},
+    {Fault::cull_distance_mixed, "cull_distance_mixed", "A triangle is culled if each vertex is outside of some plane.", "cover.inside cull.distance"},
+    {Fault::cull_distance_zero, "cull_distance_zero", "A cull distance of 0 counts as negative.", "cover.inside cull.distance"},
+    {Fault::cull_distance_ignored, "cull_distance_ignored", "Cull distances cull nothing.", "cull.distance"},
+    {Fault::cull_distance_provoking, "cull_distance_provoking", "The provoking vertex alone decides the culling by distance.", "cull.distance cover.inside"},
+    {Fault::depth_volume_ignored, "depth_volume_ignored", "0 <= z bounds the volume in spite of depth clip control.", "clip.depth clip.volume cover.inside"},
+    {Fault::depth_scale_ignored, "depth_scale_ignored", "Depth clip control moves the plane, but not the transform of depth.", "depth.linear interp.hull depth.compare"},
+    {Fault::provoking_mode_ignored, "provoking_mode_ignored", "The first vertex provokes in last-vertex mode.", "provoking.last interp.flat"},
+    {Fault::provoking_strip_odd, "provoking_strip_odd", "In last-vertex mode an odd triangle of a strip takes the vertex i+1.", "provoking.last interp.flat"},
+    {Fault::provoking_fan_last_hub, "provoking_fan_last_hub", "In last-vertex mode a fan takes the hub.", "provoking.last interp.flat"},
+    {Fault::provoking_turns, "provoking_turns", "Last-vertex mode turns the triangles round.", "face.area-sign face.cull"},
+    {Fault::cull_inverted, "cull_inverted", "The face that should be culled is drawn, the other is culled.", "face.cull cover.inside"},
+    {Fault::front_face_inverted, "front_face_inverted", "Front and back are exchanged.", "face.area-sign face.cull"},
+    {Fault::face_unclipped_w, "face_unclipped_w", "Facing is taken from the vertices divided by the magnitude of w.", "face.area-sign face.cull cover.inside"},
+    {Fault::degenerate_drawn, "degenerate_drawn", "A triangle without area covers its line.", "cover.degenerate cover.outside"},
+    {Fault::small_culled, "small_culled", "A triangle whose bounding box is less than a pixel is dropped.", "cover.inside"},
+    {Fault::ties_bottom_right, "ties_bottom_right", "The bottom and right edges own their samples.", "tie.top-left"},
+    {Fault::ties_top_right, "ties_top_right", "The top and right edges own their samples.", "tie.top-left"},
+    {Fault::ties_bottom_left, "ties_bottom_left", "The bottom and left edges own their samples.", "tie.top-left"},
+    {Fault::ties_all_inclusive, "ties_all_inclusive", "All edges own their samples.", "cover.shared-edge tie.top-left"},
+    {Fault::ties_all_exclusive, "ties_all_exclusive", "No edge owns its samples.", "cover.shared-edge tie.top-left"},
+    {Fault::ties_top_only, "ties_top_only", "The left edge lost its bias: only the top edge owns its samples.", "cover.shared-edge tie.top-left"},
+    {Fault::ties_left_only, "ties_left_only", "The top edge lost its bias: only the left edge owns its samples.", "cover.shared-edge tie.top-left"},
+    {Fault::ties_bottom_too, "ties_bottom_too", "Horizontal edges own their samples from both sides.", "cover.shared-edge tie.top-left"},
+    {Fault::ties_right_too, "ties_right_too", "Right edges own their samples, too.", "cover.shared-edge tie.top-left"},
+    {Fault::ties_by_winding, "ties_by_winding", "The bias of the fill rule is taken before the vertices are put in clockwise order.", "cover.shared-edge tie.top-left"},
+    {Fault::sample_corner, "sample_corner", "The sample is the pixel's upper left corner.", "cover.inside cover.outside sample.locations interp.linear interp.perspective depth.linear"},
+    {Fault::edge_int32, "edge_int32", "Edge functions are computed in 32 bits.", "cover.inside cover.outside"},
+    {Fault::edge_int32_256, "edge_int32_256", "Edge functions are computed in 32 bits up to a bounding box of 256 pixels, where 128 would be right.", "cover.inside cover.outside"},
+    {Fault::edge_binary32, "edge_binary32", "Edge functions of unsnapped positions are computed in binary32.", "tie.top-left snap.nearest cover.shared-edge cover.inside cover.outside"},
+    {Fault::edge_truncated, "edge_truncated", "Edge functions are divided down to pixels, towards zero.", "cover.outside cover.shared-edge tie.top-left"},
+    {Fault::tile_wrong_corner, "tile_wrong_corner", "Trivial reject of a tile looks at the corner that lies nearest to the edge's outside.", "cover.inside"},
+    {Fault::tile_off_by_one, "tile_off_by_one", "Trivial reject of a tile looks at the last pixel but one.", "cover.inside"},
+    {Fault::box_last_column, "box_last_column", "The bounding box lacks its last column.", "cover.inside"},
+    {Fault::box_last_row, "box_last_row", "The bounding box lacks its last row.", "cover.inside"},
+    {Fault::box_first_column, "box_first_column", "The bounding box lacks its first column.", "cover.inside"},
+    {Fault::box_first_row, "box_first_row", "The bounding box lacks its first row.", "cover.inside"},
+    {Fault::clip_diagonal_double, "clip_diagonal_double", "The inner diagonals of a clipped polygon are drawn by both pieces.", "cover.outside cover.shared-edge cover.clipped-edge"},
+};
+
+}  // namespace
+
+std::span<const FaultInfo> faults_of_geometry() {
+    return kFaults;
+}
+
+}  // namespace mutants
