@@ -125,6 +125,7 @@ struct ValueReference::Impl {
     uint32_t text_triangle = 0;
     std::optional<value::Basis<mpq_class>> text_basis;
     FragmentPart part = FragmentPart::all;  // of the fragment being judged
+    bool is_brief = false;                  // judge_briefly
     ValueSelection selection;
     std::vector<std::vector<Quantity>> selected;  // the quantities of it, by draw
 
@@ -536,7 +537,15 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
             exact_only ? wide_exact(t, id, device, profile) : wide(t, id, device, profile);
         out.basis = verdict.basis;
         out.worst_ratio = verdict.worst_ratio;
-        if (!verdict.ok) {
+        if (!verdict.ok && is_brief) {
+            for (size_t k = 0; k < verdict.failing.size(); ++k) {
+                ValueMismatch m;
+                m.quantity = all[verdict.failing[k]].name;
+                m.level = profile;
+                m.ratio = verdict.ratios[k];
+                out.mismatches.push_back(std::move(m));
+            }
+        } else if (!verdict.ok) {
             describe(t, id, device, verdict, out);
         }
     }
@@ -558,6 +567,10 @@ void ValueReference::judge_only(const ValueSelection& selection) {
     for (std::vector<Quantity>& draw : impl_->selected) {
         std::erase_if(draw, [&](const Quantity& q) { return !selection.has(q.attribute); });
     }
+}
+
+void ValueReference::judge_briefly() {
+    impl_->is_brief = true;
 }
 
 FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device,

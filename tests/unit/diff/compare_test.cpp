@@ -183,6 +183,21 @@ TEST(Compare, WrongLastWriterIsAnOrderFinding) {
     EXPECT_EQ(only(v).level, Profile::vulkan);
 }
 
+TEST(Compare, LastWriterFarFromTheSampleIsACoverageFinding) {
+    // (1,1) lies well inside triangle 0; triangle 1, which is beyond the diagonal, must not cover
+    // it.
+    Checked k(diagonal());
+    const size_t i = k.at(1, 1);
+    ASSERT_EQ(k.capture.writers[i].primitive, 0U);
+    ref::ValueReference values(k.c, kLimits, Profile::direct3d);
+    write_fragment(k.capture, k.c, k.e, values, 1, {1, 1, 0});
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::order);
+    EXPECT_EQ(only(v).rule, "cover.outside");
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+    EXPECT_NE(only(v).why.find("triangle 1 of draw 0"), std::string::npos) << only(v).why;
+}
+
 TEST(Compare, OtherOwnerOfASharedEdgeIsATieNotAnOrder) {
     // The sample (3,4) lies on the diagonal: one hit by either triangle is right in Vulkan.
     Checked k(diagonal());
