@@ -5,6 +5,7 @@
 // profile that it breaks, and must not see anything in a right picture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diff/verdict.hpp"
@@ -364,6 +365,24 @@ TEST(Compare, FindingsAreCappedButCounted) {
     const diff::Verdict v = k.verdict();
     EXPECT_EQ(v.findings.size(), diff::kMaxFindings);
     EXPECT_EQ(v.counts[static_cast<size_t>(FindingKind::missing)], 4096U);
+}
+
+TEST(Compare, ValuesBeyondTheCapAreCounted) {
+    cases::Case c = pixel_case(64, 64, {{0, 0}, {64, 0}, {0, 64}, {64, 0}, {64, 64}, {0, 64}});
+    add_attribute(c, cases::Interpolation::smooth, {0, 1, 0, 1, 1, 0});
+    Checked k(c);
+    for (glm::vec4& value : k.capture.attributes[0]) {
+        value.x += 4;  // outside of the vertices' values: wrong at every profile
+    }
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(v.findings.size(), diff::kMaxFindings);
+    EXPECT_EQ(v.counts[static_cast<size_t>(FindingKind::value)], 4096U);
+    EXPECT_EQ(v.level, Profile::vulkan);
+    EXPECT_EQ(v.findings.back().rule, "interp.hull");
+    EXPECT_TRUE(std::all_of(v.marks.begin(), v.marks.end(),
+                            [](diff::SampleMark m) { return m == diff::SampleMark::value; }));
+    EXPECT_TRUE(std::all_of(v.error_ratios.begin(), v.error_ratios.end(),
+                            [](float ratio) { return ratio > 2; }));
 }
 
 TEST(ExpectedHits, AgreesOrNamesTheFirstPixel) {
