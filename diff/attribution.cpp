@@ -113,6 +113,24 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
     return other_layer;
 }
 
+// Why a sample was written last by a triangle that must not cover it; nothing if one of those that
+// may have written it may.
+std::optional<Cause> cause_of_stray_writer(const ref::SampleExplanation& s,
+                                           const std::function<bool(const ref::Triangle&)>& wrote) {
+    ref::SampleExplanation writers = s;
+    std::erase_if(writers.triangles, [&](const auto& t) { return !wrote(t.triangle); });
+    if (writers.triangles.empty() ||
+        std::any_of(writers.triangles.begin(), writers.triangles.end(),
+                    [](const auto& t) { return t.coverage != ref::Coverage::must_not; })) {
+        return std::nullopt;
+    }
+    if (std::optional<Cause> cause = cause_of_suppressed(writers)) {
+        return cause;
+    }
+    const ref::TriangleExplanation& t = writers.triangles.front();
+    return Cause{"cover.outside", fmt::format("{}: {}", name_of(t), t.reason)};
+}
+
 // A hit too many of a triangle that must fail the depth test, or one too few of a triangle that
 // must pass it; the number alone does not tell which, so the last one that fits is named.
 std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExplanation& s,
@@ -166,7 +184,8 @@ Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
 }
 
 // Too few hits, or too many where some hits are allowed.
-Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint32_t total) {
+Cause cause_of_count(const cases::Case& c, const ref::SampleExplanation& s, cases::Profile level,
+                     uint32_t total) {
     const Ties ties = ties_of(s);
     uint32_t must = 0, may = 0;
     for (const ref::TriangleExplanation& t : s.triangles) {
@@ -201,6 +220,12 @@ Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint
     }
     if (total < must) {
         const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
+        // What might have removed it, but must not have: culling by distance goes first.
+        if (c.draws[t->triangle.draw].distances.cull_count > 0) {
+            return {"cull.distance",
+                    fmt::format("{}: {}, and no cull distance is negative at all vertices",
+                                name_of(*t), t->reason)};
+        }
         return {t->has_distances ? "clip.distance" : "cover.inside",
                 fmt::format("{}: {}{}", name_of(*t), t->reason,
                             t->has_distances ? ", and no clip distance is negative" : "")};
@@ -264,9 +289,6 @@ void Attribution::attribute_writer(Finding& finding,
             break;
         }
     }
-    if (finding.level == cases::Profile::vulkan) {
-        return;  // whatever is granted, that triangle cannot have been the last
-    }
     const auto earlier = like_writer_.find(finding.level);
     if (explained_ >= explains_ && earlier != like_writer_.end()) {
         finding.rule = earlier->second.rule;
@@ -274,9 +296,19 @@ void Attribution::attribute_writer(Finding& finding,
         return;
     }
     ++explained_;
-    // A looser profile lets the writer cover the sample: it is a question of who owns it.
     const ref::SampleExplanation s =
         ref::explain_sample(case_, expectation_.limits, finding.level, place_of(finding));
+    if (finding.level == cases::Profile::vulkan) {
+        // Whatever is granted, that triangle cannot have been the last. If it may not cover the
+        // sample at all, that says more than the order.
+        if (const std::optional<Cause> cause = cause_of_stray_writer(s, wrote)) {
+            finding.rule = cause->rule;
+            finding.why = cause->why;
+        }
+        like_writer_.insert_or_assign(finding.level, finding);
+        return;
+    }
+    // A looser profile lets the writer cover the sample: it is a question of who owns it.
     const Ties ties = ties_of(s);
     if (ties.first != nullptr) {
         finding.rule = "tie.top-left";
@@ -340,7 +372,7 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked,
         return;
     }
     const Cause cause = asked.total_max == 0 ? cause_of_extra(s, finding.level)
-                                             : cause_of_count(s, finding.level, total);
+                                             : cause_of_count(case_, s, finding.level, total);
     finding.rule = cause.rule;
     finding.why = cause.why;
 }

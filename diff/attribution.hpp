@@ -35,8 +35,9 @@ class Attribution {
     void level_hits(Finding& finding, uint32_t front, uint32_t back);
 
     // Finds the loosest profile at which no triangle for which `wrote` holds may have written a
-    // sample last, and sets level; where a looser profile allows it, rule and why as well (a tie's
-    // owner or a snapping, not the order of drawing).
+    // sample last, and sets level; rule and why as well where a looser profile allows it (a tie's
+    // owner or a snapping, not the order of drawing) or where these triangles must not cover the
+    // sample in the first place.
     void attribute_writer(Finding& finding, const std::function<bool(const ref::Triangle&)>& wrote);
 
     // The expectation of the case at a profile not stricter than the asked one.
@@ -51,7 +52,7 @@ class Attribution {
     // case. After kExplained findings, or kTriangles set up for them, one that looks like an
     // earlier one (same kind, level and numbers) takes over its rule: a driver that breaks
     // everything is judged in seconds, too.
-    static constexpr size_t kExplained = 64;
+    static constexpr size_t kExplained = 16;
     static constexpr size_t kTriangles = 1024;
 
     const cases::Case& case_;

@@ -416,6 +416,9 @@ class Comparison {
         }
         if (verdict_.findings.size() < kMaxFindings) {
             verdict_.findings.push_back(std::move(finding));
+        } else if (verdict_.level == cases::Profile::vulkan) {
+            // Nothing of what follows is told, and no level can be looser: it is counted.
+            values_.judge_briefly();
         }
     }
 

@@ -114,10 +114,10 @@ const color::Color& ColorReference::source_of(uint32_t triangle, SampleId id) {
     return found->second;
 }
 
-color::Color ColorReference::color_of(const Sequence& sequence, SampleId id,
-                                      const glm::vec4* last) {
+color::Color ColorReference::color_of(const Sequence& sequence, SampleId id, const glm::vec4* last,
+                                      bool masked) {
     const bool is_constant =
-        last == nullptr && std::all_of(sequence.begin(), sequence.end(), [&](uint32_t t) {
+        last == nullptr && masked && std::all_of(sequence.begin(), sequence.end(), [&](uint32_t t) {
             return case_.draws[expectation_.triangles[t].draw].color.attribute < 0;
         });
     Sequence draws;
@@ -131,8 +131,8 @@ color::Color ColorReference::color_of(const Sequence& sequence, SampleId id,
     }
     color::Color color = cleared_;
     for (size_t k = 0; k < sequence.size(); ++k) {
-        const cases::ColorOutput& output =
-            case_.draws[expectation_.triangles[sequence[k]].draw].color;
+        cases::ColorOutput output = case_.draws[expectation_.triangles[sequence[k]].draw].color;
+        output.write_mask = masked ? output.write_mask : 0xf;
         if (last != nullptr && k + 1 == sequence.size() && output.attribute >= 0) {
             color::Color source;
             for (size_t i = 0; i < 4; ++i) {
@@ -149,15 +149,16 @@ color::Color ColorReference::color_of(const Sequence& sequence, SampleId id,
     return color;
 }
 
-std::string ColorReference::rule_of(const Sequence& sequence) const {
+std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmasked) const {
     const bool blends = std::any_of(sequence.begin(), sequence.end(), [&](uint32_t t) {
         return case_.draws[expectation_.triangles[t].draw].color.blend.has_value();
     });
     const bool masks = std::any_of(sequence.begin(), sequence.end(), [&](uint32_t t) {
         return case_.draws[expectation_.triangles[t].draw].color.write_mask != 0xf;
     });
-    return std::string(blends  ? "blend.equation"
-                       : masks ? "blend.write-mask"
+    return std::string(masks && is_as_unmasked ? "blend.write-mask"
+                       : blends                ? "blend.equation"
+                       : masks                 ? "blend.write-mask"
                                : store_rule(cases::component_of(unit_.format, 0).kind));
 }
 
@@ -217,7 +218,7 @@ ColorVerdict ColorReference::judge(size_t index, SampleId id, const std::array<u
     verdict.kind = ColorVerdict::Kind::value;
     const Sequence& most = *std::max_element(
         sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-    verdict.rule = rule_of(most);
+    verdict.rule = rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
     const auto tells = [&](const Sequence& sequence) {
         return unit_.allows(color_of(sequence, id, nullptr), codes);
     };

@@ -71,8 +71,11 @@ class ColorReference {
     std::span<const PossibleHit> hits_at(size_t index) const;
     std::vector<Sequence> allowed(size_t index, const std::optional<ColorWitness>& witness) const;
     const color::Color& source_of(uint32_t triangle, SampleId id);
-    color::Color color_of(const Sequence& sequence, SampleId id, const glm::vec4* last);
-    std::string rule_of(const Sequence& sequence) const;
+    // What the fragments leave; `masked` false: with every write mask full.
+    color::Color color_of(const Sequence& sequence, SampleId id, const glm::vec4* last,
+                          bool masked = true);
+    // Which rule is broken by a wrong colour; `is_as_unmasked`: it is right but for a write mask.
+    std::string rule_of(const Sequence& sequence, bool is_as_unmasked) const;
     bool is_constant_depth(uint32_t triangle, float depth) const;
 
     const cases::Case& case_;

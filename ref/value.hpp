@@ -101,6 +101,10 @@ class ValueReference {
     // From now on only these values are judged; one basis has to explain those together.
     void judge_only(const ValueSelection& selection);
 
+    // From now on a mismatch has its quantity and ratio only; its level is the asked profile. What
+    // a wholly broken device has thousands of, beyond those that a report tells.
+    void judge_briefly();
+
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
     FragmentVerdict judge(uint32_t t, SampleId sample, const FragmentValues& device,
                           FragmentPart part = FragmentPart::all);

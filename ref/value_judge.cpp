@@ -119,7 +119,15 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
             exact_only ? wide_exact(t, id, device, profile) : wide(t, id, device, profile);
         out.basis = verdict.basis;
         out.worst_ratio = verdict.worst_ratio;
-        if (!verdict.ok) {
+        if (!verdict.ok && is_brief) {
+            for (size_t k = 0; k < verdict.failing.size(); ++k) {
+                ValueMismatch m;
+                m.quantity = all[verdict.failing[k]].name;
+                m.level = profile;
+                m.ratio = verdict.ratios[k];
+                out.mismatches.push_back(std::move(m));
+            }
+        } else if (!verdict.ok) {
             describe(t, id, device, verdict, out);
         }
     }
@@ -141,6 +149,10 @@ void ValueReference::judge_only(const ValueSelection& selection) {
     for (std::vector<Quantity>& draw : impl_->selected) {
         std::erase_if(draw, [&](const Quantity& q) { return !selection.has(q.attribute); });
     }
+}
+
+void ValueReference::judge_briefly() {
+    impl_->is_brief = true;
 }
 
 FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device,

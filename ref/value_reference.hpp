@@ -107,6 +107,7 @@ struct ValueReference::Impl {
     uint32_t text_triangle = 0;
     std::optional<value::Basis<mpq_class>> text_basis;
     FragmentPart part = FragmentPart::all;  // of the fragment being judged
+    bool is_brief = false;                  // judge_briefly
     ValueSelection selection;
     std::vector<std::vector<Quantity>> selected;  // the quantities of it, by draw
 

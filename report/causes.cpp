@@ -5,9 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
+#include <set>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
+#include "cases/rule.hpp"
 #include "report/reports.hpp"
 #include "report/sentences.hpp"
 
@@ -61,6 +66,23 @@ int rank(const Cause& cause) {
 
 }  // namespace
 
+namespace {
+
+// How far a rule reaches: the families and cases in which it leads, with the same rank.
+struct Reach {
+    size_t families = 0, cases = 0;
+};
+
+// Where a rule stands in the list of rules: what is decided earlier in the pipeline comes first.
+std::ptrdiff_t number_of(std::string_view rule) {
+    const auto all = cases::all_rules();
+    return std::find_if(all.begin(), all.end(),
+                        [&](const cases::Rule& r) { return r.id == rule; }) -
+           all.begin();
+}
+
+}  // namespace
+
 std::vector<Cause> causes(const Run& run) {
     std::vector<Cause> list;
     std::map<std::tuple<Status, std::string, std::string, std::string>, size_t> index;
@@ -79,9 +101,20 @@ std::vector<Cause> causes(const Run& run) {
         cause.level = std::min(cause.level, record.level);
         cause.cases.push_back(&record);
     }
-    std::stable_sort(list.begin(), list.end(), [](const Cause& a, const Cause& b) {
-        return std::pair(rank(a), b.cases.size()) < std::pair(rank(b), a.cases.size());
-    });
+    std::map<std::pair<int, std::string>, Reach> reaches;
+    std::set<std::tuple<int, std::string, std::string>> families;
+    for (const Cause& cause : list) {
+        Reach& reach = reaches[{rank(cause), cause.rule}];
+        reach.cases += cause.cases.size();
+        reach.families += families.emplace(rank(cause), cause.rule, cause.family).second ? 1U : 0U;
+    }
+    const auto order = [&](const Cause& a) {
+        const Reach& reach = reaches.at({rank(a), a.rule});
+        return std::tuple(-rank(a), reach.families, reach.cases, -number_of(a.rule),
+                          a.cases.size());
+    };
+    std::stable_sort(list.begin(), list.end(),
+                     [&](const Cause& a, const Cause& b) { return order(b) < order(a); });
     return list;
 }
 

@@ -23,8 +23,10 @@ struct Cause {
 };
 
 // All causes of a run's unexpected results, the worst first: what could not be judged and deaths,
-// then failures by profile, then the rest; among equals the one with more cases. The pointers are
-// into `run`.
+// then failures by profile, then the rest. Among equals the causes of the rule that leads in the
+// most families come first, then of the rule that leads in the most cases, then of the rule that
+// stands first in cases::all_rules(): what one fault breaks everywhere before what follows from it
+// here and there. The pointers are into `run`.
 std::vector<Cause> causes(const Run& run);
 
 // "fail: tie.top-left missing in ties, 12 cases"; printable, one line.

@@ -19,91 +19,124 @@ namespace mutants {
 std::vector<LegalDevice> legal_devices() {
     using cases::Profile;
     std::vector<LegalDevice> out;
-    const auto add = [&](std::string name, Profile profile, const auto& change) {
-        LegalDevice legal{std::move(name), profile, {}};
+    const auto add = [&](std::string name, std::string what, Profile profile, const auto& change) {
+        LegalDevice legal{std::move(name), std::move(what), profile, {}};
         change(legal.device);
         out.push_back(std::move(legal));
     };
     for (const Profile profile : cases::kProfiles) {
-        add(fmt::format("plain_at_{}", cases::to_string(profile)), profile, [](Device&) {});
+        add(fmt::format("plain_at_{}", cases::to_string(profile)), "no choice but the usual ones",
+            profile, [](Device&) {});
     }
-    add("half_up", Profile::direct3d, [](Device& d) { d.rounding = Rounding::half_up; });
+    add("half_up", "vertices snap half up", Profile::direct3d,
+        [](Device& d) { d.rounding = Rounding::half_up; });
     for (const int bits : {4, 6, 10, 12}) {
-        add(fmt::format("bits_{}", bits), Profile::direct3d,
+        add(fmt::format("bits_{}", bits), fmt::format("{} subpixel bits", bits), Profile::direct3d,
             [&](Device& d) { d.subpixel_bits = bits; });
     }
-    add("snapped_planes", Profile::direct3d, [](Device& d) { d.basis = PlaneBasis::snapped; });
-    add("planes_at_vertex", Profile::direct3d, [](Device& d) { d.planes = PlaneForm::vertex; });
-    add("barycentric", Profile::direct3d, [](Device& d) { d.planes = PlaneForm::barycentric; });
-    add("whole_planes", Profile::direct3d, [](Device& d) { d.piece_planes = false; });
-    add("guard_band", Profile::direct3d, [](Device& d) { d.clip = ClipMethod::guard_band; });
-    add("fused", Profile::direct3d, [](Device& d) { d.fused = true; });
-    add("reciprocal_w", Profile::direct3d, [](Device& d) { d.reciprocal_w = true; });
-    add("odd_quads", Profile::direct3d, [](Device& d) { d.odd_quads = true; });
-    add("blend_in_binary32", Profile::direct3d, [](Device& d) { d.blend = BlendMath::binary32; });
-    add("blend_in_fused_binary32", Profile::direct3d, [](Device& d) {
-        d.blend = BlendMath::binary32;
-        d.unorm = UnormRounding::nearest_even;
-        d.fused = true;
-    });
-    add("bytes_divided_by_255", Profile::direct3d, [](Device& d) {
-        d.multiply = FixedMultiply::divide;
-        d.half_toward_zero = true;
-    });
+    add("snapped_planes", "planes of values from snapped positions", Profile::direct3d,
+        [](Device& d) { d.basis = PlaneBasis::snapped; });
+    add("planes_at_vertex", "planes relative to the first vertex", Profile::direct3d,
+        [](Device& d) { d.planes = PlaneForm::vertex; });
+    add("barycentric", "values from barycentric weights", Profile::direct3d,
+        [](Device& d) { d.planes = PlaneForm::barycentric; });
+    add("whole_planes", "clipped triangles keep the planes of the whole triangle",
+        Profile::direct3d, [](Device& d) { d.piece_planes = false; });
+    add("guard_band", "a guard band instead of clipping at the sides", Profile::direct3d,
+        [](Device& d) { d.clip = ClipMethod::guard_band; });
+    add("fused", "fused multiply-add", Profile::direct3d, [](Device& d) { d.fused = true; });
+    add("reciprocal_w", "multiplies with 1/w instead of dividing", Profile::direct3d,
+        [](Device& d) { d.reciprocal_w = true; });
+    add("odd_quads", "quads of derivatives begin at odd pixels", Profile::direct3d,
+        [](Device& d) { d.odd_quads = true; });
+    add("blend_in_binary32", "bytes are blended in binary32", Profile::direct3d,
+        [](Device& d) { d.blend = BlendMath::binary32; });
+    add("blend_in_fused_binary32", "the same fused, codes rounded half to even", Profile::direct3d,
+        [](Device& d) {
+            d.blend = BlendMath::binary32;
+            d.unorm = UnormRounding::nearest_even;
+            d.fused = true;
+        });
+    add("bytes_divided_by_255", "products of bytes divided by 255, halves rounded towards zero",
+        Profile::direct3d, [](Device& d) {
+            d.multiply = FixedMultiply::divide;
+            d.half_toward_zero = true;
+        });
     for (const Profile profile : {Profile::vulkan, Profile::practice}) {
-        add(fmt::format("unorm_rounds_down_at_{}", cases::to_string(profile)), profile,
-            [](Device& d) { d.unorm = UnormRounding::down; });
+        add(fmt::format("unorm_rounds_down_at_{}", cases::to_string(profile)),
+            "UNORM is rounded down", profile, [](Device& d) { d.unorm = UnormRounding::down; });
     }
-    add("resolve_truncates", Profile::direct3d, [](Device& d) {
-        d.resolve_truncates = true;
-        d.srgb_resolved_encoded = true;
-    });
-    add("inputs_at_the_centre_of_shaded_samples", Profile::direct3d,
+    add("resolve_truncates", "averages of codes rounded down, of sRGB taken of the codes",
+        Profile::direct3d, [](Device& d) {
+            d.resolve_truncates = true;
+            d.srgb_resolved_encoded = true;
+        });
+    add("inputs_at_the_centre_of_shaded_samples",
+        "with sample shading undecorated inputs stay at the pixel's centre", Profile::direct3d,
         [](Device& d) { d.inputs_follow_samples = false; });
-    add("centroid_is_the_mean", Profile::practice, [](Device& d) { d.centroid = Centroid::mean; });
-    add("like_swiftshader", Profile::direct3d, [](Device& d) {
+    add("centroid_is_the_mean", "centroid is the mean of the covered samples", Profile::practice,
+        [](Device& d) { d.centroid = Centroid::mean; });
+    add("like_swiftshader", "SwiftShader's choices", Profile::direct3d, [](Device& d) {
         d.subpixel_bits = 4;
         d.basis = PlaneBasis::snapped;
         d.planes = PlaneForm::vertex;
         d.piece_planes = false;
     });
-    add("like_llvmpipe", Profile::direct3d, [](Device& d) {
+    add("like_llvmpipe", "llvmpipe's choices", Profile::direct3d, [](Device& d) {
         d.fused = true;
         d.reciprocal_w = true;
     });
-    add("like_hardware", Profile::direct3d, [](Device& d) {
-        d.basis = PlaneBasis::snapped;
-        d.planes = PlaneForm::barycentric;
-        d.piece_planes = false;
-        d.clip = ClipMethod::guard_band;
-        d.fused = true;
-    });
-    const std::pair<std::string_view, Rounding> roundings[] = {
-        {"floor", Rounding::floor}, {"ceil", Rounding::ceil}, {"truncate", Rounding::truncate}};
-    for (const auto& [name, rounding] : roundings) {
-        add(std::string(name), Profile::practice, [&](Device& d) { d.rounding = rounding; });
-        add(fmt::format("{}_4_bits_snapped", name), Profile::practice, [&](Device& d) {
-            d.rounding = rounding;
-            d.subpixel_bits = 4;
+    add("like_hardware", "what graphics processors usually choose", Profile::direct3d,
+        [](Device& d) {
             d.basis = PlaneBasis::snapped;
-        });
-        add(fmt::format("{}_guard_band_at_vulkan", name), Profile::vulkan, [&](Device& d) {
-            d.rounding = rounding;
+            d.planes = PlaneForm::barycentric;
+            d.piece_planes = false;
             d.clip = ClipMethod::guard_band;
+            d.fused = true;
         });
+    struct Snap {
+        std::string_view name, what;
+        Rounding rounding;
+    };
+    const Snap snaps[] = {{"floor", "vertices snap downwards", Rounding::floor},
+                          {"ceil", "vertices snap upwards", Rounding::ceil},
+                          {"truncate", "vertices snap towards zero", Rounding::truncate}};
+    for (const Snap& snap : snaps) {
+        add(std::string(snap.name), std::string(snap.what), Profile::practice,
+            [&](Device& d) { d.rounding = snap.rounding; });
+        add(fmt::format("{}_4_bits_snapped", snap.name),
+            fmt::format("{}, 4 subpixel bits, planes from snapped positions", snap.what),
+            Profile::practice, [&](Device& d) {
+                d.rounding = snap.rounding;
+                d.subpixel_bits = 4;
+                d.basis = PlaneBasis::snapped;
+            });
+        add(fmt::format("{}_guard_band_at_vulkan", snap.name),
+            fmt::format("{}, with a guard band", snap.what), Profile::vulkan, [&](Device& d) {
+                d.rounding = snap.rounding;
+                d.clip = ClipMethod::guard_band;
+            });
     }
-    const std::pair<std::string_view, TieRule> rules[] = {
-        {"ties_top_right", TieRule::top_right},
-        {"ties_bottom_left", TieRule::bottom_left},
-        {"ties_bottom_right", TieRule::bottom_right},
-        {"ties_left_top", TieRule::left_top}};
-    for (const auto& [name, rule] : rules) {
-        add(std::string(name), Profile::practice, [&](Device& d) { d.ties = rule; });
-        add(fmt::format("{}_floor_6_bits_at_vulkan", name), Profile::vulkan, [&](Device& d) {
-            d.ties = rule;
-            d.rounding = Rounding::floor;
-            d.subpixel_bits = 6;
-        });
+    struct Tie {
+        std::string_view name, what;
+        TieRule rule;
+    };
+    const Tie ties[] = {
+        {"ties_top_right", "top and right edges own their samples", TieRule::top_right},
+        {"ties_bottom_left", "bottom and left edges own their samples", TieRule::bottom_left},
+        {"ties_bottom_right", "bottom and right edges own their samples", TieRule::bottom_right},
+        {"ties_left_top", "exactly vertical left edges and edges above own their samples",
+         TieRule::left_top}};
+    for (const Tie& tie : ties) {
+        add(std::string(tie.name), std::string(tie.what), Profile::practice,
+            [&](Device& d) { d.ties = tie.rule; });
+        add(fmt::format("{}_floor_6_bits_at_vulkan", tie.name),
+            fmt::format("{}, vertices snap downwards to 6 bits", tie.what), Profile::vulkan,
+            [&](Device& d) {
+                d.ties = tie.rule;
+                d.rounding = Rounding::floor;
+                d.subpixel_bits = 6;
+            });
     }
     return out;
 }

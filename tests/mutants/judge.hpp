@@ -19,6 +19,7 @@ namespace mutants {
 // A device that breaks no rule at its profile.
 struct LegalDevice {
     std::string name;
+    std::string what;  // it does, in a few words
     cases::Profile profile;
     Device device;
 };

@@ -24,6 +24,18 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+constexpr size_t kBatch = 16;
+
+diff::Capture captured(const cases::Case& c, Fault fault) {
+    Device device;
+    device.fault = fault;
+    diff::Capture out = render(c, device);
+    diff::drop_unattached(out, c);
+    return out;
+}
+
+}  // namespace
+
 bool same_bits(const diff::Capture& a, const diff::Capture& b) {
     bool same = same_bits(a.hits, b.hits) && same_bits(a.writers, b.writers) &&
                 same_bits(a.frag_coord, b.frag_coord) && same_bits(a.depth, b.depth) &&
@@ -36,17 +48,13 @@ bool same_bits(const diff::Capture& a, const diff::Capture& b) {
     return same;
 }
 
-constexpr size_t kBatch = 16;
-
-diff::Capture captured(const cases::Case& c, Fault fault) {
-    Device device;
-    device.fault = fault;
-    diff::Capture out = render(c, device);
-    diff::drop_unattached(out, c);
-    return out;
+bool is_small(const cases::Case& c) {
+    size_t vertices = 0;
+    for (const cases::Draw& draw : c.draws) {
+        vertices += draw.indices ? draw.indices->size() : draw.positions.size();
+    }
+    return c.target.width * c.target.height * c.target.samples <= 64U * 64U && vertices <= 1024;
 }
-
-}  // namespace
 
 size_t MatrixRow::file_count() const {
     size_t count = 0;

@@ -13,6 +13,7 @@
 
 #include "cases/case.hpp"
 #include "cases/profile.hpp"
+#include "diff/capture.hpp"
 #include "mutants/fault.hpp"
 
 namespace mutants {
@@ -31,6 +32,12 @@ struct MatrixRow {
 // False where a fault's code path is not run at all: no colour, stencil, resolve, distance,
 // samples.
 bool can_matter(Fault fault, const cases::Case& c);
+
+// Few samples and few triangles: a fault shows in them within a millisecond.
+bool is_small(const cases::Case& c);
+
+// True if two renderings of a case have the same bits in every plane: they have the same verdict.
+bool same_bits(const diff::Capture& a, const diff::Capture& b);
 
 std::string family_of(const cases::Case& c);
 // The id without its matrix part.

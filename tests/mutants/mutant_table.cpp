@@ -22,20 +22,11 @@
 
 namespace {
 
-// Few samples and few triangles: a fault shows in them within a millisecond.
-bool is_small(const cases::Case& c) {
-    size_t vertices = 0;
-    for (const cases::Draw& draw : c.draws) {
-        vertices += draw.indices ? draw.indices->size() : draw.positions.size();
-    }
-    return c.target.width * c.target.height * c.target.samples <= 64U * 64U && vertices <= 1024;
-}
-
 // Small leaves by turn, then the others.
 std::vector<size_t> leaves_of(const std::vector<cases::Case>& suite) {
     std::vector<size_t> leaves = mutants::leaves_by_turn(suite);
     std::stable_partition(leaves.begin(), leaves.end(),
-                          [&](size_t k) { return is_small(suite[k]); });
+                          [&](size_t k) { return mutants::is_small(suite[k]); });
     return leaves;
 }
 
@@ -51,7 +42,7 @@ void print_faults(const std::vector<cases::Case>& suite, const std::set<std::str
     }
     std::vector<size_t> leaves = leaves_of(suite);
     if (!all) {
-        std::erase_if(leaves, [&](size_t k) { return !is_small(suite[k]); });
+        std::erase_if(leaves, [&](size_t k) { return !mutants::is_small(suite[k]); });
     }
     mutants::measure(
         suite, leaves, rows,
@@ -80,7 +71,7 @@ int print_legal(const std::vector<cases::Case>& suite, const std::set<std::strin
     size_t alarms = 0;
     std::vector<size_t> leaves = leaves_of(suite);
     if (!all) {
-        std::erase_if(leaves, [&](size_t k) { return !is_small(suite[k]); });
+        std::erase_if(leaves, [&](size_t k) { return !mutants::is_small(suite[k]); });
     }
     for (const mutants::LegalDevice& legal : mutants::legal_devices()) {
         if (!wanted.empty() && wanted.count(legal.name) == 0) {

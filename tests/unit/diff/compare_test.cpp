@@ -5,6 +5,7 @@
 // profile that it breaks, and must not see anything in a right picture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diff/verdict.hpp"
@@ -183,6 +184,21 @@ TEST(Compare, WrongLastWriterIsAnOrderFinding) {
     EXPECT_EQ(only(v).level, Profile::vulkan);
 }
 
+TEST(Compare, LastWriterFarFromTheSampleIsACoverageFinding) {
+    // (1,1) lies well inside triangle 0; triangle 1, which is beyond the diagonal, must not cover
+    // it.
+    Checked k(diagonal());
+    const size_t i = k.at(1, 1);
+    ASSERT_EQ(k.capture.writers[i].primitive, 0U);
+    ref::ValueReference values(k.c, kLimits, Profile::direct3d);
+    write_fragment(k.capture, k.c, k.e, values, 1, {1, 1, 0});
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::order);
+    EXPECT_EQ(only(v).rule, "cover.outside");
+    EXPECT_EQ(only(v).level, Profile::vulkan);
+    EXPECT_NE(only(v).why.find("triangle 1 of draw 0"), std::string::npos) << only(v).why;
+}
+
 TEST(Compare, OtherOwnerOfASharedEdgeIsATieNotAnOrder) {
     // The sample (3,4) lies on the diagonal: one hit by either triangle is right in Vulkan.
     Checked k(diagonal());
@@ -349,6 +365,24 @@ TEST(Compare, FindingsAreCappedButCounted) {
     const diff::Verdict v = k.verdict();
     EXPECT_EQ(v.findings.size(), diff::kMaxFindings);
     EXPECT_EQ(v.counts[static_cast<size_t>(FindingKind::missing)], 4096U);
+}
+
+TEST(Compare, ValuesBeyondTheCapAreCounted) {
+    cases::Case c = pixel_case(64, 64, {{0, 0}, {64, 0}, {0, 64}, {64, 0}, {64, 64}, {0, 64}});
+    add_attribute(c, cases::Interpolation::smooth, {0, 1, 0, 1, 1, 0});
+    Checked k(c);
+    for (glm::vec4& value : k.capture.attributes[0]) {
+        value.x += 4;  // outside of the vertices' values: wrong at every profile
+    }
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(v.findings.size(), diff::kMaxFindings);
+    EXPECT_EQ(v.counts[static_cast<size_t>(FindingKind::value)], 4096U);
+    EXPECT_EQ(v.level, Profile::vulkan);
+    EXPECT_EQ(v.findings.back().rule, "interp.hull");
+    EXPECT_TRUE(std::all_of(v.marks.begin(), v.marks.end(),
+                            [](diff::SampleMark m) { return m == diff::SampleMark::value; }));
+    EXPECT_TRUE(std::all_of(v.error_ratios.begin(), v.error_ratios.end(),
+                            [](float ratio) { return ratio > 2; }));
 }
 
 TEST(ExpectedHits, AgreesOrNamesTheFirstPixel) {

@@ -85,6 +85,39 @@ TEST(Store, HalvesAndFloats) {
     });
 }
 
+// Beyond the largest half, 65504 = (2 - 2^-10) 2^15: that one, or infinity, of the value's sign.
+// The exponent of a device that adds 15 and forgets the limit runs into NaN or back to small
+// numbers.
+TEST(Store, HalvesThatOverflow) {
+    const Unit unit{ColorFormat::rgba16_float, Profile::vulkan};
+    const auto allows = [&](double value, uint32_t code) {
+        const Color color =
+            unit.write(cases::ColorOutput{}, color_of({value, 0, 0, 0}), color_of({0, 0, 0, 0}));
+        return unit.allows(color, {code, 0, 0, 0});
+    };
+    constexpr uint32_t kLargest = 0x7bff, kInfinity = 0x7c00, kSign = 0x8000;
+    for (const double value : {65505.0, 65519.0, 65520.0, 65536.0, 70000.0, 1e9, 1e30}) {
+        for (const uint32_t sign : {0U, kSign}) {
+            const double v = sign == 0 ? value : -value;
+            EXPECT_TRUE(allows(v, sign | kLargest)) << v;
+            EXPECT_TRUE(allows(v, sign | kInfinity)) << v;
+            EXPECT_FALSE(allows(v, (sign ^ kSign) | kLargest)) << v;
+            EXPECT_FALSE(allows(v, (sign ^ kSign) | kInfinity)) << v;
+            for (const uint32_t wrong :
+                 {0x7bfeU, 0x7c01U, 0x7ce2U, 0x7e00U, 0x7fffU, 0x0400U, 0U}) {
+                EXPECT_FALSE(allows(v, sign | wrong)) << v << " as " << wrong;
+            }
+        }
+    }
+    // The largest half itself is exact, and what lies below it has two neighbours.
+    EXPECT_TRUE(allows(65504, kLargest));
+    EXPECT_FALSE(allows(65504, kInfinity));
+    EXPECT_FALSE(allows(65504, kLargest - 1));
+    EXPECT_TRUE(allows(65503, kLargest));
+    EXPECT_TRUE(allows(65503, kLargest - 1));
+    EXPECT_FALSE(allows(65503, kInfinity));
+}
+
 TEST(Store, SrgbEncodesColourAndNotAlpha) {
     const Unit unit{ColorFormat::rgba8_srgb, Profile::vulkan};
     const Color before = unit.cleared({ColorFormat::rgba8_srgb, {0, 0, 0, 0}});

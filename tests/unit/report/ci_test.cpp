@@ -53,6 +53,52 @@ TEST(causes, group_by_status_rule_kind_and_family) {
     EXPECT_EQ(list.back().status, Status::not_run);
 }
 
+// A failed case whose one finding breaks `rule` at `level`.
+CaseRecord failed(const std::string& id, const std::string& rule, cases::Profile level) {
+    CaseRecord record;
+    record.id = id;
+    record.status = Status::fail;
+    record.level = level;
+    diff::Finding finding;
+    finding.rule = rule;
+    finding.level = level;
+    record.findings = {finding};
+    return record;
+}
+
+TEST(causes, begin_with_the_rule_that_is_broken_everywhere) {
+    using cases::Profile;
+    report::Run run;
+    // One family full of a consequence, three families with what causes it, and ties all over.
+    for (int k = 0; k < 5; ++k) {
+        run.cases.push_back(
+            failed("order/a:" + std::to_string(k), "order.primitive", Profile::vulkan));
+        run.cases.push_back(
+            failed("ties/a:" + std::to_string(k), "tie.top-left", Profile::direct3d));
+        run.cases.push_back(
+            failed("thin/a:" + std::to_string(k), "tie.top-left", Profile::direct3d));
+    }
+    for (const char* id : {"mesh/a", "mesh/b", "clip/a", "depth/a"}) {
+        run.cases.push_back(failed(id, "cover.inside", Profile::vulkan));
+    }
+    std::string order;
+    for (const Cause& cause : causes(run)) {
+        order += cause.rule + " " + cause.family + "; ";
+    }
+    EXPECT_EQ(order,
+              "cover.inside mesh; cover.inside clip; cover.inside depth; order.primitive order; "
+              "tie.top-left ties; tie.top-left thin; ");
+}
+
+TEST(causes, of_equal_reach_are_in_the_order_of_the_rules) {
+    report::Run run;
+    run.cases = {failed("a/a", "interp.linear", cases::Profile::vulkan),
+                 failed("b/b", "cover.inside", cases::Profile::vulkan)};
+    EXPECT_EQ(causes(run).front().rule, "cover.inside");
+    std::swap(run.cases[0], run.cases[1]);
+    EXPECT_EQ(causes(run).front().rule, "cover.inside");
+}
+
 TEST(github, at_most_ten_and_the_rest_is_counted) {
     report::Run run = test::sample_run();
     EXPECT_EQ(lines_with(to_github_annotations(run, "/x"), "::error "), 10U);

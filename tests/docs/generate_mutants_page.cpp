@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Prints docs/mutants.md: every fault of the mutants' device and what catches it, every legal
+// device and that nothing is found wrong about it, every family and what it alone catches. From
+// the recorded runs (tests/mutants/*.tsv), the tables of faults and the list of legal devices.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "mutants/judge.hpp"
+#include "mutants/recorded.hpp"
+
+namespace {
+
+using mutants::FaultInfo;
+using mutants::Kill;
+using mutants::Matrix;
+
+std::string contents(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+// The sources of the device that name a fault: "`tiles.cpp` `planes.cpp`".
+class Sources {
+  public:
+    explicit Sources(const std::filesystem::path& folder) {
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            const std::string name = entry.path().filename().string();
+            const bool is_table = name.starts_with("fault") || name.starts_with("expected") ||
+                                  name.starts_with("matrix") || name.ends_with("_test.cpp");
+            if (entry.path().extension() == ".cpp" && !is_table) {
+                texts_[name] = contents(entry.path());
+            }
+        }
+    }
+    std::string of(const FaultInfo& info) const {
+        std::string out;
+        for (const auto& [name, text] : texts_) {
+            const std::string word = fmt::format("Fault::{}", info.name);
+            for (size_t at = text.find(word); at != std::string::npos;
+                 at = text.find(word, at + 1)) {
+                const char next = text[at + word.size()];
+                if (std::isalnum(static_cast<unsigned char>(next)) == 0 && next != '_') {
+                    out += fmt::format("{}`{}`", out.empty() ? "" : " ", name);
+                    break;
+                }
+            }
+        }
+        return out;
+    }
+
+  private:
+    std::map<std::string, std::string> texts_;
+};
+
+// The cheapest leaves of two families, those that catch it at the loosest profile first.
+std::vector<Kill> examples(std::vector<Kill> kills) {
+    std::stable_sort(kills.begin(), kills.end(),
+                     [](const Kill& a, const Kill& b) { return a.level < b.level; });
+    kills.resize(std::min<size_t>(kills.size(), 2));
+    return kills;
+}
+
+std::string code_words(std::string_view words) {
+    std::string out = "`";
+    for (const char c : words) {
+        out += c == ' ' ? std::string("` `") : std::string(1, c);
+    }
+    return out + "`";
+}
+
+// False if a fault is caught by fewer than two families.
+bool print_faults(const Matrix& matrix, const Sources& sources) {
+    bool is_complete = true;
+    std::string table;
+    size_t found = 0, count = 0;
+    for (const FaultInfo& info : mutants::all_faults()) {
+        const std::vector<Kill> kills = mutants::kills_of(matrix, info.fault);
+        const std::string where = sources.of(info);
+        if (kills.size() < 2 || where.empty()) {
+            fmt::print(stderr, "error: {} is {}\n", info.name,
+                       where.empty() ? "in no source" : "caught by fewer than two families");
+            is_complete = false;
+        }
+        std::string cases;
+        for (const Kill& kill : examples(kills)) {
+            cases += fmt::format("{}`{}`", cases.empty() ? "" : " ", kill.leaf);
+        }
+        const std::string top = mutants::top_rule(kills);
+        const bool is_found = mutants::is_broken(info, top);
+        found += is_found ? 1 : 0;
+        ++count;
+        table += fmt::format("| `{}` | {} | {} | {} | {}`{}` | {} | {} | {} |\n", info.name,
+                             info.change, where, code_words(info.rules), is_found ? "" : "! ", top,
+                             cases::to_string(mutants::loosest(kills)), kills.size(), cases);
+    }
+    fmt::print(
+        "## Faults\n\n"
+        "{} faults, {} of them caught by at least two families; survivors: {}. A report of all "
+        "their failures tells a rule first that the fault breaks for {} of them ({:.1f} %); where "
+        "it does not, the rule is marked `!`. *Profile*: the loosest at which a case fails; "
+        "*families*: how many catch it; *cases*: the cheapest of two families.\n\n"
+        "| fault | what the device does | where | breaks | told first | profile | families | cases "
+        "|\n| --- | --- | --- | --- | --- | --- | --- | --- |\n{}",
+        count,
+        std::count_if(mutants::all_faults().begin(), mutants::all_faults().end(),
+                      [&](const FaultInfo& info) {
+                          return mutants::kills_of(matrix, info.fault).size() > 1;
+                      }),
+        std::count_if(
+            mutants::all_faults().begin(), mutants::all_faults().end(),
+            [&](const FaultInfo& info) { return mutants::kills_of(matrix, info.fault).empty(); }),
+        found, 100.0 * static_cast<double>(found) / static_cast<double>(count), table);
+    return is_complete;
+}
+
+// False if a device was not run, or with a finding.
+bool print_legal(const Matrix& matrix) {
+    bool is_complete = true;
+    std::string table;
+    size_t alarms = 0;
+    const auto devices = mutants::legal_devices();
+    for (const mutants::LegalDevice& device : devices) {
+        const auto result =
+            std::find_if(matrix.legal.begin(), matrix.legal.end(),
+                         [&](const mutants::LegalResult& r) { return r.device == device.name; });
+        if (result == matrix.legal.end() || result->alarms > 0) {
+            fmt::print(stderr, "error: the legal device {} {}\n", device.name,
+                       result == matrix.legal.end() ? "was not run" : "has false alarms");
+            is_complete = false;
+            continue;
+        }
+        alarms += result->alarms;
+        table += fmt::format("| `{}` | {} | {} | {} | {} | {:.3f} |\n", device.name, device.what,
+                             cases::to_string(device.profile), result->leaves, result->alarms,
+                             result->worst_ratio);
+    }
+    fmt::print(
+        "\n## Legal devices\n\n"
+        "{} devices that break no rule of their profile; false alarms: {}. *Budgets*: the largest "
+        "accepted error of a value, in units of what its rule allows.\n\n"
+        "| device | what it does | profile | cases | false alarms | budgets |\n"
+        "| --- | --- | --- | --- | --- | --- |\n{}",
+        devices.size(), alarms, table);
+    return is_complete;
+}
+
+void print_families(const Matrix& matrix) {
+    struct Family {
+        size_t caught = 0;
+        std::vector<std::string> alone;   // at the loosest profile
+        std::vector<std::string> needed;  // one of two that catch it at all
+    };
+    std::map<std::string, Family> families;
+    for (const FaultInfo& info : mutants::all_faults()) {
+        const std::vector<Kill> kills = mutants::kills_of(matrix, info.fault);
+        const cases::Profile level = mutants::loosest(kills);
+        const auto at_level = std::count_if(kills.begin(), kills.end(),
+                                            [&](const Kill& kill) { return kill.level == level; });
+        for (const Kill& kill : kills) {
+            Family& family = families[kill.family];
+            ++family.caught;
+            if (at_level == 1 && kill.level == level) {
+                family.alone.emplace_back(info.name);
+            }
+            if (kills.size() == 2) {
+                family.needed.emplace_back(info.name);
+            }
+        }
+    }
+    fmt::print(
+        "\n## Families\n\n"
+        "Which faults hang on a family. *Alone*: no other family catches the fault at its loosest "
+        "profile. *One of two*: without the family only one would be left that catches it. The "
+        "family `blit` is not here: the device has no blits.\n\n"
+        "| family | faults caught | alone | one of two |\n| --- | --- | --- | --- |\n");
+    const auto list = [](const std::vector<std::string>& names) {
+        std::string out;
+        for (const std::string& name : names) {
+            out += fmt::format("{}`{}`", out.empty() ? "" : " ", name);
+        }
+        return out;
+    };
+    for (const auto& [name, family] : families) {
+        fmt::print("| `{}` | {} | {} | {} |\n", name, family.caught, list(family.alone),
+                   list(family.needed));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    if (argc != 2) {
+        std::fputs("usage: generate_mutants_page FOLDER\n", stderr);
+        return 2;
+    }
+    const Matrix matrix = mutants::read_matrix(argv[1]);
+    fmt::print(
+        "# What the suite catches of a broken rasterizer\n\n"
+        "Generated from `tests/mutants` by `scripts/generate-docs`; do not edit.\n\n"
+        "[tests/mutants](../tests/mutants/README.md) holds a rasterizer of its own, written as "
+        "drivers are, that shares no arithmetic with the reference. It can be given one fault at a "
+        "time that an author could make, and it can be given each choice that the specifications "
+        "leave open. Below is what a run of {} cases from {} case files found; "
+        "`cmake --build --preset release --target record_mutants` runs the whole suite and "
+        "rewrites what this page is made of. The tests run each fault again on two of its cases, "
+        "each legal device on a share of the suite. A real driver with faults: "
+        "[breaking-layer.md](breaking-layer.md).\n\n",
+        matrix.leaves, matrix.files);
+    const bool all_caught = print_faults(matrix, Sources(argv[1]));
+    const bool all_legal = print_legal(matrix);
+    print_families(matrix);
+    return all_caught && all_legal ? 0 : 3;
+} catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 3;
+}
