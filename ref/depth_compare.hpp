@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Three-valued comparison of depths that are known as ranges (Vulkan specification, "Depth Test"), in
-// Balls or rationals. Part of depth_test.cpp.
+// Three-valued comparison of depths that are known as ranges (Vulkan specification, "Depth Test"),
+// in Balls or rationals. Part of depth_test.cpp.
 #pragma once
 
 #include <cmath>

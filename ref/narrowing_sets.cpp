@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sets of hits of which the whole picture fixes how many there are: pairs of triangles at both sides of
-// an edge, and closed chains of them.
-#include "ref/narrowing.hpp"
-
+// Sets of hits of which the whole picture fixes how many there are: pairs of triangles at both
+// sides of an edge, and closed chains of them.
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 
+#include "ref/narrowing.hpp"
 
 namespace ref {
 
