@@ -99,7 +99,7 @@ class Explain(TerminalTest):
                      "fam/c1", "--rule", "tie.top-left")
         self.refused("--rule explains a rule, not a case; leave out the selector and --pixel; see 'edgecase explain --help'",
                      "--pixel", "1,1", "--rule", "tie.top-left")
-        self.refused("--pixel: 'x' is not a value that it takes; see 'edgecase explain --help'", "fam/c1", "--pixel", "x")
+        self.refused("--pixel: 'x' is not a value that it takes; write X,Y; see 'edgecase explain --help'", "fam/c1", "--pixel", "x")
 
 
 class Table(ProgramTest):

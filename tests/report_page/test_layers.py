@@ -82,8 +82,10 @@ class Layers(PageTest):
                         f"f.scrollTop = 0; page.viewer.draw(); return [...c.getContext('2d').getImageData(zoom - 3, ({y} + 1.5) * zoom, 7, 1).data].join(); }})()")
 
     def test_a_narrow_window_shows_all(self):
-        page = self.open("#case=layers%2Fstack", width=480, height=1400)
-        self.assertEqual(page.run("document.documentElement.scrollWidth"), 480)
+        for width in (480, 360):
+            for place in ("#case=layers%2Fstack", ""):
+                page = self.open(place, width=width, height=1400)
+                self.assertEqual(page.run("document.documentElement.scrollWidth"), width)
 
 
 if __name__ == "__main__":
