@@ -182,8 +182,7 @@ void print_families(const Matrix& matrix) {
     fmt::print(
         "\n## Families\n\n"
         "Which faults hang on a family. *Alone*: no other family catches the fault at its loosest "
-        "profile. *One of two*: without the family only one would be left that catches it. The "
-        "family `blit` is not here: the device has no blits.\n\n"
+        "profile. *One of two*: without the family only one would be left that catches it.\n\n"
         "| family | faults caught | alone | one of two |\n| --- | --- | --- | --- |\n");
     const auto list = [](const std::vector<std::string>& names) {
         std::string out;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mutants/blit.hpp"
 #include "mutants/depth.hpp"
 #include "mutants/draw_command.hpp"
 #include "mutants/resolve_unit.hpp"
@@ -11,6 +12,9 @@
 namespace mutants {
 
 diff::Capture render(const cases::Case& c, const Device& device) {
+    if (c.blit) {
+        return blit(c, device);
+    }
     diff::Capture out;
     out.target = c.target;
     out.has_primitive = true;

@@ -47,6 +47,9 @@ enum class BlendMath : uint8_t { fixed, binary32 };
 // A product of 8-bit numbers over 255: (x y + 127) / 255, or t = x y + 128, (t + (t >> 8)) >> 8.
 enum class FixedMultiply : uint8_t { divide, shifts };
 
+// Where a linear filter that reaches beyond the blitted region is clamped.
+enum class BlitEdge : uint8_t { image, region };
+
 // What a device is free to choose. The default is llvmpipe's way.
 struct Device {
     int subpixel_bits = 8;  // 4..12
@@ -68,10 +71,12 @@ struct Device {
     bool half_toward_zero = false;       // binary16 is rounded towards zero
     bool resolve_truncates = false;      // averages of codes are rounded down
     bool srgb_resolved_encoded = false;  // averages of sRGB are taken of the codes
+    BlitEdge blit_edge = BlitEdge::image;
+    bool blit_steps = false;  // coordinates of a blit are summed up from texel to texel
     Fault fault = Fault::none;
 };
 
-// Draws the case.
+// Draws the case, or blits.
 diff::Capture render(const cases::Case& c, const Device& device);
 
 }  // namespace mutants

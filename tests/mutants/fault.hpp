@@ -258,6 +258,18 @@ enum class Fault : uint8_t {
     resolve_row_lost,
     resolve_early,
     resolve_ignored,
+    // blits
+    blit_mirror_ignored,
+    blit_half_texel_lost,
+    blit_scale_truncated,
+    blit_corners_aligned,
+    blit_region_closed,
+    blit_filter_ignored,
+    blit_filter_unshifted,
+    blit_filters_one_axis,
+    blit_edge_wraps,
+    blit_copies_codes,
+    blit_missing_alpha_zero,
 };
 
 // One line of the table of faults.
@@ -268,7 +280,8 @@ struct FaultInfo {
     std::string_view rules;   // the rules that this breaks, ids separated by spaces
 };
 std::span<const FaultInfo> all_faults();  // without none
-// Its parts: up to coverage; samples, layers, values and depth; colours, stencil and resolves.
+// Its parts: up to coverage; samples, layers, values and depth; colours, stencil, resolves and
+// blits.
 std::span<const FaultInfo> faults_of_geometry();
 std::span<const FaultInfo> faults_of_values();
 std::span<const FaultInfo> faults_of_targets();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults of the colour target, the stencil and resolves.
+// Faults of the colour target, the stencil, resolves and blits.
 #include "mutants/fault.hpp"
 
 namespace mutants {
@@ -134,6 +134,29 @@ constexpr FaultInfo kFaults[] = {
      "resolve.average resolve.select"},
     {Fault::resolve_ignored, "resolve_ignored", "Nothing is resolved.",
      "resolve.average resolve.select"},
+    {Fault::blit_mirror_ignored, "blit_mirror_ignored", "A mirrored blit is drawn upright.",
+     "blit.nearest blit.linear"},
+    {Fault::blit_half_texel_lost, "blit_half_texel_lost",
+     "The coordinate of a texel is that of its corner.", "blit.nearest blit.linear"},
+    {Fault::blit_scale_truncated, "blit_scale_truncated",
+     "A scale above 1 is cut to a whole number.", "blit.nearest blit.linear"},
+    {Fault::blit_corners_aligned, "blit_corners_aligned",
+     "The first and the last texels of both regions are laid on each other.",
+     "blit.nearest blit.linear"},
+    {Fault::blit_region_closed, "blit_region_closed",
+     "The last row and column of the region are drawn once more.", "blit.outside"},
+    {Fault::blit_filter_ignored, "blit_filter_ignored", "A linear filter is drawn as nearest.",
+     "blit.linear"},
+    {Fault::blit_filter_unshifted, "blit_filter_unshifted",
+     "The linear filter forgets that texels have their numbers at their centres.", "blit.linear"},
+    {Fault::blit_filters_one_axis, "blit_filters_one_axis", "The linear filter works across only.",
+     "blit.linear"},
+    {Fault::blit_edge_wraps, "blit_edge_wraps", "Beyond the edge of the image lies its other side.",
+     "blit.linear"},
+    {Fault::blit_copies_codes, "blit_copies_codes", "Codes are copied from format to format.",
+     "blit.nearest blit.linear"},
+    {Fault::blit_missing_alpha_zero, "blit_missing_alpha_zero",
+     "An alpha that the source lacks is 0.", "blit.nearest blit.linear"},
 };
 
 }  // namespace

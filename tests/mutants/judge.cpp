@@ -71,6 +71,10 @@ std::vector<LegalDevice> legal_devices() {
             d.resolve_truncates = true;
             d.srgb_resolved_encoded = true;
         });
+    add("blit_clamped_at_the_region", "a linear blit reads nothing beyond its region",
+        Profile::direct3d, [](Device& d) { d.blit_edge = BlitEdge::region; });
+    add("blit_in_steps", "coordinates of a blit are summed up from texel to texel",
+        Profile::direct3d, [](Device& d) { d.blit_steps = true; });
     add("inputs_at_the_centre_of_shaded_samples",
         "with sample shading undecorated inputs stay at the pixel's centre", Profile::direct3d,
         [](Device& d) { d.inputs_follow_samples = false; });
@@ -173,17 +177,21 @@ void for_each_parallel(size_t count, const std::function<void(size_t)>& work) {
     run();
 }
 
+diff::Capture captured(const cases::Case& c, const Device& device) {
+    diff::Capture out = render(c, device);
+    diff::drop_unattached(out, c);
+    return out;
+}
+
+diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
+                      const diff::Capture& capture) {
+    return c.blit ? diff::compare_blit(c, expectation.profile, capture)
+                  : diff::compare(c, expectation, capture);
+}
+
 diff::Verdict judge(const cases::Case& c, const Device& device, cases::Profile profile) {
     const ref::Expectation expectation = ref::expect(c, {device.subpixel_bits}, profile);
-    diff::Capture capture;
-    if (c.blit) {  // the device has no blits: the target stays as it was cleared
-        capture.target = c.target;
-        diff::add_color_plane(capture, c, expectation);
-        return diff::compare_blit(c, profile, capture);
-    }
-    capture = render(c, device);
-    diff::drop_unattached(capture, c);
-    return diff::compare(c, expectation, capture);
+    return compare(c, expectation, captured(c, device));
 }
 
 bool is_named(const cases::Case& c, std::string_view id) {

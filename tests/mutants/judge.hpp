@@ -13,6 +13,7 @@
 #include "cases/profile.hpp"
 #include "diff/verdict.hpp"
 #include "mutants/device.hpp"
+#include "ref/expectation.hpp"
 
 namespace mutants {
 
@@ -32,6 +33,11 @@ std::string describe(const cases::Case& c, const diff::Verdict& verdict);
 // Calls work(k) for k = 0 .. count-1 on all processors, in no order.
 void for_each_parallel(size_t count, const std::function<void(size_t)>& work);
 
+// What the case's attachments hold after drawing.
+diff::Capture captured(const cases::Case& c, const Device& device);
+// Its verdict, draws or blit.
+diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
+                      const diff::Capture& capture);
 // Draws and judges one case.
 diff::Verdict judge(const cases::Case& c, const Device& device, cases::Profile profile);
 

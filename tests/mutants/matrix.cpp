@@ -9,7 +9,6 @@
 #include <mutex>
 #include <tuple>
 
-#include "diff/color_planes.hpp"
 #include "mutants/judge.hpp"
 #include "ref/expectation.hpp"
 
@@ -29,9 +28,7 @@ constexpr size_t kBatch = 16;
 diff::Capture captured(const cases::Case& c, Fault fault) {
     Device device;
     device.fault = fault;
-    diff::Capture out = render(c, device);
-    diff::drop_unattached(out, c);
-    return out;
+    return captured(c, device);
 }
 
 }  // namespace
@@ -71,6 +68,9 @@ bool can_matter(Fault fault, const cases::Case& c) {
     const auto any_draw = [&](const auto& has) {
         return std::any_of(c.draws.begin(), c.draws.end(), has);
     };
+    if (is_between(Fault::blit_mirror_ignored, Fault::blit_missing_alpha_zero)) {
+        return c.blit.has_value();
+    }
     if (is_between(Fault::blend_ignored, Fault::srgb_gamma)) {
         // Resolved numbers are converted, too; all of them come from a colour.
         return c.target.color.has_value();
@@ -119,9 +119,6 @@ std::vector<size_t> leaves_by_turn(std::span<const cases::Case> suite) {
     std::vector<std::tuple<size_t, size_t, size_t>> order;
     std::map<std::string, size_t> leaves, files;
     for (size_t k = 0; k < suite.size(); ++k) {
-        if (suite[k].blit) {  // the device has no blits
-            continue;
-        }
         const size_t leaf = leaves[file_of(suite[k])]++;
         size_t& file = files[family_of(suite[k])];
         file += leaf == 0 ? 1 : 0;
@@ -156,7 +153,7 @@ void measure(std::span<const cases::Case> suite, std::span<const size_t> leaves,
         const cases::Case& c = suite[leaves[n]];
         const ref::Expectation expectation = ref::expect(c, {}, cases::Profile::direct3d);
         const diff::Capture right = captured(c, Fault::none);
-        if (const diff::Verdict verdict = diff::compare(c, expectation, right); !verdict.ok()) {
+        if (const diff::Verdict verdict = compare(c, expectation, right); !verdict.ok()) {
             const std::lock_guard lock(mutex);
             alarm(describe(c, verdict));
             return;
@@ -169,7 +166,7 @@ void measure(std::span<const cases::Case> suite, std::span<const size_t> leaves,
             if (same_bits(right, wrong)) {
                 continue;
             }
-            const diff::Verdict verdict = diff::compare(c, expectation, wrong);
+            const diff::Verdict verdict = compare(c, expectation, wrong);
             if (verdict.ok() || !verdict.error.empty()) {
                 continue;
             }

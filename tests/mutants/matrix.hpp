@@ -44,7 +44,7 @@ std::string family_of(const cases::Case& c);
 std::string file_of(const cases::Case& c);
 
 // The first leaf of each family's first file, then of the second files and so on, then all second
-// leaves: what differs most comes first. Without blits.
+// leaves: what differs most comes first.
 std::vector<size_t> leaves_by_turn(std::span<const cases::Case> suite);
 
 // Draws and judges `leaves` at profile direct3d with every fault for which `asks` still holds, on

@@ -119,8 +119,9 @@ TEST_P(Legal, HasNoFinding) {
     const auto alarms = wrong_cases(
         GetParam().device, GetParam().profile,
         [&](size_t k, const cases::Case& c) {
-            // The device cannot blit.
-            return !c.blit && (is_every_leaf_asked() || k % kShare == number % kShare);
+            // Blits meet few devices otherwise that blit in their own way.
+            return is_every_leaf_asked() || k % kShare == number % kShare ||
+                   (c.blit && GetParam().name.starts_with("blit"));
         },
         [](const diff::Verdict& verdict) { return !verdict.ok(); });
     EXPECT_TRUE(alarms.empty()) << alarms.size() << " false alarms:" << joined(alarms);

@@ -31,7 +31,6 @@
 #include <tuple>
 #include <vector>
 
-#include "diff/color_planes.hpp"
 #include "mutants/judge.hpp"
 #include "mutants/matrix.hpp"
 #include "mutants/recorded.hpp"
@@ -108,12 +107,11 @@ std::string record_file(const std::vector<const cases::Case*>& leaves, const Pla
         const auto captured = [&](mutants::Fault fault) {
             mutants::Device device;
             device.fault = fault;
-            diff::Capture out = mutants::render(*leaf, device);
-            diff::drop_unattached(out, *leaf);
-            return out;
+            return mutants::captured(*leaf, device);
         };
         const diff::Capture right = captured(mutants::Fault::none);
-        if (const diff::Verdict verdict = diff::compare(*leaf, expectation, right); !verdict.ok()) {
+        if (const diff::Verdict verdict = mutants::compare(*leaf, expectation, right);
+            !verdict.ok()) {
             fmt::print(stderr, "false alarm: {}\n", mutants::describe(*leaf, verdict));
             continue;
         }
@@ -126,7 +124,7 @@ std::string record_file(const std::vector<const cases::Case*>& leaves, const Pla
             if (mutants::same_bits(right, wrong)) {
                 continue;
             }
-            const diff::Verdict verdict = diff::compare(*leaf, expectation, wrong);
+            const diff::Verdict verdict = mutants::compare(*leaf, expectation, wrong);
             if (verdict.ok() || !verdict.error.empty()) {
                 continue;
             }
@@ -259,7 +257,7 @@ int record_legal(const cases::Suite& suite, const char* path, bool quick) {
         double worst = 0;
         mutants::for_each_parallel(suite.cases.size(), [&](size_t k) {
             const cases::Case& c = suite.cases[k];
-            if (c.blit || (quick && !mutants::is_small(c))) {
+            if (quick && !mutants::is_small(c)) {
                 return;
             }
             const diff::Verdict verdict = mutants::judge(c, legal.device, legal.profile);
