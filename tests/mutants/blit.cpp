@@ -75,8 +75,8 @@ class Blitter {
         const float half = device_.fault == Fault::blit_half_texel_lost ? 0.0F : 0.5F;
         if (device_.blit_steps) {  // from texel to texel, from the region's first one on
             const int32_t first = std::min(axis.d0, axis.d1);
-            float u = (static_cast<float>(first - axis.d0) + half) * scale +
-                      static_cast<float>(axis.s0);
+            float u =
+                (static_cast<float>(first - axis.d0) + half) * scale + static_cast<float>(axis.s0);
             for (int32_t k = first; k < i; ++k) {
                 u += scale;
             }
@@ -132,10 +132,10 @@ class Blitter {
             const uint32_t code = from_.channels[k].bits == 0 ? missing(k) : texel[k];
             const uint32_t bits = to_.channels[k].bits;
             const bool cuts = device_.fault == Fault::integer_8_bits;
-            out[k] = bits == 0              ? 0
-                     : bits == 8 && !cuts   ? std::min(code, 0xffU)
-                     : bits == 8 || cuts    ? code & 0xffU
-                                            : code;
+            out[k] = bits == 0            ? 0
+                     : bits == 8 && !cuts ? std::min(code, 0xffU)
+                     : bits == 8 || cuts  ? code & 0xffU
+                                          : code;
         }
         return out;
     }
@@ -168,9 +168,8 @@ class Blitter {
         float column = 0;
         float row = 0;
         const float alpha = split(u, column);
-        const float beta = device_.fault == Fault::blit_filters_one_axis
-                               ? (split(v, row), 0.0F)
-                               : split(v, row);
+        const float beta =
+            device_.fault == Fault::blit_filters_one_axis ? (split(v, row), 0.0F) : split(v, row);
         std::array<float, 4> numbers{};
         for (size_t k = 0; k < 4; ++k) {
             const auto at = [&](float x, float y) { return load(fetch(x, y), k); };
@@ -198,8 +197,8 @@ diff::Capture blit(const cases::Case& c, const Device& device) {
     diff::ColorCodes clear{};
     for (size_t k = 0; k < 4; ++k) {
         if (layout.channels[k].bits != 0) {
-            clear[k] = store_channel(c.target.color->clear[static_cast<int>(k)],
-                                     layout.channels[k], device);
+            clear[k] = store_channel(c.target.color->clear[static_cast<int>(k)], layout.channels[k],
+                                     device);
         }
     }
     out.color.assign(out.sample_count(), clear);

@@ -64,6 +64,8 @@ struct Device {
     bool reciprocal_w = false;     // x * (1/w) instead of x / w
     Centroid centroid = Centroid::first_sample;
     bool inputs_follow_samples = true;  // with sample shading inputs are evaluated at the sample
+    bool corner_inputs = false;         // with several samples undecorated ones near a corner
+    bool facing_unsnapped = false;      // the sign of the area comes from unsnapped positions
     bool odd_quads = false;             // quads of derivatives begin at odd pixels
     UnormRounding unorm = UnormRounding::nearest;
     BlendMath blend = BlendMath::fixed;

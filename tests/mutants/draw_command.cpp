@@ -179,6 +179,25 @@ std::unique_ptr<TrianglePlanes> DrawCommand::planes_in_viewport(
     return std::make_unique<TrianglePlanes>(best, positive, draw_, device_);
 }
 
+namespace {
+
+// Of the area of the polygon's unsnapped positions.
+int unsnapped_sign(const std::vector<WindowVertex>& polygon) {
+    double area = 0;
+    for (size_t k = 0; k < polygon.size(); ++k) {
+        const WindowVertex& a = polygon[k];
+        const WindowVertex& b = polygon[(k + 1) % polygon.size()];
+        const auto relative = [&](float v, float origin) {
+            return static_cast<double>(v) - static_cast<double>(origin);
+        };
+        area += relative(a.x, polygon[0].x) * relative(b.y, polygon[0].y) -
+                relative(b.x, polygon[0].x) * relative(a.y, polygon[0].y);
+    }
+    return area > 0 ? 1 : area < 0 ? -1 : 0;
+}
+
+}  // namespace
+
 void DrawCommand::rasterize_polygon(const Primitive& primitive,
                                     const std::array<ClipVertex, 3>& whole,
                                     std::vector<WindowVertex> polygon, bool was_cut) {
@@ -199,7 +218,8 @@ void DrawCommand::rasterize_polygon(const Primitive& primitive,
             return;
         }
     }
-    const bool front = is_front(area, whole);
+    const int unsnapped = device_.facing_unsnapped ? unsnapped_sign(polygon) : 0;
+    const bool front = is_front(unsnapped != 0 ? unsnapped : area, whole);
     if (is_culled(front)) {
         ++culled_;
         return;

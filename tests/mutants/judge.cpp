@@ -78,6 +78,12 @@ std::vector<LegalDevice> legal_devices() {
     add("inputs_at_the_centre_of_shaded_samples",
         "with sample shading undecorated inputs stay at the pixel's centre", Profile::direct3d,
         [](Device& d) { d.inputs_follow_samples = false; });
+    add("inputs_near_a_corner_at_vulkan",
+        "with several samples undecorated inputs are evaluated near a corner of the pixel",
+        Profile::vulkan, [](Device& d) { d.corner_inputs = true; });
+    add("facing_of_unsnapped_positions_at_vulkan",
+        "facing comes from unsnapped positions, so that slivers may face either way",
+        Profile::vulkan, [](Device& d) { d.facing_unsnapped = true; });
     add("centroid_is_the_mean", "centroid is the mean of the covered samples", Profile::practice,
         [](Device& d) { d.centroid = Centroid::mean; });
     add("like_swiftshader", "SwiftShader's choices", Profile::direct3d, [](Device& d) {

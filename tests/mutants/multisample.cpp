@@ -75,8 +75,11 @@ Invocation invoke(const cases::Draw& draw, const Device& device,
     const Place centre = at({0.5F, 0.5F});
     out.sample = at(in_pixel(s));
     out.frag_coord = per_sample && fault != Fault::frag_coord_always_centre ? out.sample : centre;
-    out.centre = per_sample && device.inputs_follow_samples ? out.sample : centre;
-    out.centroid = out.centre;
+    const bool is_corner = device.corner_inputs && count > 1;
+    out.centre = per_sample && device.inputs_follow_samples ? out.sample
+                 : is_corner                                ? at({0.0625F, 0.9375F})
+                                                            : centre;
+    out.centroid = is_corner ? centre : out.centre;
     const bool is_partial = (covered & all) != all;
     if (is_partial && alive != 0 && fault != Fault::centroid_at_centre) {
         switch (device.centroid) {

@@ -130,6 +130,24 @@ TEST_P(Legal, HasNoFinding) {
 INSTANTIATE_TEST_SUITE_P(Devices, Legal, testing::ValuesIn(legal_devices()),
                          [](const auto& device) { return device.param.name; });
 
+// A choice that only looser profiles allow is one that direct3d's cases see: the device really
+// makes it, and the profiles really differ.
+TEST(Suite, WhatOnlyLooserProfilesAllowIsSeenAtDirect3d) {
+    const std::set<std::string> families = {"ties",     "snap",        "facing", "thin",
+                                            "topology", "multisample", "store"};
+    for (const LegalDevice& legal : legal_devices()) {
+        if (legal.profile == cases::Profile::direct3d || legal.name.starts_with("plain")) {
+            continue;
+        }
+        EXPECT_TRUE(std::any_of(suite().cases.begin(), suite().cases.end(),
+                                [&](const cases::Case& c) {
+                                    return families.count(family_of(c)) > 0 && is_small(c) &&
+                                           !judge(c, legal.device, cases::Profile::direct3d).ok();
+                                }))
+            << legal.name;
+    }
+}
+
 // Names are checked first: a case that was renamed must not silently stop to guard.
 TEST(Mutants, EveryNamedCaseExists) {
     for (const ExpectedCatch& row : expected_catches()) {
