@@ -25,7 +25,7 @@ class Suite(ProgramTest):
                 results = self.results()
                 self.assertEqual(results["totals"]["cases"], results["totals"]["pass"] + results["totals"]["xfail"] + results["totals"]["unsupported"])
                 self.assertGreaterEqual(results["totals"]["cases"], 200)
-                self.assertLessEqual(results["totals"]["xfail"], 88)  # each told in cases/expectations
+                self.assertLessEqual(results["totals"]["xfail"], 90)  # each told in cases/expectations
                 self.assertLess(results["worst"]["ratio"], 2)
                 # What is left free must stay the exception: a suite of "either" would judge nothing.
                 # Triangles with bad numbers are free by their nature.
@@ -42,7 +42,7 @@ class Suite(ProgramTest):
         self.assertEqual({case["id"]: case["messages"] for case in self.results()["cases"] if case["messages"]}, {})
 
     def test_two_workers_agree_with_one(self):
-        self.run_lavapipe(check=0)
+        self.run_lavapipe("-j", "1", check=0)
         one = self.results()["cases"]
         self.run_lavapipe("-j", "2", check=0)
         two = self.results()["cases"]
