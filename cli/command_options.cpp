@@ -191,6 +191,8 @@ void define_run(CLI::App& app, RunOptions& o) {
         app.add_subcommand("run", "draw cases on a device and compare with the exact reference");
     run->footer(kFooter);
     add_suite(run, o.suite);
+    run->add_flag("--quick", o.quick, "the first and the last leaf of each case file alone")
+        ->group("Selection");
     run->add_option("--failed-in", o.failed_in,
                     "only the cases that ended unexpectedly in an earlier run")
         ->type_name("DIR")

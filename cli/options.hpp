@@ -43,6 +43,7 @@ struct RunOptions {
     SuiteOptions suite;
     DeviceOptions device;
     std::string failed_in, resume;
+    bool quick = false;
     Shard shard;
     bool shuffle = false;
     uint64_t seed = 1;

@@ -27,6 +27,20 @@ void shuffle(std::vector<cases::Case>& cases, uint64_t seed) {
               [&](const cases::Case& a, const cases::Case& b) { return key(a) < key(b); });
 }
 
+std::vector<size_t> first_and_last(const std::vector<cases::Case>& cases,
+                                   const std::vector<size_t>& selected) {
+    std::vector<size_t> out;
+    for (size_t n = 0; n < selected.size(); ++n) {
+        const auto is_other_file = [&](size_t m) {
+            return cases[selected[m]].where.file != cases[selected[n]].where.file;
+        };
+        if (n == 0 || n + 1 == selected.size() || is_other_file(n - 1) || is_other_file(n + 1)) {
+            out.push_back(selected[n]);
+        }
+    }
+    return out;
+}
+
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options) {
     OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
     if (!suite) {
@@ -50,7 +64,8 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     for (const cases::Case& c : suite->cases) {
         selection.suite_ids.push_back(c.id);
     }
-    for (const size_t k : suite->selected) {
+    for (const size_t k :
+         options.quick ? first_and_last(suite->cases, suite->selected) : suite->selected) {
         cases::Case& c = suite->cases[k];
         if ((options.failed_in.empty() || failed.contains(c.id)) &&
             shard_of(c.id, options.shard.count) == options.shard.index) {

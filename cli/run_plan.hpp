@@ -21,13 +21,17 @@ uint32_t shard_of(const std::string& id, uint32_t count);
 // Sorts into an order that depends on each id and the seed alone, so that a subset keeps its order.
 void shuffle(std::vector<cases::Case>& cases, uint64_t seed);
 
+// Of the selected cases the first and the last leaf of each file, for --quick.
+std::vector<size_t> first_and_last(const std::vector<cases::Case>& cases,
+                                   const std::vector<size_t>& selected);
+
 struct Selection {
     std::filesystem::path root;
     std::vector<cases::Case> cases;      // in the order of the run
     std::vector<std::string> suite_ids;  // of the whole suite
     bool whole_suite = false;
 };
-// Applies selectors, --failed-in, --shard and --shuffle. An empty selection is a Stop.
+// Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop.
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
 
 // The expectation files of --expect, or those beside the suite that fit the device.

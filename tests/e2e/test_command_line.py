@@ -200,6 +200,16 @@ class Selection(ProgramTest):
             seen += self.order("--shard", f"{shard}/3")
         self.assertEqual(sorted(seen), self.ids)
 
+    def test_quick_takes_the_first_and_the_last_leaf_of_each_file(self):
+        (self.suite / "fam/leaves.toml").write_text(
+            (self.suite / "fam/c1.toml").read_text().replace("[target]", "[matrix]\nn = [0, 90, 180, 270]\n[target]", 1)
+            .replace("[[draw]]", '[[draw]]\nrotate = "n"', 1))
+        leaves = [f"fam/leaves:n={n}" for n in (0, 90, 180, 270)]
+        self.assertEqual(sorted(self.order("--quick")), sorted(self.ids + [leaves[0], leaves[3]]))
+        self.assertEqual(self.order("--quick", "fam/leaves"), [leaves[0], leaves[3]])
+        self.assertEqual(self.order("--quick", leaves[1]), [leaves[1]])
+        self.assertEqual(self.order("fam/leaves"), leaves)
+
     def test_failed_in(self):
         self.run_suite(fault="segv@fam/c3,flip-pixel@fam/c5", check=1)
         again = self.folder / "again"
