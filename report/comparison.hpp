@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,6 +68,10 @@ std::string exit_words(const Comparison& comparison);
 // kept pictures (--capture all) differ.
 std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison& comparison,
                             const ConsoleStyle& style);
+// What the table's JSON and the page say alike of run `index`: its letter, folder, device, driver,
+// subpixel bits.
+nlohmann::ordered_json compared_run(const NamedRun& run, const Comparison& comparison,
+                                    size_t index);
 // docs/schema/comparison-1.json
 std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison& comparison);
 // One page that loads nothing: the runs, every case that is not the same, and where kept pictures

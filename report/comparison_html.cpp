@@ -77,15 +77,11 @@ Json data_of(const std::vector<NamedRun>& runs, const Comparison& comparison,
     Json list = Json::array();
     for (size_t k = 0; k < runs.size(); ++k) {
         const Run& run = runs[k].run;
-        list.push_back(
-            Json{{"name", comparison.letters[k]},
-                 {"folder", printable(runs[k].folder)},
-                 {"device", printable(run.device.name)},
-                 {"driver", printable(run.device.driver_name + " " + run.device.driver_info)},
-                 {"subpixel_bits", run.device.subpixel_bits},
-                 {"cases", run.cases.size()},
-                 {"exit", exit_text(exit_code(run))},
-                 {"report", reports[k]}});
+        Json json = compared_run(runs[k], comparison, k);
+        json["cases"] = run.cases.size();
+        json["exit"] = exit_text(exit_code(run));
+        json["report"] = reports[k];
+        list.push_back(std::move(json));
     }
     Json kinds = Json::array();
     for (size_t k = 0; k < kChanges; ++k) {

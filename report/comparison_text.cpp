@@ -174,20 +174,25 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
     return style.wrap ? wrapped(text, style.width) : text;
 }
 
+Json compared_run(const NamedRun& run, const Comparison& comparison, size_t index) {
+    const Device& device = run.run.device;
+    return Json{{"name", comparison.letters[index]},
+                {"folder", printable(run.folder)},
+                {"device", printable(device.name)},
+                {"driver", printable(device.driver_name + " " + device.driver_info)},
+                {"subpixel_bits", device.subpixel_bits}};
+}
+
 std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison& comparison) {
     Json list = Json::array();
     for (size_t k = 0; k < runs.size(); ++k) {
         const Run& run = runs[k].run;
-        list.push_back(
-            Json{{"name", comparison.letters[k]},
-                 {"folder", printable(runs[k].folder)},
-                 {"device", printable(run.device.name)},
-                 {"driver", printable(run.device.driver_name + " " + run.device.driver_info)},
-                 {"subpixel_bits", run.device.subpixel_bits},
-                 {"tool_version", printable(run.tool_version)},
-                 {"suite_hash", printable(run.suite_hash)},
-                 {"started", printable(run.started)},
-                 {"cases", run.cases.size()}});
+        Json json = compared_run(runs[k], comparison, k);
+        json["tool_version"] = printable(run.tool_version);
+        json["suite_hash"] = printable(run.suite_hash);
+        json["started"] = printable(run.started);
+        json["cases"] = run.cases.size();
+        list.push_back(std::move(json));
     }
     Json totals = Json::object();
     for (size_t k = 0; k < kChanges; ++k) {
