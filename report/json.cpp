@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/causes.hpp"
 #include "report/picture_codec.hpp"
 #include "report/record_codec.hpp"
 #include "report/reports.hpp"
@@ -152,6 +153,24 @@ Json run_json(const Run& run) {
     };
 }
 
+Json causes_json(const Run& run) {
+    Json list = Json::array();
+    for (const Cause& cause : causes(run)) {
+        Json json{
+            {"status", to_string(cause.status)},
+            {"family", printable(cause.family)},
+            {"rule", printable(cause.rule)},
+            {"kind", printable(cause.kind)},
+            {"level", cause.rule.empty() ? Json(nullptr) : Json(cases::to_string(cause.level))},
+            {"cases", Json::array()}};
+        for (const CaseRecord* record : cause.cases) {
+            json["cases"].push_back(printable(record->id));
+        }
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
 }  // namespace
 
 std::string to_json(const Run& run) {
@@ -177,6 +196,7 @@ std::string to_json(const Run& run) {
                                    : Json{{"ratio", encode_number(worst->worst_ratio)},
                                           {"quantity", printable(worst->worst_quantity)},
                                           {"case", printable(worst->id)}}},
+        {"causes", causes_json(run)},
         {"cases", list},
     };
     return json.dump(1) + '\n';

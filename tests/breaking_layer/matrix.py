@@ -41,16 +41,10 @@ FOCUS = [  # families that are about the faults whose names match
 def judge_results(results):
     """What the run of one fault has found, as a plain dictionary."""
     caught = [case for case in results["cases"] if broken.is_caught(case)]
-    rules = collections.Counter()
-    for case in caught:
-        found = collections.Counter(finding["rule"] for finding in case["findings"])
-        if found:
-            rules[found.most_common(1)[0][0]] += 1
-        elif case["status"] == "error":
-            rules["(not copied)"] += 1
+    named = [cause["rule"] for cause in results["causes"] if cause["rule"]]
     return {
         "cases": {case["id"]: [case["level"], case["compared_samples"], case["seconds"]] for case in caught},
-        "rules": dict(rules),
+        "rule": named[0] if named else "(not copied)" if caught else "",
         "run": len(results["cases"]),
     }
 
@@ -60,15 +54,14 @@ def family(case_id):
 
 
 def merge(a, b):
-    rules = collections.Counter(a["rules"]) + collections.Counter(b["rules"])
-    return {"cases": a["cases"] | b["cases"], "rules": dict(rules), "run": a["run"] + b["run"],
+    return {"cases": a["cases"] | b["cases"], "rule": b["rule"] or a["rule"], "run": a["run"] + b["run"],
             "altered": a["altered"] + b["altered"]}
 
 
 def run_fault(name, selectors, folder, limit):
     run = broken.run(name, selectors, folder, words=["--retries", "0", "--html", "/dev/null", "--capture", "none"], limit=limit)
     if run.results is None:
-        return {"cases": {}, "rules": {}, "run": 0, "altered": run.altered}
+        return {"cases": {}, "rule": "", "run": 0, "altered": run.altered}
     return judge_results(run.results) | {"altered": run.altered}
 
 
@@ -97,9 +90,8 @@ def table(faults, found):
         levels = collections.Counter(level for level, _, _ in r["cases"].values())
         loosest = next((p for p in ("vulkan", "practice", "direct3d") if levels[p]), "-")
         families = len({family(i) for i in r["cases"]})
-        rule = max(r["rules"], key=lambda k: (r["rules"][k], k)) if r["rules"] else "-"
         told = f"{len(r['cases'])} of {r['run']}" if r["altered"] else "not reached"
-        lines.append(f"| `{name}` | {sentence} | {loosest} | {told} | {families} | {rule} |")
+        lines.append(f"| `{name}` | {sentence} | {loosest} | {told} | {families} | {r['rule'] or '-'} |")
     return lines
 
 
