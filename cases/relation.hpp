@@ -26,14 +26,13 @@ struct Relation {
     friend bool operator==(const Relation&, const Relation&) = default;
 };
 
-// How a rendering differs from that of the case as it stands. Attachments are counted as in a
-// capture: hits, writers, frag_coord, attributes; the colour target is neither masked nor cleared
-// otherwise.
+// How a rendering differs from that of the case as it stands. Planes are counted as in a capture:
+// hits, writers, frag_coord, attributes; the colour target is neither masked nor cleared otherwise.
 struct Variation {
     std::array<uint32_t, 2> tile{};  // not 0: every draw is repeated under each tile's scissor
     bool other_clears = false;       // of attachments
     bool other_depth_clear = false;  // of depth
-    uint32_t masked = 0;             // bit k: attachment k is not written
+    uint32_t masked = 0;             // bit k: plane k is not written
     bool masks_depth = false;        // depth is not written
     bool later = false;              // in a later submission than the case
     friend bool operator==(const Variation&, const Variation&) = default;

@@ -28,8 +28,8 @@ inline constexpr float kClearValue = -0x1.5p127F;
 inline constexpr float kClearDepth = cases::kDepthClear;  // unless Target::depth_clear is another
 inline constexpr uint32_t kClearId = 0xfffffff0U;
 inline constexpr uint32_t kPoison = 0xffbadbadU;  // as a float: a NaN with a payload
-// The two spare channels of the hit counter: additive blending must leave kGuard alone and add 1 a
-// hit to the other, so that a broken clear or blend is seen.
+// The two spare channels of the hits plane: kHitGuard, and kHitGuard plus all hits, so that a
+// broken clear or blend is seen.
 inline constexpr float kHitGuard = 4096.0F;
 
 // What attachments are cleared to in a rendering with other clear values (cases::Variation).

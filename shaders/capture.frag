@@ -54,24 +54,25 @@ layout(set = 0, binding = 0) uniform sampler2D lod_texture;
 #endif
 
 #if INSTRUMENTS
-layout(location = 0) out vec4 out_hits;  // blended with ONE, ONE
-// Ids as binary32, exact below 2^24: integer attachments need not support more than one sample
-// (framebufferIntegerColorSampleCounts), and small integers as float bits would be denormals.
-layout(location = 1) out vec4 out_writer;
-layout(location = 2) out vec4 out_frag_coord;
+// Who wrote, replaced, and how often, added (alpha ONE, ONE): one attachment, because a driver may
+// compile every attachment's blending once a sample. Ids as binary32, exact below 2^24: integer
+// attachments need not support more than one sample (framebufferIntegerColorSampleCounts), and small
+// integers as float bits would be denormals. Hits as vk_harness/attachments.hpp says.
+layout(location = 0) out vec4 out_writer_and_hits;
+layout(location = 1) out vec4 out_frag_coord;
 #if ATTRIBUTES > 0
-layout(location = 3) out vec4 out_attribute0;
+layout(location = 2) out vec4 out_attribute0;
 #endif
 #if ATTRIBUTES > 1
-layout(location = 4) out vec4 out_attribute1;
+layout(location = 3) out vec4 out_attribute1;
 #endif
 #if ATTRIBUTES > 2
-layout(location = 5) out vec4 out_attribute2;
+layout(location = 4) out vec4 out_attribute2;
 #endif
 #if ATTRIBUTES > 3
-layout(location = 6) out vec4 out_attribute3;
+layout(location = 5) out vec4 out_attribute3;
 #endif
-#define COLOR_LOCATION 3 + ATTRIBUTES
+#define COLOR_LOCATION 2 + ATTRIBUTES
 #else
 #define COLOR_LOCATION 0
 #endif
@@ -141,9 +142,9 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
 
 void main() {
 #if INSTRUMENTS
-    out_hits = gl_FrontFacing ? vec4(1.0, 0.0, 0.0, 1.0) : vec4(0.0, 1.0, 0.0, 1.0);
     // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
-    out_writer = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex), -1.0);
+    out_writer_and_hits = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex),
+                               gl_FrontFacing ? 1.0 : 2048.0);
     out_frag_coord = gl_FragCoord;
 #if ATTRIBUTES > 0
     CHOOSE(in_attribute0, kChoice0, 0, out_attribute0)

@@ -87,11 +87,10 @@ std::vector<Attachment> attachments_of(const cases::Case& c) {
     std::vector<Attachment> out;
     const bool other = c.variation.other_clears;
     if (c.target.has_instruments) {
-        const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
+        const float id = other ? kOtherClearIdAsFloat : kClearIdAsFloat;
         const VkClearValue value = clear_all(other ? diff::kOtherClearValue : diff::kClearValue);
-        out.push_back({Role::hits, kColorFormat, clear_color(0.0F, 0.0F, guard, guard)});
-        out.push_back({Role::writer, kColorFormat,
-                       clear_all(other ? kOtherClearIdAsFloat : kClearIdAsFloat)});
+        out.push_back({Role::writer_and_hits, kColorFormat,
+                       clear_color(id, id, id, other ? kOtherNoHits : kNoHits)});
         out.push_back({Role::frag_coord, kColorFormat, value});
         for (uint32_t k = 0; k < attribute_count(c); ++k) {
             out.push_back({Role::attribute, kColorFormat, value});

@@ -13,8 +13,7 @@
 namespace vk_harness {
 
 enum class Role : uint8_t {
-    hits,
-    writer,
+    writer_and_hits,
     frag_coord,
     attribute,
     color,
@@ -25,7 +24,7 @@ enum class Role : uint8_t {
 };
 
 struct Attachment {
-    Role role = Role::hits;
+    Role role = Role::writer_and_hits;
     VkFormat format = kColorFormat;
     VkClearValue clear{};        // a value that no case can draw, diff/capture.hpp
     uint32_t texel_bytes = 16;   // of a single-sampled copy
@@ -44,9 +43,17 @@ struct Attachment {
     }
 };
 
-// In the order of shader locations: hits, writer, frag_coord, attributes, color; then depth, which
-// has no location, stencil and what is resolved. Without instruments only color, if any, and depth,
-// if any.
+// Alpha of writer_and_hits: the clear value plus kFrontHit or kBackHit for each fragment, added in
+// binary32, which holds every integer below 2^24. So up to 2047 hits of either kind are told apart,
+// and both clear values from each other, from a replaced or an uncleared value, and from no clear.
+inline constexpr float kNoHits = 0x1p23F;
+inline constexpr float kOtherNoHits = 0x1p23F + 0x1p22F;  // cases::Variation::other_clears
+inline constexpr float kFrontHit = 1.0F;                  // as shaders/capture.frag writes them
+inline constexpr float kBackHit = 2048.0F;
+
+// In the order of shader locations: writer_and_hits, frag_coord, attributes, color; then depth,
+// which has no location, stencil and what is resolved. Without instruments only color, if any, and
+// depth, if any.
 std::vector<Attachment> attachments_of(const cases::Case& c);
 
 // How many of them are colour attachments.

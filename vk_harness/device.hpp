@@ -90,7 +90,7 @@ constexpr VkFormat depth_format(cases::DepthFormat format) {
     }
     return kDepthFormat;
 }
-// Colour attachments before the attributes: hits, writer, frag_coord.
-inline constexpr uint32_t kFixedAttachments = 3;
+// Colour attachments before the attributes: writer_and_hits, frag_coord.
+inline constexpr uint32_t kFixedAttachments = 2;
 
 }  // namespace vk_harness

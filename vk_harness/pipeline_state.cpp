@@ -121,19 +121,21 @@ void color_state(const PipelineKey& key, ColorState& state) {
     const uint32_t count = key.instruments ? kFixedAttachments + key.attribute_count : 0;
     state.blends.assign(count, blend_state(ColorKey()));
     state.formats.assign(count, kColorFormat);
-    if (key.instruments) {  // hits are added
-        ColorKey add;
-        add.blends = true;
-        add.equation = {VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD,
-                        VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD};
-        state.blends.front() = blend_state(add);
+    if (key.instruments) {  // the writer is replaced, hits are added
+        ColorKey hits;
+        hits.blends = true;
+        hits.equation = {VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ZERO, VK_BLEND_OP_ADD,
+                         VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE,  VK_BLEND_OP_ADD};
+        hits.write_mask = static_cast<uint8_t>(((key.masked & 1U) != 0 ? 0U : 0x8U) |
+                                               ((key.masked & 2U) != 0 ? 0U : 0x7U));
+        state.blends.front() = blend_state(hits);
     }
     if (key.color_target.format != VK_FORMAT_UNDEFINED) {
         state.blends.push_back(blend_state(key.color_target));
         state.formats.push_back(key.color_target.format);
     }
-    for (uint32_t k = 0; k < count; ++k) {
-        if ((key.masked >> k & 1U) != 0) {
+    for (uint32_t k = 1; k < count; ++k) {  // planes 0 and 1 of a capture are attachment 0
+        if ((key.masked >> (k + 1) & 1U) != 0) {
             state.blends[k].colorWriteMask = 0;
         }
     }

@@ -3,7 +3,9 @@
 #include "vk_harness/readback.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "vk_harness/case_check.hpp"
@@ -18,6 +20,12 @@ template <class T>
 std::vector<T> copy_out(std::span<const std::byte> memory, VkDeviceSize offset, size_t count) {
     const auto* first = reinterpret_cast<const T*>(memory.data() + offset);
     return std::vector<T>(first, first + count);
+}
+
+// The words of `count` samples of four.
+std::span<const std::array<uint32_t, 4>> words_at(std::span<const std::byte> memory,
+                                                  VkDeviceSize offset, size_t count) {
+    return {reinterpret_cast<const std::array<uint32_t, 4>*>(memory.data() + offset), count};
 }
 
 // Depth as the capture holds it (diff/capture.hpp). Copied texels of D16 are 2 bytes and of
@@ -55,20 +63,43 @@ void decode_depth(const cases::Target& target, std::span<const std::byte> from, 
     });
 }
 
+// Whether some number of hits makes this of a clear value.
+bool is_hits(float alpha) {
+    return alpha >= kNoHits && alpha < 2 * kNoHits;
+}
+
+// Who wrote a sample and how often. The spare word is what a clear sample of that clear
+// value has, and kClearId where something was drawn (diff/capture.hpp).
+struct WriterAndHits {
+    diff::Writer writer;
+    glm::vec4 hits;
+};
+
+WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words) {
+    WriterAndHits out;
+    out.hits = decode_hits(words[3]);
+    const auto alpha = std::bit_cast<float>(words[3]);
+    const bool is_other_clear = alpha >= kOtherNoHits && alpha <= kOtherNoHits;
+    const uint32_t spare = words[3] == diff::kPoison ? diff::kPoison
+                           : !is_hits(alpha)         ? kMalformedId
+                           : is_other_clear          ? diff::kOtherClearId
+                                                     : diff::kClearId;
+    out.writer = {decode_id(words[0]), decode_id(words[1]), decode_id(words[2]), spare};
+    return out;
+}
+
 // Neighbours mostly have the same origin, so the last answer is kept.
-void decode_writers(std::span<const diff::Writer> from, diff::Writer* to) {
-    const auto decode = [](const diff::Writer& words) {
-        return diff::Writer{decode_id(words.draw), decode_id(words.primitive),
-                            decode_id(words.provoking_vertex), decode_id(words.spare)};
-    };
-    diff::Writer last;
-    diff::Writer decoded = decode(last);
-    for (const diff::Writer& writer : from) {
-        if (!(writer == last)) {
-            last = writer;
-            decoded = decode(writer);
+void decode_writers_and_hits(std::span<const std::array<uint32_t, 4>> from, glm::vec4* hits,
+                             diff::Writer* writers) {
+    std::array<uint32_t, 4> last{};
+    WriterAndHits decoded = decode_writer_and_hits(last);
+    for (const std::array<uint32_t, 4>& words : from) {
+        if (words != last) {
+            last = words;
+            decoded = decode_writer_and_hits(words);
         }
-        *to++ = decoded;
+        *hits++ = decoded.hits;
+        *writers++ = decoded.writer;
     }
 }
 
@@ -119,6 +150,23 @@ void poison(std::span<std::byte> memory) {
     // Mapped memory is aligned to at least 64 bytes (minMemoryMapAlignment), offsets to 4.
     auto* words = reinterpret_cast<uint32_t*>(memory.data());
     std::fill(words, words + memory.size() / sizeof(uint32_t), diff::kPoison);
+}
+
+glm::vec4 decode_hits(uint32_t bits) {
+    const auto alpha = std::bit_cast<float>(bits);
+    if (bits == diff::kPoison) {
+        return glm::vec4(alpha);
+    }
+    if (!is_hits(alpha)) {
+        return {0, 0, -1, alpha};
+    }
+    // Every number of this range is an integer.
+    const bool other = alpha >= kOtherNoHits;
+    const float hits = alpha - (other ? kOtherNoHits : kNoHits);
+    const float back = std::floor(hits / kBackHit);
+    const float front = hits - back * kBackHit;
+    const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
+    return {front, back, guard, guard + front + back};
 }
 
 uint32_t decode_id(uint32_t bits) {
@@ -196,12 +244,11 @@ diff::Capture read_capture(const cases::Target& target, const std::vector<Attach
     for (size_t k = 0; k < attachments.size(); ++k) {
         const VkDeviceSize at = layout.offset[k];
         switch (attachments[k].role) {
-            case Role::hits:
-                capture.hits = copy_out<glm::vec4>(memory, at, count);
-                break;
-            case Role::writer:
-                capture.writers = copy_out<diff::Writer>(memory, at, count);
-                decode_writers(capture.writers, capture.writers.data());
+            case Role::writer_and_hits:
+                capture.hits.resize(count);
+                capture.writers.resize(count);
+                decode_writers_and_hits(words_at(memory, at, count), capture.hits.data(),
+                                        capture.writers.data());
                 break;
             case Role::frag_coord:
                 capture.frag_coord = copy_out<glm::vec4>(memory, at, count);
@@ -245,10 +292,11 @@ void read_planes(const cases::Target& target, const std::vector<Attachment>& att
         const cases::Target shape = shape_of(attachments[k], target);
         const size_t count = size_t{shape.width} * shape.rows() * shape.samples;
         const std::byte* from = memory.data() + layout.offset[k];
-        if (attachments[k].role == Role::writer) {
-            decode_writers(std::span(reinterpret_cast<const diff::Writer*>(from), count),
-                           reinterpret_cast<diff::Writer*>(to));
-            to += count * sizeof(diff::Writer);
+        if (attachments[k].role == Role::writer_and_hits) {
+            auto* hits = reinterpret_cast<glm::vec4*>(to);
+            auto* writers = reinterpret_cast<diff::Writer*>(to + count * sizeof(glm::vec4));
+            decode_writers_and_hits(words_at(memory, layout.offset[k], count), hits, writers);
+            to += count * (sizeof(glm::vec4) + sizeof(diff::Writer));
         } else if (attachments[k].role == Role::color ||
                    attachments[k].role == Role::resolved_color) {
             decode_color(shape, attachments[k], from, reinterpret_cast<diff::ColorCodes*>(to));

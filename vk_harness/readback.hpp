@@ -43,6 +43,11 @@ void read_planes(const cases::Target& target, const std::vector<Attachment>& att
 // times if its bytes are those of the fill pattern.
 diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes);
 
+// The hits plane's sample of an alpha (attachments.hpp): front and back hits with their guards, as
+// diff/capture.hpp says. Poison stays poison; what no number of hits makes of a clear value gets
+// guards that never hold.
+glm::vec4 decode_hits(uint32_t bits);
+
 // An id that the device wrote as binary32: an integer below 2^24, -1 and -3 for 'cleared' and -2
 // for 'this device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.
 uint32_t decode_id(uint32_t bits);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blending and write masks. An attachment that adds (ONE, ONE, ADD) counts hits in every case, so a
-// fault of it would be seen everywhere: apart from the first few, faults touch other equations
-// only.
+// Blending and write masks. An attachment counts hits in every case (colour ONE, ZERO; alpha ONE,
+// ONE; ADD), so a fault of it would be seen everywhere: apart from the first few, faults touch
+// other equations only, and none of those that add.
 #include <array>
 
 #include "fault.hpp"
@@ -14,9 +14,12 @@ namespace {
 
 using Blend = VkPipelineColorBlendAttachmentState;
 
-bool adds(const Blend& b) {
-    return b.srcColorBlendFactor == VK_BLEND_FACTOR_ONE &&
-           b.dstColorBlendFactor == VK_BLEND_FACTOR_ONE && b.colorBlendOp == VK_BLEND_OP_ADD;
+bool counts_or_adds(const Blend& b) {
+    const bool counts = b.dstColorBlendFactor == VK_BLEND_FACTOR_ZERO &&
+                        b.srcAlphaBlendFactor == VK_BLEND_FACTOR_ONE &&
+                        b.dstAlphaBlendFactor == VK_BLEND_FACTOR_ONE;
+    return b.srcColorBlendFactor == VK_BLEND_FACTOR_ONE && b.colorBlendOp == VK_BLEND_OP_ADD &&
+           (counts || b.dstColorBlendFactor == VK_BLEND_FACTOR_ONE);
 }
 
 template <bool (*alter)(Blend&)>
@@ -32,7 +35,7 @@ template <bool (*alter)(Blend&)>
 bool each_equation(PipelineCopy& p) {
     bool altered = false;
     for (Blend& b : p.blends) {
-        altered = (b.blendEnable == VK_TRUE && !adds(b) && alter(b)) || altered;
+        altered = (b.blendEnable == VK_TRUE && !counts_or_adds(b) && alter(b)) || altered;
     }
     return altered;
 }

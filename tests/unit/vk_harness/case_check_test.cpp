@@ -151,12 +151,12 @@ TEST(CaseCheck, Target) {
                     "67108864");
     Capabilities small = m;
     small.total_memory = VkDeviceSize{1} << 27;
-    c.target = {2048, 2048, 1};  // 4 Mi samples of 3 * 16 + 4 bytes
+    c.target = {2048, 2048, 1};  // 4 Mi samples of 2 * 16 + 4 bytes
     EXPECT_FALSE(check_case(m, c).has_value());
     expect_rejected(small, c, unsupported,
-                    "the attachments take 218103808 bytes, the device has 134217728");
+                    "the attachments take 150994944 bytes, the device has 134217728");
     c = good();
-    c.draws[0].attributes = {attribute(3), attribute(3)};
+    c.draws[0].attributes = {attribute(3), attribute(3), attribute(3)};
     expect_rejected(m, c, unsupported, "the case needs 5 colour attachments, the device has 4");
 }
 

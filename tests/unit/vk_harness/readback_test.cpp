@@ -44,6 +44,42 @@ TEST(DecodeId, NothingElseLooksLikeAnId) {
     }));
 }
 
+TEST(DecodeHits, EveryPairOfCountsAndBothClearValues) {
+    for (const float guard : {diff::kHitGuard, diff::kOtherHitGuard}) {
+        const bool other = guard > diff::kHitGuard;
+        for (uint32_t front = 0; front < 2048; front += front < 4 ? 1 : 511) {
+            for (uint32_t back = 0; back < 2048; back += back < 4 ? 1 : 511) {
+                // As the blend unit does it, hit by hit.
+                float alpha = other ? kOtherNoHits : kNoHits;
+                for (uint32_t k = 0; k < front; ++k) {
+                    alpha += kFrontHit;
+                }
+                for (uint32_t k = 0; k < back; ++k) {
+                    alpha += kBackHit;
+                }
+                const glm::vec4 hits = decode_hits(bits(alpha));
+                EXPECT_EQ(hits.x, static_cast<float>(front));
+                EXPECT_EQ(hits.y, static_cast<float>(back));
+                EXPECT_EQ(hits.z, guard);
+                EXPECT_EQ(hits.w, guard + static_cast<float>(front + back));
+            }
+        }
+    }
+}
+
+// What is left where an attachment is not cleared, not blended, or cleared to something else.
+TEST(DecodeHits, NothingElseLooksLikeACount) {
+    EXPECT_EQ(bits(decode_hits(diff::kPoison).x), diff::kPoison);
+    EXPECT_EQ(bits(decode_hits(diff::kPoison).w), diff::kPoison);
+    for (const float alpha :
+         {0.0F, -0.0F, kFrontHit, kBackHit, diff::kHitGuard, diff::kOtherHitGuard, 2 * kNoHits,
+          kNoHits - 0.5F, -kNoHits, INFINITY, -INFINITY, NAN, diff::kClearValue}) {
+        const glm::vec4 hits = decode_hits(bits(alpha));
+        EXPECT_NE(hits.z, diff::kHitGuard) << alpha;
+        EXPECT_NE(hits.z, diff::kOtherHitGuard) << alpha;
+    }
+}
+
 // A case of one draw with `attributes` attributes.
 cases::Case target_case(cases::Target target, size_t attributes) {
     cases::Case c;
@@ -58,16 +94,16 @@ TEST(Layout, AttachmentsDoNotOverlap) {
         cases::Case c = target_case({3, 5, samples}, 2);
         c.target.color = {cases::ColorFormat::r5g6b5_unorm, {}};
         const std::vector<Attachment> attachments = attachments_of(c);
-        ASSERT_EQ(attachments.size(), 7U);
-        EXPECT_EQ(attachments[5].role, Role::color);
-        EXPECT_TRUE(attachments[6].is_depth());
+        ASSERT_EQ(attachments.size(), 6U);
+        EXPECT_EQ(attachments[4].role, Role::color);
+        EXPECT_TRUE(attachments[5].is_depth());
         const ReadbackLayout layout = make_layout(c.target, attachments, 100, 64);
         EXPECT_EQ(layout.offset[0], 128U);
         VkDeviceSize free = layout.offset[0];
-        for (size_t k = 0; k < 7; ++k) {
+        for (size_t k = 0; k < 6; ++k) {
             EXPECT_GE(layout.offset[k], free);
             EXPECT_EQ(layout.offset[k] % 64, 0U);
-            const uint32_t bytes = k == 6 ? 4U : k < 5 ? 16U : samples == 1 ? 2U : 4U;
+            const uint32_t bytes = k == 5 ? 4U : k < 4 ? 16U : samples == 1 ? 2U : 4U;
             free = layout.offset[k] + VkDeviceSize{15} * samples * bytes;
         }
         EXPECT_GE(layout.end, free);
@@ -126,12 +162,12 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     const auto put = [&memory](VkDeviceSize offset, const std::vector<float>& values) {
         std::memcpy(memory.data() + offset, values.data(), values.size() * sizeof(float));
     };
-    put(layout.offset[0], {1, 2, 3, 4, 5, 6, 7, 8});
-    put(layout.offset[1], {0, 1, 2, -1, 3, -2, 5, -1});
-    put(layout.offset[2], {9, 10, 11, 12});  // the second sample is not copied
-    put(layout.offset[3], {13, 14, 15, 16, 17, 18, 19, 20});
-    memory[layout.offset[4] + 4] = std::byte{99};
-    put(layout.offset[5], {0.25F, 0.75F});
+    put(layout.offset[0],
+        {0, 1, 2, kNoHits + 3 * kFrontHit + kBackHit, 3, -2, 5, kNoHits + 2 * kBackHit});
+    put(layout.offset[1], {9, 10, 11, 12});  // the second sample is not copied
+    put(layout.offset[2], {13, 14, 15, 16, 17, 18, 19, 20});
+    memory[layout.offset[3] + 4] = std::byte{99};
+    put(layout.offset[4], {0.25F, 0.75F});
     const diff::Capture capture = read_capture(c.target, attachments, true, layout, memory);
     EXPECT_TRUE(diff::has_all_planes(capture));
     EXPECT_EQ(capture.color[0][0], diff::kPoison);
@@ -144,7 +180,10 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     EXPECT_EQ(view.color[1], capture.color[1]);
     EXPECT_EQ(view.depth[1], 0.75F);
     EXPECT_EQ(view.attributes[0][1], capture.attributes[0][1]);
-    EXPECT_EQ(capture.hits[1], glm::vec4(5, 6, 7, 8));
+    EXPECT_EQ(capture.hits[0], glm::vec4(3, 1, diff::kHitGuard, diff::kHitGuard + 4));
+    EXPECT_EQ(capture.hits[1], glm::vec4(0, 2, diff::kHitGuard, diff::kHitGuard + 2));
+    EXPECT_EQ(view.hits[0], capture.hits[0]);
+    EXPECT_EQ(view.writers[1], capture.writers[1]);
     EXPECT_EQ(capture.writers[0], (diff::Writer{0, 1, 2, diff::kClearId}));
     EXPECT_EQ(capture.writers[1], (diff::Writer{3, diff::kNoPrimitive, 5, diff::kClearId}));
     EXPECT_EQ(capture.frag_coord[0], glm::vec4(9, 10, 11, 12));
