@@ -5,7 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+
+#include "cases/covering.hpp"
+#include "cases/field_reader.hpp"
 
 namespace cases {
 
@@ -57,6 +62,44 @@ tl::expected<std::string, std::string> value_text(const TomlValue& value) {
     }
 }
 
+// The combinations that `key` asks for: all without it.
+Expected<std::vector<size_t>> read_leaves(const TomlValue* key, const Matrix& matrix) {
+    std::vector<size_t> all(matrix.size());
+    std::iota(all.begin(), all.end(), size_t{0});
+    if (key == nullptr) {
+        return all;
+    }
+    constexpr std::array<std::string_view, 2> kChoices = {"all", "pairs"};
+    LeafContext context({});
+    const std::optional<size_t> choice = context.word(*key, "leaves", kChoices);
+    if (!choice) {
+        return tl::unexpected(context.errors().front());
+    }
+    if (matrix.axes.empty()) {
+        return tl::unexpected(
+            Error{key->where,
+                  "leaves says which combinations of [matrix] are cases, but there is "
+                  "no [matrix]; leave it out"});
+    }
+    if (kChoices[*choice] == "all") {
+        return all;
+    }
+    std::vector<size_t> sizes;
+    for (const Matrix::Axis& axis : matrix.axes) {
+        sizes.push_back(axis.values.size());
+    }
+    const auto several =
+        std::count_if(sizes.begin(), sizes.end(), [](size_t size) { return size > 1; });
+    if (several < 3) {
+        return tl::unexpected(Error{
+            key->where,
+            fmt::format("leaves = \"pairs\" leaves out combinations of three matrix keys or more "
+                        "with several values each, and the matrix has {}; write \"all\"",
+                        several)});
+    }
+    return cover_pairs(sizes);
+}
+
 }  // namespace
 
 size_t Matrix::size() const {
@@ -67,17 +110,17 @@ size_t Matrix::size() const {
     return n;
 }
 
-std::vector<size_t> Matrix::choice(size_t leaf) const {
+std::vector<size_t> Matrix::choice(size_t combination) const {
     std::vector<size_t> result(axes.size());
     for (size_t i = axes.size(); i-- > 0;) {
-        result[i] = leaf % axes[i].values.size();
-        leaf /= axes[i].values.size();
+        result[i] = combination % axes[i].values.size();
+        combination /= axes[i].values.size();
     }
     return result;
 }
 
-std::string Matrix::text(size_t leaf) const {
-    const std::vector<size_t> chosen = choice(leaf);
+std::string Matrix::text(size_t combination) const {
+    const std::vector<size_t> chosen = choice(combination);
     std::string result;
     for (size_t i = 0; i < axes.size(); ++i) {
         result += fmt::format("{}{}={}", i == 0 ? "" : ",", axes[i].key, axes[i].texts[chosen[i]]);
@@ -85,19 +128,27 @@ std::string Matrix::text(size_t leaf) const {
     return result;
 }
 
-ExpectedAll<Matrix> read_matrix(const TomlValue* table) {
+ExpectedAll<Matrix> read_matrix(const TomlValue* table, const TomlValue* leaves) {
     Matrix matrix;
-    if (table == nullptr) {
-        return matrix;
-    }
     Errors errors;
+    const auto with_leaves = [&]() -> ExpectedAll<Matrix> {
+        Expected<std::vector<size_t>> chosen = read_leaves(leaves, matrix);
+        if (!chosen) {
+            return tl::unexpected(Errors{chosen.error()});
+        }
+        matrix.leaves = std::move(*chosen);
+        return std::move(matrix);
+    };
+    if (table == nullptr) {
+        return with_leaves();
+    }
     if (!table->is(Kind::table) || table->table.empty()) {
         errors.push_back({table->where,
                           "matrix is not a table of arrays; write [matrix] with "
                           "key = [value, ...] or leave it out"});
         return tl::unexpected(errors);
     }
-    size_t leaves = 1;
+    size_t combinations = 1;
     for (const TomlEntry& entry : table->table) {
         Matrix::Axis axis{entry.key, entry.where, {}, {}};
         if (!is_name(entry.key)) {
@@ -129,8 +180,8 @@ ExpectedAll<Matrix> read_matrix(const TomlValue* table) {
             axis.values.push_back(&value);
             axis.texts.push_back(*text);
         }
-        leaves *= std::max<size_t>(axis.values.size(), 1);
-        if (leaves > kMaxLeaves) {
+        combinations *= std::max<size_t>(axis.values.size(), 1);
+        if (combinations > kMaxLeaves) {
             errors.push_back(
                 {table->where,
                  fmt::format("the matrix has more than {} combinations; split the file",
@@ -142,7 +193,7 @@ ExpectedAll<Matrix> read_matrix(const TomlValue* table) {
     if (!errors.empty()) {
         return tl::unexpected(errors);
     }
-    return matrix;
+    return with_leaves();
 }
 
 }  // namespace cases

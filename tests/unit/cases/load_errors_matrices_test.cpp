@@ -85,6 +85,36 @@ vertices = [[0,0],[8,0],[0,8]]
 cull = "c"
 )~"),
      R"~(f:10:8: error: cull is "bakc"; did you mean "back"? (in the leaf c=bakc))~"},
+    {top(R"~(leaves = "pairs")~"),
+     R"~(f:4:10: error: leaves says which combinations of [matrix] are cases, but there is no [matrix]; leave it out)~"},
+    {top(R"~(leaves = 2)~"),
+     R"~(f:4:10: error: leaves is the number 2; write a string)~"},
+    {pairs(R"~(leaves = "most")~", R"~(k = [0, 1])~"),
+     R"~(f:4:10: error: leaves is "most"; write "all" or "pairs")~"},
+    {pairs(R"~(leaves = "pair")~", R"~(k = [0, 1])~"),
+     R"~(f:4:10: error: leaves is "pair"; did you mean "pairs"?)~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(k = [0, 1]
+j = [0, 1, 2])~"),
+     R"~(f:4:10: error: leaves = "pairs" leaves out combinations of three matrix keys or more with several values each, and the matrix has 2; write "all")~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(k = [0, 1]
+i = [3]
+j = [0, 1, 2])~"),
+     R"~(f:4:10: error: leaves = "pairs" leaves out combinations of three matrix keys or more with several values each, and the matrix has 2; write "all")~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(i = [0, 1]
+j = [0, 1]
+k = [0, 1])~", R"~([expect."i=0,j=1,k=1"]
+hits = "")~"),
+     R"~(f:13:9: error: leaves = "pairs" leaves out "i=0,j=1,k=1"; write [expect."i=0,j=0,k=1"])~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(i = [0, 1]
+j = [0, 1]
+k = [0, 1])~", R"~([expect."i=0,j=1,k=2"]
+hits = "")~"),
+     R"~(f:13:9: error: the matrix has no leaf "i=0,j=1,k=2"; did you mean "i=0,j=1,k=0"?)~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(i = [0, 1]
+j = [0, 1]
+k = [0, 1]
+m = [0, 1])~"),
+     R"~(f:9:1: error: the matrix key m is used nowhere; use it or leave it out)~"},
 };
 // clang-format on
 
