@@ -330,19 +330,16 @@ void check_expectation_keys(const TomlValue& root, const Matrix& matrix, Errors&
             }
             continue;
         }
-        const std::string nearest = nearest_name(entry.key, leaves);
         if (std::find(left_out.begin(), left_out.end(), entry.key) != left_out.end()) {
+            const std::string nearest = nearest_name(entry.key, leaves);
             errors.push_back(
-                {entry.where,
-                 fmt::format("leaves = \"pairs\" leaves out \"{}\"; write [expect.\"{}\"]",
-                             entry.key, nearest.empty() ? leaves.front() : nearest)});
+                {entry.where, fmt::format("the combination \"{}\" is left out by leaves; write "
+                                          "[expect.\"{}\"] or another",
+                                          entry.key, nearest.empty() ? leaves.front() : nearest)});
             continue;
         }
-        errors.push_back(
-            {entry.where,
-             fmt::format("the matrix has no leaf \"{}\"; {}", entry.key,
-                         nearest.empty() ? fmt::format("write [expect.\"{}\"]", leaves.front())
-                                         : fmt::format("did you mean \"{}\"?", nearest))});
+        errors.push_back({entry.where, no_leaf(entry.key, leaves,
+                                               fmt::format("[expect.\"{}\"]", leaves.front()))});
     }
 }
 

@@ -23,8 +23,8 @@ struct Matrix {
         std::vector<std::string> texts;  // of the values, as ids show them
     };
     std::vector<Axis> axes;
-    // Combinations that are leaves of the file, ascending: all, or a covering array of strength 2
-    // (covering.hpp). Never empty.
+    // Combinations that are leaves of the file, ascending: all, a covering array of strength 2
+    // (covering.hpp) or those that the file names. Never empty.
     std::vector<size_t> leaves;
 
     // The number of combinations; 1 without axes.
@@ -40,5 +40,9 @@ struct Matrix {
 // [matrix] that says which combinations are leaves; either may be missing. The result points into
 // `table`.
 ExpectedAll<Matrix> read_matrix(const TomlValue* table, const TomlValue* leaves);
+
+// What is said of a name that no leaf has.
+std::string no_leaf(const std::string& name, const std::vector<std::string>& leaves,
+                    const std::string& example);
 
 }  // namespace cases

@@ -84,13 +84,14 @@ TEST(CoverPairs, OfTwoAxesIsTheProduct) {
     EXPECT_EQ(cover_pairs(std::array<size_t, 3>{1, 1, 1}), (std::vector<size_t>{0}));
 }
 
-// By hand. 2 x 2 x 2: after 000 and 111 each two axes miss 01 and 10; a combination has no more than
-// two of these six, and the first ones are 001, 010 and 100. 3 x 2 x 2: after 000 and 211, 101 is the
-// first with three missing pairs, then 110; what is left, 01 and 20 of the first axis with each of
-// the others, takes 011 and 200.
+// By hand. 2 x 2 x 2: after 000 and 111 each two axes miss 01 and 10; a combination has no more
+// than two of these six, and the first ones are 001, 010 and 100. 3 x 2 x 2: after 000 and 211, 101
+// is the first with three missing pairs, then 110; what is left, 01 and 20 of the first axis with
+// each of the others, takes 011 and 200.
 TEST(CoverPairs, SmallOnesAreTheseOnEveryMachine) {
     EXPECT_EQ(cover_pairs(std::array<size_t, 3>{2, 2, 2}), (std::vector<size_t>{0, 1, 2, 4, 7}));
-    EXPECT_EQ(cover_pairs(std::array<size_t, 3>{3, 2, 2}), (std::vector<size_t>{0, 3, 5, 6, 8, 11}));
+    EXPECT_EQ(cover_pairs(std::array<size_t, 3>{3, 2, 2}),
+              (std::vector<size_t>{0, 3, 5, 6, 8, 11}));
     EXPECT_EQ(cover_pairs(std::array<size_t, 4>{2, 2, 2, 2}).size(), 6U);
     EXPECT_EQ(cover_pairs(std::array<size_t, 4>{3, 3, 3, 3}).size(), 10U);
     EXPECT_EQ(cover_pairs(std::array<size_t, 4>{3, 4, 2, 2}).size(), 13U);

@@ -352,6 +352,24 @@ cull = "cull"
     }
 }
 
+TEST(LoadCase, LeavesCanBeNamed) {
+    const std::vector<Case> named = load(kHead + R"(
+leaves = ["a=1,b=5", "a=0,b=4", "a=0,b=5"]
+[matrix]
+a = [0, 1]
+b = [4, 5]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,"a"],[8,0],[0,"b"]]
+)");
+    ASSERT_EQ(named.size(), 3U);
+    EXPECT_EQ(named[0].id, "family/name:a=0,b=4");
+    EXPECT_EQ(named[1].id, "family/name:a=0,b=5");
+    EXPECT_EQ(named[2].id, "family/name:a=1,b=5");
+    EXPECT_NE(named[2].draws[0].positions, named[1].draws[0].positions);
+}
+
 // A word that is valid for the key means itself even if a matrix key has that name.
 TEST(LoadCase, ValidWordsWinOverMatrixKeys) {
     const std::vector<Case> all = load(kHead +
