@@ -8,44 +8,47 @@ namespace cases {
 
 namespace {
 
-// Which pairs of values are still missing. Pairs are counted through: those of the axes 0 and 1
-// first, then 0 and 2, ...
-class MissingPairs {
+// How often each pair of values has been chosen. Pairs are counted through: those of the axes 0 and
+// 1 first, then 0 and 2, ...
+class Pairs {
   public:
-    explicit MissingPairs(std::span<const size_t> sizes) : sizes_(sizes) {
+    explicit Pairs(std::span<const size_t> sizes) : sizes_(sizes) {
         for (size_t j = 1; j < sizes.size(); ++j) {
             for (size_t i = 0; i < j; ++i) {
-                couples_.push_back({i, j, total_});
-                total_ += sizes[i] * sizes[j];
+                couples_.push_back({i, j, missing_});
+                missing_ += sizes[i] * sizes[j];
             }
         }
-        is_missing_.assign(total_, true);
-        left_ = total_;
+        chosen_.assign(missing_, 0);
     }
 
-    size_t left() const { return left_; }
-    // At most so many pairs does a combination have.
+    size_t missing() const { return missing_; }
+    // So many pairs does a combination have.
     size_t couples() const { return couples_.size(); }
 
-    // Of those that the combination has.
-    size_t count(size_t combination) {
+    // What a combination has: pairs that are missing, and how often its pairs were chosen.
+    struct Gain {
+        size_t missing = 0, chosen = 0;
+    };
+    Gain gain(size_t combination) {
         read(combination);
-        size_t n = 0;
+        Gain gain;
         for (const Couple& couple : couples_) {
-            if (is_missing_[index(couple)]) {
-                ++n;
+            const size_t times = chosen_[index(couple)];
+            gain.chosen += times;
+            if (times == 0) {
+                ++gain.missing;
             }
         }
-        return n;
+        return gain;
     }
 
-    void cover(size_t combination) {
+    void choose(size_t combination) {
         read(combination);
         for (const Couple& couple : couples_) {
-            if (is_missing_[index(couple)]) {
-                --left_;
+            if (chosen_[index(couple)]++ == 0) {
+                --missing_;
             }
-            is_missing_[index(couple)] = false;
         }
     }
 
@@ -68,9 +71,9 @@ class MissingPairs {
 
     std::span<const size_t> sizes_;
     std::vector<Couple> couples_;
-    std::vector<bool> is_missing_;
     std::vector<size_t> values_;  // of the combination that is looked at
-    size_t total_ = 0, left_ = 0;
+    std::vector<size_t> chosen_;
+    size_t missing_ = 0;
 };
 
 }  // namespace
@@ -80,29 +83,32 @@ std::vector<size_t> cover_pairs(std::span<const size_t> sizes) {
     for (const size_t size : sizes) {
         product *= size;
     }
-    MissingPairs missing(sizes);
+    Pairs pairs(sizes);
     std::vector<size_t> chosen = {0};
-    missing.cover(0);
+    pairs.choose(0);
     if (product > 1) {
         chosen.push_back(product - 1);
-        missing.cover(product - 1);
+        pairs.choose(product - 1);
     }
     // What a combination had missing when it was last looked at; it cannot have more now.
-    std::vector<size_t> most(product, missing.couples());
-    while (missing.left() > 0) {
-        size_t best = 0, best_count = 0;
+    std::vector<size_t> most(product, pairs.couples());
+    while (pairs.missing() > 0) {
+        size_t best = 0;
+        Pairs::Gain best_gain;
         for (size_t combination = 0; combination < product; ++combination) {
-            if (most[combination] <= best_count) {
+            if (most[combination] < best_gain.missing || most[combination] == 0) {
                 continue;
             }
-            most[combination] = missing.count(combination);
-            if (most[combination] > best_count) {
+            const Pairs::Gain gain = pairs.gain(combination);
+            most[combination] = gain.missing;
+            if (gain.missing > best_gain.missing ||
+                (gain.missing == best_gain.missing && gain.chosen < best_gain.chosen)) {
                 best = combination;
-                best_count = most[combination];
+                best_gain = gain;
             }
         }
         chosen.push_back(best);
-        missing.cover(best);
+        pairs.choose(best);
     }
     std::sort(chosen.begin(), chosen.end());
     return chosen;

@@ -14,10 +14,11 @@ namespace cases {
 // sorted, names nothing twice, and is a function of `sizes` alone.
 //
 // The first and the last combination are always chosen, so that every axis has both of its ends in
-// them. Then, until no pair is missing, the combination with most missing pairs follows, of equal
-// ones the first: the greedy step of D. Cohen, S. Dalal, M. Fredman, G. Patton, "The AETG System:
-// An Approach to Testing Based on Combinatorial Design", IEEE TSE 23(7), 1997, made over the whole
-// product instead of random candidates.
+// them. Then, until no pair is missing, the combination with most missing pairs follows, of those
+// the one whose pairs were chosen least often (so that values of which nothing is missing take
+// turns), of those the first: the greedy step of D. Cohen, S. Dalal, M. Fredman, G. Patton, "The
+// AETG System: An Approach to Testing Based on Combinatorial Design", IEEE TSE 23(7), 1997, made
+// over the whole product instead of random candidates.
 //
 // How many: at least v1 v2, the product of the two largest sizes, as no combination has two pairs
 // of one couple of axes. At most v1 v2 H(k (k - 1) / 2) for k axes, H(n) = 1 + 1/2 + ... + 1/n:

@@ -85,9 +85,9 @@ TEST(CoverPairs, OfTwoAxesIsTheProduct) {
 }
 
 // By hand. 2 x 2 x 2: after 000 and 111 each two axes miss 01 and 10; a combination has no more
-// than two of these six, and the first ones are 001, 010 and 100. 3 x 2 x 2: after 000 and 211, 101
-// is the first with three missing pairs, then 110; what is left, 01 and 20 of the first axis with
-// each of the others, takes 011 and 200.
+// than two of these six beside one pair that was chosen once; the first ones are 001, 010 and 100.
+// 3 x 2 x 2: after 000 and 211, 101 is the first with three missing pairs, then 110; what is left,
+// 01 and 20 of the first axis with each of the others, takes 011 and 200.
 TEST(CoverPairs, SmallOnesAreTheseOnEveryMachine) {
     EXPECT_EQ(cover_pairs(std::array<size_t, 3>{2, 2, 2}), (std::vector<size_t>{0, 1, 2, 4, 7}));
     EXPECT_EQ(cover_pairs(std::array<size_t, 3>{3, 2, 2}),
@@ -95,6 +95,19 @@ TEST(CoverPairs, SmallOnesAreTheseOnEveryMachine) {
     EXPECT_EQ(cover_pairs(std::array<size_t, 4>{2, 2, 2, 2}).size(), 6U);
     EXPECT_EQ(cover_pairs(std::array<size_t, 4>{3, 3, 3, 3}).size(), 10U);
     EXPECT_EQ(cover_pairs(std::array<size_t, 4>{3, 4, 2, 2}).size(), 13U);
+}
+
+// Of 8 x 4 x 2 each of the 32 pairs of the first two axes is chosen once; two pairs of the third
+// axis with either other are then soon there. Were the rest filled with the first that comes, its
+// first value would stand in 24 of them.
+TEST(CoverPairs, ValuesThatAreFreeTakeTurns) {
+    const std::vector<size_t> sizes = {8, 4, 2};
+    const std::vector<size_t> chosen = cover_pairs(sizes);
+    ASSERT_EQ(chosen.size(), 32U);
+    const auto first = std::count_if(chosen.begin(), chosen.end(),
+                                     [](size_t combination) { return combination % 2 == 0; });
+    EXPECT_GE(first, 15);
+    EXPECT_LE(first, 17);
 }
 
 TEST(CoverPairs, OfEverySmallSize) {
