@@ -33,8 +33,8 @@ class CaseLoader {
     Case load() {
         c_.where = {root_.where.file, 1, 1};
         context_.known_keys(root_, "a case file",
-                            {"format", "description", "catches", "rules", "links", "matrix",
-                             "target", "draw", "blit", "expect", "relations"});
+                            {"format", "description", "catches", "rules", "links", "leaves",
+                             "matrix", "target", "draw", "blit", "expect", "relations"});
         if (const TomlValue* format = required("format", "write format = 1")) {
             const std::optional<Number> n = context_.number(*format, "format");
             if (n && n->value != 1) {
@@ -309,15 +309,17 @@ void read_expectation(LeafContext& context, const TomlValue& root, const std::st
     }
 }
 
-// In a file with a matrix every key of [expect] names a leaf.
+// In a file with a matrix every key of [expect] names a leaf, not a combination that is left out.
 void check_expectation_keys(const TomlValue& root, const Matrix& matrix, Errors& errors) {
     const TomlValue* expect = root.find("expect");
     if (expect == nullptr || !expect->is(Kind::table) || matrix.axes.empty()) {
         return;
     }
-    std::vector<std::string> leaves;
-    for (size_t leaf = 0; leaf < matrix.size(); ++leaf) {
-        leaves.push_back(matrix.text(leaf));
+    std::vector<std::string> leaves, left_out;
+    for (size_t combination = 0; combination < matrix.size(); ++combination) {
+        const bool is_leaf =
+            std::binary_search(matrix.leaves.begin(), matrix.leaves.end(), combination);
+        (is_leaf ? leaves : left_out).push_back(matrix.text(combination));
     }
     for (const TomlEntry& entry : expect->table) {
         if (std::find(leaves.begin(), leaves.end(), entry.key) != leaves.end()) {
@@ -328,12 +330,16 @@ void check_expectation_keys(const TomlValue& root, const Matrix& matrix, Errors&
             }
             continue;
         }
-        const std::string nearest = nearest_name(entry.key, leaves);
-        errors.push_back(
-            {entry.where,
-             fmt::format("the matrix has no leaf \"{}\"; {}", entry.key,
-                         nearest.empty() ? fmt::format("write [expect.\"{}\"]", leaves.front())
-                                         : fmt::format("did you mean \"{}\"?", nearest))});
+        if (std::find(left_out.begin(), left_out.end(), entry.key) != left_out.end()) {
+            const std::string nearest = nearest_name(entry.key, leaves);
+            errors.push_back(
+                {entry.where, fmt::format("the combination \"{}\" is left out by leaves; write "
+                                          "[expect.\"{}\"] or another",
+                                          entry.key, nearest.empty() ? leaves.front() : nearest)});
+            continue;
+        }
+        errors.push_back({entry.where, no_leaf(entry.key, leaves,
+                                               fmt::format("[expect.\"{}\"]", leaves.front()))});
     }
 }
 
@@ -356,7 +362,7 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
     if (!root) {
         return tl::unexpected(Errors{root.error()});
     }
-    const ExpectedAll<Matrix> matrix = read_matrix(root->find("matrix"));
+    const ExpectedAll<Matrix> matrix = read_matrix(root->find("matrix"), root->find("leaves"));
     if (!matrix) {
         return tl::unexpected(matrix.error());
     }
@@ -364,7 +370,7 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
     check_expectation_keys(*root, *matrix, errors);
     std::vector<Case> cases;
     std::set<std::string> used;
-    for (size_t leaf = 0; leaf < matrix->size(); ++leaf) {
+    for (const size_t leaf : matrix->leaves) {
         std::vector<LeafContext::Parameter> parameters;
         std::vector<std::pair<std::string, std::string>> texts;
         const std::vector<size_t> choice = matrix->choice(leaf);

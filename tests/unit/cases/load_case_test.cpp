@@ -302,6 +302,74 @@ cull = "cull"
                                      {"zoom", "0.5"}, {"cull", "none"}, {"deep", "-2"}}));
 }
 
+// Every pair of values of two keys is left; ids, order, parameters and expectations are those of
+// the full product.
+TEST(LoadCase, LeavesCanBeThoseThatCoverPairs) {
+    const std::string rest = R"(
+[matrix]
+zoom = [1, 0.5]
+cull = ["none", "back"]
+deep = ["1/3", -2]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],["8*zoom","deep"],[0,8]]
+cull = "cull"
+[expect]
+"zoom=1,cull=back,deep=1/3" = { hits = """
+........
+........
+........
+........
+........
+........
+........
+.......1
+""" }
+)";
+    const std::string toml = kHead + "leaves = \"pairs\"" + rest;
+    const std::vector<Case> pairs = load(toml);
+    const char* const ids[] = {
+        "family/name:zoom=1,cull=none,deep=1/3", "family/name:zoom=1,cull=none,deep=-2",
+        "family/name:zoom=1,cull=back,deep=1/3", "family/name:zoom=0.5,cull=none,deep=1/3",
+        "family/name:zoom=0.5,cull=back,deep=-2"};
+    const std::vector<Case> all = load(kHead + "leaves = \"all\"" + rest);
+    EXPECT_EQ(all.size(), 8U);
+    const ExpectedAll<std::vector<Case>> by_id = load_text(toml, "f", "family/name", Contents::ids);
+    ASSERT_TRUE(by_id);
+    ASSERT_EQ(by_id->size(), 5U);
+    ASSERT_EQ(pairs.size(), 5U);
+    for (size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(pairs[i].id, ids[i]);
+        EXPECT_EQ((*by_id)[i].id, ids[i]);
+        EXPECT_EQ(pairs[i].expected_hits.has_value(), i == 2);
+        const auto same = std::find_if(all.begin(), all.end(),
+                                       [&](const Case& c) { return c.id == pairs[i].id; });
+        ASSERT_NE(same, all.end());
+        EXPECT_EQ(pairs[i].parameters, same->parameters);
+        EXPECT_EQ(pairs[i].draws[0].positions, same->draws[0].positions);
+        EXPECT_EQ(pairs[i].draws[0].cull, same->draws[0].cull);
+    }
+}
+
+TEST(LoadCase, LeavesCanBeNamed) {
+    const std::vector<Case> named = load(kHead + R"(
+leaves = ["a=1,b=5", "a=0,b=4", "a=0,b=5"]
+[matrix]
+a = [0, 1]
+b = [4, 5]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,"a"],[8,0],[0,"b"]]
+)");
+    ASSERT_EQ(named.size(), 3U);
+    EXPECT_EQ(named[0].id, "family/name:a=0,b=4");
+    EXPECT_EQ(named[1].id, "family/name:a=0,b=5");
+    EXPECT_EQ(named[2].id, "family/name:a=1,b=5");
+    EXPECT_NE(named[2].draws[0].positions, named[1].draws[0].positions);
+}
+
 // A word that is valid for the key means itself even if a matrix key has that name.
 TEST(LoadCase, ValidWordsWinOverMatrixKeys) {
     const std::vector<Case> all = load(kHead +

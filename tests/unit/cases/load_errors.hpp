@@ -31,8 +31,15 @@ inline std::string target(const std::string& text) {
 inline std::string matrix(const std::string& text) {
     return kHead + "[matrix]\n" + text + "\n" + kTarget + kDraw;
 }
-inline std::string leaves(const std::string& text) {
-    return kHead + "[matrix]\nk = [0, 1]\n" + kTarget + "[[draw]]\n" + text + "\n";
+inline std::string leaves(const std::string& text, const std::string& beside = "") {
+    return kHead + (beside.empty() ? "" : beside + "\n") + "[matrix]\nk = [0, 1]\n" + kTarget +
+           "[[draw]]\n" + text + "\n";
+}
+// A key beside a matrix of keys that a vertex uses: i, j and k.
+inline std::string pairs(const std::string& key, const std::string& axes,
+                         const std::string& end = "") {
+    return kHead + key + "\n[matrix]\n" + axes + "\n" + kTarget +
+           "[[draw]]\nvertices = [[\"i\",\"j\"],[8,0],[\"k\",8]]\n" + end + "\n";
 }
 inline std::string draw(const std::string& text) {
     return kHead + kTarget + "[[draw]]\n" + text + "\n";

@@ -8,6 +8,8 @@ namespace cases {
 
 namespace {
 
+const std::string kAxes = "i = [0, 1]\nj = [0, 1]\nk = [0, 1]";
+
 // clang-format off
 const Row kRows[] = {
     {matrix(R"~()~"),
@@ -85,6 +87,51 @@ vertices = [[0,0],[8,0],[0,8]]
 cull = "c"
 )~"),
      R"~(f:10:8: error: cull is "bakc"; did you mean "back"? (in the leaf c=bakc))~"},
+    {top(R"~(leaves = "pairs")~"),
+     R"~(f:4:10: error: leaves says which combinations of [matrix] are cases, but there is no [matrix]; leave it out)~"},
+    {top(R"~(leaves = 2)~"),
+     R"~(f:4:10: error: leaves is the number 2; write "all", "pairs" or an array of combinations)~"},
+    {pairs(R"~(leaves = "most")~", R"~(k = [0, 1])~"),
+     R"~(f:4:10: error: leaves is the string "most"; write "all", "pairs" or an array of combinations)~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(k = [0, 1]
+j = [0, 1, 2])~"),
+     R"~(f:4:10: error: leaves = "pairs" leaves out combinations of three matrix keys or more with several values each, and the matrix has 2; write "all")~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(k = [0, 1]
+i = [3]
+j = [0, 1, 2])~"),
+     R"~(f:4:10: error: leaves = "pairs" leaves out combinations of three matrix keys or more with several values each, and the matrix has 2; write "all")~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(i = [0, 1]
+j = [0, 1]
+k = [0, 1])~", R"~([expect."i=0,j=1,k=1"]
+hits = "")~"),
+     R"~(f:13:9: error: the combination "i=0,j=1,k=1" is left out by leaves; write [expect."i=0,j=0,k=1"] or another)~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(i = [0, 1]
+j = [0, 1]
+k = [0, 1])~", R"~([expect."i=0,j=1,k=2"]
+hits = "")~"),
+     R"~(f:13:9: error: the matrix has no leaf "i=0,j=1,k=2"; did you mean "i=0,j=1,k=0"?)~"},
+    {pairs(R"~(leaves = "pairs")~", R"~(i = [0, 1]
+j = [0, 1]
+k = [0, 1]
+m = [0, 1])~"),
+     R"~(f:9:1: error: the matrix key m is used nowhere; use it or leave it out)~"},
+    {pairs(R"~(leaves = [])~", kAxes), R"~(f:4:10: error: leaves is empty; name some combinations of [matrix])~"},
+    {pairs(R"~(leaves = [1, "i=0,j=0,k=3", "i=0,j=0,k=1", "x", "i=0,j=0,k=1"])~", kAxes),
+     R"~(f:4:11: error: a leaf is the number 1; write a string
+f:4:14: error: the matrix has no leaf "i=0,j=0,k=3"; did you mean "i=0,j=0,k=0"?
+f:4:44: error: the matrix has no leaf "x"; write "i=0,j=0,k=0"
+f:4:49: error: the leaf "i=0,j=0,k=1" stands twice)~"},
+    {pairs(R"~(leaves = ["i=0,j=0,k=1", "i=1,j=0,k=1"])~", kAxes),
+     R"~(f:7:9: error: leaves names no combination with the value 1 of the matrix key j; name one or leave the value out
+f:8:6: error: leaves names no combination with the value 0 of the matrix key k; name one or leave the value out)~"},
+    {pairs(R"~(leaves = ["k=1", "k=0"])~", "i = [0]\nj = [0]\nk = [0, 1]"),
+     R"~(f:4:11: error: the matrix has no leaf "k=1"; write "i=0,j=0,k=0"
+f:4:18: error: the matrix has no leaf "k=0"; write "i=0,j=0,k=0")~"},
+    {leaves(R"~(vertices = [[0,0],[8,0],["k",8]])~", R"~(leaves = ["k=1", "k=0"])~"),
+     R"~(f:4:10: error: leaves names every combination of [matrix]; leave it out)~"},
+    {pairs(R"~(leaves = ["i=0,j=1,k=1", "i=1,j=0,k=0"])~", kAxes, R"~([expect."i=0,j=0,k=0"]
+hits = "")~"),
+     R"~(f:13:9: error: the combination "i=0,j=0,k=0" is left out by leaves; write [expect."i=1,j=0,k=0"] or another)~"},
 };
 // clang-format on
 
