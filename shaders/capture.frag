@@ -7,7 +7,7 @@
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
 // PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
 // SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), COLOR (0 none, 1 float, 2 uint),
-// INSTRUMENTS (0: the colour output alone). What an attribute holds is chosen by specialization
+// INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as five small outputs). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
 // added to the compiled module (vk_harness/spirv_variant.hpp), where the input at location 7 may also
 // become gl_PrimitiveID.
@@ -54,25 +54,34 @@ layout(set = 0, binding = 0) uniform sampler2D lod_texture;
 #endif
 
 #if INSTRUMENTS
-// Who wrote, replaced, and how often, added (alpha ONE, ONE): one attachment, because a driver may
-// compile every attachment's blending once a sample. Ids as binary32, exact below 2^24: integer
-// attachments need not support more than one sample (framebufferIntegerColorSampleCounts), and small
-// integers as float bits would be denormals. Hits as vk_harness/attachments.hpp says.
+// Who wrote, replaced, and how often, added. Ids as binary32, exact below 2^24: integer attachments
+// need not support more than one sample (framebufferIntegerColorSampleCounts), and small integers as
+// float bits would be denormals. Hits and the two layouts as vk_harness/attachments.hpp says.
+#if SPLIT
+layout(location = 0) out vec2 out_writer;  // draw, primitive
+layout(location = 1) out float out_vertex;
+layout(location = 2) out float out_hits;
+layout(location = 3) out vec2 out_frag_xy;
+layout(location = 4) out vec2 out_frag_zw;
+#define FIRST_ATTRIBUTE 5
+#else
 layout(location = 0) out vec4 out_writer_and_hits;
 layout(location = 1) out vec4 out_frag_coord;
+#define FIRST_ATTRIBUTE 2
+#endif
 #if ATTRIBUTES > 0
-layout(location = 2) out vec4 out_attribute0;
+layout(location = FIRST_ATTRIBUTE) out vec4 out_attribute0;
 #endif
 #if ATTRIBUTES > 1
-layout(location = 3) out vec4 out_attribute1;
+layout(location = FIRST_ATTRIBUTE + 1) out vec4 out_attribute1;
 #endif
 #if ATTRIBUTES > 2
-layout(location = 4) out vec4 out_attribute2;
+layout(location = FIRST_ATTRIBUTE + 2) out vec4 out_attribute2;
 #endif
 #if ATTRIBUTES > 3
-layout(location = 5) out vec4 out_attribute3;
+layout(location = FIRST_ATTRIBUTE + 3) out vec4 out_attribute3;
 #endif
-#define COLOR_LOCATION 2 + ATTRIBUTES
+#define COLOR_LOCATION FIRST_ATTRIBUTE + ATTRIBUTES
 #else
 #define COLOR_LOCATION 0
 #endif
@@ -143,9 +152,18 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
 void main() {
 #if INSTRUMENTS
     // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
-    out_writer_and_hits = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex),
-                               gl_FrontFacing ? 1.0 : 2048.0);
+    vec4 writer_and_hits = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex),
+                                gl_FrontFacing ? 1.0 : 2048.0);
+#if SPLIT
+    out_writer = writer_and_hits.xy;
+    out_vertex = writer_and_hits.z;
+    out_hits = writer_and_hits.w;
+    out_frag_xy = gl_FragCoord.xy;
+    out_frag_zw = gl_FragCoord.zw;
+#else
+    out_writer_and_hits = writer_and_hits;
     out_frag_coord = gl_FragCoord;
+#endif
 #if ATTRIBUTES > 0
     CHOOSE(in_attribute0, kChoice0, 0, out_attribute0)
 #endif

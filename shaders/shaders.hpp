@@ -37,6 +37,7 @@ struct FragmentVariant {
     bool mask_out = false;
     ColorKind color = ColorKind::none;
     bool instruments = true;  // false: the colour output alone, at location 0
+    bool split = false;       // instruments as five small outputs instead of two of four numbers
     friend auto operator<=>(const FragmentVariant&, const FragmentVariant&) = default;
 };
 

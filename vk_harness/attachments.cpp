@@ -83,17 +83,26 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
 
 }  // namespace
 
-std::vector<Attachment> attachments_of(const cases::Case& c) {
+std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLayout& layout) {
     std::vector<Attachment> out;
     const bool other = c.variation.other_clears;
     if (c.target.has_instruments) {
         const float id = other ? kOtherClearIdAsFloat : kClearIdAsFloat;
         const VkClearValue value = clear_all(other ? diff::kOtherClearValue : diff::kClearValue);
-        out.push_back({Role::writer_and_hits, kColorFormat,
-                       clear_color(id, id, id, other ? kOtherNoHits : kNoHits)});
-        out.push_back({Role::frag_coord, kColorFormat, value});
+        const float hits = other ? kOtherNoHits : kNoHits;
+        if (layout.split) {
+            out.push_back({Role::writer, kTwoNumbers, clear_all(id), 8, 8});
+            out.push_back({Role::vertex, kOneNumber, clear_all(id), 4, 4});
+            out.push_back({Role::hits, kOneNumber, clear_all(hits), 4, 4});
+            out.push_back({Role::frag_xy, kTwoNumbers, value, 8, 8});
+            out.push_back({Role::frag_zw, kTwoNumbers, value, 8, 8});
+        } else {
+            out.push_back({Role::writer_and_hits, kColorFormat, clear_color(id, id, id, hits)});
+            out.push_back({Role::frag_coord, kColorFormat, value});
+        }
         for (uint32_t k = 0; k < attribute_count(c); ++k) {
-            out.push_back({Role::attribute, kColorFormat, value});
+            const uint32_t bytes = layout.numbers(k) * 4U;
+            out.push_back({Role::attribute, layout.attribute_format(k), value, bytes, bytes});
         }
     }
     if (c.target.color) {
@@ -155,6 +164,7 @@ VkFormat bits_format(VkFormat format) {
             return VK_FORMAT_R16_UINT;
         case VK_FORMAT_R16G16B16A16_UNORM:
         case VK_FORMAT_R16G16B16A16_SFLOAT:
+        case kTwoNumbers:
             return VK_FORMAT_R32G32_UINT;
         case VK_FORMAT_R32G32B32A32_SFLOAT:
             return VK_FORMAT_R32G32B32A32_UINT;

@@ -9,12 +9,18 @@
 
 #include "cases/case.hpp"
 #include "vk_harness/device.hpp"
+#include "vk_harness/instrument_layout.hpp"
 
 namespace vk_harness {
 
 enum class Role : uint8_t {
-    writer_and_hits,
+    writer_and_hits,  // draw, primitive, provoking vertex; hits
     frag_coord,
+    writer,  // split: draw, primitive
+    vertex,
+    hits,
+    frag_xy,
+    frag_zw,
     attribute,
     color,
     depth,
@@ -43,18 +49,19 @@ struct Attachment {
     }
 };
 
-// Alpha of writer_and_hits: the clear value plus kFrontHit or kBackHit for each fragment, added in
-// binary32, which holds every integer below 2^24. So up to 2047 hits of either kind are told apart,
-// and both clear values from each other, from a replaced or an uncleared value, and from no clear.
+// Hits, alone or as the alpha of writer_and_hits: the clear value plus kFrontHit or kBackHit for
+// each fragment, added in binary32, which holds every integer below 2^24. So up to 2047 hits of
+// either kind are told apart, and both clear values from each other, from a replaced or an
+// uncleared value, and from no clear.
 inline constexpr float kNoHits = 0x1p23F;
 inline constexpr float kOtherNoHits = 0x1p23F + 0x1p22F;  // cases::Variation::other_clears
 inline constexpr float kFrontHit = 1.0F;                  // as shaders/capture.frag writes them
 inline constexpr float kBackHit = 2048.0F;
 
-// In the order of shader locations: writer_and_hits, frag_coord, attributes, color; then depth,
-// which has no location, stencil and what is resolved. Without instruments only color, if any, and
-// depth, if any.
-std::vector<Attachment> attachments_of(const cases::Case& c);
+// In the order of shader locations: writer_and_hits, frag_coord, or writer, vertex, hits, frag_xy,
+// frag_zw if the layout is split; attributes, color; then depth, which has no location, stencil and
+// what is resolved. Without instruments only color, if any, and depth, if any.
+std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLayout& layout = {});
 
 // How many of them are colour attachments.
 uint32_t color_count(const std::vector<Attachment>& attachments);

@@ -112,7 +112,7 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
     if (auto rejection = check_locations(c, t)) {
         return rejection;
     }
-    const std::vector<Attachment> attachments = attachments_of(test);
+    const std::vector<Attachment> attachments = attachments_of(test, instrument_layout(c, test));
     if (attachments.empty()) {
         return invalid("the target has no attachments");
     }
@@ -354,12 +354,13 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             "multiViewport and shaderOutputViewportIndex)",
             viewports, capabilities.max_viewports));
     }
+    const InstrumentLayout layout = instrument_layout(capabilities, c);
     for (const cases::Draw& draw : c.draws) {
         if (draw.layer >= c.target.layers) {
             return invalid(
                 fmt::format("a draw goes to layer {} of {}", draw.layer, c.target.layers));
         }
-        const PipelineKey key = pipeline_key(c, draw);
+        const PipelineKey key = pipeline_key(c, draw, layout);
         if (shaders::capture_vertex(vertex_variant(key)).empty() ||
             shaders::capture_fragment(fragment_variant(key)).empty()) {
             return invalid(

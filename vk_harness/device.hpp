@@ -26,7 +26,9 @@ struct Capabilities {
     VkSampleCountFlags sample_counts = 0;  // all attachments, drawn and read sample by sample
     // VK_EXT_sample_locations; none of its counts without the extension.
     VkSampleCountFlags location_counts = 0;
-    float location_range[2] = {0, 0};     // pixels
+    float location_range[2] = {0, 0};  // pixels
+    // Sample counts with which kOneNumber, blended, and kTwoNumbers do what kColorFormat does.
+    VkSampleCountFlags narrow_sample_counts = 0;
     bool has_standard_locations = false;  // standardSampleLocations
     bool has_sample_shading = false;      // sampleRateShading
     // By cases::DepthFormat: sample counts that can be drawn and read back; 0 if the device has not
@@ -90,7 +92,10 @@ constexpr VkFormat depth_format(cases::DepthFormat format) {
     }
     return kDepthFormat;
 }
-// Colour attachments before the attributes: writer_and_hits, frag_coord.
+// Formats of attachments that hold one or two numbers a sample, if the device has them.
+inline constexpr VkFormat kOneNumber = VK_FORMAT_R32_SFLOAT;
+inline constexpr VkFormat kTwoNumbers = VK_FORMAT_R32G32_SFLOAT;
+// Colour attachments before the attributes, at least: writer_and_hits, frag_coord.
 inline constexpr uint32_t kFixedAttachments = 2;
 
 }  // namespace vk_harness

@@ -39,7 +39,8 @@ ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& o
 
 }  // namespace
 
-PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
+PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
+                         const InstrumentLayout& layout) {
     PipelineKey key;
     key.attribute_count = input_count(c);
     key.samples = c.target.samples;
@@ -70,6 +71,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw) {
     key.has_depth = c.target.has_depth;
     key.has_stencil = c.target.has_stencil;
     key.instruments = c.target.has_instruments;
+    key.layout = layout;
     if (c.target.color) {
         key.color = cases::is_integer(c.target.color->format) ? shaders::ColorKind::integer
                                                               : shaders::ColorKind::number;
@@ -91,6 +93,7 @@ shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
     v.mask_out = key.writes_mask;
     v.color = key.color;
     v.instruments = key.instruments;
+    v.split = key.layout.split;
     for (const AttributeKey& attribute : key.attributes) {
         switch (attribute.source) {
             case cases::Source::vertex:

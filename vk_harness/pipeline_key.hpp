@@ -59,6 +59,7 @@ struct PipelineKey {
     shaders::ColorKind color = shaders::ColorKind::none;
     int32_t color_attribute = -1;
     bool instruments = true;
+    InstrumentLayout layout;
     // Of cases::Variation.
     uint32_t masked = 0;
     ColorKey color_target;
@@ -67,7 +68,8 @@ struct PipelineKey {
 
 // The key of a draw's pipeline. A draw with fewer attributes than its case gets flat ones that are
 // constantly diff::kClearValue: what its fragments leave in those attachments.
-PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw);
+PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
+                         const InstrumentLayout& layout);
 
 // What the shaders have to be compiled for.
 shaders::VertexVariant vertex_variant(const PipelineKey& key);

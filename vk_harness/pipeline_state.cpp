@@ -117,27 +117,58 @@ VkPipelineColorBlendAttachmentState blend_state(const ColorKey& key) {
 
 }  // namespace
 
+namespace {
+
+constexpr uint8_t kNothing = 0, kRgb = 0x7, kAlpha = 0x8, kAll = 0xf;
+
+// Attachments of instruments in the order of attachments_of. `masked` counts the planes of a
+// capture: hits, writers, frag_coord, attributes.
+void instrument_states(const PipelineKey& key, ColorState& state) {
+    const auto add = [&state](VkFormat format, const ColorKey& blend) {
+        state.formats.push_back(format);
+        state.blends.push_back(blend_state(blend));
+    };
+    const auto is_masked = [&key](uint32_t plane) { return (key.masked >> plane & 1U) != 0; };
+    const auto replaced = [&is_masked](uint32_t plane) {
+        ColorKey out;
+        out.write_mask = is_masked(plane) ? kNothing : kAll;
+        return out;
+    };
+    ColorKey hits;  // are added
+    hits.blends = true;
+    const auto destination = key.layout.split ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
+    hits.equation = {VK_BLEND_FACTOR_ONE, static_cast<uint8_t>(destination),
+                     VK_BLEND_OP_ADD,     VK_BLEND_FACTOR_ONE,
+                     VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD};
+    if (key.layout.split) {
+        hits.write_mask = is_masked(0) ? kNothing : kAll;
+        add(kTwoNumbers, replaced(1));
+        add(kOneNumber, replaced(1));
+        add(kOneNumber, hits);
+        add(kTwoNumbers, replaced(2));
+        add(kTwoNumbers, replaced(2));
+    } else {
+        hits.write_mask = static_cast<uint8_t>((is_masked(0) ? kNothing : kAlpha) |
+                                               (is_masked(1) ? kNothing : kRgb));
+        add(kColorFormat, hits);
+        add(kColorFormat, replaced(2));
+    }
+    for (uint32_t k = 0; k < key.attribute_count; ++k) {
+        add(key.layout.attribute_format(k), replaced(3 + k));
+    }
+}
+
+}  // namespace
+
 void color_state(const PipelineKey& key, ColorState& state) {
-    const uint32_t count = key.instruments ? kFixedAttachments + key.attribute_count : 0;
-    state.blends.assign(count, blend_state(ColorKey()));
-    state.formats.assign(count, kColorFormat);
-    if (key.instruments) {  // the writer is replaced, hits are added
-        ColorKey hits;
-        hits.blends = true;
-        hits.equation = {VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ZERO, VK_BLEND_OP_ADD,
-                         VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE,  VK_BLEND_OP_ADD};
-        hits.write_mask = static_cast<uint8_t>(((key.masked & 1U) != 0 ? 0U : 0x8U) |
-                                               ((key.masked & 2U) != 0 ? 0U : 0x7U));
-        state.blends.front() = blend_state(hits);
+    state.formats.clear();
+    state.blends.clear();
+    if (key.instruments) {
+        instrument_states(key, state);
     }
     if (key.color_target.format != VK_FORMAT_UNDEFINED) {
         state.blends.push_back(blend_state(key.color_target));
         state.formats.push_back(key.color_target.format);
-    }
-    for (uint32_t k = 1; k < count; ++k) {  // planes 0 and 1 of a capture are attachment 0
-        if ((key.masked >> (k + 1) & 1U) != 0) {
-            state.blends[k].colorWriteMask = 0;
-        }
     }
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     state.info.attachmentCount = static_cast<uint32_t>(state.blends.size());

@@ -14,20 +14,6 @@ namespace vk_harness {
 
 namespace {
 
-// Storage of bytes holds whatever objects were written there (C++20, implicit object creation);
-// offsets are multiples of the layout's alignment. Copied once, without clearing the vector first.
-template <class T>
-std::vector<T> copy_out(std::span<const std::byte> memory, VkDeviceSize offset, size_t count) {
-    const auto* first = reinterpret_cast<const T*>(memory.data() + offset);
-    return std::vector<T>(first, first + count);
-}
-
-// The words of `count` samples of four.
-std::span<const std::array<uint32_t, 4>> words_at(std::span<const std::byte> memory,
-                                                  VkDeviceSize offset, size_t count) {
-    return {reinterpret_cast<const std::array<uint32_t, 4>*>(memory.data() + offset), count};
-}
-
 // Depth as the capture holds it (diff/capture.hpp). Copied texels of D16 are 2 bytes and of
 // X8_D24 the low 24 bits of a word; with several samples a shader has written binary32.
 void decode_depth(const cases::Target& target, std::span<const std::byte> from, float* to) {
@@ -88,18 +74,52 @@ WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words) {
     return out;
 }
 
+// Numbers of one attachment in read-back memory, `words` a sample.
+struct Words {
+    const uint32_t* first = nullptr;
+    uint32_t words = 4;
+    uint32_t at(size_t sample, uint32_t word) const { return first[sample * words + word]; }
+};
+
+// `writer`: draw and primitive; `vertex` and `hits`: a word of each sample.
+struct WriterWords {
+    Words writer, vertex, hits;
+    uint32_t vertex_word = 0, hits_word = 0;
+};
+
 // Neighbours mostly have the same origin, so the last answer is kept.
-void decode_writers_and_hits(std::span<const std::array<uint32_t, 4>> from, glm::vec4* hits,
+void decode_writers_and_hits(const WriterWords& from, size_t count, glm::vec4* hits,
                              diff::Writer* writers) {
     std::array<uint32_t, 4> last{};
     WriterAndHits decoded = decode_writer_and_hits(last);
-    for (const std::array<uint32_t, 4>& words : from) {
+    for (size_t k = 0; k < count; ++k) {
+        const std::array<uint32_t, 4> words = {from.writer.at(k, 0), from.writer.at(k, 1),
+                                               from.vertex.at(k, from.vertex_word),
+                                               from.hits.at(k, from.hits_word)};
         if (words != last) {
             last = words;
             decoded = decode_writer_and_hits(words);
         }
-        *hits++ = decoded.hits;
-        *writers++ = decoded.writer;
+        hits[k] = decoded.hits;
+        writers[k] = decoded.writer;
+    }
+}
+
+// One or two numbers of an attribute and zeros: a clear sample is clear and poison is poison in all
+// four.
+void widen(const Words& from, size_t count, const VkClearValue& clear, glm::vec4* to) {
+    const auto clear_word = std::bit_cast<uint32_t>(clear.color.float32[0]);
+    for (size_t k = 0; k < count; ++k) {
+        glm::vec4 value(0.0F);
+        bool is_clear = true;
+        bool is_poison = true;
+        for (uint32_t c = 0; c < from.words; ++c) {
+            const uint32_t word = from.at(k, c);
+            value[static_cast<int>(c)] = std::bit_cast<float>(word);
+            is_clear = is_clear && word == clear_word;
+            is_poison = is_poison && word == diff::kPoison;
+        }
+        to[k] = is_clear || is_poison ? glm::vec4(value.x) : value;
     }
 }
 
@@ -234,6 +254,60 @@ void decode_color(const cases::Target& target, const Attachment& attachment,
 
 }  // namespace
 
+namespace {
+
+// Where the planes of a capture go that are decoded together.
+struct InstrumentPlanes {
+    glm::vec4* hits = nullptr;
+    diff::Writer* writers = nullptr;
+    glm::vec4* frag_coord = nullptr;
+};
+
+// The planes that attachment k begins: hits and writers, or FragCoord.
+void decode_instrument(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
+                       std::span<const std::byte> memory, size_t count, size_t k,
+                       const InstrumentPlanes& to) {
+    const auto words = [&](size_t attachment) {
+        return Words{reinterpret_cast<const uint32_t*>(memory.data() + layout.offset[attachment]),
+                     attachments[attachment].sample_bytes / 4};
+    };
+    switch (attachments[k].role) {
+        case Role::writer_and_hits:
+            decode_writers_and_hits({words(k), words(k), words(k), 2, 3}, count, to.hits,
+                                    to.writers);
+            break;
+        case Role::writer:  // then vertex and hits
+            decode_writers_and_hits({words(k), words(k + 1), words(k + 2)}, count, to.hits,
+                                    to.writers);
+            break;
+        case Role::frag_coord:
+            std::memcpy(to.frag_coord, words(k).first, count * sizeof(glm::vec4));
+            break;
+        case Role::frag_xy: {  // then frag_zw
+            const auto* xy = reinterpret_cast<const float*>(words(k).first);
+            const auto* zw = reinterpret_cast<const float*>(words(k + 1).first);
+            for (size_t s = 0; s < count; ++s) {
+                to.frag_coord[s] = {xy[2 * s], xy[2 * s + 1], zw[2 * s], zw[2 * s + 1]};
+            }
+            break;
+        }
+        default:
+            break;
+    }
+}
+
+void decode_attribute(const Attachment& attachment, const std::byte* memory, size_t count,
+                      glm::vec4* to) {
+    if (attachment.sample_bytes == sizeof(glm::vec4)) {
+        std::memcpy(to, memory, count * sizeof(glm::vec4));
+    } else {
+        widen({reinterpret_cast<const uint32_t*>(memory), attachment.sample_bytes / 4}, count,
+              attachment.clear, to);
+    }
+}
+
+}  // namespace
+
 diff::Capture read_capture(const cases::Target& target, const std::vector<Attachment>& attachments,
                            bool has_primitive, const ReadbackLayout& layout,
                            std::span<const std::byte> memory) {
@@ -244,19 +318,12 @@ diff::Capture read_capture(const cases::Target& target, const std::vector<Attach
     for (size_t k = 0; k < attachments.size(); ++k) {
         const VkDeviceSize at = layout.offset[k];
         switch (attachments[k].role) {
-            case Role::writer_and_hits:
-                capture.hits.resize(count);
-                capture.writers.resize(count);
-                decode_writers_and_hits(words_at(memory, at, count), capture.hits.data(),
-                                        capture.writers.data());
+            case Role::attribute: {
+                std::vector<glm::vec4>& plane = capture.attributes[capture.attribute_count++];
+                plane.resize(count);
+                decode_attribute(attachments[k], memory.data() + at, count, plane.data());
                 break;
-            case Role::frag_coord:
-                capture.frag_coord = copy_out<glm::vec4>(memory, at, count);
-                break;
-            case Role::attribute:
-                capture.attributes[capture.attribute_count++] =
-                    copy_out<glm::vec4>(memory, at, count);
-                break;
+            }
             case Role::color:
                 capture.color.resize(count);
                 decode_color(target, attachments[k], memory.data() + at, capture.color.data());
@@ -279,6 +346,14 @@ diff::Capture read_capture(const cases::Target& target, const std::vector<Attach
                 decode_depth(shape_of(attachments[k], target), memory.subspan(at),
                              capture.resolved_depth.data());
                 break;
+            default:
+                capture.hits.resize(count);
+                capture.writers.resize(count);
+                capture.frag_coord.resize(count);
+                decode_instrument(
+                    attachments, layout, memory, count, k,
+                    {capture.hits.data(), capture.writers.data(), capture.frag_coord.data()});
+                break;
         }
     }
     return capture;
@@ -288,30 +363,36 @@ void read_planes(const cases::Target& target, const std::vector<Attachment>& att
                  const ReadbackLayout& layout, std::span<const std::byte> memory,
                  std::span<std::byte> planes) {
     std::byte* to = planes.data();
+    const size_t samples = size_t{target.width} * target.rows() * target.samples;
+    InstrumentPlanes instruments;
+    if (target.has_instruments) {
+        instruments.hits = reinterpret_cast<glm::vec4*>(to);
+        to += samples * sizeof(glm::vec4);
+        instruments.writers = reinterpret_cast<diff::Writer*>(to);
+        to += samples * sizeof(diff::Writer);
+        instruments.frag_coord = reinterpret_cast<glm::vec4*>(to);
+        to += samples * sizeof(glm::vec4);
+    }
     for (size_t k = 0; k < attachments.size(); ++k) {
-        const cases::Target shape = shape_of(attachments[k], target);
+        const Attachment& attachment = attachments[k];
+        const cases::Target shape = shape_of(attachment, target);
         const size_t count = size_t{shape.width} * shape.rows() * shape.samples;
         const std::byte* from = memory.data() + layout.offset[k];
-        if (attachments[k].role == Role::writer_and_hits) {
-            auto* hits = reinterpret_cast<glm::vec4*>(to);
-            auto* writers = reinterpret_cast<diff::Writer*>(to + count * sizeof(glm::vec4));
-            decode_writers_and_hits(words_at(memory, layout.offset[k], count), hits, writers);
-            to += count * (sizeof(glm::vec4) + sizeof(diff::Writer));
-        } else if (attachments[k].role == Role::color ||
-                   attachments[k].role == Role::resolved_color) {
-            decode_color(shape, attachments[k], from, reinterpret_cast<diff::ColorCodes*>(to));
+        if (attachment.role == Role::color || attachment.role == Role::resolved_color) {
+            decode_color(shape, attachment, from, reinterpret_cast<diff::ColorCodes*>(to));
             to += count * sizeof(diff::ColorCodes);
-        } else if (attachments[k].is_depth()) {
+        } else if (attachment.is_depth()) {
             decode_depth(shape, memory.subspan(layout.offset[k]), reinterpret_cast<float*>(to));
             to += count * sizeof(float);
-        } else if (attachments[k].role == Role::stencil) {
+        } else if (attachment.role == Role::stencil) {
             decode_stencil(target, memory.subspan(layout.offset[k]),
                            reinterpret_cast<uint32_t*>(to));
             to += count * sizeof(uint32_t);
+        } else if (attachment.role == Role::attribute) {
+            decode_attribute(attachment, from, count, reinterpret_cast<glm::vec4*>(to));
+            to += count * sizeof(glm::vec4);
         } else {
-            const size_t bytes = count * attachments[k].texel_bytes;
-            std::memcpy(to, from, bytes);
-            to += bytes;
+            decode_instrument(attachments, layout, memory, count, k, instruments);
         }
     }
 }

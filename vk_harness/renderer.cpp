@@ -63,8 +63,9 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         return false;
     }
     plan.input_count = input_count(test);
+    const InstrumentLayout layout = instrument_layout(device_->capabilities(), test);
     for (const cases::Draw& draw : test.draws) {
-        auto pipeline = pipelines_.get(pipeline_key(test, draw));
+        auto pipeline = pipelines_.get(pipeline_key(test, draw, layout));
         if (!pipeline) {
             reject(result, pipeline.error());
             return false;
@@ -85,7 +86,7 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         item.has_integer_color = test.target.color && cases::is_integer(test.target.color->format);
         plan.draws.push_back(item);
     }
-    plan.attachments = attachments_of(test);
+    plan.attachments = attachments_of(test, layout);
     if (test.blit) {
         auto blit = BlitImages::create(*device_, test);
         if (!blit) {
@@ -265,7 +266,9 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         CasePlan item;
         item.test = &batch[slot];
         item.slot = slot;
-        const VkDeviceSize size = attachment_bytes(item.test->target, attachments_of(*item.test));
+        const VkDeviceSize size = attachment_bytes(
+            item.test->target,
+            attachments_of(*item.test, instrument_layout(device_->capabilities(), *item.test)));
         if (bytes + size > kChunkBytes && !plans.empty()) {
             run_chunk(plans, read_back, results, step, store);
             bytes = 0;

@@ -193,5 +193,106 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     EXPECT_EQ(diff::sample_state(capture, 1), diff::SampleState::not_copied);
 }
 
+// The same samples in narrow attachments: the capture is the same to the bit.
+TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
+    cases::Case c = target_case({3, 1, 1}, 3);
+    InstrumentLayout narrow;
+    narrow.split = true;
+    narrow.components = {1, 2, 4, 4};
+    const float clear = diff::kClearValue;
+    // The first sample is clear, the second drawn, the third not copied.
+    const std::vector<float> writers = {-1, -1, -1, kNoHits, 3, -2, 5, kNoHits + 2 * kBackHit};
+    const std::vector<float> frag = {clear, clear, clear, clear, 9, 10, 11, 12};
+    const std::vector<std::vector<float>> attributes = {{clear, clear, clear, clear, 7, 0, 0, 0},
+                                                        {clear, clear, clear, clear, 0, 8, 0, 0},
+                                                        {clear, clear, clear, clear, 1, 2, 3, 4}};
+    const auto read = [&c](const InstrumentLayout& layout,
+                           const std::vector<std::vector<float>>& words) {
+        const std::vector<Attachment> attachments = attachments_of(c, layout);
+        const ReadbackLayout places = make_layout(c.target, attachments, 0, 64);
+        std::vector<std::byte> memory(places.end);
+        poison(memory);
+        for (size_t k = 0; k < words.size(); ++k) {
+            std::memcpy(memory.data() + places.offset[k], words[k].data(),
+                        words[k].size() * sizeof(float));
+        }
+        std::vector<glm::vec4> planes(diff::plane_bytes(c.target, 3) / sizeof(glm::vec4) + 1);
+        read_planes(c.target, attachments, places, memory,
+                    std::as_writable_bytes(std::span(planes)));
+        const diff::Capture capture = read_capture(c.target, attachments, true, places, memory);
+        const diff::CaptureView view =
+            diff::view_planes(c.target, true, 3, std::as_bytes(std::span(planes)).data());
+        EXPECT_EQ(std::memcmp(view.hits.data(), capture.hits.data(), 48), 0);
+        EXPECT_EQ(std::memcmp(view.writers.data(), capture.writers.data(), 48), 0);
+        EXPECT_EQ(std::memcmp(view.frag_coord.data(), capture.frag_coord.data(), 48), 0);
+        for (size_t a = 0; a < 3; ++a) {
+            EXPECT_EQ(std::memcmp(view.attributes[a].data(), capture.attributes[a].data(), 48), 0);
+        }
+        return capture;
+    };
+    const diff::Capture wide =
+        read({}, {writers, frag, attributes[0], attributes[1], attributes[2]});
+    const diff::Capture split = read(narrow, {{-1, -1, 3, -2},
+                                              {-1, 5},
+                                              {kNoHits, kNoHits + 2 * kBackHit},
+                                              {clear, clear, 9, 10},
+                                              {clear, clear, 11, 12},
+                                              {clear, 7},
+                                              {clear, clear, 0, 8},
+                                              attributes[2]});
+    EXPECT_EQ(std::memcmp(wide.hits.data(), split.hits.data(), 48), 0);
+    EXPECT_EQ(wide.writers, split.writers);
+    EXPECT_EQ(std::memcmp(wide.frag_coord.data(), split.frag_coord.data(), 48), 0);
+    for (size_t a = 0; a < 3; ++a) {
+        EXPECT_EQ(std::memcmp(wide.attributes[a].data(), split.attributes[a].data(), 48), 0);
+    }
+    EXPECT_EQ(split.writers[1], (diff::Writer{3, diff::kNoPrimitive, 5, diff::kClearId}));
+    EXPECT_EQ(split.hits[1], glm::vec4(0, 2, diff::kHitGuard, diff::kHitGuard + 2));
+    EXPECT_EQ(split.attributes[1][1], glm::vec4(0, 8, 0, 0));
+}
+
+// Capabilities with which everything may be narrow.
+Capabilities narrow_device(uint32_t attachments) {
+    Capabilities c;
+    c.narrow_sample_counts = VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT;
+    c.info.max_color_attachments = attachments;
+    return c;
+}
+
+TEST(InstrumentLayout, HasAsManyNumbersAsAnyVertexOfAnyDrawNeeds) {
+    cases::Case c = target_case({3, 5, 1}, 2);
+    c.draws.push_back(c.draws[0]);
+    c.draws[0].attributes[0].values = {{1, 0, 0, 0}, {2, 0, 0, 0}};
+    c.draws[1].attributes[0].values = {{1, 0, 0, 0}, {2, 0.5, 0, 0}};
+    c.draws[0].attributes[1].values = {{1, 0, 0, 0}, {0, 0, -0.0F, 0}};  // -0 is not +0
+    InstrumentLayout layout = instrument_layout(narrow_device(8), c);
+    EXPECT_EQ(layout.components, (std::array<uint8_t, 4>{2, 4, 4, 4}));
+    EXPECT_EQ(layout.attribute_format(0), kTwoNumbers);
+    EXPECT_EQ(layout.attribute_format(1), kColorFormat);
+    c.draws[0].attributes[1].values.clear();
+    c.draws[0].attributes[1].source = cases::Source::sample_id;
+    layout = instrument_layout(narrow_device(8), c);
+    EXPECT_EQ(layout.attribute_format(1), kOneNumber);
+    c.draws[0].attributes[1].source = cases::Source::barycentric;
+    EXPECT_EQ(instrument_layout(narrow_device(8), c).components[1], 4);
+}
+
+TEST(InstrumentLayout, IsSplitWhereAllAttachmentsFit) {
+    cases::Case c = target_case({3, 5, 1}, 3);
+    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
+    EXPECT_FALSE(instrument_layout(narrow_device(7), c).split);
+    c.target.color = {cases::ColorFormat::rgba8_unorm, {}};
+    EXPECT_FALSE(instrument_layout(narrow_device(8), c).split);
+    EXPECT_FALSE(instrument_layout(narrow_device(16), c).split);  // no such shader is built
+    c.draws[0].attributes.pop_back();
+    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
+    EXPECT_EQ(attachments_of(c, instrument_layout(narrow_device(8), c)).size(), 9U);  // and depth
+    c.target.samples = 8;  // which the device has with wide formats alone
+    EXPECT_EQ(instrument_layout(narrow_device(8), c), InstrumentLayout());
+    c.target.samples = 1;
+    c.target.has_instruments = false;
+    EXPECT_EQ(instrument_layout(narrow_device(8), c), InstrumentLayout());
+}
+
 }  // namespace
 }  // namespace vk_harness

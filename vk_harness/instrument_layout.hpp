@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How wide the attachments are that a case's instruments (hits, writer, FragCoord, attributes) are
+// drawn to. A driver may compile the store of an attachment once a sample, and narrow ones cost it
+// far less: lavapipe takes about 40 ms for four numbers with four samples, under 5 ms for two.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+
+#include "cases/case.hpp"
+#include "vk_harness/device.hpp"
+
+namespace vk_harness {
+
+struct InstrumentLayout {
+    bool split = false;  // writer, hits and FragCoord as five attachments of one or two numbers
+    // 1, 2 or 4 by attribute: numbers that are drawn and read back; the others are 0 at every
+    // vertex and 0 in the capture.
+    std::array<uint8_t, cases::kMaxAttributes> components = {4, 4, 4, 4};
+
+    uint32_t numbers(uint32_t attribute) const;  // 4 beyond the last attribute that a case may have
+    VkFormat attribute_format(uint32_t attribute) const;
+    friend auto operator<=>(const InstrumentLayout&, const InstrumentLayout&) = default;
+};
+
+inline constexpr uint32_t kSplitAttachments = 5;
+inline constexpr uint32_t kMaxSplitAttachments =
+    8;  // with attributes and colour: cmake/Shaders.cmake
+
+// The narrowest layout that the device has.
+InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test);
+
+}  // namespace vk_harness
