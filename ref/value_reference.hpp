@@ -266,6 +266,10 @@ struct ValueReference::Impl {
                           probe_place(t, id, at), device, only);
     }
 
+    // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
+    std::vector<size_t> failing_at(uint32_t t, SampleId id, const FragmentValues& device,
+                                   Profile at);
+
     // The oracle: rationals only, no filter.
     value::WideVerdict wide_exact(uint32_t t, SampleId id, const FragmentValues& device,
                                   Profile at) {
