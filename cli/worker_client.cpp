@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <memory>
 #include <utility>
 
 #include "cli/judge.hpp"
@@ -131,11 +132,12 @@ void WorkerClient::write_pending() {
 }
 
 void WorkerClient::read_output() {
-    std::string chunk(size_t{1} << 16, '\0');
+    constexpr size_t kOutputChunk = size_t{1} << 16;
+    const auto chunk = std::make_unique_for_overwrite<char[]>(kOutputChunk);
     while (child_.output.is_open()) {
-        const ssize_t n = ::read(child_.output.get(), chunk.data(), chunk.size());
+        const ssize_t n = ::read(child_.output.get(), chunk.get(), kOutputChunk);
         if (n > 0) {
-            output_.add(std::string_view(chunk).substr(0, static_cast<size_t>(n)));
+            output_.add({chunk.get(), static_cast<size_t>(n)});
         } else if (n < 0 && errno == EINTR) {
             continue;
         } else {
@@ -148,13 +150,13 @@ void WorkerClient::read_output() {
 }
 
 bool WorkerClient::read_result() {
-    std::string chunk(kChunk, '\0');
+    const auto chunk = std::make_unique_for_overwrite<char[]>(kChunk);
     for (;;) {
-        const ssize_t n = ::read(child_.result.get(), chunk.data(), chunk.size());
+        const ssize_t n = ::read(child_.result.get(), chunk.get(), kChunk);
         if (n > 0) {
-            reader_.feed(std::string_view(chunk).substr(0, static_cast<size_t>(n)));
+            reader_.feed({chunk.get(), static_cast<size_t>(n)});
             deadline_ = Clock::now() + timeout_;
-            if (static_cast<size_t>(n) < chunk.size() / 2) {
+            if (static_cast<size_t>(n) < kChunk / 2) {
                 return true;
             }
         } else if (n < 0 && errno == EINTR) {

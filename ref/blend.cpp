@@ -29,6 +29,25 @@ mpz_class ceil_of(const mpq_class& x) {
     return out;
 }
 
+// Of x times a whole number; without a quotient that has to be reduced.
+mpz_class floor_of(const mpq_class& x, const mpz_class& times) {
+    mpz_class out = x.get_num() * times;
+    mpz_fdiv_q(out.get_mpz_t(), out.get_mpz_t(), x.get_den_mpz_t());
+    return out;
+}
+
+mpz_class ceil_of(const mpq_class& x, const mpz_class& times) {
+    mpz_class out = x.get_num() * times;
+    mpz_cdiv_q(out.get_mpz_t(), out.get_mpz_t(), x.get_den_mpz_t());
+    return out;
+}
+
+mpq_class quotient(const mpz_class& a, const mpz_class& b) {
+    mpq_class out(a, b);
+    out.canonicalize();
+    return out;
+}
+
 mpq_class power_of_two(long exponent) {
     mpq_class out(1);
     if (exponent >= 0) {
@@ -59,12 +78,17 @@ mpq_class spacing(const Floating& format, const mpq_class& x) {
     return power_of_two(std::max(e, format.least) - format.fraction);
 }
 
-mpq_class largest_of(const Floating& format) {
-    return power_of_two(format.most + 1) - power_of_two(format.most - format.fraction);
+const mpq_class& largest_of(const Floating& format) {
+    static const auto make = [](const Floating& f) {
+        return mpq_class(power_of_two(f.most + 1) - power_of_two(f.most - f.fraction));
+    };
+    static const mpq_class half = make(kHalf);
+    static const mpq_class binary32 = make(kBinary32);
+    return format.fraction == kHalf.fraction ? half : binary32;
 }
 
 mpq_class round_to(const Floating& format, const mpq_class& x, bool upwards) {
-    const mpq_class largest = largest_of(format);
+    const mpq_class& largest = largest_of(format);
     if (abs(x) > largest) {  // towards zero the largest number, away from it the overflow itself
         return upwards == (sgn(x) > 0) ? x : sgn(x) > 0 ? largest : mpq_class(-largest);
     }
@@ -178,8 +202,15 @@ Interval clamped(const Interval& v) {
     return {clamp(v.low), clamp(v.high)};
 }
 
-mpq_class Component::units() const {
-    return power_of_two(static_cast<long>(format_.bits)) - 1;
+const mpz_class& Component::units() const {
+    static const std::vector<mpz_class> all = [] {
+        std::vector<mpz_class> out;
+        for (mp_bitcnt_t bits = 0; bits <= 32; ++bits) {
+            out.emplace_back((mpz_class(1) << bits) - 1);
+        }
+        return out;
+    }();
+    return all.at(format_.bits);
 }
 
 bool Component::is_fixed_point() const {
@@ -189,7 +220,7 @@ bool Component::is_fixed_point() const {
 mpq_class Component::down(const mpq_class& x) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
-            return floor_of(x * units()) / units();
+            return quotient(floor_of(x, units()), units());
         case ComponentKind::srgb: {
             // A value within kSrgbError of a code's is that code.
             const auto& values = srgb_values();
@@ -210,7 +241,7 @@ mpq_class Component::down(const mpq_class& x) const {
 mpq_class Component::up(const mpq_class& x) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
-            return ceil_of(x * units()) / units();
+            return quotient(ceil_of(x, units()), units());
         case ComponentKind::srgb: {
             const auto& values = srgb_values();
             const auto at =
@@ -235,8 +266,8 @@ Interval Component::stored(const Interval& v, cases::Profile profile, bool is_bl
     if (format_.kind == ComponentKind::unorm && profile == cases::Profile::direct3d &&
         !is_blended) {
         const mpq_class slack(3, 5);  // of a unit on the integer side
-        const mpq_class low = ceil_of(in.low * units() - slack) / units();
-        const mpq_class high = floor_of(in.high * units() + slack) / units();
+        const mpq_class low = quotient(ceil_of(in.low * units() - slack), units());
+        const mpq_class high = quotient(floor_of(in.high * units() + slack), units());
         return clamped({low, high});
     }
     return either(in);
@@ -246,7 +277,7 @@ bool Component::value_of(uint32_t code, mpq_class& value) const {
     bool is_number = true;
     switch (format_.kind) {
         case ComponentKind::unorm:
-            value = mpq_class(code) / units();
+            value = quotient(code, units());
             break;
         case ComponentKind::srgb:
             is_number = code < 256;
@@ -270,7 +301,7 @@ bool Component::is_overflow(uint32_t code, const Interval& v) const {
     if (!is_half && format_.kind != ComponentKind::binary32) {
         return false;
     }
-    const mpq_class largest = largest_of(is_half ? kHalf : kBinary32);
+    const mpq_class& largest = largest_of(is_half ? kHalf : kBinary32);
     return code == (is_half ? 0x7c00U : 0x7f800000U)   ? v.high > largest
            : code == (is_half ? 0xfc00U : 0xff800000U) ? v.low < -largest
                                                        : false;

@@ -74,7 +74,7 @@ class Component {
     std::string text_of(const Interval& v) const;
 
   private:
-    mpq_class units() const;  // 2^bits - 1
+    const mpz_class& units() const;  // 2^bits - 1
     cases::ComponentFormat format_;
 };
 

@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "ref/position_detail.hpp"
 
@@ -139,31 +140,29 @@ Work cut(const Work& p1, const Work& p2, const mpq_class& d1, const mpq_class& d
     return out;
 }
 
-std::vector<Work> clip_by(const std::vector<Work>& polygon, ClipPlane plane, const mpq_class& u) {
+// `d`: the vertices' distances from the plane.
+std::vector<Work> clip_by(const std::vector<Work>& polygon, const std::vector<mpq_class>& d,
+                          ClipPlane plane, const mpq_class& u) {
     std::vector<Work> out;
     const size_t n = polygon.size();
     out.reserve(n + 1);
     const auto label = static_cast<EdgeLabel>(kFirstClipEdge + static_cast<EdgeLabel>(plane));
     for (size_t i = 0; i < n; ++i) {
         const Work& a = polygon[i];
-        const Work& b = polygon[(i + 1) % n];
-        const mpq_class da = distance(a, plane);
-        const mpq_class db = distance(b, plane);
-        if (da >= 0) {
+        const size_t next = (i + 1) % n;
+        if (d[i] >= 0) {
             out.push_back(a);
-            if (db < 0) {
-                if (da == 0) {
+            if (d[next] < 0) {
+                if (d[i] == 0) {
                     out.back().v.edge = label;  // leaves at a itself
                 } else {
-                    Work leaving = cut(a, b, da, db, plane, u);
-                    leaving.v.edge = label;
-                    out.push_back(leaving);
+                    out.push_back(cut(a, polygon[next], d[i], d[next], plane, u));
+                    out.back().v.edge = label;
                 }
             }
-        } else if (db > 0) {
-            Work entering = cut(a, b, da, db, plane, u);
-            entering.v.edge = a.v.edge;
-            out.push_back(entering);
+        } else if (d[next] > 0) {
+            out.push_back(cut(a, polygon[next], d[i], d[next], plane, u));
+            out.back().v.edge = a.v.edge;
         }
     }
     return out;
@@ -176,13 +175,37 @@ std::vector<Work> clip_in_order(const std::vector<Work>& triangle, std::span<con
         if (polygon.empty()) {
             break;
         }
-        // Most planes cut nothing off, and rationals are costly to copy.
-        if (std::any_of(polygon.begin(), polygon.end(),
-                        [&](const Work& p) { return distance(p, plane) < 0; })) {
-            polygon = clip_by(polygon, plane, u);
+        // An earlier plane may have cut off all that is outside of this one.
+        std::vector<mpq_class> d;
+        d.reserve(polygon.size());
+        for (const Work& p : polygon) {
+            d.push_back(distance(p, plane));
+        }
+        if (std::any_of(d.begin(), d.end(), [](const mpq_class& each) { return each < 0; })) {
+            polygon = clip_by(polygon, d, plane, u);
         }
     }
     return polygon;
+}
+
+// The planes that cut something off, in their order. All points of the polygon, which is exact, are
+// convex combinations of the triangle's vertices: a plane with these inside has all of them inside.
+std::vector<ClipPlane> cutting_planes(const ClipInput& triangle,
+                                      std::span<const ClipPlane> planes) {
+    std::vector<ClipPlane> out;
+    for (const ClipPlane& plane : planes) {
+        if (!is_inside(triangle, 0, {&plane, 1}) || !is_inside(triangle, 1, {&plane, 1}) ||
+            !is_inside(triangle, 2, {&plane, 1})) {
+            out.push_back(plane);
+        }
+    }
+    return out;
+}
+
+void raise(mpq_class& bound, const mpq_class& other) {
+    if (bound < other) {
+        bound = other;
+    }
 }
 
 // Takes the larger bound of the vertex of `other` between the same two edges.
@@ -198,10 +221,10 @@ void widen_by(std::vector<Work>& polygon, const std::vector<Work>& other) {
             }
             p.v.is_bounded = p.v.is_bounded && other[k].v.is_bounded;
             for (size_t c = 0; c < 4; ++c) {
-                p.error[c] = std::max(p.error[c], other[k].error[c]);
+                raise(p.error[c], other[k].error[c]);
             }
             for (size_t c = 0; c < p.distance_error.size(); ++c) {
-                p.distance_error[c] = std::max(p.distance_error[c], other[k].distance_error[c]);
+                raise(p.distance_error[c], other[k].distance_error[c]);
             }
         }
     }
@@ -346,19 +369,25 @@ std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases:
         }
         start[i].distance_error.resize(triangle.distance_count);
     }
-    std::vector<Work> polygon = clip_in_order(start, planes, u);
-    std::vector<ClipPlane> other_order(planes.begin(), planes.end());
+    // An order that has been cut in before gives the same polygon again.
+    const std::vector<ClipPlane> order = cutting_planes(triangle, planes);
+    std::vector<Work> polygon = clip_in_order(start, order, u);
+    std::vector<ClipPlane> other_order = order;
     std::stable_partition(other_order.begin(), other_order.end(),
                           [](ClipPlane p) { return !is_user(p) && component_of(p) == kZ; });
-    widen_by(polygon, clip_in_order(start, other_order, u));
-    if (std::any_of(planes.begin(), planes.end(), is_user)) {
-        std::stable_partition(other_order.begin(), other_order.end(), is_user);
+    if (other_order != order) {
         widen_by(polygon, clip_in_order(start, other_order, u));
     }
+    std::vector<ClipPlane> user_first = other_order;
+    std::stable_partition(user_first.begin(), user_first.end(), is_user);
+    if (user_first != other_order && user_first != order) {
+        widen_by(polygon, clip_in_order(start, user_first, u));
+    }
     std::vector<ClippedVertex> out;
+    out.reserve(polygon.size());
     for (Work& p : polygon) {
         project(p, viewport, u);
-        out.push_back(p.v);
+        out.push_back(std::move(p.v));
     }
     return out;
 }

@@ -114,12 +114,20 @@ const color::Color& ColorReference::source_of(uint32_t triangle, SampleId id) {
     return found->second;
 }
 
+const cases::ColorOutput& ColorReference::output_of(uint32_t triangle) const {
+    return case_.draws[expectation_.triangles[triangle].draw].color;
+}
+
+bool ColorReference::replaces(uint32_t triangle, bool masked) const {
+    const cases::ColorOutput& output = output_of(triangle);
+    return !output.blend && (!masked || output.write_mask == 0xf);
+}
+
 color::Color ColorReference::color_of(const Sequence& sequence, SampleId id, const glm::vec4* last,
                                       bool masked) {
-    const bool is_constant =
-        last == nullptr && masked && std::all_of(sequence.begin(), sequence.end(), [&](uint32_t t) {
-            return case_.draws[expectation_.triangles[t].draw].color.attribute < 0;
-        });
+    const bool is_constant = last == nullptr && masked &&
+                             std::all_of(sequence.begin(), sequence.end(),
+                                         [&](uint32_t t) { return output_of(t).attribute < 0; });
     Sequence draws;
     if (is_constant) {
         for (const uint32_t t : sequence) {
@@ -129,9 +137,13 @@ color::Color ColorReference::color_of(const Sequence& sequence, SampleId id, con
             return found->second;
         }
     }
+    // Nothing is left of what a fragment replaces.
+    size_t first = sequence.size();
+    while (first > 0 && !replaces(sequence[--first], masked)) {
+    }
     color::Color color = cleared_;
-    for (size_t k = 0; k < sequence.size(); ++k) {
-        cases::ColorOutput output = case_.draws[expectation_.triangles[sequence[k]].draw].color;
+    for (size_t k = first; k < sequence.size(); ++k) {
+        cases::ColorOutput output = output_of(sequence[k]);
         output.write_mask = masked ? output.write_mask : 0xf;
         if (last != nullptr && k + 1 == sequence.size() && output.attribute >= 0) {
             color::Color source;
@@ -150,12 +162,10 @@ color::Color ColorReference::color_of(const Sequence& sequence, SampleId id, con
 }
 
 std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmasked) const {
-    const bool blends = std::any_of(sequence.begin(), sequence.end(), [&](uint32_t t) {
-        return case_.draws[expectation_.triangles[t].draw].color.blend.has_value();
-    });
-    const bool masks = std::any_of(sequence.begin(), sequence.end(), [&](uint32_t t) {
-        return case_.draws[expectation_.triangles[t].draw].color.write_mask != 0xf;
-    });
+    const bool blends = std::any_of(sequence.begin(), sequence.end(),
+                                    [&](uint32_t t) { return output_of(t).blend.has_value(); });
+    const bool masks = std::any_of(sequence.begin(), sequence.end(),
+                                   [&](uint32_t t) { return output_of(t).write_mask != 0xf; });
     return std::string(masks && is_as_unmasked ? "blend.write-mask"
                        : blends                ? "blend.equation"
                        : masks                 ? "blend.write-mask"
@@ -164,7 +174,12 @@ std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmaske
 
 bool ColorReference::explains(size_t index, SampleId id, const std::array<uint32_t, 4>& codes,
                               const std::optional<ColorWitness>& witness) {
-    const std::vector<Sequence> sets = allowed(index, witness);
+    return explains(allowed(index, witness), id, codes, witness);
+}
+
+bool ColorReference::explains(const std::vector<Sequence>& sets, SampleId id,
+                              const std::array<uint32_t, 4>& codes,
+                              const std::optional<ColorWitness>& witness) {
     const glm::vec4* last = witness ? witness->written : nullptr;
     // A device whose hits are wrong already has a finding of its own.
     return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
@@ -196,7 +211,7 @@ ColorVerdict ColorReference::judge(size_t index, SampleId id, const std::array<u
         verdict.kind = ColorVerdict::Kind::open;
         return verdict;
     }
-    if (explains(index, id, codes, witness)) {
+    if (explains(sets, id, codes, witness)) {
         if (is_constant_) {
             const HitBounds& bounds = expectation_.samples[index].hits;
             const std::span<const PossibleHit> hits = hits_at(index);

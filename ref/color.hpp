@@ -70,6 +70,11 @@ class ColorReference {
     using Sequence = std::vector<uint32_t>;  // triangles in drawing order
     std::span<const PossibleHit> hits_at(size_t index) const;
     std::vector<Sequence> allowed(size_t index, const std::optional<ColorWitness>& witness) const;
+    bool explains(const std::vector<Sequence>& sets, SampleId id,
+                  const std::array<uint32_t, 4>& codes, const std::optional<ColorWitness>& witness);
+    const cases::ColorOutput& output_of(uint32_t triangle) const;
+    // Whether the fragment writes all components, whatever was there.
+    bool replaces(uint32_t triangle, bool masked) const;
     const color::Color& source_of(uint32_t triangle, SampleId id);
     // What the fragments leave; `masked` false: with every write mask full.
     color::Color color_of(const Sequence& sequence, SampleId id, const glm::vec4* last,

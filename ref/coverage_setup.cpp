@@ -356,7 +356,15 @@ TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limit
         t.clipped = std::make_shared<Outline>();
     }
     if (t.is_clipped && is_in_range) {
-        is_defined = outline_by(s, s.volume.all(), *t.clipped);
+        const bool leaves_viewport = !std::all_of(all.begin(), all.end(), [&](size_t i) {
+            return is_inside(s.input, i, s.volume.all().first(4));
+        });
+        if (leaves_viewport) {
+            is_defined = outline_by(s, s.volume.all(), *t.clipped);
+        } else {
+            is_defined = t.has_outline;  // the borders cut nothing: the same polygon
+            *t.clipped = t.unclipped;
+        }
         const bool is_fractional = t.window.zone_x.low != t.window.core_x.low ||
                                    t.window.zone_y.low != t.window.core_y.low;
         if (is_fractional && !t.has_outline) {

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "ref/sample.hpp"
@@ -33,9 +34,13 @@ Pair in_framebuffer(const Fragment& f, const Pair& in_pixel) {
     return {static_cast<float>(f.id.x) + in_pixel.x, static_cast<float>(f.id.y) + in_pixel.y};
 }
 
+Pair centre_of(const Fragment& f) {
+    return in_framebuffer(f, {0.5F, 0.5F});
+}
+
 // Where FragCoord.xy may be.
 std::vector<Pair> frag_coords(const Fragment& f, Profile profile) {
-    const Pair centre = in_framebuffer(f, {0.5F, 0.5F});
+    const Pair centre = centre_of(f);
     const Pair own = in_framebuffer(f, location(f, f.id.sample));
     std::vector<Pair> all_samples;
     for (uint32_t s = 0; s < f.target->samples; ++s) {
@@ -75,7 +80,7 @@ std::vector<Pair> sample_positions(const Fragment& f, Profile profile) {
 }
 
 // Component `c` of `got` is blamed if no pair has it, or if no pair has both and it is the first.
-bool is_in(const std::vector<Pair>& pairs, const Pair& got, uint32_t c) {
+bool is_in(std::span<const Pair> pairs, const Pair& got, uint32_t c) {
     bool has_x = false, has_y = false, has_both = false;
     for (const Pair& p : pairs) {
         const bool x = same_bits(p.x, got.x);
@@ -127,9 +132,14 @@ bool is_sample_kind(Kind kind) {
 bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, Profile profile) {
     const float got = q.get(device);
     switch (q.kind) {
-        case Kind::pixel_centre:
-            return is_in(frag_coords(f, profile), {device.frag_coord.x, device.frag_coord.y},
-                         q.component);
+        case Kind::pixel_centre: {
+            const Pair at{device.frag_coord.x, device.frag_coord.y};
+            if (shading_rate(*f.draw, f.target->samples) == ShadingRate::fragment) {
+                const Pair centre = centre_of(f);  // the only one; no list for every fragment
+                return is_in({&centre, 1}, at, q.component);
+            }
+            return is_in(frag_coords(f, profile), at, q.component);
+        }
         case Kind::sample_position: {
             const glm::vec4& v = device.attributes[static_cast<size_t>(q.attribute)];
             return is_in(sample_positions(f, profile), {v.x, v.y}, q.component);

@@ -60,7 +60,7 @@ void ValueReference::Impl::judge_samples(uint32_t t, SampleId id, const Fragment
 
 bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues& device,
                                   FragmentVerdict& out) {
-    const value::Loaded& triangle = load(t);
+    const value::Loaded& triangle = load_filters(t);
     const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
     const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
     const value::Point<double> sample{

@@ -87,6 +87,27 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
     out.mismatches.push_back(std::move(m));
 }
 
+std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, SampleId id,
+                                                     const FragmentValues& device, Profile at) {
+    const std::vector<size_t> only = asked(t, at);
+    if (at == Profile::vulkan && !only.empty()) {
+        const value::Primitive& primitive = load(t).primitive;
+        const std::vector<Quantity>& q = quantities_of(t);
+        const value::WideSet<Ball>& set =
+            balls.get(t, at, [&] { return value::make_wide_set<Ball>(primitive, q, limits, at); });
+        if (set.is_known) {
+            auto failing =
+                failing_alone(set, std::span<const Quantity>(q), primitive.is_projectable,
+                              value::evaluations<Ball>(fragment(t, id, at), at),
+                              probe_place(t, id, at), device, only);
+            if (failing) {
+                return std::move(*failing);
+            }
+        }
+    }
+    return wide(t, id, device, at).failing;
+}
+
 // The loosest profile at which each failing value is wrong, given that one basis has to explain all
 // values of the fragment. A looser profile may blame values that this one does not (they fit the
 // basis that explains most); if it blames none of those that are left, they share its level.
@@ -96,10 +117,12 @@ std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, SampleId id,
     std::vector<Profile> levels(failing.size(), profile);
     std::vector<size_t> blamed;  // by a looser profile
     for (const Profile p : cases::kProfiles) {
-        if (p >= profile) {
+        const bool is_settled =
+            std::all_of(levels.begin(), levels.end(), [p](Profile level) { return level < p; });
+        if (p >= profile || is_settled) {
             break;
         }
-        const std::vector<size_t> wrong = wide(t, id, device, p).failing;
+        const std::vector<size_t> wrong = failing_at(t, id, device, p);
         const auto is_in = [](const std::vector<size_t>& set, size_t index) {
             return std::find(set.begin(), set.end(), index) != set.end();
         };

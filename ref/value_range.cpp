@@ -48,8 +48,7 @@ ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
                (q.kind == Kind::linear || q.kind == Kind::perspective);
     });
     const auto index = static_cast<size_t>(found - all.begin());
-    const std::vector<size_t> asked = impl_->asked(t, impl_->profile);
-    if (found == all.end() || std::find(asked.begin(), asked.end(), index) == asked.end()) {
+    if (found == all.end() || !impl_->is_asked(t, index, impl_->profile)) {
         return {};
     }
     const std::span<const Quantity> span(all);
@@ -60,10 +59,8 @@ ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
     value::WideRange<Ball> range;
     range.is_known = false;
     if (balls.is_known) {
-        range = value::range_wide(
-            balls, span, primitive.is_projectable,
-            value::evaluations<Ball>(impl_->fragment(t, sample, impl_->profile), impl_->profile),
-            index);
+        range = value::range_wide(balls, span, primitive.is_projectable,
+                                  impl_->places_of_range(t, sample), index);
     }
     if (range.is_known) {
         out = {!range.is_free, range.range.low.v - range.range.low.e,

@@ -64,6 +64,7 @@ class WideCache {
 struct Loaded {
     Primitive primitive;
     Filter unsnapped, snapped;
+    bool has_filters = false;                      // the two are made when first asked for
     bool has_snapped = false;                      // and it differs from the unsnapped one
     std::optional<std::vector<Promise>> promises;  // filled when first asked for
 };
@@ -106,6 +107,9 @@ struct ValueReference::Impl {
         coverage;  // by profile
     uint32_t text_triangle = 0;
     std::optional<value::Basis<mpq_class>> text_basis;
+    uint32_t range_triangle = 0;
+    SampleId range_id;
+    std::vector<value::Evaluation<Ball>> range_places;
     FragmentPart part = FragmentPart::all;  // of the fragment being judged
     bool is_brief = false;                  // judge_briefly
     ValueSelection selection;
@@ -137,25 +141,32 @@ struct ValueReference::Impl {
             order.pop_front();
         }
         slot->primitive = value::make_primitive(c, triangles[t]);
-        if (!slot->primitive.is_finite) {
-            return *slot;
+        return *slot;
+    }
+
+    // The same with the filters, which only a fragment's verdict needs.
+    const Loaded& load_filters(uint32_t t) {
+        Loaded& slot = load(t);
+        if (slot.has_filters) {
+            return slot;
         }
-        const auto inputs = value::plane_inputs<Ball>(slot->primitive, quantities_of(t));
-        const auto ideal = value::ideal_vertices<Ball>(slot->primitive);
-        slot->unsnapped = make_filter(make_basis(ideal, inputs, kBudgetFactor));
-        const auto at = snapped_positions(slot->primitive, limits);
+        slot.has_filters = true;
+        const auto inputs = value::plane_inputs<Ball>(slot.primitive, quantities_of(t));
+        const auto ideal = value::ideal_vertices<Ball>(slot.primitive);
+        slot.unsnapped = make_filter(make_basis(ideal, inputs, kBudgetFactor));
+        const auto at = snapped_positions(slot.primitive, limits);
         if (at) {
-            const auto moved = value::moved_vertices<Ball>(slot->primitive, *at);
+            const auto moved = value::moved_vertices<Ball>(slot.primitive, *at);
             for (size_t i = 0; i < 3; ++i) {
                 // Not provably the same position: a basis of its own.
-                slot->has_snapped = slot->has_snapped || is_other(moved.hx[i], ideal.hx[i]) ||
-                                    is_other(moved.hy[i], ideal.hy[i]);
+                slot.has_snapped = slot.has_snapped || is_other(moved.hx[i], ideal.hx[i]) ||
+                                   is_other(moved.hy[i], ideal.hy[i]);
             }
-            if (slot->has_snapped) {
-                slot->snapped = make_filter(make_basis(moved, inputs, kBudgetFactor));
+            if (slot.has_snapped) {
+                slot.snapped = make_filter(make_basis(moved, inputs, kBudgetFactor));
             }
         }
-        return *slot;
+        return slot;
     }
 
     FragmentCoverage& coverage_at(Profile at) {
@@ -230,15 +241,27 @@ struct ValueReference::Impl {
         return *triangle.promises;
     }
 
-    // The quantities that the profile asks for.
+    // Whether the profile asks for a quantity.
+    bool is_asked(uint32_t t, size_t index, Profile at) {
+        const value::Promise& promise = promises(t)[index];
+        return is_part(quantities_of(t)[index]) && promise.is_number &&
+               (at != Profile::vulkan || promise.is_guaranteed);
+    }
     std::vector<size_t> asked(uint32_t t, Profile at) {
         std::vector<size_t> out(quantities_of(t).size());
         std::iota(out.begin(), out.end(), size_t{0});
-        std::erase_if(out, [&](size_t index) {
-            return !is_part(quantities_of(t)[index]) || !promises(t)[index].is_number ||
-                   (at == Profile::vulkan && !promises(t)[index].is_guaranteed);
-        });
+        std::erase_if(out, [&](size_t index) { return !is_asked(t, index, at); });
         return out;
+    }
+
+    // Where the fragment's inputs may be evaluated at the profile; the last answer is kept.
+    const std::vector<value::Evaluation<Ball>>& places_of_range(uint32_t t, SampleId id) {
+        if (range_places.empty() || range_triangle != t || !(range_id == id)) {
+            range_places = value::evaluations<Ball>(fragment(t, id, profile), profile);
+            range_triangle = t;
+            range_id = id;
+        }
+        return range_places;
     }
 
     value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at) {
@@ -265,6 +288,10 @@ struct ValueReference::Impl {
                           value::evaluations<mpq_class>(fragment(t, id, at), at),
                           probe_place(t, id, at), device, only);
     }
+
+    // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
+    std::vector<size_t> failing_at(uint32_t t, SampleId id, const FragmentValues& device,
+                                   Profile at);
 
     // The oracle: rationals only, no filter.
     value::WideVerdict wide_exact(uint32_t t, SampleId id, const FragmentValues& device,

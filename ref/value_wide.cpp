@@ -6,73 +6,22 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "ref/one_point.hpp"
 #include "ref/value_probe.hpp"
-#include "ref/value_reach.hpp"
+#include "ref/value_reach_of.hpp"
 
 namespace ref::value {
 
 namespace {
 
-// Adds what a candidate accepts for every judged quantity.
+// What is kept of one round of candidates.
 template <class T>
-void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
-                   std::span<const Quantity> quantities, bool is_projectable,
-                   const Evaluation<T>& where, std::span<const size_t> only,
-                   const FragmentValues& device, std::vector<Reach<T>>& reaches) {
-    std::vector<T> widest(quantities.size());
-    const bool at_sample = is_same(where.attributes, where.sample);
-    const bool centroid_at_sample = is_same(where.centroid, where.sample);
-    const bool is_split = where.frag_coord.size() != where.attributes.size();
-    const bool has_centroid = std::any_of(quantities.begin(), quantities.end(),
-                                          [](const Quantity& q) { return q.at_centroid; });
-    std::vector<Site<T>> attributes, frag_coord, sample, centroid;
-    const auto fill = [&](const Basis<T>& basis, std::span<const Point<T>> points,
-                          std::vector<Site<T>>& sites) {
-        sites.clear();
-        for (const Point<T>& p : points) {
-            sites.push_back(make_site(basis, basis.planes[kPlaneInvW], p, set.factor));
-        }
-        spread_budgets(basis.planes[kPlaneInvW], set.factor, sites);
-    };
-    for (const Basis<T>& basis : candidate.bases) {
-        fill(basis, where.attributes, attributes);
-        fill(basis, {&where.sample, 1}, sample);
-        if (is_split) {
-            fill(basis, where.frag_coord, frag_coord);
-        }
-        if (has_centroid) {
-            fill(basis, where.centroid, centroid);
-        }
-        for (size_t i = 0; i < quantities.size(); ++i) {
-            const Quantity& q = quantities[i];
-            if (is_judged(q, i, only) && reaches[i].is_known) {
-                const std::vector<Site<T>>& sites = q.at_sample                     ? sample
-                                                    : q.at_centroid                 ? centroid
-                                                    : q.attribute == -1 && is_split ? frag_coord
-                                                                                    : attributes;
-                const bool is_own = q.at_sample || (q.at_centroid ? centroid_at_sample : at_sample);
-                add_reach(set, basis, q, std::span<const Site<T>>(sites), set.hulls[i], is_own,
-                          candidate.name == ref::Basis::snapped, static_cast<double>(q.get(device)),
-                          widest[i], reaches[i]);
-            }
-        }
-    }
-    for (size_t i = 0; i < quantities.size(); ++i) {
-        const Quantity& q = quantities[i];
-        // A noperspective value of a triangle that reaches behind the eye has no plane that agrees
-        // with the vertices: only their hull is claimed.
-        const bool free_plane = q.kind == Kind::linear && q.attribute >= 0 && !is_projectable;
-        if (is_judged(q, i, only) && (free_plane || candidate.is_unbounded)) {
-            if (set.depth.bias && (is_depth(q) || is_frag_coord_z(q))) {
-                reaches[i].is_free = true;  // of a gradient without bounds
-                continue;
-            }
-            add_hull(set.hulls[i], widest[i], static_cast<double>(q.get(device)), reaches[i]);
-        }
-    }
-}
+struct Round {
+    std::vector<Reach<T>> reaches;
+    WideVerdict probes;
+};
 
 // The numeric inputs that are evaluated at one place with each other.
 std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<const size_t> only,
@@ -145,6 +94,14 @@ void judge_value(const Reach<T>& reach, size_t index, double device, const Store
     }
 }
 
+// Adds what the probes fail.
+void append(const WideVerdict& probes, WideVerdict& verdict) {
+    verdict.is_known = verdict.is_known && probes.is_known;
+    verdict.failing.insert(verdict.failing.end(), probes.failing.begin(), probes.failing.end());
+    verdict.ratios.insert(verdict.ratios.end(), probes.ratios.begin(), probes.ratios.end());
+    verdict.worst_ratio = std::max(verdict.worst_ratio, probes.worst_ratio);
+}
+
 }  // namespace
 
 template <class T>
@@ -157,7 +114,10 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
     WideVerdict best;
     bool is_first = true;
     const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
+    std::vector<Round<T>> kept(rounds);
+    const Evaluation<T>* before = nullptr;
     for (const Evaluation<T>& where : evaluations) {
+        const Shared<T> shared(quantities, only, std::exchange(before, &where), where);
         for (size_t c = 0; c < rounds; ++c) {
             WideVerdict verdict;
             verdict.basis = set.candidates[c].name;
@@ -171,12 +131,16 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                     continue;
                 }
             }
-            std::vector<Reach<T>> reaches(quantities.size());
+            std::vector<Reach<T>>& reaches = kept[c].reaches;
+            reaches.resize(quantities.size());
+            for (const size_t i : shared.fresh) {
+                reaches[i] = {};
+            }
             const size_t first = set.any_of_all ? 0 : c;
             const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
-            for (size_t k = first; k < last; ++k) {
-                add_candidate(set, set.candidates[k], quantities, is_projectable, where, only,
-                              device, reaches);
+            for (size_t k = first; k < last && !shared.fresh.empty(); ++k) {
+                add_candidate(set, set.candidates[k], quantities, is_projectable, where,
+                              std::span<const size_t>(shared.fresh), device, reaches);
             }
             for (size_t i = 0; i < quantities.size(); ++i) {
                 if (!is_judged(quantities[i], i, only)) {
@@ -189,8 +153,13 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                 }
             }
             if (has_probes) {
-                judge_probes(set, std::span(set.candidates).subspan(first, last - first),
-                             quantities, is_projectable, where, place, device, only, verdict);
+                WideVerdict& probes = kept[c].probes;
+                if (shared.has_fresh_probes) {
+                    probes = {};
+                    judge_probes(set, std::span(set.candidates).subspan(first, last - first),
+                                 quantities, is_projectable, where, place, device, only, probes);
+                }
+                append(probes, verdict);
                 if (!verdict.is_known) {
                     return verdict;
                 }

@@ -5,6 +5,7 @@
 // candidates explains a fragment.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -85,6 +86,15 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
                        const ProbePlace& place, const FragmentValues& device,
                        std::span<const size_t> only);
+
+// The failing quantities of judge_wide() alone, for a set with any_of_all: without the ratios most
+// values are accepted by the first candidate. Nothing if only ratios tell which evaluation is best,
+// or T does not know.
+template <class T>
+std::optional<std::vector<size_t>> failing_alone(
+    const WideSet<T>& set, std::span<const Quantity> quantities, bool is_projectable,
+    const std::vector<Evaluation<T>>& evaluations, const ProbePlace& place,
+    const FragmentValues& device, std::span<const size_t> only);
 
 // Everything that a quantity may be, whichever candidate and place the device uses.
 template <class T>

@@ -64,9 +64,9 @@ bool drop_torn_line(int fd) {
 }
 
 std::string line_of(const char* type, const Json& body) {
-    Json record = {{"record", type}};
-    record.update(body);
-    return record.dump() + '\n';
+    std::string line = fmt::format(R"({{"record":"{}")", type);
+    line += body.empty() ? "" : ",";
+    return line.append(body.dump(), 1).append(1, '\n');
 }
 
 }  // namespace
@@ -136,9 +136,9 @@ cases::Expected<void> Journal::write_line(const std::string& line) {
 cases::Expected<void> Journal::write_run(const Run& header) {
     Json body = {{"format", kFormat}};
     body.update(encode_header(header));
-    body["cases"] = Json::array();
+    Json& list = body["cases"] = Json::array();
     for (const CaseRecord& record : header.cases) {
-        body["cases"].push_back(encode_case(record));
+        list.push_back(encode_case(record));
     }
     return write_line(line_of("run", body));
 }

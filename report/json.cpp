@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "report/causes.hpp"
+#include "report/json_object.hpp"
 #include "report/picture_codec.hpp"
 #include "report/record_codec.hpp"
 #include "report/reports.hpp"
@@ -37,15 +39,15 @@ Json finding_json(const diff::Finding& f) {
     if (f.layer) {
         sample["layer"] = *f.layer;
     }
-    return Json{{"kind", diff::to_string(f.kind)},
-                {"rule", printable(f.rule)},
-                {"level", cases::to_string(f.level)},
-                {"sample", std::move(sample)},
-                {"quantity", printable(f.quantity)},
-                {"expected", printable(f.expected)},
-                {"got", printable(f.got)},
-                {"why", printable(f.why)},
-                {"ratio", encode_number(f.ratio)}};
+    return object_of({{"kind", diff::to_string(f.kind)},
+                      {"rule", printable(f.rule)},
+                      {"level", cases::to_string(f.level)},
+                      {"sample", std::move(sample)},
+                      {"quantity", printable(f.quantity)},
+                      {"expected", printable(f.expected)},
+                      {"got", printable(f.got)},
+                      {"why", printable(f.why)},
+                      {"ratio", encode_number(f.ratio)}});
 }
 
 Json counts_json(const CaseRecord& r) {
@@ -89,7 +91,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
             pictures["layer_height"] = p.layer_height;
         }
     }
-    return Json{
+    return object_of({
         {"id", printable(r.id)},
         {"file", printable(r.file)},
         {"line", r.line},
@@ -115,18 +117,18 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"level", wrong ? Json(cases::to_string(r.level)) : Json(nullptr)},
         {"counts", counts_json(r)},
         {"finding_total", finding_total(r)},
-        {"findings", findings},
-        {"bounding_box", box},
+        {"findings", std::move(findings)},
+        {"bounding_box", std::move(box)},
         {"must_samples", r.must_samples},
         {"either_samples", r.either_samples},
         {"compared_samples", r.compared_samples},
         {"compared_values", r.compared_values},
         {"worst_ratio", encode_number(r.worst_ratio)},
         {"worst_quantity", printable(r.worst_quantity)},
-        {"pictures", pictures},
+        {"pictures", std::move(pictures)},
         {"rerun", printable(r.rerun)},
         {"explain", printable(r.explain)},
-    };
+    });
 }
 
 Json run_json(const Run& run) {
@@ -197,7 +199,7 @@ std::string to_json(const Run& run) {
                                           {"quantity", printable(worst->worst_quantity)},
                                           {"case", printable(worst->id)}}},
         {"causes", causes_json(run)},
-        {"cases", list},
+        {"cases", std::move(list)},
     };
     return json.dump(1) + '\n';
 }

@@ -243,15 +243,15 @@ Json page_data(const Run& run, size_t part, std::vector<size_t>& left_out) {
     for (const size_t k : left_out) {
         list[k]["part"] = part + 1;
     }
-    return Json{{"rules", rules},
-                {"meanings", meanings},
-                {"totals", total},
+    return Json{{"rules", std::move(rules)},
+                {"meanings", std::move(meanings)},
+                {"totals", std::move(total)},
                 {"profile", cases::to_string(run.profile)},
                 {"subpixel_bits", run.device.subpixel_bits},
                 {"part", part},
                 {"without_pictures", left_out.size()},
                 {"strings", strings.list()},
-                {"cases", list}};
+                {"cases", std::move(list)}};
 }
 
 }  // namespace report

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/reports.hpp"
 #include "report/utf8.hpp"
 
@@ -16,6 +18,11 @@ bool is_unsafe(uint32_t c) {
                           (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
     const bool noncharacter = (c & 0xfffeU) == 0xfffeU || (c >= 0xfdd0 && c <= 0xfdef);
     return control || reorders || noncharacter || c == 0xfeff;
+}
+
+// Letters, digits and signs of ASCII, and spaces.
+bool is_plain(std::string_view bytes) {
+    return std::all_of(bytes.begin(), bytes.end(), [](char c) { return c >= 0x20 && c < 0x7f; });
 }
 
 }  // namespace
@@ -49,6 +56,9 @@ CodePoint code_point_at(std::string_view bytes, size_t at) {
 }
 
 bool is_utf8(std::string_view bytes) {
+    if (is_plain(bytes)) {
+        return true;
+    }
     for (size_t at = 0; at < bytes.size();) {
         const CodePoint c = code_point_at(bytes, at);
         if (!c.valid) {
@@ -60,6 +70,9 @@ bool is_utf8(std::string_view bytes) {
 }
 
 std::string printable(std::string_view bytes) {
+    if (is_plain(bytes)) {
+        return std::string(bytes);
+    }
     std::string text;
     text.reserve(bytes.size());
     for (size_t at = 0; at < bytes.size();) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "report/evidence_codec.hpp"
+#include "report/json_object.hpp"
 #include "report/picture_codec.hpp"
 #include "report/utf8.hpp"
 
@@ -115,17 +116,17 @@ Json encode_texts(const std::vector<std::string>& list) {
 }
 
 Json encode_finding(const diff::Finding& f) {
-    Json json{{"kind", diff::to_string(f.kind)},
-              {"rule", encode_text(f.rule)},
-              {"level", cases::to_string(f.level)},
-              {"x", f.x},
-              {"y", f.y},
-              {"sample", f.sample},
-              {"quantity", encode_text(f.quantity)},
-              {"expected", encode_text(f.expected)},
-              {"got", encode_text(f.got)},
-              {"why", encode_text(f.why)},
-              {"ratio", encode_number(f.ratio)}};
+    Json json = object_of({{"kind", diff::to_string(f.kind)},
+                           {"rule", encode_text(f.rule)},
+                           {"level", cases::to_string(f.level)},
+                           {"x", f.x},
+                           {"y", f.y},
+                           {"sample", f.sample},
+                           {"quantity", encode_text(f.quantity)},
+                           {"expected", encode_text(f.expected)},
+                           {"got", encode_text(f.got)},
+                           {"why", encode_text(f.why)},
+                           {"ratio", encode_number(f.ratio)}});
     if (f.layer) {
         json["layer"] = *f.layer;
     }
@@ -250,7 +251,7 @@ Json encode_case(const CaseRecord& r) {
     for (const SampleEvidence& e : r.evidence) {
         evidence.push_back(encode_evidence(e));
     }
-    return Json{
+    return object_of({
         {"id", encode_text(r.id)},
         {"file", encode_text(r.file)},
         {"line", r.line},
@@ -272,8 +273,8 @@ Json encode_case(const CaseRecord& r) {
         {"seconds", encode_number(r.seconds)},
         {"attempts", r.attempts},
         {"messages", encode_texts(r.messages)},
-        {"findings", findings},
-        {"counts", counts},
+        {"findings", std::move(findings)},
+        {"counts", std::move(counts)},
         {"level", cases::to_string(r.level)},
         {"min_x", r.min_x},
         {"min_y", r.min_y},
@@ -290,8 +291,8 @@ Json encode_case(const CaseRecord& r) {
         {"explain", encode_text(r.explain)},
         {"catches", encode_text(r.catches)},
         {"geometry", encode_geometry(r.geometry)},
-        {"evidence", evidence},
-    };
+        {"evidence", std::move(evidence)},
+    });
 }
 
 CaseRecord decode_case(const Json& json) {

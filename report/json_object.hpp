@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Objects of records that there are thousands of. nlohmann's braces make a list of lists first,
+// copy from it, and compare each key with all before it.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace report {
+
+struct JsonField {
+    const char* key;
+    nlohmann::ordered_json value;
+};
+
+// The fields in their order; no two have the same key. The values are moved out of the array.
+template <size_t N>
+nlohmann::ordered_json object_of(JsonField (&&fields)[N]) {
+    nlohmann::ordered_json::object_t object;
+    object.reserve(N);
+    for (JsonField& field : fields) {
+        object.emplace_back(field.key, std::move(field.value));
+    }
+    return nlohmann::ordered_json(std::move(object));
+}
+
+}  // namespace report

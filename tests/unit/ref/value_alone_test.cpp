@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The shortcuts of the wide stage against the whole of it: what fails alone, and what several
+// evaluations share.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "ref/value_places.hpp"
+#include "ref/value_probe.hpp"
+#include "value_case.hpp"
+
+namespace {
+
+using cases::Profile;
+using ref::value::Ball;
+using ref::value::WideVerdict;
+
+double uniform(std::mt19937_64& rng, double low, double high) {
+    return low + (high - low) * static_cast<double>(rng() >> 11U) * 0x1p-53;
+}
+
+// A random triangle with four samples, inputs of all decorations, sometimes a probe.
+struct Random {
+    value_test::Sampled sampled;
+    ref::value::Primitive primitive;
+    std::vector<ref::value::Quantity> quantities;
+    ref::value::Fragment fragment;
+
+    Random(std::mt19937_64& rng, int n)
+        : sampled(value_test::random_case(rng, 64, static_cast<value_test::Shape>(n % 3),
+                                          n % 4 < 2 ? 0 : 4)) {
+        cases::Case& c = sampled.c;
+        c.target.samples = 4;
+        cases::Draw& draw = c.draws[0];
+        for (size_t a = 0; a < 2; ++a) {
+            draw.attributes[a].auxiliary = static_cast<cases::Auxiliary>(rng() % 3);
+        }
+        if (n % 3 == 0) {
+            draw.attributes[1].probe = n % 2 == 0 ? cases::Probe::at_sample : cases::Probe::dx_fine;
+            draw.attributes[1].probe_sample = 2;
+        }
+        if (n % 5 == 0) {
+            draw.multisample.min_sample_shading = 0.5F;
+        }
+        primitive = ref::value::make_primitive(c, ref::assemble(c).front());
+        quantities = ref::value::quantities(draw, c.target);
+        fragment.id = sampled.inside.front();
+        fragment.id.sample = static_cast<uint32_t>(rng() % 4);
+        fragment.target = &c.target;
+        fragment.draw = &draw;
+        fragment.coverage.may = 0xf;
+        fragment.coverage.must = static_cast<uint32_t>(rng() % 16);
+        fragment.coverage.is_one_fragment = n % 2 == 0;
+        const double x = fragment.id.x;
+        const double y = fragment.id.y;
+        fragment.region = {{x, y}, {x + 1, y}, {x + 1, y + 0.75}, {x + 0.25, y + 1}};
+    }
+
+    // Somewhere around the exact values, the farther the larger `spread` is, or around an end of
+    // what profile vulkan allows, where the candidates differ.
+    ref::FragmentValues device(std::mt19937_64& rng, double spread) const {
+        ref::ValueReference reference(sampled.c, ref::Limits{}, Profile::direct3d);
+        const ref::SampleId id = fragment.id;
+        ref::FragmentValues out = value_test::rounded(reference.expected(0, id));
+        const auto move = [&](float& v) {
+            if (rng() % 3 == 0) {
+                v *= static_cast<float>(1 + spread * uniform(rng, -1, 1));
+            }
+        };
+        move(out.depth);
+        move(out.frag_coord.z);
+        move(out.frag_coord.w);
+        ref::ValueReference loose(sampled.c, ref::Limits{}, Profile::vulkan);
+        for (size_t a = 0; a < 2; ++a) {
+            for (uint32_t k = 0; k < sampled.c.draws[0].attributes[a].components; ++k) {
+                float& v = out.attributes[a][static_cast<int>(k)];
+                const auto range = loose.range(0, id, static_cast<int32_t>(a), k);
+                if (range.is_promised && rng() % 2 == 0) {
+                    const double width = range.high - range.low;
+                    v = static_cast<float>((rng() % 2 == 0 ? range.low : range.high) +
+                                           uniform(rng, -0.01, 0.01) * width);
+                } else {
+                    move(v);
+                }
+            }
+        }
+        return out;
+    }
+
+    template <class T>
+    ref::value::WideSet<T> set(Profile at) const {
+        return ref::value::make_wide_set<T>(primitive, quantities, ref::Limits{}, at);
+    }
+    ref::value::ProbePlace place(Profile at) const {
+        return {fragment.id, fragment.target, fragment.draw, ref::Limits{}, at};
+    }
+    template <class T>
+    WideVerdict judge(const ref::value::WideSet<T>& wide,
+                      const std::vector<ref::value::Evaluation<T>>& evaluations, Profile at,
+                      const ref::FragmentValues& device) const {
+        return ref::value::judge_wide(wide, std::span<const ref::value::Quantity>(quantities),
+                                      primitive.is_projectable, evaluations, place(at), device, {});
+    }
+};
+
+TEST(ValueAlone, FailsWhatTheWholeSetFails) {
+    std::mt19937_64 rng(23);
+    uint32_t none = 0, some = 0, told = 0, open = 0;
+    for (int n = 0; n < 15; ++n) {
+        const Random r(rng, n);
+        const auto balls = r.set<Ball>(Profile::vulkan);
+        const auto exact = r.set<mpq_class>(Profile::vulkan);
+        if (!balls.is_known) {
+            continue;
+        }
+        for (const double spread : {1e-5, 1e-3, 0.03, 1.0}) {
+            const ref::FragmentValues device = r.device(rng, spread);
+            const auto failing = ref::value::failing_alone(
+                balls, std::span<const ref::value::Quantity>(r.quantities),
+                r.primitive.is_projectable,
+                ref::value::evaluations<Ball>(r.fragment, Profile::vulkan),
+                r.place(Profile::vulkan), device, {});
+            if (!failing) {
+                ++open;
+                continue;
+            }
+            ++told;
+            const auto whole =
+                r.judge(exact, ref::value::evaluations<mpq_class>(r.fragment, Profile::vulkan),
+                        Profile::vulkan, device);
+            ASSERT_EQ(*failing, whole.failing) << n << " " << spread;
+            ++(failing->empty() ? none : some);
+        }
+    }
+    EXPECT_GT(told, 10 * open);
+    EXPECT_GT(none, told / 10);
+    EXPECT_GT(some, told / 10);
+}
+
+// Evaluations judged together against each of them alone, where nothing can be shared.
+TEST(ValueAlone, EvaluationsShareWhatIsTheSame) {
+    std::mt19937_64 rng(29);
+    uint32_t compared = 0, wrong = 0, several = 0;
+    for (int n = 0; n < 240; ++n) {
+        const Random r(rng, n);
+        for (const Profile at : cases::kProfiles) {
+            const auto set = r.set<Ball>(at);
+            if (!set.is_known) {
+                continue;
+            }
+            const auto evaluations = ref::value::evaluations<Ball>(r.fragment, at);
+            const ref::FragmentValues device = r.device(rng, n % 2 == 0 ? 1e-3 : 0.1);
+            std::optional<WideVerdict> best;
+            bool is_known = true;
+            for (const auto& where : evaluations) {
+                WideVerdict one = r.judge(set, {where}, at, device);
+                is_known = is_known && one.is_known;
+                if (!best || one.failing.size() < best->failing.size() ||
+                    (one.failing.size() == best->failing.size() &&
+                     one.worst_ratio < best->worst_ratio)) {
+                    best = std::move(one);
+                }
+                if (best->ok && best->worst_ratio <= 1) {
+                    break;
+                }
+            }
+            const WideVerdict all = r.judge(set, evaluations, at, device);
+            ASSERT_EQ(all.is_known, is_known) << n;
+            if (!is_known) {
+                continue;
+            }
+            ASSERT_EQ(all.failing, best->failing) << n;
+            ASSERT_EQ(all.ratios, best->ratios) << n;
+            ASSERT_EQ(all.worst_ratio, best->worst_ratio) << n;
+            ++compared;
+            wrong += all.ok ? 0U : 1U;
+            several += evaluations.size() > 2 ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(compared, 300U);
+    EXPECT_GT(wrong, compared / 10);
+    EXPECT_LT(wrong, compared);
+    EXPECT_GT(several, compared / 10);
+}
+
+}  // namespace
