@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <system_error>
+#include <thread>
 
 #include "cases/loader.hpp"
 #include "cases/toml_reader.hpp"
@@ -80,6 +83,29 @@ ExpectedAll<std::vector<Case>> load_as(const fs::path& file, const std::string& 
     return load_text(*text, file.string(), id, contents);
 }
 
+// Each file's cases, in the order of the files. Files do not depend on each other, so several
+// threads read them.
+std::vector<ExpectedAll<std::vector<Case>>> load_all(const std::vector<fs::path>& files,
+                                                     const fs::path& root, Contents contents) {
+    std::vector<ExpectedAll<std::vector<Case>>> loaded(files.size());
+    std::atomic<size_t> next = 0;
+    const auto load_some = [&] {
+        for (size_t k = next++; k < files.size(); k = next++) {
+            fs::path below = files[k].lexically_relative(root);
+            loaded[k] = load_as(files[k], below.replace_extension().generic_string(), contents);
+        }
+    };
+    std::vector<std::future<void>> others;
+    for (unsigned k = 1; k < std::min(std::thread::hardware_concurrency(), 4U); ++k) {
+        others.push_back(std::async(std::launch::async, load_some));
+    }
+    load_some();
+    for (std::future<void>& other : others) {
+        other.get();
+    }
+    return loaded;
+}
+
 }  // namespace
 
 ExpectedAll<std::vector<Case>> load_file(const fs::path& file, const fs::path& suite_root) {
@@ -113,10 +139,7 @@ Suite load_suite(const fs::path& root, Contents contents) {
         return suite;
     }
     std::sort(files.begin(), files.end());
-    for (const fs::path& file : files) {
-        const fs::path below = file.lexically_relative(root);
-        ExpectedAll<std::vector<Case>> loaded =
-            load_as(file, fs::path(below).replace_extension().generic_string(), contents);
+    for (ExpectedAll<std::vector<Case>>& loaded : load_all(files, root, contents)) {
         if (!loaded) {
             suite.errors.insert(suite.errors.end(), loaded.error().begin(), loaded.error().end());
             continue;

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <future>
 
 #include "cli/ci.hpp"
 #include "cli/frame.hpp"
@@ -102,9 +103,14 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
             }
         }
     };
+    cases::Errors of_pages;
+    // On standard output one comes after the other.
+    const std::launch when = files.html == "-" ? std::launch::deferred : std::launch::async;
+    std::future<void> pages = std::async(when, [&] { write_pages(run, files, of_pages); });
     write("results.json", files.json, report::to_json);
     write("junit.xml", files.junit, report::to_junit);
-    write_pages(run, files, errors);
+    pages.get();
+    errors.insert(errors.end(), of_pages.begin(), of_pages.end());
     return errors;
 }
 

@@ -7,15 +7,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <future>
 #include <map>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "report/record_codec.hpp"
 
@@ -164,7 +171,8 @@ namespace {
 // Puts records together, in the order of the file.
 class Rebuilder {
   public:
-    void add(const Json& record) {
+    // `ended`: what decode_case makes of an "end" record, if it is known.
+    void add(const Json& record, std::optional<CaseRecord> ended) {
         if (!record.is_object() || !record.contains("record") || !record["record"].is_string()) {
             throw std::invalid_argument("this is not a record of a journal");
         }
@@ -179,10 +187,10 @@ class Rebuilder {
         } else if (type == "begin") {
             open_.insert(known(decode_id(record)));
         } else if (type == "end") {
-            CaseRecord ended = decode_case(record);
-            const size_t at = known(ended.id);
+            CaseRecord done = ended ? std::move(*ended) : decode_case(record);
+            const size_t at = known(done.id);
             open_.erase(at);
-            run_.cases[at] = std::move(ended);
+            run_.cases[at] = std::move(done);
         } else if (type == "stop") {
             decode_stop(record, run_);
         } else {
@@ -253,6 +261,46 @@ class Rebuilder {
     std::set<size_t> open_;  // begun and not ended
 };
 
+// A line of the journal, read without the lines before it.
+struct Line {
+    std::optional<Json> record;       // none: this is not JSON
+    std::optional<CaseRecord> ended;  // of a right "end" record
+};
+
+Line read_line(const std::string& text) {
+    Line line;
+    try {
+        line.record = Json::parse(text);
+        if (line.record->is_object() && line.record->value("record", "") == "end") {
+            line.ended = decode_case(*line.record);
+        }
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {  // Rebuilder tells what is wrong, in the order of the file
+    }
+    return line;
+}
+
+// All lines, by several threads.
+std::vector<Line> read_lines(const std::vector<std::string>& texts) {
+    std::vector<Line> lines(texts.size());
+    std::atomic<size_t> next = 0;
+    const auto read_some = [&] {
+        for (size_t k = next++; k < texts.size(); k = next++) {
+            lines[k] = read_line(texts[k]);
+        }
+    };
+    std::vector<std::future<void>> others;
+    for (unsigned k = 1; k < std::min(std::thread::hardware_concurrency(), 4U); ++k) {
+        others.push_back(std::async(std::launch::async, read_some));
+    }
+    read_some();
+    for (std::future<void>& other : others) {
+        other.get();
+    }
+    return lines;
+}
+
 }  // namespace
 
 cases::Expected<Run> load_journal(const std::filesystem::path& dir,
@@ -263,14 +311,21 @@ cases::Expected<Run> load_journal(const std::filesystem::path& dir,
         return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
                                    std::strerror(errno)));
     }
+    std::vector<std::string> texts;
+    std::string text;
+    while (std::getline(stream, text) && !stream.eof()) {  // no newline: the write was cut short
+        texts.push_back(std::move(text));
+    }
     Rebuilder rebuilder;
-    std::string line;
-    for (uint32_t number = 1; std::getline(stream, line); ++number) {
-        if (stream.eof()) {
-            break;  // no newline: the write was cut short
-        }
+    uint32_t number = 0;
+    for (Line& line : read_lines(texts)) {
+        ++number;
         try {
-            rebuilder.add(Json::parse(line));
+            if (!line.record) {
+                return failure("this line is not JSON; the journal was changed or damaged", file,
+                               number);
+            }
+            rebuilder.add(*line.record, std::move(line.ended));
         } catch (const Json::exception&) {
             return failure("this line is not JSON; the journal was changed or damaged", file,
                            number);
