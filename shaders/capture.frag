@@ -60,7 +60,7 @@ layout(set = 0, binding = 0) uniform sampler2D lod_texture;
 #if SPLIT
 layout(location = 0) out vec2 out_writer;  // draw, primitive
 layout(location = 1) out float out_vertex;
-layout(location = 2) out float out_hits;
+layout(location = 2) out vec2 out_hits;  // by front and by back faces
 layout(location = 3) out vec2 out_frag_xy;
 layout(location = 4) out vec2 out_frag_zw;
 #define FIRST_ATTRIBUTE 5
@@ -152,16 +152,15 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
 void main() {
 #if INSTRUMENTS
     // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
-    vec4 writer_and_hits = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex),
-                                gl_FrontFacing ? 1.0 : 2048.0);
+    vec3 writer = vec3(float(draw.index), float(int(in_primitive)), float(in_vertex));
 #if SPLIT
-    out_writer = writer_and_hits.xy;
-    out_vertex = writer_and_hits.z;
-    out_hits = writer_and_hits.w;
+    out_writer = writer.xy;
+    out_vertex = writer.z;
+    out_hits = gl_FrontFacing ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     out_frag_xy = gl_FragCoord.xy;
     out_frag_zw = gl_FragCoord.zw;
 #else
-    out_writer_and_hits = writer_and_hits;
+    out_writer_and_hits = vec4(writer, gl_FrontFacing ? 1.0 : 2048.0);
     out_frag_coord = gl_FragCoord;
 #endif
 #if ATTRIBUTES > 0

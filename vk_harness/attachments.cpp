@@ -93,7 +93,7 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
         if (layout.split) {
             out.push_back({Role::writer, kTwoNumbers, clear_all(id), 8, 8});
             out.push_back({Role::vertex, kOneNumber, clear_all(id), 4, 4});
-            out.push_back({Role::hits, kOneNumber, clear_all(hits), 4, 4});
+            out.push_back({Role::hits, kTwoNumbers, clear_all(hits), 8, 8});
             out.push_back({Role::frag_xy, kTwoNumbers, value, 8, 8});
             out.push_back({Role::frag_zw, kTwoNumbers, value, 8, 8});
         } else {

@@ -49,14 +49,14 @@ struct Attachment {
     }
 };
 
-// Hits, alone or as the alpha of writer_and_hits: the clear value plus kFrontHit or kBackHit for
-// each fragment, added in binary32, which holds every integer below 2^24. So up to 2047 hits of
-// either kind are told apart, and both clear values from each other, from a replaced or an
-// uncleared value, and from no clear.
+// Hits are added in binary32, which holds every integer below 2^24, to one of two clear values,
+// which differ from each other, from a replaced or an uncleared value, and from no clear. In two
+// numbers, of front and back hits, up to 2^22 - 1 of either kind are told apart; as the alpha of
+// writer_and_hits, where a back hit adds kBackHit, up to kMaxPackedHits.
 inline constexpr float kNoHits = 0x1p23F;
 inline constexpr float kOtherNoHits = 0x1p23F + 0x1p22F;  // cases::Variation::other_clears
-inline constexpr float kFrontHit = 1.0F;                  // as shaders/capture.frag writes them
-inline constexpr float kBackHit = 2048.0F;
+inline constexpr float kBackHit = 2048.0F;                // as shaders/capture.frag adds it
+inline constexpr uint32_t kMaxPackedHits = 2047;
 
 // In the order of shader locations: writer_and_hits, frag_coord, or writer, vertex, hits, frag_xy,
 // frag_zw if the layout is split; attributes, color; then depth, which has no location, stencil and

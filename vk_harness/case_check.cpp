@@ -327,6 +327,16 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     return std::nullopt;
 }
 
+// No sample can be hit more often: the triangles of all draws, counted generously.
+size_t most_hits(const cases::Case& c) {
+    size_t triangles = 0;
+    for (const cases::Draw& draw : c.draws) {
+        const size_t corners = draw.indices ? draw.indices->size() : draw.positions.size();
+        triangles += draw.topology == cases::Topology::triangle_list ? corners / 3 : corners;
+    }
+    return triangles;
+}
+
 }  // namespace
 
 std::optional<Rejection> check_case(const Capabilities& capabilities, const cases::Case& c) {
@@ -355,6 +365,13 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             viewports, capabilities.max_viewports));
     }
     const InstrumentLayout layout = instrument_layout(capabilities, c);
+    if (c.target.has_instruments && !layout.split && most_hits(c) > kMaxPackedHits) {
+        return unsupported(
+            fmt::format("the case may hit a sample {} times and has so many attributes that hits "
+                        "are counted up "
+                        "to {}; leave out an attribute or the colour target",
+                        most_hits(c), kMaxPackedHits));
+    }
     for (const cases::Draw& draw : c.draws) {
         if (draw.layer >= c.target.layers) {
             return invalid(

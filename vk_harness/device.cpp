@@ -242,7 +242,7 @@ VkSampleCountFlags narrow_sample_counts(const Capabilities& c, const ImageLimits
         vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
         const VkFormatFeatureFlags needed =
             VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT |
-            (format == kOneNumber
+            (format == kTwoNumbers
                  ? VkFormatFeatureFlags{VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT}
                  : 0U);
         const ImageLimits one =

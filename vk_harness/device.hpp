@@ -27,7 +27,7 @@ struct Capabilities {
     // VK_EXT_sample_locations; none of its counts without the extension.
     VkSampleCountFlags location_counts = 0;
     float location_range[2] = {0, 0};  // pixels
-    // Sample counts with which kOneNumber, blended, and kTwoNumbers do what kColorFormat does.
+    // Sample counts with which kOneNumber and kTwoNumbers, blended, do what kColorFormat does.
     VkSampleCountFlags narrow_sample_counts = 0;
     bool has_standard_locations = false;  // standardSampleLocations
     bool has_sample_shading = false;      // sampleRateShading

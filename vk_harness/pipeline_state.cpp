@@ -144,7 +144,7 @@ void instrument_states(const PipelineKey& key, ColorState& state) {
         hits.write_mask = is_masked(0) ? kNothing : kAll;
         add(kTwoNumbers, replaced(1));
         add(kOneNumber, replaced(1));
-        add(kOneNumber, hits);
+        add(kTwoNumbers, hits);
         add(kTwoNumbers, replaced(2));
         add(kTwoNumbers, replaced(2));
     } else {

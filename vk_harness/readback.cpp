@@ -50,8 +50,18 @@ void decode_depth(const cases::Target& target, std::span<const std::byte> from, 
 }
 
 // Whether some number of hits makes this of a clear value.
-bool is_hits(float alpha) {
-    return alpha >= kNoHits && alpha < 2 * kNoHits;
+bool is_hits(float sum) {
+    return sum >= kNoHits && sum < 2 * kNoHits;
+}
+
+// Of which of the two clear values; is_hits(sum).
+bool is_of_other_clear(float sum) {
+    return sum >= kOtherNoHits;
+}
+
+glm::vec4 hits_of(float front, float back, bool other) {
+    const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
+    return {front, back, guard, guard + front + back};
 }
 
 // Who wrote a sample and how often. The spare word is what a clear sample of that clear
@@ -61,15 +71,14 @@ struct WriterAndHits {
     glm::vec4 hits;
 };
 
-WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words) {
+WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 5>& words, bool is_packed) {
     WriterAndHits out;
-    out.hits = decode_hits(words[3]);
-    const auto alpha = std::bit_cast<float>(words[3]);
-    const bool is_other_clear = alpha >= kOtherNoHits && alpha <= kOtherNoHits;
-    const uint32_t spare = words[3] == diff::kPoison ? diff::kPoison
-                           : !is_hits(alpha)         ? kMalformedId
-                           : is_other_clear          ? diff::kOtherClearId
-                                                     : diff::kClearId;
+    out.hits = is_packed ? decode_hits(words[3]) : decode_hits(words[3], words[4]);
+    const bool is_clear = out.hits.x + out.hits.y < 1;
+    const uint32_t spare = std::bit_cast<uint32_t>(out.hits.z) == diff::kPoison ? diff::kPoison
+                           : out.hits.z < 0                                     ? kMalformedId
+                           : is_clear && out.hits.z > diff::kHitGuard ? diff::kOtherClearId
+                                                                      : diff::kClearId;
     out.writer = {decode_id(words[0]), decode_id(words[1]), decode_id(words[2]), spare};
     return out;
 }
@@ -81,24 +90,24 @@ struct Words {
     uint32_t at(size_t sample, uint32_t word) const { return first[sample * words + word]; }
 };
 
-// `writer`: draw and primitive; `vertex` and `hits`: a word of each sample.
+// `writer`: draw and primitive; `vertex` and `hits`: from that word on.
 struct WriterWords {
     Words writer, vertex, hits;
-    uint32_t vertex_word = 0, hits_word = 0;
+    bool is_packed = false;  // all in one
 };
 
 // Neighbours mostly have the same origin, so the last answer is kept.
 void decode_writers_and_hits(const WriterWords& from, size_t count, glm::vec4* hits,
                              diff::Writer* writers) {
-    std::array<uint32_t, 4> last{};
-    WriterAndHits decoded = decode_writer_and_hits(last);
+    std::array<uint32_t, 5> last{};
+    WriterAndHits decoded = decode_writer_and_hits(last, from.is_packed);
     for (size_t k = 0; k < count; ++k) {
-        const std::array<uint32_t, 4> words = {from.writer.at(k, 0), from.writer.at(k, 1),
-                                               from.vertex.at(k, from.vertex_word),
-                                               from.hits.at(k, from.hits_word)};
+        const std::array<uint32_t, 5> words = {
+            from.writer.at(k, 0), from.writer.at(k, 1), from.vertex.at(k, from.is_packed ? 2 : 0),
+            from.hits.at(k, from.is_packed ? 3 : 0), from.is_packed ? 0 : from.hits.at(k, 1)};
         if (words != last) {
             last = words;
-            decoded = decode_writer_and_hits(words);
+            decoded = decode_writer_and_hits(words, from.is_packed);
         }
         hits[k] = decoded.hits;
         writers[k] = decoded.writer;
@@ -173,20 +182,30 @@ void poison(std::span<std::byte> memory) {
 }
 
 glm::vec4 decode_hits(uint32_t bits) {
-    const auto alpha = std::bit_cast<float>(bits);
+    const auto sum = std::bit_cast<float>(bits);
     if (bits == diff::kPoison) {
-        return glm::vec4(alpha);
+        return glm::vec4(sum);
     }
-    if (!is_hits(alpha)) {
-        return {0, 0, -1, alpha};
+    if (!is_hits(sum)) {
+        return {0, 0, -1, sum};
     }
     // Every number of this range is an integer.
-    const bool other = alpha >= kOtherNoHits;
-    const float hits = alpha - (other ? kOtherNoHits : kNoHits);
+    const float hits = sum - (is_of_other_clear(sum) ? kOtherNoHits : kNoHits);
     const float back = std::floor(hits / kBackHit);
-    const float front = hits - back * kBackHit;
-    const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
-    return {front, back, guard, guard + front + back};
+    return hits_of(hits - back * kBackHit, back, is_of_other_clear(sum));
+}
+
+glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits) {
+    const auto front = std::bit_cast<float>(front_bits);
+    const auto back = std::bit_cast<float>(back_bits);
+    if (front_bits == diff::kPoison || back_bits == diff::kPoison) {
+        return glm::vec4(std::bit_cast<float>(diff::kPoison));
+    }
+    if (!is_hits(front) || !is_hits(back) || is_of_other_clear(front) != is_of_other_clear(back)) {
+        return {0, 0, -1, front};
+    }
+    const float none = is_of_other_clear(front) ? kOtherNoHits : kNoHits;
+    return hits_of(front - none, back - none, is_of_other_clear(front));
 }
 
 uint32_t decode_id(uint32_t bits) {
@@ -273,7 +292,7 @@ void decode_instrument(const std::vector<Attachment>& attachments, const Readbac
     };
     switch (attachments[k].role) {
         case Role::writer_and_hits:
-            decode_writers_and_hits({words(k), words(k), words(k), 2, 3}, count, to.hits,
+            decode_writers_and_hits({words(k), words(k), words(k), true}, count, to.hits,
                                     to.writers);
             break;
         case Role::writer:  // then vertex and hits

@@ -47,6 +47,8 @@ diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel,
 // diff/capture.hpp says. Poison stays poison; what no number of hits makes of a clear value gets
 // guards that never hold.
 glm::vec4 decode_hits(uint32_t bits);
+// The same of two numbers, for front and back hits.
+glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits);
 
 // An id that the device wrote as binary32: an integer below 2^24, -1 and -3 for 'cleared' and -2
 // for 'this device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.

@@ -128,6 +128,21 @@ TEST(CaseCheck, SampleShading) {
                     "the fraction of samples that is shaded at least must lie in [0, 1]");
 }
 
+TEST(CaseCheck, HitsThatShareANumber) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    cases::Case c = good();
+    c.draws[0].positions.resize(size_t{3} * 2047);
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws.push_back(good().draws[0]);
+    expect_rejected(m, c, unsupported,
+                    "the case may hit a sample 2048 times and has so many attributes that hits are "
+                    "counted up to 2047; leave out an attribute or the colour target");
+    m.narrow_sample_counts = VK_SAMPLE_COUNT_1_BIT;
+    m.info.max_color_attachments = 8;
+    EXPECT_FALSE(check_case(m, c).has_value());
+}
+
 TEST(CaseCheck, Target) {
     using enum Rendered::Status;
     const Capabilities m = made_up();

@@ -52,7 +52,7 @@ TEST(DecodeHits, EveryPairOfCountsAndBothClearValues) {
                 // As the blend unit does it, hit by hit.
                 float alpha = other ? kOtherNoHits : kNoHits;
                 for (uint32_t k = 0; k < front; ++k) {
-                    alpha += kFrontHit;
+                    alpha += 1;
                 }
                 for (uint32_t k = 0; k < back; ++k) {
                     alpha += kBackHit;
@@ -62,6 +62,10 @@ TEST(DecodeHits, EveryPairOfCountsAndBothClearValues) {
                 EXPECT_EQ(hits.y, static_cast<float>(back));
                 EXPECT_EQ(hits.z, guard);
                 EXPECT_EQ(hits.w, guard + static_cast<float>(front + back));
+                const float none = other ? kOtherNoHits : kNoHits;
+                EXPECT_EQ(decode_hits(bits(none + static_cast<float>(front)),
+                                      bits(none + static_cast<float>(back))),
+                          hits);
             }
         }
     }
@@ -72,12 +76,16 @@ TEST(DecodeHits, NothingElseLooksLikeACount) {
     EXPECT_EQ(bits(decode_hits(diff::kPoison).x), diff::kPoison);
     EXPECT_EQ(bits(decode_hits(diff::kPoison).w), diff::kPoison);
     for (const float alpha :
-         {0.0F, -0.0F, kFrontHit, kBackHit, diff::kHitGuard, diff::kOtherHitGuard, 2 * kNoHits,
+         {0.0F, -0.0F, 1.0F, kBackHit, diff::kHitGuard, diff::kOtherHitGuard, 2 * kNoHits,
           kNoHits - 0.5F, -kNoHits, INFINITY, -INFINITY, NAN, diff::kClearValue}) {
         const glm::vec4 hits = decode_hits(bits(alpha));
         EXPECT_NE(hits.z, diff::kHitGuard) << alpha;
         EXPECT_NE(hits.z, diff::kOtherHitGuard) << alpha;
+        EXPECT_LT(decode_hits(bits(alpha), bits(kNoHits)).z, 0) << alpha;
+        EXPECT_LT(decode_hits(bits(kNoHits), bits(alpha)).z, 0) << alpha;
     }
+    EXPECT_LT(decode_hits(bits(kNoHits), bits(kOtherNoHits)).z, 0);
+    EXPECT_EQ(bits(decode_hits(diff::kPoison, bits(kNoHits)).z), diff::kPoison);
 }
 
 // A case of one draw with `attributes` attributes.
@@ -162,8 +170,7 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     const auto put = [&memory](VkDeviceSize offset, const std::vector<float>& values) {
         std::memcpy(memory.data() + offset, values.data(), values.size() * sizeof(float));
     };
-    put(layout.offset[0],
-        {0, 1, 2, kNoHits + 3 * kFrontHit + kBackHit, 3, -2, 5, kNoHits + 2 * kBackHit});
+    put(layout.offset[0], {0, 1, 2, kNoHits + 3 + kBackHit, 3, -2, 5, kNoHits + 2 * kBackHit});
     put(layout.offset[1], {9, 10, 11, 12});  // the second sample is not copied
     put(layout.offset[2], {13, 14, 15, 16, 17, 18, 19, 20});
     memory[layout.offset[3] + 4] = std::byte{99};
@@ -234,7 +241,7 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
         read({}, {writers, frag, attributes[0], attributes[1], attributes[2]});
     const diff::Capture split = read(narrow, {{-1, -1, 3, -2},
                                               {-1, 5},
-                                              {kNoHits, kNoHits + 2 * kBackHit},
+                                              {kNoHits, kNoHits, kNoHits, kNoHits + 2},
                                               {clear, clear, 9, 10},
                                               {clear, clear, 11, 12},
                                               {clear, 7},

@@ -4,6 +4,7 @@
 // Hand cases on a real device, bit by bit where Vulkan or the common practice makes them exact.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -146,6 +147,24 @@ TEST(Render, FractionalViewport) {
     EXPECT_EQ(count(capture).back, 100U);
     EXPECT_EQ(capture.hits[index(capture, 4, 4)].y, 1.0F);
     EXPECT_EQ(capture.hits[index(capture, 14, 13)].y, 0.0F);
+}
+
+// More than kMaxPackedHits, of both kinds.
+TEST(Render, ManyHits) {
+    const std::array<glm::vec2, 6> both = {
+        {{-1, -1}, {9, -1}, {-1, 9}, {-1, -1}, {-1, 9}, {9, -1}}};
+    std::vector<glm::vec2> vertices;
+    for (uint32_t k = 0; k < 3000; ++k) {
+        vertices.insert(vertices.end(), both.begin(), both.end());
+    }
+    vertices.insert(vertices.end(), both.begin(), both.begin() + 3);
+    cases::Case c = make_case({2, 2, 1}, vertices);
+    const diff::Capture capture = draw(c);
+    const glm::vec4& hits = capture.hits[0];
+    EXPECT_EQ(std::max(hits.x, hits.y), 3001.0F);
+    EXPECT_EQ(std::min(hits.x, hits.y), 3000.0F);
+    EXPECT_EQ(hits.w, diff::kHitGuard + 6001);
+    EXPECT_EQ(count(capture).inconsistent, 0U);
 }
 
 TEST(Render, SecondDrawWritesLast) {
