@@ -7,7 +7,8 @@
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
 // PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
 // SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), COLOR (0 none, 1 float, 2 uint),
-// INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as five small outputs). What an attribute holds is chosen by specialization
+// INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
+// each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
 // added to the compiled module (vk_harness/spirv_variant.hpp), where the input at location 7 may also
 // become gl_PrimitiveID.
@@ -18,6 +19,7 @@
 
 layout(push_constant) uniform Draw {
     layout(offset = 0) uint index;
+    layout(offset = 12) uint draws;  // of the case
     layout(offset = 16) uvec4 color;  // bits
     // Of the probes, by attribute, and gl_SampleMask: no constants of the pipeline, so that no other
     // shader has to be compiled for each value.
@@ -58,30 +60,46 @@ layout(set = 0, binding = 0) uniform sampler2D lod_texture;
 // need not support more than one sample (framebufferIntegerColorSampleCounts), and small integers as
 // float bits would be denormals. Hits and the two layouts as vk_harness/attachments.hpp says.
 #if SPLIT
-layout(location = 0) out vec2 out_writer;  // draw, primitive
-layout(location = 1) out float out_vertex;
-layout(location = 2) out vec2 out_hits;  // by front and by back faces
-layout(location = 3) out vec2 out_frag_xy;
-layout(location = 4) out vec2 out_frag_zw;
-#define FIRST_ATTRIBUTE 5
+layout(location = 0) out vec2 out_writer;  // draw and primitive, vertex
+layout(location = 1) out vec2 out_hits;    // by front and by back faces
+layout(location = 2) out vec2 out_frag_xy;
+layout(location = 3) out vec2 out_frag_zw;
+#define FIRST_ATTRIBUTE 4
 #else
 layout(location = 0) out vec4 out_writer_and_hits;
 layout(location = 1) out vec4 out_frag_coord;
 #define FIRST_ATTRIBUTE 2
 #endif
+#if PAIRS
+#define ATTRIBUTE_WIDTH 2
+#define ATTRIBUTE_OUTPUT(k)                                                    \
+    layout(location = FIRST_ATTRIBUTE + 2 * k) out vec2 out_attribute##k##_xy; \
+    layout(location = FIRST_ATTRIBUTE + 2 * k + 1) out vec2 out_attribute##k##_zw;
+#define WRITE_ATTRIBUTE(k)                              \
+    {                                                   \
+        vec4 value;                                     \
+        CHOOSE(in_attribute##k, kChoice##k, k, value)   \
+        out_attribute##k##_xy = value.xy;               \
+        out_attribute##k##_zw = value.zw;               \
+    }
+#else
+#define ATTRIBUTE_WIDTH 1
+#define ATTRIBUTE_OUTPUT(k) layout(location = FIRST_ATTRIBUTE + k) out vec4 out_attribute##k;
+#define WRITE_ATTRIBUTE(k) CHOOSE(in_attribute##k, kChoice##k, k, out_attribute##k)
+#endif
 #if ATTRIBUTES > 0
-layout(location = FIRST_ATTRIBUTE) out vec4 out_attribute0;
+ATTRIBUTE_OUTPUT(0)
 #endif
 #if ATTRIBUTES > 1
-layout(location = FIRST_ATTRIBUTE + 1) out vec4 out_attribute1;
+ATTRIBUTE_OUTPUT(1)
 #endif
 #if ATTRIBUTES > 2
-layout(location = FIRST_ATTRIBUTE + 2) out vec4 out_attribute2;
+ATTRIBUTE_OUTPUT(2)
 #endif
 #if ATTRIBUTES > 3
-layout(location = FIRST_ATTRIBUTE + 3) out vec4 out_attribute3;
+ATTRIBUTE_OUTPUT(3)
 #endif
-#define COLOR_LOCATION FIRST_ATTRIBUTE + ATTRIBUTES
+#define COLOR_LOCATION FIRST_ATTRIBUTE + ATTRIBUTES * ATTRIBUTE_WIDTH
 #else
 #define COLOR_LOCATION 0
 #endif
@@ -152,28 +170,28 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
 void main() {
 #if INSTRUMENTS
     // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
-    vec3 writer = vec3(float(draw.index), float(int(in_primitive)), float(in_vertex));
 #if SPLIT
-    out_writer = writer.xy;
-    out_vertex = writer.z;
+    // packed_id of vk_harness/readback.hpp: without gl_PrimitiveID the sum wraps to 0.
+    out_writer = vec2(float((in_primitive + 2u) * draw.draws + draw.index), float(in_vertex));
     out_hits = gl_FrontFacing ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     out_frag_xy = gl_FragCoord.xy;
     out_frag_zw = gl_FragCoord.zw;
 #else
-    out_writer_and_hits = vec4(writer, gl_FrontFacing ? 1.0 : 2048.0);
+    out_writer_and_hits = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex),
+                               gl_FrontFacing ? 1.0 : 2048.0);
     out_frag_coord = gl_FragCoord;
 #endif
 #if ATTRIBUTES > 0
-    CHOOSE(in_attribute0, kChoice0, 0, out_attribute0)
+    WRITE_ATTRIBUTE(0)
 #endif
 #if ATTRIBUTES > 1
-    CHOOSE(in_attribute1, kChoice1, 1, out_attribute1)
+    WRITE_ATTRIBUTE(1)
 #endif
 #if ATTRIBUTES > 2
-    CHOOSE(in_attribute2, kChoice2, 2, out_attribute2)
+    WRITE_ATTRIBUTE(2)
 #endif
 #if ATTRIBUTES > 3
-    CHOOSE(in_attribute3, kChoice3, 3, out_attribute3)
+    WRITE_ATTRIBUTE(3)
 #endif
 #endif
 #if COLOR

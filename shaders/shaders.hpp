@@ -35,9 +35,10 @@ struct FragmentVariant {
     bool mask_in = false;
     bool sample = false;  // gl_SampleID, gl_SamplePosition: turn sample shading on
     bool mask_out = false;
+    bool split = false;  // instruments as four small outputs instead of two of four numbers
+    bool pairs = false;  // split: each attribute as two outputs of two numbers
     ColorKind color = ColorKind::none;
     bool instruments = true;  // false: the colour output alone, at location 0
-    bool split = false;       // instruments as five small outputs instead of two of four numbers
     friend auto operator<=>(const FragmentVariant&, const FragmentVariant&) = default;
 };
 
@@ -63,7 +64,7 @@ inline constexpr uint32_t kPrimitiveLocation = 7;
 struct DrawConstants {
     uint32_t index = 0;
     uint32_t layer = 0, viewport_index = 0;
-    uint32_t unused = 0;
+    uint32_t draws = 1;      // of the case: what the draw and the primitive are packed by
     uint32_t color[4] = {};  // bits of the colour that is written
     // Of interpolateAtOffset (pixels) and interpolateAtSample, by attribute.
     float offsets[kMaxAttributes][2] = {};

@@ -91,8 +91,8 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
         const VkClearValue value = clear_all(other ? diff::kOtherClearValue : diff::kClearValue);
         const float hits = other ? kOtherNoHits : kNoHits;
         if (layout.split) {
-            out.push_back({Role::writer, kTwoNumbers, clear_all(id), 8, 8});
-            out.push_back({Role::vertex, kOneNumber, clear_all(id), 4, 4});
+            out.push_back({Role::writer, kTwoNumbers, clear_all(id), 8, 8,
+                           std::max(static_cast<uint32_t>(c.draws.size()), 1U)});
             out.push_back({Role::hits, kTwoNumbers, clear_all(hits), 8, 8});
             out.push_back({Role::frag_xy, kTwoNumbers, value, 8, 8});
             out.push_back({Role::frag_zw, kTwoNumbers, value, 8, 8});
@@ -101,8 +101,11 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
             out.push_back({Role::frag_coord, kColorFormat, value});
         }
         for (uint32_t k = 0; k < attribute_count(c); ++k) {
-            const uint32_t bytes = layout.numbers(k) * 4U;
-            out.push_back({Role::attribute, layout.attribute_format(k), value, bytes, bytes});
+            for (uint32_t half = 0; half < layout.attribute_attachments(); ++half) {
+                const uint32_t bytes = layout.numbers(k, half) * 4U;
+                out.push_back({half == 0 ? Role::attribute : Role::attribute_zw,
+                               layout.attribute_format(k, half), value, bytes, bytes});
+            }
         }
     }
     if (c.target.color) {

@@ -16,12 +16,12 @@ namespace vk_harness {
 enum class Role : uint8_t {
     writer_and_hits,  // draw, primitive, provoking vertex; hits
     frag_coord,
-    writer,  // split: draw, primitive
-    vertex,
+    writer,  // split: packed_id of draw and primitive, provoking vertex
     hits,
     frag_xy,
     frag_zw,
     attribute,
+    attribute_zw,  // the second of a pair
     color,
     depth,
     stencil,         // the other aspect of the depth attachment's image
@@ -35,6 +35,7 @@ struct Attachment {
     VkClearValue clear{};        // a value that no case can draw, diff/capture.hpp
     uint32_t texel_bytes = 16;   // of a single-sampled copy
     uint32_t sample_bytes = 16;  // of a sample in a multisampled copy: whole words
+    uint32_t draws = 1;          // of the case: what packed_id goes by
     bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
     bool is_resolved() const {
         return role == Role::resolved_color || role == Role::resolved_depth;
@@ -58,9 +59,9 @@ inline constexpr float kOtherNoHits = 0x1p23F + 0x1p22F;  // cases::Variation::o
 inline constexpr float kBackHit = 2048.0F;                // as shaders/capture.frag adds it
 inline constexpr uint32_t kMaxPackedHits = 2047;
 
-// In the order of shader locations: writer_and_hits, frag_coord, or writer, vertex, hits, frag_xy,
-// frag_zw if the layout is split; attributes, color; then depth, which has no location, stencil and
-// what is resolved. Without instruments only color, if any, and depth, if any.
+// In the order of shader locations: writer_and_hits, frag_coord, or writer, hits, frag_xy, frag_zw
+// if the layout is split; attributes (or their pairs), color; then depth, which has no location,
+// stencil and what is resolved. Without instruments only color, if any, and depth, if any.
 std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLayout& layout = {});
 
 // How many of them are colour attachments.

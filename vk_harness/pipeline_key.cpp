@@ -94,6 +94,7 @@ shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
     v.color = key.color;
     v.instruments = key.instruments;
     v.split = key.layout.split;
+    v.pairs = key.layout.pairs;
     for (const AttributeKey& attribute : key.attributes) {
         switch (attribute.source) {
             case cases::Source::vertex:

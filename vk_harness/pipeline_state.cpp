@@ -143,7 +143,6 @@ void instrument_states(const PipelineKey& key, ColorState& state) {
     if (key.layout.split) {
         hits.write_mask = is_masked(0) ? kNothing : kAll;
         add(kTwoNumbers, replaced(1));
-        add(kOneNumber, replaced(1));
         add(kTwoNumbers, hits);
         add(kTwoNumbers, replaced(2));
         add(kTwoNumbers, replaced(2));
@@ -154,7 +153,9 @@ void instrument_states(const PipelineKey& key, ColorState& state) {
         add(kColorFormat, replaced(2));
     }
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
-        add(key.layout.attribute_format(k), replaced(3 + k));
+        for (uint32_t half = 0; half < key.layout.attribute_attachments(); ++half) {
+            add(key.layout.attribute_format(k, half), replaced(3 + k));
+        }
     }
 }
 

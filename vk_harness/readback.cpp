@@ -71,15 +71,18 @@ struct WriterAndHits {
     glm::vec4 hits;
 };
 
-WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 5>& words, bool is_packed) {
+// `draws`: 0 if words are draw, primitive, vertex and hits, else packed_id, vertex and either hits.
+WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words, uint32_t draws) {
     WriterAndHits out;
-    out.hits = is_packed ? decode_hits(words[3]) : decode_hits(words[3], words[4]);
+    out.hits = draws == 0 ? decode_hits(words[3]) : decode_hits(words[2], words[3]);
+    const auto [draw, primitive] = draws == 0 ? std::pair(decode_id(words[0]), decode_id(words[1]))
+                                              : decode_packed_id(words[0], draws);
     const bool is_clear = out.hits.x + out.hits.y < 1;
     const uint32_t spare = std::bit_cast<uint32_t>(out.hits.z) == diff::kPoison ? diff::kPoison
                            : out.hits.z < 0                                     ? kMalformedId
                            : is_clear && out.hits.z > diff::kHitGuard ? diff::kOtherClearId
                                                                       : diff::kClearId;
-    out.writer = {decode_id(words[0]), decode_id(words[1]), decode_id(words[2]), spare};
+    out.writer = {draw, primitive, decode_id(words[draws == 0 ? 2 : 1]), spare};
     return out;
 }
 
@@ -90,40 +93,36 @@ struct Words {
     uint32_t at(size_t sample, uint32_t word) const { return first[sample * words + word]; }
 };
 
-// `writer`: draw and primitive; `vertex` and `hits`: from that word on.
-struct WriterWords {
-    Words writer, vertex, hits;
-    bool is_packed = false;  // all in one
-};
-
-// Neighbours mostly have the same origin, so the last answer is kept.
-void decode_writers_and_hits(const WriterWords& from, size_t count, glm::vec4* hits,
-                             diff::Writer* writers) {
-    std::array<uint32_t, 5> last{};
-    WriterAndHits decoded = decode_writer_and_hits(last, from.is_packed);
+// Two words of `ids` and the two of `hits` that follow or stand beside them. Neighbours mostly have
+// the same origin, so the last answer is kept.
+void decode_writers_and_hits(const Words& ids, const Words& hit_words, uint32_t draws, size_t count,
+                             glm::vec4* hits, diff::Writer* writers) {
+    const uint32_t first_hit = draws == 0 ? 2 : 0;
+    std::array<uint32_t, 4> last{};
+    WriterAndHits decoded = decode_writer_and_hits(last, draws);
     for (size_t k = 0; k < count; ++k) {
-        const std::array<uint32_t, 5> words = {
-            from.writer.at(k, 0), from.writer.at(k, 1), from.vertex.at(k, from.is_packed ? 2 : 0),
-            from.hits.at(k, from.is_packed ? 3 : 0), from.is_packed ? 0 : from.hits.at(k, 1)};
+        const std::array<uint32_t, 4> words = {
+            ids.at(k, 0), ids.at(k, 1), hit_words.at(k, first_hit), hit_words.at(k, first_hit + 1)};
         if (words != last) {
             last = words;
-            decoded = decode_writer_and_hits(words, from.is_packed);
+            decoded = decode_writer_and_hits(words, draws);
         }
         hits[k] = decoded.hits;
         writers[k] = decoded.writer;
     }
 }
 
-// One or two numbers of an attribute and zeros: a clear sample is clear and poison is poison in all
-// four.
-void widen(const Words& from, size_t count, const VkClearValue& clear, glm::vec4* to) {
+// The numbers of an attribute, `second` beginning with the third of them, and zeros: a clear sample
+// is clear and poison is poison in all four.
+void widen(const Words& first, const Words& second, size_t count, const VkClearValue& clear,
+           glm::vec4* to) {
     const auto clear_word = std::bit_cast<uint32_t>(clear.color.float32[0]);
     for (size_t k = 0; k < count; ++k) {
         glm::vec4 value(0.0F);
         bool is_clear = true;
         bool is_poison = true;
-        for (uint32_t c = 0; c < from.words; ++c) {
-            const uint32_t word = from.at(k, c);
+        for (uint32_t c = 0; c < first.words + second.words; ++c) {
+            const uint32_t word = c < first.words ? first.at(k, c) : second.at(k, c - first.words);
             value[static_cast<int>(c)] = std::bit_cast<float>(word);
             is_clear = is_clear && word == clear_word;
             is_poison = is_poison && word == diff::kPoison;
@@ -226,6 +225,19 @@ uint32_t decode_id(uint32_t bits) {
     return bits == std::bit_cast<uint32_t>(-2.0F) ? diff::kNoPrimitive : kMalformedId;
 }
 
+std::pair<uint32_t, uint32_t> decode_packed_id(uint32_t bits, uint32_t draws) {
+    const uint32_t id = decode_id(bits);
+    if (id >= kMaxId) {
+        const uint32_t both = id == diff::kNoPrimitive ? kMalformedId : id;
+        return {both, both};
+    }
+    const uint32_t row = id / draws;
+    if (row == 1) {
+        return {kMalformedId, kMalformedId};
+    }
+    return {id % draws, row == 0 ? diff::kNoPrimitive : row - 2};
+}
+
 diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes) {
     std::array<uint32_t, 4> words{};
     std::memcpy(words.data(), texel, bytes);
@@ -282,21 +294,25 @@ struct InstrumentPlanes {
     glm::vec4* frag_coord = nullptr;
 };
 
+Words words_of(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
+               std::span<const std::byte> memory, size_t attachment) {
+    return {reinterpret_cast<const uint32_t*>(memory.data() + layout.offset[attachment]),
+            attachments[attachment].sample_bytes / 4};
+}
+
 // The planes that attachment k begins: hits and writers, or FragCoord.
 void decode_instrument(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                        std::span<const std::byte> memory, size_t count, size_t k,
                        const InstrumentPlanes& to) {
     const auto words = [&](size_t attachment) {
-        return Words{reinterpret_cast<const uint32_t*>(memory.data() + layout.offset[attachment]),
-                     attachments[attachment].sample_bytes / 4};
+        return words_of(attachments, layout, memory, attachment);
     };
     switch (attachments[k].role) {
         case Role::writer_and_hits:
-            decode_writers_and_hits({words(k), words(k), words(k), true}, count, to.hits,
-                                    to.writers);
+            decode_writers_and_hits(words(k), words(k), 0, count, to.hits, to.writers);
             break;
-        case Role::writer:  // then vertex and hits
-            decode_writers_and_hits({words(k), words(k + 1), words(k + 2)}, count, to.hits,
+        case Role::writer:  // then hits
+            decode_writers_and_hits(words(k), words(k + 1), attachments[k].draws, count, to.hits,
                                     to.writers);
             break;
         case Role::frag_coord:
@@ -315,13 +331,17 @@ void decode_instrument(const std::vector<Attachment>& attachments, const Readbac
     }
 }
 
-void decode_attribute(const Attachment& attachment, const std::byte* memory, size_t count,
-                      glm::vec4* to) {
-    if (attachment.sample_bytes == sizeof(glm::vec4)) {
-        std::memcpy(to, memory, count * sizeof(glm::vec4));
+// The plane that attachment k begins.
+void decode_attribute(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
+                      std::span<const std::byte> memory, size_t count, size_t k, glm::vec4* to) {
+    const Words first = words_of(attachments, layout, memory, k);
+    const bool is_pair =
+        k + 1 < attachments.size() && attachments[k + 1].role == Role::attribute_zw;
+    if (first.words == 4) {
+        std::memcpy(to, first.first, count * sizeof(glm::vec4));
     } else {
-        widen({reinterpret_cast<const uint32_t*>(memory), attachment.sample_bytes / 4}, count,
-              attachment.clear, to);
+        widen(first, is_pair ? words_of(attachments, layout, memory, k + 1) : Words{nullptr, 0},
+              count, attachments[k].clear, to);
     }
 }
 
@@ -340,7 +360,7 @@ diff::Capture read_capture(const cases::Target& target, const std::vector<Attach
             case Role::attribute: {
                 std::vector<glm::vec4>& plane = capture.attributes[capture.attribute_count++];
                 plane.resize(count);
-                decode_attribute(attachments[k], memory.data() + at, count, plane.data());
+                decode_attribute(attachments, layout, memory, count, k, plane.data());
                 break;
             }
             case Role::color:
@@ -408,7 +428,8 @@ void read_planes(const cases::Target& target, const std::vector<Attachment>& att
                            reinterpret_cast<uint32_t*>(to));
             to += count * sizeof(uint32_t);
         } else if (attachment.role == Role::attribute) {
-            decode_attribute(attachment, from, count, reinterpret_cast<glm::vec4*>(to));
+            decode_attribute(attachments, layout, memory, count, k,
+                             reinterpret_cast<glm::vec4*>(to));
             to += count * sizeof(glm::vec4);
         } else {
             decode_instrument(attachments, layout, memory, count, k, instruments);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "diff/capture.hpp"
@@ -53,6 +54,13 @@ glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits);
 // An id that the device wrote as binary32: an integer below 2^24, -1 and -3 for 'cleared' and -2
 // for 'this device has no gl_PrimitiveID'. Poison stays poison; anything else becomes kMalformedId.
 uint32_t decode_id(uint32_t bits);
+
+// A draw below `draws` and its primitive as one number, which binary32 holds below 2^24
+// (instrument_layout sees to it):
+//     (primitive + 2) * draws + draw,    draw without gl_PrimitiveID.
+// What a shader writes so comes back as the draw and the primitive; what stands for no drawn number
+// in decode_id, in both; a number between the two kinds is kMalformedId.
+std::pair<uint32_t, uint32_t> decode_packed_id(uint32_t bits, uint32_t draws);
 inline constexpr uint32_t kMalformedId = 0xffffffeeU;
 inline constexpr float kClearIdAsFloat = -1.0F;
 inline constexpr float kOtherClearIdAsFloat = -3.0F;

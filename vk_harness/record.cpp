@@ -231,6 +231,7 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     }
     shaders::DrawConstants constants;
     constants.index = draw_index;
+    constants.draws = static_cast<uint32_t>(test.draws.size());
     constants.layer = draw.layer;
     constants.viewport_index = draw.viewport_index;
     for (int k = 0; k < 4; ++k) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "vk_harness/case_check.hpp"
 #include "vk_harness/target.hpp"
 
 namespace vk_harness {
@@ -200,12 +201,40 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     EXPECT_EQ(diff::sample_state(capture, 1), diff::SampleState::not_copied);
 }
 
+TEST(DecodePackedId, TellsDrawsAndPrimitivesApart) {
+    using Ids = std::pair<uint32_t, uint32_t>;
+    for (const uint32_t draws : {1U, 2U, 3U, 1000U}) {
+        for (const uint32_t draw : {0U, draws / 2, draws - 1}) {
+            EXPECT_EQ(decode_packed_id(bits(static_cast<float>(draw)), draws),
+                      Ids(draw, diff::kNoPrimitive));
+            EXPECT_EQ(decode_packed_id(bits(static_cast<float>(draws + draw)), draws),
+                      Ids(kMalformedId, kMalformedId));
+            for (const uint32_t primitive : {0U, 1U, 16'000U}) {
+                const uint32_t id = (primitive + 2) * draws + draw;
+                EXPECT_EQ(decode_packed_id(bits(static_cast<float>(id)), draws),
+                          Ids(draw, primitive));
+            }
+        }
+    }
+    EXPECT_EQ(decode_packed_id(bits(kClearIdAsFloat), 3), Ids(diff::kClearId, diff::kClearId));
+    EXPECT_EQ(decode_packed_id(bits(kOtherClearIdAsFloat), 3),
+              Ids(diff::kOtherClearId, diff::kOtherClearId));
+    EXPECT_EQ(decode_packed_id(diff::kPoison, 3), Ids(diff::kPoison, diff::kPoison));
+    for (const float value : {-2.0F, 6.5F, 0x1p24F}) {
+        EXPECT_EQ(decode_packed_id(bits(value), 3), Ids(kMalformedId, kMalformedId)) << value;
+    }
+}
+
 // The same samples in narrow attachments: the capture is the same to the bit.
 TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
     cases::Case c = target_case({3, 1, 1}, 3);
+    c.draws.resize(5);
     InstrumentLayout narrow;
     narrow.split = true;
     narrow.components = {1, 2, 4, 4};
+    InstrumentLayout pairs = narrow;
+    pairs.pairs = true;
+    pairs.components = {2, 3, 4, 4};
     const float clear = diff::kClearValue;
     // The first sample is clear, the second drawn, the third not copied.
     const std::vector<float> writers = {-1, -1, -1, kNoHits, 3, -2, 5, kNoHits + 2 * kBackHit};
@@ -239,19 +268,29 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
     };
     const diff::Capture wide =
         read({}, {writers, frag, attributes[0], attributes[1], attributes[2]});
-    const diff::Capture split = read(narrow, {{-1, -1, 3, -2},
-                                              {-1, 5},
-                                              {kNoHits, kNoHits, kNoHits, kNoHits + 2},
-                                              {clear, clear, 9, 10},
-                                              {clear, clear, 11, 12},
-                                              {clear, 7},
-                                              {clear, clear, 0, 8},
-                                              attributes[2]});
-    EXPECT_EQ(std::memcmp(wide.hits.data(), split.hits.data(), 48), 0);
-    EXPECT_EQ(wide.writers, split.writers);
-    EXPECT_EQ(std::memcmp(wide.frag_coord.data(), split.frag_coord.data(), 48), 0);
-    for (size_t a = 0; a < 3; ++a) {
-        EXPECT_EQ(std::memcmp(wide.attributes[a].data(), split.attributes[a].data(), 48), 0);
+    const std::vector<std::vector<float>> instruments = {{-1, -1, 3, 5},
+                                                         {kNoHits, kNoHits, kNoHits, kNoHits + 2},
+                                                         {clear, clear, 9, 10},
+                                                         {clear, clear, 11, 12}};
+    const auto with = [&instruments](std::vector<std::vector<float>> more) {
+        more.insert(more.begin(), instruments.begin(), instruments.end());
+        return more;
+    };
+    const diff::Capture split =
+        read(narrow, with({{clear, 7}, {clear, clear, 0, 8}, attributes[2]}));
+    const diff::Capture paired = read(pairs, with({{clear, clear, 7, 0},
+                                                   {clear, 0},
+                                                   {clear, clear, 0, 8},
+                                                   {clear, 0},
+                                                   {clear, clear, 1, 2},
+                                                   {clear, clear, 3, 4}}));
+    for (const diff::Capture& capture : {split, paired}) {
+        EXPECT_EQ(std::memcmp(wide.hits.data(), capture.hits.data(), 48), 0);
+        EXPECT_EQ(wide.writers, capture.writers);
+        EXPECT_EQ(std::memcmp(wide.frag_coord.data(), capture.frag_coord.data(), 48), 0);
+        for (size_t a = 0; a < 3; ++a) {
+            EXPECT_EQ(std::memcmp(wide.attributes[a].data(), capture.attributes[a].data(), 48), 0);
+        }
     }
     EXPECT_EQ(split.writers[1], (diff::Writer{3, diff::kNoPrimitive, 5, diff::kClearId}));
     EXPECT_EQ(split.hits[1], glm::vec4(0, 2, diff::kHitGuard, diff::kHitGuard + 2));
@@ -273,6 +312,14 @@ TEST(InstrumentLayout, HasAsManyNumbersAsAnyVertexOfAnyDrawNeeds) {
     c.draws[1].attributes[0].values = {{1, 0, 0, 0}, {2, 0.5, 0, 0}};
     c.draws[0].attributes[1].values = {{1, 0, 0, 0}, {0, 0, -0.0F, 0}};  // -0 is not +0
     InstrumentLayout layout = instrument_layout(narrow_device(8), c);
+    EXPECT_EQ(layout.components, (std::array<uint8_t, 4>{2, 3, 4, 4}));
+    EXPECT_TRUE(layout.pairs);
+    EXPECT_EQ(layout.attribute_format(0), kTwoNumbers);
+    EXPECT_EQ(layout.attribute_format(0, 1), kOneNumber);
+    EXPECT_EQ(layout.attribute_format(1), kTwoNumbers);
+    EXPECT_EQ(layout.attribute_format(1, 1), kOneNumber);
+    layout = instrument_layout(narrow_device(7), c);
+    EXPECT_FALSE(layout.pairs);
     EXPECT_EQ(layout.components, (std::array<uint8_t, 4>{2, 4, 4, 4}));
     EXPECT_EQ(layout.attribute_format(0), kTwoNumbers);
     EXPECT_EQ(layout.attribute_format(1), kColorFormat);
@@ -280,12 +327,14 @@ TEST(InstrumentLayout, HasAsManyNumbersAsAnyVertexOfAnyDrawNeeds) {
     c.draws[0].attributes[1].source = cases::Source::sample_id;
     layout = instrument_layout(narrow_device(8), c);
     EXPECT_EQ(layout.attribute_format(1), kOneNumber);
+    EXPECT_FALSE(layout.pairs);
     c.draws[0].attributes[1].source = cases::Source::barycentric;
-    EXPECT_EQ(instrument_layout(narrow_device(8), c).components[1], 4);
+    EXPECT_EQ(instrument_layout(narrow_device(8), c).components[1], 3);
+    EXPECT_EQ(instrument_layout(narrow_device(7), c).components[1], 4);
 }
 
 TEST(InstrumentLayout, IsSplitWhereAllAttachmentsFit) {
-    cases::Case c = target_case({3, 5, 1}, 3);
+    cases::Case c = target_case({3, 5, 1}, 4);
     EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
     EXPECT_FALSE(instrument_layout(narrow_device(7), c).split);
     c.target.color = {cases::ColorFormat::rgba8_unorm, {}};
@@ -294,6 +343,15 @@ TEST(InstrumentLayout, IsSplitWhereAllAttachmentsFit) {
     c.draws[0].attributes.pop_back();
     EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
     EXPECT_EQ(attachments_of(c, instrument_layout(narrow_device(8), c)).size(), 9U);  // and depth
+    // What binary32 holds of draws and primitives.
+    c.draws[0].positions.resize(kMaxId - 3);
+    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
+    c.draws[0].positions.resize(kMaxId - 2);
+    EXPECT_FALSE(instrument_layout(narrow_device(8), c).split);
+    c.draws[0].indices = std::vector<uint32_t>(kMaxId - 3);
+    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
+    c.draws[0].indices.reset();
+    c.draws[0].positions.resize(3);
     c.target.samples = 8;  // which the device has with wide formats alone
     EXPECT_EQ(instrument_layout(narrow_device(8), c), InstrumentLayout());
     c.target.samples = 1;
