@@ -6,14 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <fstream>
-#include <future>
 #include <iterator>
 #include <system_error>
-#include <thread>
 
 #include "cases/loader.hpp"
+#include "cases/parallel.hpp"
 #include "cases/toml_reader.hpp"
 
 namespace cases {
@@ -88,21 +86,10 @@ ExpectedAll<std::vector<Case>> load_as(const fs::path& file, const std::string& 
 std::vector<ExpectedAll<std::vector<Case>>> load_all(const std::vector<fs::path>& files,
                                                      const fs::path& root, Contents contents) {
     std::vector<ExpectedAll<std::vector<Case>>> loaded(files.size());
-    std::atomic<size_t> next = 0;
-    const auto load_some = [&] {
-        for (size_t k = next++; k < files.size(); k = next++) {
-            fs::path below = files[k].lexically_relative(root);
-            loaded[k] = load_as(files[k], below.replace_extension().generic_string(), contents);
-        }
-    };
-    std::vector<std::future<void>> others;
-    for (unsigned k = 1; k < std::min(std::thread::hardware_concurrency(), 4U); ++k) {
-        others.push_back(std::async(std::launch::async, load_some));
-    }
-    load_some();
-    for (std::future<void>& other : others) {
-        other.get();
-    }
+    for_each_index(files.size(), [&](size_t k) {
+        fs::path below = files[k].lexically_relative(root);
+        loaded[k] = load_as(files[k], below.replace_extension().generic_string(), contents);
+    });
     return loaded;
 }
 

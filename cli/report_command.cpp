@@ -31,13 +31,7 @@ cases::Expected<void> write_merged(const report::Run& run, const fs::path& folde
     if (!journal) {
         return tl::unexpected(journal.error());
     }
-    report::Run header = run;
-    for (report::CaseRecord& record : header.cases) {
-        record.status = report::Status::not_run;  // until its end is read
-        record.findings.clear();
-        record.pictures = {};
-    }
-    cases::Expected<void> written = journal->write_run(header);
+    cases::Expected<void> written = journal->write_run(run);
     if (written) {
         written = journal->write_device(run.device);
     }

@@ -92,7 +92,9 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
         pool_.collect();
         on_progress_(settled_);
     }
-    slots_.clear();
+    // The system takes a while to free what a worker holds.
+    ending_ = std::async(std::launch::async,
+                         [slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
     for (auto& [k, record] : std::exchange(held_, {})) {  // only if the run ends early
         finish(k, std::move(record));
     }

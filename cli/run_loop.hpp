@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <functional>
+#include <future>
 #include <map>
 #include <optional>
 #include <string>
@@ -102,6 +103,7 @@ class RunLoop {
     vk_harness::DeviceInfo device_;
     size_t settled_ = 0;
     uint32_t start_failures_ = 0;  // in a row
+    std::future<void> ending_;     // of the workers, waited for at the end of the loop's life
     End end_;
 };
 

@@ -8,11 +8,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <future>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -20,10 +18,10 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "cases/parallel.hpp"
 #include "report/record_codec.hpp"
 
 namespace report {
@@ -145,7 +143,7 @@ cases::Expected<void> Journal::write_run(const Run& header) {
     body.update(encode_header(header));
     Json& list = body["cases"] = Json::array();
     for (const CaseRecord& record : header.cases) {
-        list.push_back(encode_case(record));
+        list.push_back(encode_planned(record));
     }
     return write_line(line_of("run", body));
 }
@@ -248,7 +246,7 @@ class Rebuilder {
         begun_ = true;
         run_ = std::move(header);
         for (const Json& entry : *cases) {
-            CaseRecord c = decode_case(entry);
+            CaseRecord c = decode_planned(entry);
             if (index_.emplace(c.id, run_.cases.size()).second) {
                 run_.cases.push_back(std::move(c));
             }
@@ -284,20 +282,7 @@ Line read_line(const std::string& text) {
 // All lines, by several threads.
 std::vector<Line> read_lines(const std::vector<std::string>& texts) {
     std::vector<Line> lines(texts.size());
-    std::atomic<size_t> next = 0;
-    const auto read_some = [&] {
-        for (size_t k = next++; k < texts.size(); k = next++) {
-            lines[k] = read_line(texts[k]);
-        }
-    };
-    std::vector<std::future<void>> others;
-    for (unsigned k = 1; k < std::min(std::thread::hardware_concurrency(), 4U); ++k) {
-        others.push_back(std::async(std::launch::async, read_some));
-    }
-    read_some();
-    for (std::future<void>& other : others) {
-        other.get();
-    }
+    cases::for_each_index(texts.size(), [&](size_t k) { lines[k] = read_line(texts[k]); });
     return lines;
 }
 

@@ -238,6 +238,32 @@ Device decode_device(const Json& json) {
     return d;
 }
 
+Json encode_planned(const CaseRecord& r) {
+    return object_of({
+        {"id", encode_text(r.id)},
+        {"file", encode_text(r.file)},
+        {"line", r.line},
+        {"description", encode_text(r.description)},
+        {"rules", encode_texts(r.rules)},
+        {"links", encode_texts(r.links)},
+        {"rerun", encode_text(r.rerun)},
+        {"catches", encode_text(r.catches)},
+    });
+}
+
+CaseRecord decode_planned(const Json& json) {
+    CaseRecord r;
+    read(json, "id", r.id);
+    read(json, "file", r.file);
+    read(json, "line", r.line);
+    read(json, "description", r.description);
+    read(json, "rules", r.rules);
+    read(json, "links", r.links);
+    read(json, "rerun", r.rerun);
+    read_if_there(json, "catches", r.catches);
+    return r;
+}
+
 Json encode_case(const CaseRecord& r) {
     Json findings = Json::array();
     for (const diff::Finding& f : r.findings) {
@@ -251,7 +277,7 @@ Json encode_case(const CaseRecord& r) {
     for (const SampleEvidence& e : r.evidence) {
         evidence.push_back(encode_evidence(e));
     }
-    return object_of({
+    Json out = object_of({
         {"id", encode_text(r.id)},
         {"file", encode_text(r.file)},
         {"line", r.line},
@@ -286,23 +312,23 @@ Json encode_case(const CaseRecord& r) {
         {"compared_values", r.compared_values},
         {"worst_ratio", encode_number(r.worst_ratio)},
         {"worst_quantity", encode_text(r.worst_quantity)},
-        {"pictures", encode_pictures(r.pictures)},
         {"rerun", encode_text(r.rerun)},
         {"explain", encode_text(r.explain)},
         {"catches", encode_text(r.catches)},
-        {"geometry", encode_geometry(r.geometry)},
         {"evidence", std::move(evidence)},
     });
+    // Most cases have neither.
+    if (!(r.pictures == Pictures())) {
+        out["pictures"] = encode_pictures(r.pictures);
+    }
+    if (!(r.geometry == Geometry())) {
+        out["geometry"] = encode_geometry(r.geometry);
+    }
+    return out;
 }
 
 CaseRecord decode_case(const Json& json) {
-    CaseRecord r;
-    read(json, "id", r.id);
-    read(json, "file", r.file);
-    read(json, "line", r.line);
-    read(json, "description", r.description);
-    read(json, "rules", r.rules);
-    read(json, "links", r.links);
+    CaseRecord r = decode_planned(json);
     read(json, "status", r.status);
     if (!member(json, "expected").is_null()) {
         r.expected.emplace();
@@ -345,15 +371,17 @@ CaseRecord decode_case(const Json& json) {
     read(json, "compared_values", r.compared_values);
     read(json, "worst_ratio", r.worst_ratio);
     read(json, "worst_quantity", r.worst_quantity);
-    r.pictures = decode_pictures(member(json, "pictures"));
-    read(json, "rerun", r.rerun);
+    if (json.contains("pictures")) {
+        r.pictures = decode_pictures(json.at("pictures"));
+    }
     read(json, "explain", r.explain);
-    if (json.contains("catches")) {  // older journals end here
-        read(json, "catches", r.catches);
-        r.geometry = decode_geometry(member(json, "geometry"));
+    if (json.contains("catches")) {  // older journals have no evidence
         for (const Json& sample : list_of(json, "evidence")) {
             r.evidence.push_back(decode_evidence(sample));
         }
+    }
+    if (json.contains("geometry")) {
+        r.geometry = decode_geometry(json.at("geometry"));
     }
     return r;
 }

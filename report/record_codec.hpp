@@ -19,6 +19,8 @@ nlohmann::ordered_json encode_number(double value);
 
 nlohmann::ordered_json encode_device(const Device& device);
 nlohmann::ordered_json encode_case(const CaseRecord& record);
+// What is known of a case before it is drawn: where it comes from, what it says of itself.
+nlohmann::ordered_json encode_planned(const CaseRecord& record);
 // All of a run but the device and the results of its cases.
 nlohmann::ordered_json encode_header(const Run& run);
 
@@ -28,6 +30,7 @@ double decode_number(const nlohmann::ordered_json& json, const char* key);
 
 Device decode_device(const nlohmann::ordered_json& json);
 CaseRecord decode_case(const nlohmann::ordered_json& json);
+CaseRecord decode_planned(const nlohmann::ordered_json& json);
 Run decode_header(const nlohmann::ordered_json& json);
 // How a run ended: ended, seconds, interrupted.
 nlohmann::ordered_json encode_stop(const Run& run);

@@ -79,6 +79,7 @@ struct Pictures {
     // Depth: 1 + 254 (z - depth_low) / (depth_high - depth_low), 0 where it holds the clear value.
     std::vector<uint8_t> device_depths;
     double depth_low = 0, depth_high = 0;
+    friend bool operator==(const Pictures&, const Pictures&) = default;
 };
 // 0: nothing was compared, 1: no error, 2..254: about 2^((code - 128) / 8) budgets, 255: infinite.
 uint8_t error_code(float ratio);

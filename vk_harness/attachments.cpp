@@ -102,9 +102,9 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
         }
         for (uint32_t k = 0; k < attribute_count(c); ++k) {
             for (uint32_t half = 0; half < layout.attribute_attachments(); ++half) {
-                const uint32_t bytes = layout.numbers(k, half) * 4U;
+                const uint32_t bytes = layout.numbers(k) * 4U;
                 out.push_back({half == 0 ? Role::attribute : Role::attribute_zw,
-                               layout.attribute_format(k, half), value, bytes, bytes});
+                               layout.attribute_format(k), value, bytes, bytes});
             }
         }
     }

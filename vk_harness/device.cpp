@@ -236,28 +236,22 @@ void query_features(Capabilities& c) {
 // With which sample counts narrow attachments can be drawn to and read back in targets as large as
 // those of kColorFormat; none if hits cannot be blended.
 VkSampleCountFlags narrow_sample_counts(const Capabilities& c, const ImageLimits& wide) {
-    VkSampleCountFlags counts = ~VkSampleCountFlags{0};
-    for (const VkFormat format : {kOneNumber, kTwoNumbers}) {
-        VkFormatProperties properties{};
-        vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
-        const VkFormatFeatureFlags needed =
-            VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT |
-            (format == kTwoNumbers
-                 ? VkFormatFeatureFlags{VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT}
-                 : 0U);
-        const ImageLimits one =
-            image_limits(c.physical, format,
-                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
-        if ((properties.optimalTilingFeatures & needed) != needed || one.width < wide.width ||
-            one.height < wide.height) {
-            return 0;
-        }
-        const ImageLimits read = image_limits(
-            c.physical, format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-            VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT);
-        counts &= VK_SAMPLE_COUNT_1_BIT | read.samples;
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(c.physical, kTwoNumbers, &properties);
+    constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
+                                             VK_FORMAT_FEATURE_TRANSFER_SRC_BIT |
+                                             VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+    const ImageLimits one =
+        image_limits(c.physical, kTwoNumbers,
+                     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
+    if ((properties.optimalTilingFeatures & kNeeded) != kNeeded || one.width < wide.width ||
+        one.height < wide.height) {
+        return 0;
     }
-    return counts;
+    const ImageLimits read = image_limits(
+        c.physical, kTwoNumbers, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT);
+    return VK_SAMPLE_COUNT_1_BIT | read.samples;
 }
 
 void query_targets(Capabilities& c) {

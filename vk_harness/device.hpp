@@ -27,7 +27,7 @@ struct Capabilities {
     // VK_EXT_sample_locations; none of its counts without the extension.
     VkSampleCountFlags location_counts = 0;
     float location_range[2] = {0, 0};  // pixels
-    // Sample counts with which kOneNumber and kTwoNumbers, blended, do what kColorFormat does.
+    // Sample counts with which kTwoNumbers, blended, does what kColorFormat does.
     VkSampleCountFlags narrow_sample_counts = 0;
     bool has_standard_locations = false;  // standardSampleLocations
     bool has_sample_shading = false;      // sampleRateShading
@@ -92,8 +92,7 @@ constexpr VkFormat depth_format(cases::DepthFormat format) {
     }
     return kDepthFormat;
 }
-// Formats of attachments that hold one or two numbers a sample, if the device has them.
-inline constexpr VkFormat kOneNumber = VK_FORMAT_R32_SFLOAT;
+// The format of attachments that hold two numbers a sample, if the device has it.
 inline constexpr VkFormat kTwoNumbers = VK_FORMAT_R32G32_SFLOAT;
 // Colour attachments before the attributes, at least: writer_and_hits, frag_coord.
 inline constexpr uint32_t kFixedAttachments = 2;

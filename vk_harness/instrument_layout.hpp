@@ -17,15 +17,15 @@ namespace vk_harness {
 
 struct InstrumentLayout {
     bool split = false;  // writer, hits and FragCoord as four attachments of two numbers
-    bool pairs = false;  // split: each attribute as two attachments of at most two numbers
-    // 1, 2, 4 or, in pairs, 3 by attribute: numbers that are drawn and read back; the others are 0
-    // at every vertex and 0 in the capture.
+    bool pairs = false;  // split: each attribute as two attachments of two numbers
+    // 2 or 4 by attribute: numbers that are drawn and read back; the others are 0 at every vertex
+    // and 0 in the capture. One number costs as much as two, and would be one shader more.
     std::array<uint8_t, cases::kMaxAttributes> components = {4, 4, 4, 4};
 
-    // Numbers in an attribute's only attachment, or in the first or second of its pair (which has
-    // one, 0, if the attribute has only two). 4 beyond the last attribute that a case may have.
-    uint32_t numbers(uint32_t attribute, uint32_t half = 0) const;
-    VkFormat attribute_format(uint32_t attribute, uint32_t half = 0) const;
+    // Numbers in an attribute's only attachment, or in either of its pair. 4 beyond the last
+    // attribute that a case may have.
+    uint32_t numbers(uint32_t attribute) const;
+    VkFormat attribute_format(uint32_t attribute) const;
     uint32_t attribute_attachments() const { return pairs ? 2 : 1; }
     friend auto operator<=>(const InstrumentLayout&, const InstrumentLayout&) = default;
 };

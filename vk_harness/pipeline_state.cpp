@@ -154,7 +154,7 @@ void instrument_states(const PipelineKey& key, ColorState& state) {
     }
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
         for (uint32_t half = 0; half < key.layout.attribute_attachments(); ++half) {
-            add(key.layout.attribute_format(k, half), replaced(3 + k));
+            add(key.layout.attribute_format(k), replaced(3 + k));
         }
     }
 }

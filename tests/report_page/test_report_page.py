@@ -317,17 +317,16 @@ class Size(PageTest):
         made = []
         for k in range(cases):
             record = dict(wrong if k < failing else ends["family/good"])
-            record["pictures"] = dict(record["pictures"])
             record["id"] = f"many/{'wrong' if k < failing else 'good'}:n={k}"
             if k < failing:
                 place = [(noise.randrange(64), noise.randrange(64)) for _ in range(300)]
                 record["findings"] = [dict(wrong["findings"][0], x=x, y=y, why=f"number {k} of {x * y}") for x, y in place]
                 record["counts"] = [0, 0, 300, 0, 0]
                 record["evidence"] = [dict(wrong["evidence"][0], at=[x, y, 0]) for x, y in place[:32]]
-                record["pictures"].update(pictures[k % len(pictures)], width=64, height=64, device_depths="")
+                record["pictures"] = dict(wrong["pictures"], **pictures[k % len(pictures)], width=64, height=64, device_depths="")
             made.append(record)
         head = next(r for r in records if r["record"] == "run")
-        head["cases"] = [dict(m, status="not_run", findings=[], evidence=[], pictures=ends["family/good"]["pictures"]) for m in made]
+        head["cases"] = [{key: m[key] for key in ("id", "file", "line", "description", "rules", "links", "rerun", "catches")} for m in made]
         lines = [head] + [r for r in records if r["record"] == "device"] + made + [r for r in records if r["record"] == "stop"]
         return "".join(json.dumps(line) + "\n" for line in lines)
 

@@ -116,15 +116,15 @@ TEST(github, at_most_ten_and_the_rest_is_counted) {
 
 TEST(github, paths_are_those_of_the_checkout) {
     report::Run run = test::sample_run();
-    run.environment.emplace_back("PWD", "/home/ci/work/tree");
+    run.environment.emplace_back("PWD", "/srv/builds/tree");
     run.cases = {run.cases[4]};
     run.cases[0].file = "cases/suite/../suite/a.toml";
-    EXPECT_TRUE(to_github_annotations(run, "/home/ci/work")
+    EXPECT_TRUE(to_github_annotations(run, "/srv/builds")
                     .starts_with("::error file=tree/cases/suite/a.toml,line=1,title=fail%3A "
                                  "tie.top-left missing in ties%2C 1 "
                                  "case::ties/left   1 missing of 64 samples"));
     EXPECT_TRUE(to_github_annotations(run, "/other")
-                    .starts_with("::error file=/home/ci/work/tree/cases/suite/a.toml,"));
+                    .starts_with("::error file=/srv/builds/tree/cases/suite/a.toml,"));
 }
 
 TEST(github, bytes_of_drivers_cannot_make_commands_or_markup) {

@@ -231,10 +231,9 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
     c.draws.resize(5);
     InstrumentLayout narrow;
     narrow.split = true;
-    narrow.components = {1, 2, 4, 4};
+    narrow.components = {2, 2, 4, 4};
     InstrumentLayout pairs = narrow;
     pairs.pairs = true;
-    pairs.components = {2, 3, 4, 4};
     const float clear = diff::kClearValue;
     // The first sample is clear, the second drawn, the third not copied.
     const std::vector<float> writers = {-1, -1, -1, kNoHits, 3, -2, 5, kNoHits + 2 * kBackHit};
@@ -277,11 +276,11 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
         return more;
     };
     const diff::Capture split =
-        read(narrow, with({{clear, 7}, {clear, clear, 0, 8}, attributes[2]}));
+        read(narrow, with({{clear, clear, 7, 0}, {clear, clear, 0, 8}, attributes[2]}));
     const diff::Capture paired = read(pairs, with({{clear, clear, 7, 0},
-                                                   {clear, 0},
+                                                   {clear, clear, 0, 0},
                                                    {clear, clear, 0, 8},
-                                                   {clear, 0},
+                                                   {clear, clear, 0, 0},
                                                    {clear, clear, 1, 2},
                                                    {clear, clear, 3, 4}}));
     for (const diff::Capture& capture : {split, paired}) {
@@ -312,25 +311,31 @@ TEST(InstrumentLayout, HasAsManyNumbersAsAnyVertexOfAnyDrawNeeds) {
     c.draws[1].attributes[0].values = {{1, 0, 0, 0}, {2, 0.5, 0, 0}};
     c.draws[0].attributes[1].values = {{1, 0, 0, 0}, {0, 0, -0.0F, 0}};  // -0 is not +0
     InstrumentLayout layout = instrument_layout(narrow_device(8), c);
-    EXPECT_EQ(layout.components, (std::array<uint8_t, 4>{2, 3, 4, 4}));
+    EXPECT_EQ(layout.components, (std::array<uint8_t, 4>{2, 4, 4, 4}));
     EXPECT_TRUE(layout.pairs);
     EXPECT_EQ(layout.attribute_format(0), kTwoNumbers);
-    EXPECT_EQ(layout.attribute_format(0, 1), kOneNumber);
     EXPECT_EQ(layout.attribute_format(1), kTwoNumbers);
-    EXPECT_EQ(layout.attribute_format(1, 1), kOneNumber);
     layout = instrument_layout(narrow_device(7), c);
     EXPECT_FALSE(layout.pairs);
     EXPECT_EQ(layout.components, (std::array<uint8_t, 4>{2, 4, 4, 4}));
     EXPECT_EQ(layout.attribute_format(0), kTwoNumbers);
     EXPECT_EQ(layout.attribute_format(1), kColorFormat);
     c.draws[0].attributes[1].values.clear();
-    c.draws[0].attributes[1].source = cases::Source::sample_id;
-    layout = instrument_layout(narrow_device(8), c);
-    EXPECT_EQ(layout.attribute_format(1), kOneNumber);
-    EXPECT_FALSE(layout.pairs);
+    for (const cases::Source source : {cases::Source::sample_id, cases::Source::sample_mask_in,
+                                       cases::Source::sample_position}) {
+        c.draws[0].attributes[1].source = source;
+        layout = instrument_layout(narrow_device(8), c);
+        EXPECT_EQ(layout.attribute_format(1), kTwoNumbers);
+        EXPECT_FALSE(layout.pairs);
+    }
     c.draws[0].attributes[1].source = cases::Source::barycentric;
-    EXPECT_EQ(instrument_layout(narrow_device(8), c).components[1], 3);
+    EXPECT_TRUE(instrument_layout(narrow_device(8), c).pairs);
     EXPECT_EQ(instrument_layout(narrow_device(7), c).components[1], 4);
+    // Levels of detail are two numbers, whatever the coordinates.
+    c.draws[0].attributes[1] = {};
+    c.draws[0].attributes[1].values = {{1, 2, 3, 4}};
+    c.draws[0].attributes[1].probe = cases::Probe::lod;
+    EXPECT_EQ(instrument_layout(narrow_device(8), c).components[1], 2);
 }
 
 TEST(InstrumentLayout, IsSplitWhereAllAttachmentsFit) {

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One loop for lists whose entries are worked on without each other.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <future>
+#include <thread>
+#include <vector>
+
+namespace cases {
+
+// body(k) for each k below `count`, each once, in no particular order, by the caller and up to three
+// other threads. Returns when all are done. An exception of one thread ends its share of the work
+// and is thrown on.
+template <class Body>
+void for_each_index(size_t count, const Body& body) {
+    std::atomic<size_t> next = 0;
+    const auto take_some = [&] {
+        for (size_t k = next++; k < count; k = next++) {
+            body(k);
+        }
+    };
+    const size_t threads = std::min<size_t>({std::thread::hardware_concurrency(), 4U, count});
+    std::vector<std::future<void>> others;
+    for (size_t k = 1; k < threads; ++k) {
+        others.push_back(std::async(std::launch::async, take_some));
+    }
+    take_some();
+    for (std::future<void>& other : others) {
+        other.get();
+    }
+}
+
+}  // namespace cases
