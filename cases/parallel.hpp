@@ -13,9 +13,9 @@
 
 namespace cases {
 
-// body(k) for each k below `count`, each once, in no particular order, by the caller and up to three
-// other threads. Returns when all are done. An exception of one thread ends its share of the work
-// and is thrown on.
+// body(k) for each k below `count`, each once, in no particular order, by the caller and up to
+// three other threads. Returns when all are done. An exception of one thread ends its share of the
+// work and is thrown on.
 template <class Body>
 void for_each_index(size_t count, const Body& body) {
     std::atomic<size_t> next = 0;

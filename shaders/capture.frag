@@ -18,8 +18,9 @@
 #endif
 
 layout(push_constant) uniform Draw {
+    // SPLIT: below 2^16, with the number of draws above. Drivers may read word 0 for all invocations
+    // at once and any other once for each.
     layout(offset = 0) uint index;
-    layout(offset = 12) uint draws;  // of the case
     layout(offset = 16) uvec4 color;  // bits
     // Of the probes, by attribute, and gl_SampleMask: no constants of the pipeline, so that no other
     // shader has to be compiled for each value.
@@ -172,7 +173,8 @@ void main() {
     // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
 #if SPLIT
     // packed_id of vk_harness/readback.hpp: without gl_PrimitiveID the sum wraps to 0.
-    out_writer = vec2(float((in_primitive + 2u) * draw.draws + draw.index), float(in_vertex));
+    uint draws = draw.index >> 16;
+    out_writer = vec2(float((in_primitive + 2u) * draws + (draw.index & 0xffffu)), float(in_vertex));
     out_hits = gl_FrontFacing ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     out_frag_xy = gl_FragCoord.xy;
     out_frag_zw = gl_FragCoord.zw;

@@ -62,9 +62,9 @@ inline constexpr uint32_t kPrimitiveLocation = 7;
 
 // As push constants in both stages.
 struct DrawConstants {
-    uint32_t index = 0;
+    uint32_t index = 0;  // of the draw; FragmentVariant::split: + 2^16 * number of draws
     uint32_t layer = 0, viewport_index = 0;
-    uint32_t draws = 1;      // of the case: what the draw and the primitive are packed by
+    uint32_t unused = 0;
     uint32_t color[4] = {};  // bits of the colour that is written
     // Of interpolateAtOffset (pixels) and interpolateAtSample, by attribute.
     float offsets[kMaxAttributes][2] = {};

@@ -31,14 +31,15 @@ bool has_two_numbers(const cases::Attribute& a) {
            });
 }
 
-// A draw and a primitive of it are one number that binary32 holds (packed_id). No draw has more
-// primitives than indices or vertices.
+// A draw and a primitive of it are one number that binary32 holds (decode_packed_id), and the draw
+// and their number one push constant. No draw has more primitives than indices or vertices.
 bool ids_fit(const cases::Case& test) {
     size_t most = 0;
     for (const cases::Draw& draw : test.draws) {
         most = std::max(most, draw.indices ? draw.indices->size() : draw.positions.size());
     }
-    return (most + 2) * std::max(test.draws.size(), size_t{1}) < kMaxId;
+    return test.draws.size() < 0x10000 &&
+           (most + 2) * std::max(test.draws.size(), size_t{1}) < kMaxId;
 }
 
 }  // namespace

@@ -230,8 +230,8 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
         vk.vkCmdSetDepthBias(commands, bias.constant, bias.clamp, bias.slope);
     }
     shaders::DrawConstants constants;
-    constants.index = draw_index;
-    constants.draws = static_cast<uint32_t>(test.draws.size());
+    constants.index =
+        plan.is_split ? static_cast<uint32_t>(test.draws.size()) << 16 | draw_index : draw_index;
     constants.layer = draw.layer;
     constants.viewport_index = draw.viewport_index;
     for (int k = 0; k < 4; ++k) {

@@ -24,6 +24,7 @@ struct DrawPlan {
     DistancePlaces distances{};
     VkDeviceSize indices = 0;
     bool has_integer_color = false;  // the colour target's format holds integers
+    bool is_split = false;           // InstrumentLayout::split
 };
 
 struct CasePlan {

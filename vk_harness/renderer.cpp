@@ -73,6 +73,7 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         DrawPlan item;
         item.draw = &draw;
         item.pipeline = *pipeline;
+        item.is_split = layout.split;
         for (const cases::Attribute& attribute : draw.attributes) {
             if (attribute.probe == cases::Probe::lod) {
                 auto texture = textures_.get(pipelines_, attribute.texture_size);

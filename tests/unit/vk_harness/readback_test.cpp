@@ -348,7 +348,12 @@ TEST(InstrumentLayout, IsSplitWhereAllAttachmentsFit) {
     c.draws[0].attributes.pop_back();
     EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
     EXPECT_EQ(attachments_of(c, instrument_layout(narrow_device(8), c)).size(), 9U);  // and depth
-    // What binary32 holds of draws and primitives.
+    // What a push constant and binary32 hold of draws and primitives.
+    c.draws.resize(0xffff, c.draws[0]);
+    EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
+    c.draws.resize(0x10000, c.draws[0]);
+    EXPECT_FALSE(instrument_layout(narrow_device(8), c).split);
+    c.draws.resize(1);
     c.draws[0].positions.resize(kMaxId - 3);
     EXPECT_TRUE(instrument_layout(narrow_device(8), c).split);
     c.draws[0].positions.resize(kMaxId - 2);
