@@ -105,7 +105,7 @@ std::vector<ExpectedCatch> expected_color_catches() {
         {Fault::float_store_clamped,
          Profile::vulkan,
          {"store/floats", "combination/blend-changes"}},
-        {Fault::float_store_half, Profile::vulkan, {"store/floats", "combination/several-draws"}},
+        {Fault::float_store_half, Profile::vulkan, {"store/floats", "resolve/color"}},
         {Fault::half_exponent_wraps, Profile::vulkan, {"store/half-overflow"}},
         {Fault::integer_8_bits,
          Profile::vulkan,
