@@ -172,18 +172,18 @@ constexpr std::array kRules = {
          "r = f (2^b - 1) of the clamped value; a whole r is stored as it is, otherwise one of its "
          "two "
          "neighbours. Direct3D allows 0.6 of a unit.",
-         "fundamentals-fpfixedconv", "3.2.3.6", "ref/blend.hpp"},
+         "fundamentals-fpfixedconv", "3.2.3.6", "ref/component.hpp"},
     Rule{"store.srgb", Profile::vulkan, "An sRGB target stores one of the two nearest codes",
          "The linear value is encoded by the sRGB transfer function and stored as a neighbouring "
          "code.",
-         "fundamentals-fpfixedconv", "3.2.3.6", "ref/blend.hpp"},
+         "fundamentals-fpfixedconv", "3.2.3.6", "ref/component.hpp"},
     Rule{"store.half", Profile::vulkan, "A half holds one of the two neighbours of a value",
          "The rounding direction is not defined; what a half can represent is kept.",
-         "fundamentals-fp-conversion", "3.2.2", "ref/blend.hpp"},
+         "fundamentals-fp-conversion", "3.2.2", "ref/component.hpp"},
     Rule{"store.float", Profile::vulkan, "A binary32 target holds what the shader wrote",
-         "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2", "ref/blend.hpp"},
+         "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2", "ref/component.hpp"},
     Rule{"store.integer", Profile::vulkan, "An integer target holds what the shader wrote",
-         "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2", "ref/blend.hpp"},
+         "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2", "ref/component.hpp"},
     Rule{"blend.equation", Profile::vulkan, "Blending follows its equation",
          "As if in floating point, with a precision no lower than the destination's: every "
          "intermediate "
