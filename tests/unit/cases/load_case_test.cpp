@@ -4,7 +4,9 @@
 // What right case files become.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <filesystem>
 #include <set>
 
 #include "cases/loader.hpp"
@@ -391,6 +393,13 @@ TEST(LoadSuite, LoadsEverythingThatIsShipped) {
     }
     EXPECT_GT(ids.size(), 20U);
     EXPECT_EQ(ids.count("coverage/half-square"), 1U);
+    // Several threads read the files; cases stand in the order of the files.
+    const auto file_of = [](const Case& c) {
+        return std::filesystem::path(c.id.substr(0, c.id.find(':')) + ".toml");
+    };
+    EXPECT_TRUE(
+        std::is_sorted(suite.cases.begin(), suite.cases.end(),
+                       [&](const Case& a, const Case& b) { return file_of(a) < file_of(b); }));
 }
 
 TEST(LoadSuite, SaysWhatIsWrong) {
