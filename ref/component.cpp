@@ -9,23 +9,15 @@
 #include <cmath>
 #include <vector>
 
+#include "ref/whole.hpp"
+
 namespace ref::color {
 
 namespace {
 
 using cases::ComponentKind;
-
-mpz_class floor_of(const mpq_class& x) {
-    mpz_class out;
-    mpz_fdiv_q(out.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-    return out;
-}
-
-mpz_class ceil_of(const mpq_class& x) {
-    mpz_class out;
-    mpz_cdiv_q(out.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-    return out;
-}
+using ref::ceil_of;
+using ref::floor_of;
 
 // Of x times a whole number; without a quotient that has to be reduced.
 mpz_class floor_of(const mpq_class& x, const mpz_class& times) {

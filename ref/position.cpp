@@ -24,6 +24,7 @@
 
 #include "ref/position_detail.hpp"
 #include "ref/position_filter.hpp"
+#include "ref/whole.hpp"
 
 namespace ref {
 
@@ -48,18 +49,6 @@ const mpq_class& power_of_two(int exponent) {
 
 mpq_class exact(float f) {
     return mpq_class(static_cast<double>(f));
-}
-
-mpz_class floor_of(const mpq_class& q) {
-    mpz_class r;
-    mpz_fdiv_q(r.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-    return r;
-}
-
-mpz_class ceil_of(const mpq_class& q) {
-    mpz_class r;
-    mpz_cdiv_q(r.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-    return r;
 }
 
 // True for zero and for numbers that are a normal binary32.

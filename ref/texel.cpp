@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "ref/whole.hpp"
+
 namespace ref {
 
 namespace {
@@ -58,18 +60,6 @@ constexpr double kOutwards = 0x1p-40;
 
 mpq_class clamp01(const mpq_class& v) {
     return v < 0 ? mpq_class(0) : v > 1 ? mpq_class(1) : v;
-}
-
-mpz_class floor_of(const mpq_class& v) {
-    mpz_class result;
-    mpz_fdiv_q(result.get_mpz_t(), v.get_num_mpz_t(), v.get_den_mpz_t());
-    return result;
-}
-
-mpz_class ceil_of(const mpq_class& v) {
-    mpz_class result;
-    mpz_cdiv_q(result.get_mpz_t(), v.get_num_mpz_t(), v.get_den_mpz_t());
-    return result;
 }
 
 bool may_store_steps(uint32_t code, const mpq_class& lo, const mpq_class& hi) {
