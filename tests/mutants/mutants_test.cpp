@@ -206,6 +206,25 @@ TEST(Recorded, EveryFaultIsCaughtByTwoFamilies) {
     }
 }
 
+// What `edgecase run --quick` draws, the first and the last leaf of each file, is enough.
+TEST(Recorded, EveryFaultIsCaughtByAFirstOrLastLeaf) {
+    const std::vector<cases::Case>& all = suite().cases;
+    const auto file_of = [&](size_t k) { return all[k].id.substr(0, all[k].id.find(':')); };
+    std::set<std::string> quick;
+    for (size_t k = 0; k < all.size(); ++k) {
+        if (k == 0 || k + 1 == all.size() || file_of(k - 1) != file_of(k) ||
+            file_of(k + 1) != file_of(k)) {
+            quick.insert(all[k].id);
+        }
+    }
+    for (const FaultInfo& info : all_faults()) {
+        const std::vector<Kill> kills = kills_of(recorded(), info.fault);
+        EXPECT_TRUE(std::any_of(kills.begin(), kills.end(), [&](const Kill& kill) {
+            return quick.count(std::string(kill.leaf)) > 0;
+        })) << info.name;
+    }
+}
+
 TEST(Recorded, LevelsAreNoStricterThanExpected) {
     for (const ExpectedCatch& row : expected_catches()) {
         EXPECT_LE(loosest(kills_of(recorded(), row.fault)), row.profile) << to_string(row.fault);
