@@ -116,7 +116,7 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
     const Spot own = spot_of(f, f.id.sample);
     const Point<T> sample = point_of<T>(own);
     if (f.target->samples == 1 && centre == own) {
-        return {{{sample}, {sample}, sample, {sample}, false}};
+        return {{{sample}, {}, sample, {sample}, false}};
     }
     const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
     std::vector<Spot> undecorated = {centre};
@@ -156,7 +156,7 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
     }
     if (f.target->samples == 1) {
         const std::vector<Point<T>> both = {point_of<T>(centre), sample};
-        all.push_back({both, both, sample, both, false});
+        all.push_back({both, {}, sample, both, false});
         return all;
     }
     // Anywhere: a linear function, and a quotient of two where the denominator stays positive, is
@@ -166,17 +166,15 @@ std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
     const double y = f.id.y;
     Evaluation<T> anywhere;
     anywhere.attributes = {{T(x), T(y)}, {T(x + 1), T(y)}, {T(x + 1), T(y + 1)}, {T(x), T(y + 1)}};
-    anywhere.frag_coord = frag_coord;
+    if (profile == Profile::practice) {  // Vulkan's text says nothing of FragCoord.z's place at all
+        anywhere.frag_coord = frag_coord;
+    }
     anywhere.sample = sample;
     for (const Point<mpq_class>& p : f.region) {
         anywhere.centroid.push_back({from_exact<T>(p.x), from_exact<T>(p.y)});
     }
     if (anywhere.centroid.empty()) {
         anywhere.centroid = {sample};
-    }
-    if (profile == Profile::vulkan) {
-        // Nothing is said of FragCoord.z's place at all.
-        anywhere.frag_coord = anywhere.attributes;
     }
     anywhere.is_one_point = profile == Profile::practice;
     all.push_back(std::move(anywhere));

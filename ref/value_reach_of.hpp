@@ -37,11 +37,10 @@ std::span<const Point<T>> points_at(const Evaluation<T>& where, size_t place) {
 // The list at which a quantity is evaluated.
 template <class T>
 size_t place_of(const Quantity& q, const Evaluation<T>& where) {
-    const bool is_split = where.frag_coord.size() != where.attributes.size();
-    return q.at_sample                     ? kSample
-           : q.at_centroid                 ? kCentroid
-           : q.attribute == -1 && is_split ? kFragCoord
-                                           : kAttributes;
+    return q.at_sample                                      ? kSample
+           : q.at_centroid                                  ? kCentroid
+           : q.attribute == -1 && !where.frag_coord.empty() ? kFragCoord
+                                                            : kAttributes;
 }
 
 // Adds what a candidate accepts for every judged quantity.

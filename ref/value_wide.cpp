@@ -195,7 +195,7 @@ template <class T>
 DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool is_projectable,
                              const Point<T>& sample) {
     DepthReach<T> out;
-    const Evaluation<T> where{{sample}, {sample}, sample, {sample}, false};
+    const Evaluation<T> where{{sample}, {}, sample, {sample}, false};
     const FragmentValues none;
     std::vector<Reach<T>> reaches(1);
     for (const Candidate<T>& candidate : set.candidates) {

@@ -49,8 +49,9 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
 template <class T>
 struct Evaluation {
     std::vector<Point<T>> attributes;  // without decoration
-    std::vector<Point<T>> frag_coord;  // z and w: the specification does not say where
-    Point<T> sample;                   // depth, and inputs decorated with Sample
+    // FragCoord.z and w: the specification does not say where. None: as `attributes`.
+    std::vector<Point<T>> frag_coord;
+    Point<T> sample;  // depth, and inputs decorated with Sample
     std::vector<Point<T>> centroid;
     // One point of `attributes` explains all inputs that are evaluated there, one of `centroid`
     // all of those. Otherwise each value may have its own.

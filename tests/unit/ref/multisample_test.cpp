@@ -12,6 +12,7 @@
 #include "ref/expectation.hpp"
 #include "ref/fragment_coverage.hpp"
 #include "ref/one_point.hpp"
+#include "ref/sample.hpp"
 #include "ref/value.hpp"
 #include "ref/value_places.hpp"
 #include "tests/unit/ref/coverage_fixture.hpp"
@@ -185,6 +186,35 @@ TEST(Places, SampleShadingMovesInputs) {
     v.frag_coord.x = 2.5F;
     v.frag_coord.y = 2.5F;
     EXPECT_EQ(accepted(c, kWhole, v), "---");
+}
+
+// FragCoord.z of a fragment that stands for some of its samples: between the centre and the samples
+// at every profile but vulkan, whose text says nothing of its place. With two samples that list is
+// as long as that of the pixel's corners, where practice lets inputs be evaluated.
+TEST(Places, FragCoordStaysAmongTheSamples) {
+    for (const uint32_t samples : {2U, 4U}) {
+        cases::Case c = pixels(8, 8, {{1, 1}, {7, 1}, {1, 7}}, samples);
+        c.draws[0].multisample.min_sample_shading = 1.0F / static_cast<float>(samples);
+        // z = (x - 1) / 8 + (y - 1) / 16
+        c.draws[0].positions[0].z = 0;
+        c.draws[0].positions[1].z = 0.75F;
+        c.draws[0].positions[2].z = 0.375F;
+        const SampleId id{2, 2, 1};
+        const FixedPoint own = sample_position(id.x, id.y, id.sample, c.target);
+        const auto z = [](double x, double y) {
+            return static_cast<float>((x - 1) / 8 + (y - 1) / 16);
+        };
+        const auto at = [&](float frag_coord_z) {
+            FragmentValues v;
+            v.frag_coord = {2.5F, 2.5F, frag_coord_z, 1};
+            v.depth = z(static_cast<double>(own.x) / 65536, static_cast<double>(own.y) / 65536);
+            return v;
+        };
+        EXPECT_EQ(accepted(c, id, at(z(2.5, 2.5))), "vpd") << samples;
+        EXPECT_EQ(accepted(c, id, at(z(3, 3))), "v--") << samples;
+        EXPECT_EQ(accepted(c, id, at(z(2, 2))), "v--") << samples;
+        EXPECT_EQ(accepted(c, id, at(z(4, 3))), "---") << samples;
+    }
 }
 
 TEST(Places, OwnLocationsDecide) {
