@@ -58,20 +58,25 @@ std::optional<Finding> ColorComparison::judge(size_t index, ref::SampleId id,
         place(finding, case_.target, id);
         finding.rule = "depth.linear";
         finding.quantity = "depth";
-        finding.level = expectation_.profile;
-        for (const cases::Profile p : {cases::Profile::practice, cases::Profile::vulkan}) {
-            if (p < expectation_.profile &&
-                !reference(p).explains_depth(index, id, capture_.depth[index],
-                                             case_.target.depth_clear)) {
-                finding.level = p;
-            }
-        }
+        finding.level = loosest_wrong([&](ref::ColorReference& at) {
+            return !at.explains_depth(index, id, capture_.depth[index], case_.target.depth_clear);
+        });
         finding.expected = "the depth of a fragment that the colour allows";
         finding.got = fmt::format("{:.9g}", capture_.depth[index]);
         finding.why = "no triangle that may have written last has this depth here";
         return finding;
     }
     return std::nullopt;
+}
+
+cases::Profile ColorComparison::loosest_wrong(
+    const std::function<bool(ref::ColorReference&)>& is_wrong) {
+    for (const cases::Profile p : {cases::Profile::vulkan, cases::Profile::practice}) {
+        if (p < expectation_.profile && is_wrong(reference(p))) {
+            return p;
+        }
+    }
+    return expectation_.profile;
 }
 
 Finding ColorComparison::finding_of(size_t index, ref::SampleId id,
@@ -108,13 +113,9 @@ Finding ColorComparison::finding_of(size_t index, ref::SampleId id,
     finding.quantity = "color";
     finding.expected = verdict.expected;
     finding.got = got;
-    finding.level = expectation_.profile;
-    for (const cases::Profile p : {cases::Profile::practice, cases::Profile::vulkan}) {
-        if (p < expectation_.profile &&
-            !reference(p).explains(index, id, capture_.color[index], witness)) {
-            finding.level = p;
-        }
-    }
+    finding.level = loosest_wrong([&](ref::ColorReference& at) {
+        return !at.explains(index, id, capture_.color[index], witness);
+    });
     return finding;
 }
 

@@ -4,6 +4,7 @@
 // The colour plane of a capture against what the reference allows.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -36,6 +37,9 @@ class ColorComparison {
 
   private:
     ref::ColorReference& reference(cases::Profile profile);
+    // The loosest profile at which a sample is wrong that is wrong at the asked one. The loosest
+    // are asked first: what is wrong there needs no expectation of the profiles in between.
+    cases::Profile loosest_wrong(const std::function<bool(ref::ColorReference&)>& is_wrong);
     std::optional<ref::ColorWitness> witness_of(size_t index, std::optional<uint32_t> writer) const;
     Finding finding_of(size_t index, ref::SampleId id, const ref::ColorVerdict& verdict,
                        const std::optional<ref::ColorWitness>& witness);

@@ -10,10 +10,10 @@ namespace ref {
 
 namespace {
 
-color::Color constant_color(const cases::ColorOutput& output) {
-    color::Color out;
+color::Source point_source(const glm::vec4& value) {
+    color::Source out;
     for (size_t k = 0; k < 4; ++k) {
-        out[k] = color::point(static_cast<double>(output.value[static_cast<int>(k)]));
+        out.low[k] = out.high[k] = static_cast<double>(value[static_cast<int>(k)]);
     }
     return out;
 }
@@ -41,9 +41,10 @@ ColorReference::ColorReference(const cases::Case& c, const Expectation& expectat
       expectation_(expectation),
       unit_{c.target.color->format, expectation.profile},
       cleared_(unit_.cleared(*c.target.color)),
-      values_(c, expectation.limits, expectation.profile) {
+      values_(c, expectation.limits, expectation.profile),
+      memory_(cleared_, kRemembered) {
     for (const cases::Draw& draw : c.draws) {
-        constants_.push_back(constant_color(draw.color));
+        constants_.push_back(point_source(draw.color.value));
     }
     is_constant_ = std::all_of(c.draws.begin(), c.draws.end(),
                                [](const auto& draw) { return draw.color.attribute < 0; });
@@ -90,7 +91,7 @@ std::vector<ColorReference::Sequence> ColorReference::allowed(
     return out;
 }
 
-const color::Color& ColorReference::source_of(uint32_t triangle, SampleId id) {
+const color::Source& ColorReference::source_of(uint32_t triangle, SampleId id) {
     const uint32_t draw = expectation_.triangles[triangle].draw;
     const int32_t attribute = case_.draws[draw].color.attribute;
     if (attribute < 0) {
@@ -102,13 +103,12 @@ const color::Color& ColorReference::source_of(uint32_t triangle, SampleId id) {
     }
     const auto [found, is_new] = sources_.try_emplace(triangle);
     if (is_new) {
-        for (uint32_t k = 0; k < 4; ++k) {
-            const ValueRange range = values_.range(triangle, id, attribute, k);
+        const std::array<ValueRange, 4> ranges = values_.ranges(triangle, id, attribute);
+        for (size_t k = 0; k < 4; ++k) {
             // Nothing is promised of the value: any finite one.
             const double most = 0x1.fffffep127;
-            found->second[k] = range.is_promised
-                                   ? color::Interval{mpq_class(range.low), mpq_class(range.high)}
-                                   : color::Interval{mpq_class(-most), mpq_class(most)};
+            found->second.low[k] = ranges[k].is_promised ? ranges[k].low : -most;
+            found->second.high[k] = ranges[k].is_promised ? ranges[k].high : most;
         }
     }
     return found->second;
@@ -123,42 +123,89 @@ bool ColorReference::replaces(uint32_t triangle, bool masked) const {
     return !output.blend && (!masked || output.write_mask == 0xf);
 }
 
-color::Color ColorReference::color_of(const Sequence& sequence, SampleId id, const glm::vec4* last,
-                                      bool masked) {
-    const bool is_constant = last == nullptr && masked &&
-                             std::all_of(sequence.begin(), sequence.end(),
-                                         [&](uint32_t t) { return output_of(t).attribute < 0; });
-    Sequence draws;
-    if (is_constant) {
-        for (const uint32_t t : sequence) {
-            draws.push_back(expectation_.triangles[t].draw);
-        }
-        if (const auto found = by_draws_.find(draws); found != by_draws_.end()) {
-            return found->second;
-        }
-    }
+color::Source ColorReference::source_of(uint32_t triangle, SampleId id, const glm::vec4* written) {
+    const bool is_captured = written != nullptr && output_of(triangle).attribute >= 0;
+    return is_captured ? point_source(*written) : source_of(triangle, id);
+}
+
+bool ColorReference::is_flat(uint32_t triangle) const {
+    const cases::Draw& draw = case_.draws[expectation_.triangles[triangle].draw];
+    const int32_t attribute = draw.color.attribute;
+    return attribute < 0 || draw.attributes[static_cast<size_t>(attribute)].interpolation ==
+                                cases::Interpolation::flat;
+}
+
+color::ColorMemory::Node& ColorReference::left_by(const Sequence& sequence, SampleId id,
+                                                  const glm::vec4* last, bool masked) {
     // Nothing is left of what a fragment replaces.
     size_t first = sequence.size();
     while (first > 0 && !replaces(sequence[--first], masked)) {
     }
-    color::Color color = cleared_;
+    // Interpolated colours are each sample's own: only flat ones come again. What is laid over a
+    // colour that is not remembered is not, either.
+    color::ColorMemory::Node* node = &memory_.root();
     for (size_t k = first; k < sequence.size(); ++k) {
-        cases::ColorOutput output = output_of(sequence[k]);
-        output.write_mask = masked ? output.write_mask : 0xf;
-        if (last != nullptr && k + 1 == sequence.size() && output.attribute >= 0) {
-            color::Color source;
-            for (size_t i = 0; i < 4; ++i) {
-                source[i] = color::point(static_cast<double>((*last)[static_cast<int>(i)]));
+        const uint32_t triangle = sequence[k];
+        const color::Source source =
+            source_of(triangle, id, k + 1 == sequence.size() ? last : nullptr);
+        const auto write = [&] {
+            cases::ColorOutput output = output_of(triangle);
+            output.write_mask = masked ? output.write_mask : 0xf;
+            return unit_.write(output, color::color_of(source), node->color);
+        };
+        color::ColorMemory::Node* next = nullptr;
+        if (node != &beyond_ && is_flat(triangle)) {
+            const uint32_t draw = expectation_.triangles[triangle].draw;
+            if (const std::optional<uint32_t> name = memory_.name_of(draw, masked, source)) {
+                next = memory_.after(*node, *name, write);
             }
-            color = unit_.write(output, source, color);
-        } else {
-            color = unit_.write(output, source_of(sequence[k], id), color);
+        }
+        if (next == nullptr) {
+            beyond_.color = write();
+            beyond_.accepted.reset();
+            next = &beyond_;
+        }
+        node = next;
+    }
+    return *node;
+}
+
+std::optional<bool> ColorReference::may_write(uint32_t triangle, SampleId id,
+                                              const glm::vec4* written,
+                                              const std::array<uint32_t, 4>& codes) {
+    const color::Source source = source_of(triangle, id, written);
+    bool is_known = true;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const color::Component component(cases::component_of(unit_.format, k));
+        if (!component.exists()) {
+            continue;
+        }
+        const std::optional<bool> may =
+            component.may_store(source.low[k], source.high[k], codes[k], unit_.profile);
+        if (may && !*may) {
+            return false;
+        }
+        is_known = is_known && may;
+    }
+    return is_known ? std::optional(true) : std::nullopt;
+}
+
+bool ColorReference::leaves(const Sequence& sequence, SampleId id, const glm::vec4* last,
+                            const std::array<uint32_t, 4>& codes) {
+    if (!sequence.empty() && replaces(sequence.back(), true)) {
+        if (const std::optional<bool> may = may_write(sequence.back(), id, last, codes)) {
+            return *may;
         }
     }
-    if (is_constant) {
-        by_draws_.emplace(std::move(draws), color);
+    color::ColorMemory::Node& node = left_by(sequence, id, last);
+    if (node.accepted == codes) {
+        return true;
     }
-    return color;
+    const bool is_allowed = unit_.allows(node.color, codes);
+    if (is_allowed) {
+        node.accepted = codes;
+    }
+    return is_allowed;
 }
 
 std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmasked) const {
@@ -183,7 +230,7 @@ bool ColorReference::explains(const std::vector<Sequence>& sets, SampleId id,
     const glm::vec4* last = witness ? witness->written : nullptr;
     // A device whose hits are wrong already has a finding of its own.
     return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
-               return unit_.allows(color_of(sequence, id, last), codes);
+               return leaves(sequence, id, last, codes);
            });
 }
 
@@ -235,7 +282,7 @@ ColorVerdict ColorReference::judge(size_t index, SampleId id, const std::array<u
         sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
     verdict.rule = rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
     const auto tells = [&](const Sequence& sequence) {
-        return unit_.allows(color_of(sequence, id, nullptr), codes);
+        return leaves(sequence, id, nullptr, codes);
     };
     if (witness) {
         Sequence turned(most.rbegin(), most.rend());

@@ -14,6 +14,7 @@
 
 #include "cases/case.hpp"
 #include "ref/blend.hpp"
+#include "ref/color_memory.hpp"
 #include "ref/expectation.hpp"
 #include "ref/value.hpp"
 
@@ -65,6 +66,8 @@ class ColorReference {
 
     // More open fragments at a sample than this are not tried out.
     static constexpr size_t kMaxOpen = 10;
+    // Colours that are remembered at most: some 600 bytes each.
+    static constexpr size_t kRemembered = 4096;
 
   private:
     using Sequence = std::vector<uint32_t>;  // triangles in drawing order
@@ -75,10 +78,25 @@ class ColorReference {
     const cases::ColorOutput& output_of(uint32_t triangle) const;
     // Whether the fragment writes all components, whatever was there.
     bool replaces(uint32_t triangle, bool masked) const;
-    const color::Color& source_of(uint32_t triangle, SampleId id);
-    // What the fragments leave; `masked` false: with every write mask full.
-    color::Color color_of(const Sequence& sequence, SampleId id, const glm::vec4* last,
-                          bool masked = true);
+    const color::Source& source_of(uint32_t triangle, SampleId id);
+    // What the fragment wrote; `written`, if that was captured.
+    color::Source source_of(uint32_t triangle, SampleId id, const glm::vec4* written);
+    // Whether what it writes is one colour, or one for every triangle.
+    bool is_flat(uint32_t triangle) const;
+    // What the fragments leave, until the next call; `masked` false: with every write mask full.
+    color::ColorMemory::Node& left_by(const Sequence& sequence, SampleId id, const glm::vec4* last,
+                                      bool masked = true);
+    const color::Color& color_of(const Sequence& sequence, SampleId id, const glm::vec4* last,
+                                 bool masked = true) {
+        return left_by(sequence, id, last, masked).color;
+    }
+    // Whether the fragments may leave the codes.
+    bool leaves(const Sequence& sequence, SampleId id, const glm::vec4* last,
+                const std::array<uint32_t, 4>& codes);
+    // The same where the last fragment replaces what was there, in binary64; nothing where only
+    // rationals tell.
+    std::optional<bool> may_write(uint32_t triangle, SampleId id, const glm::vec4* written,
+                                  const std::array<uint32_t, 4>& codes);
     // Which rule is broken by a wrong colour; `is_as_unmasked`: it is right but for a write mask.
     std::string rule_of(const Sequence& sequence, bool is_as_unmasked) const;
     bool is_constant_depth(uint32_t triangle, float depth) const;
@@ -88,10 +106,11 @@ class ColorReference {
     color::Unit unit_;
     color::Color cleared_;
     ValueReference values_;
-    std::vector<color::Color> constants_;        // by draw, of those with a constant colour
-    std::map<Sequence, color::Color> by_draws_;  // sequences of draws with constant colours
-    std::map<uint32_t, color::Color> sources_;   // by triangle, of the sample at hand
+    std::vector<color::Source> constants_;       // by draw, of those with a constant colour
+    std::map<uint32_t, color::Source> sources_;  // by triangle, of the sample at hand
     SampleId at_;
+    color::ColorMemory memory_;        // of fragments that are_flat
+    color::ColorMemory::Node beyond_;  // what it does not remember: computed last
 
     // Neighbours mostly have the same fragments and the same codes: what was accepted last, of
     // samples without and with fragments. Only where all colours are constant.

@@ -17,6 +17,7 @@
 #include <gmpxx.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "cases/color.hpp"
@@ -51,6 +52,10 @@ class Component {
     // What may be stored of a value. `is_blended`: it comes out of the blend unit, which rounds by
     // itself.
     Interval stored(const Interval& v, cases::Profile profile, bool is_blended) const;
+    // Whether the code may be stored of a value of [low, high] that the shader wrote: by binary64
+    // alone, nothing where only rationals tell (component_filter.cpp).
+    std::optional<bool> may_store(double low, double high, uint32_t code,
+                                  cases::Profile profile) const;
     // The value that a stored code means; nothing if the code is no number (NaN, infinity).
     // sRGB: rounded to binary64, see kSrgbError.
     bool value_of(uint32_t code, mpq_class& value) const;

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -119,8 +120,12 @@ class ValueReference {
     // What component `component` of an attribute (index into Draw::attributes, or kDepthAttribute)
     // may be; a point if it is flat. Components beyond the attribute's are 0.
     ValueRange range(uint32_t t, SampleId sample, int32_t attribute, uint32_t component);
+    // The same of all components, in less time than one after another.
+    std::array<ValueRange, 4> ranges(uint32_t t, SampleId sample, int32_t attribute);
 
   private:
+    void add_ranges(uint32_t t, SampleId sample, int32_t attribute,
+                    std::span<const uint32_t> components, std::array<ValueRange, 4>& out);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -26,61 +26,90 @@ using value::Quantity;
 
 ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
                                  uint32_t component) {
+    std::array<ValueRange, 4> out;
+    add_ranges(t, sample, attribute, std::array{component}, out);
+    return out.at(component);
+}
+
+std::array<ValueRange, 4> ValueReference::ranges(uint32_t t, SampleId sample, int32_t attribute) {
+    std::array<ValueRange, 4> out;
+    add_ranges(t, sample, attribute, std::array{0U, 1U, 2U, 3U}, out);
+    return out;
+}
+
+void ValueReference::add_ranges(uint32_t t, SampleId sample, int32_t attribute,
+                                std::span<const uint32_t> components,
+                                std::array<ValueRange, 4>& out) {
     const value::Primitive& primitive = impl_->load(t).primitive;
     if (!primitive.is_finite) {
-        return {};
-    }
-    if (attribute >= 0) {
-        const cases::Attribute& a = primitive.draw->attributes[static_cast<size_t>(attribute)];
-        if (component >= a.components) {
-            return {true, 0, 0};
-        }
-        if (a.interpolation == cases::Interpolation::flat) {
-            const auto v =
-                static_cast<double>(a.values[primitive.triangle.provoking]
-                                            [static_cast<glm::vec4::length_type>(component)]);
-            return {std::isfinite(v), v, v};
-        }
+        return;
     }
     const std::vector<Quantity>& all = impl_->quantities_of(t);
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) {
-        return q.attribute == attribute && q.component == component &&
-               (q.kind == Kind::linear || q.kind == Kind::perspective);
-    });
-    const auto index = static_cast<size_t>(found - all.begin());
-    if (found == all.end() || !impl_->is_asked(t, index, impl_->profile)) {
-        return {};
+    std::vector<size_t> only;  // the interpolated ones that are asked for
+    std::vector<uint32_t> component_of;
+    for (const uint32_t component : components) {
+        if (attribute >= 0) {
+            const cases::Attribute& a = primitive.draw->attributes[static_cast<size_t>(attribute)];
+            if (component >= a.components) {
+                out.at(component) = {true, 0, 0};
+                continue;
+            }
+            if (a.interpolation == cases::Interpolation::flat) {
+                const auto v =
+                    static_cast<double>(a.values[primitive.triangle.provoking]
+                                                [static_cast<glm::vec4::length_type>(component)]);
+                out.at(component) = {std::isfinite(v), v, v};
+                continue;
+            }
+        }
+        const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) {
+            return q.attribute == attribute && q.component == component &&
+                   (q.kind == Kind::linear || q.kind == Kind::perspective);
+        });
+        const auto index = static_cast<size_t>(found - all.begin());
+        if (found != all.end() && impl_->is_asked(t, index, impl_->profile)) {
+            only.push_back(index);
+            component_of.push_back(component);
+        }
+    }
+    if (only.empty()) {
+        return;
     }
     const std::span<const Quantity> span(all);
     const auto& balls = impl_->balls.get(t, impl_->profile, [&] {
         return value::make_wide_set<Ball>(primitive, span, impl_->limits, impl_->profile);
     });
-    ValueRange out;
-    value::WideRange<Ball> range;
-    range.is_known = false;
+    value::WideRange<Ball> unknown;
+    unknown.is_known = false;
+    std::vector<value::WideRange<Ball>> wide(only.size(), unknown);
     if (balls.is_known) {
-        range = value::range_wide(balls, span, primitive.is_projectable,
-                                  impl_->places_of_range(t, sample), index);
+        wide = value::ranges_wide(balls, span, primitive.is_projectable,
+                                  impl_->places_of_range(t, sample), only);
     }
-    if (range.is_known) {
-        out = {!range.is_free, range.range.low.v - range.range.low.e,
-               range.range.high.v + range.range.high.e};
-    } else {
-        const auto& exact = impl_->rationals.get(t, impl_->profile, [&] {
-            return value::make_wide_set<mpq_class>(primitive, span, impl_->limits, impl_->profile);
-        });
-        const auto wide =
-            value::range_wide(exact, span, primitive.is_projectable,
-                              value::evaluations<mpq_class>(
-                                  impl_->fragment(t, sample, impl_->profile), impl_->profile),
-                              index);
-        out = {!wide.is_free, wide.range.low.get_d(), wide.range.high.get_d()};
+    for (size_t k = 0; k < only.size(); ++k) {
+        ValueRange& range = out.at(component_of[k]);
+        if (wide[k].is_known) {
+            range = {!wide[k].is_free, wide[k].range.low.v - wide[k].range.low.e,
+                     wide[k].range.high.v + wide[k].range.high.e};
+        } else {
+            const auto& rationals = impl_->rationals.get(t, impl_->profile, [&] {
+                return value::make_wide_set<mpq_class>(primitive, span, impl_->limits,
+                                                       impl_->profile);
+            });
+            const auto exact =
+                value::ranges_wide(rationals, span, primitive.is_projectable,
+                                   value::evaluations<mpq_class>(
+                                       impl_->fragment(t, sample, impl_->profile), impl_->profile),
+                                   std::span(only).subspan(k, 1))
+                    .front();
+            range = {!exact.is_free, exact.range.low.get_d(), exact.range.high.get_d()};
+        }
+        // Outwards: a subtraction rounds by half an ulp, get_d truncates by less than one.
+        range.low = std::nextafter(std::nextafter(range.low, -HUGE_VAL), -HUGE_VAL);
+        range.high = std::nextafter(std::nextafter(range.high, HUGE_VAL), HUGE_VAL);
+        range.is_promised =
+            range.is_promised && std::isfinite(range.low) && std::isfinite(range.high);
     }
-    // Outwards: a subtraction rounds by half an ulp, get_d truncates by less than one.
-    out.low = std::nextafter(std::nextafter(out.low, -HUGE_VAL), -HUGE_VAL);
-    out.high = std::nextafter(std::nextafter(out.high, HUGE_VAL), HUGE_VAL);
-    out.is_promised = out.is_promised && std::isfinite(out.low) && std::isfinite(out.high);
-    return out;
 }
 
 std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample) {

@@ -3,7 +3,6 @@
 #include "ref/value_wide.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -238,10 +237,10 @@ template DepthReach<Ball> reach_of_depth<Ball>(const WideSet<Ball>&, const Quant
 template DepthReach<mpq_class> reach_of_depth<mpq_class>(const WideSet<mpq_class>&, const Quantity&,
                                                          bool, const Point<mpq_class>&);
 template <class T>
-WideRange<T> range_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
-                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
-                        size_t index) {
-    const std::array<size_t, 1> only = {index};
+std::vector<WideRange<T>> ranges_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                                      bool is_projectable,
+                                      const std::vector<Evaluation<T>>& evaluations,
+                                      std::span<const size_t> only) {
     std::vector<Reach<T>> reaches(quantities.size());
     const FragmentValues nothing;  // only reports ask for the device's values
     for (const Evaluation<T>& where : evaluations) {
@@ -254,16 +253,22 @@ WideRange<T> range_wide(const WideSet<T>& set, std::span<const Quantity> quantit
             }
         }
     }
-    const Reach<T>& reach = reaches[index];
-    return {reach.is_known, reach.is_free || reach.is_undefined || reach.is_first, reach.range};
+    std::vector<WideRange<T>> out;
+    for (const size_t index : only) {
+        const Reach<T>& reach = reaches[index];
+        out.push_back(
+            {reach.is_known, reach.is_free || reach.is_undefined || reach.is_first, reach.range});
+    }
+    return out;
 }
 
-template WideRange<Ball> range_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
-                                          const std::vector<Evaluation<Ball>>&, size_t);
-template WideRange<mpq_class> range_wide<mpq_class>(const WideSet<mpq_class>&,
-                                                    std::span<const Quantity>, bool,
-                                                    const std::vector<Evaluation<mpq_class>>&,
-                                                    size_t);
+template std::vector<WideRange<Ball>> ranges_wide<Ball>(const WideSet<Ball>&,
+                                                        std::span<const Quantity>, bool,
+                                                        const std::vector<Evaluation<Ball>>&,
+                                                        std::span<const size_t>);
+template std::vector<WideRange<mpq_class>> ranges_wide<mpq_class>(
+    const WideSet<mpq_class>&, std::span<const Quantity>, bool,
+    const std::vector<Evaluation<mpq_class>>&, std::span<const size_t>);
 template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
                                       const std::vector<Evaluation<Ball>>&, const ProbePlace&,
                                       const FragmentValues&, std::span<const size_t>);

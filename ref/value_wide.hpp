@@ -97,7 +97,8 @@ std::optional<std::vector<size_t>> failing_alone(
     const std::vector<Evaluation<T>>& evaluations, const ProbePlace& place,
     const FragmentValues& device, std::span<const size_t> only);
 
-// Everything that a quantity may be, whichever candidate and place the device uses.
+// Everything that some quantities may be, whichever candidate and place the device uses: by place
+// in `only`, indices into the quantities. What they share, sites and their budgets, is made once.
 template <class T>
 struct WideRange {
     bool is_known = true;
@@ -105,8 +106,9 @@ struct WideRange {
     Range<T> range;
 };
 template <class T>
-WideRange<T> range_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
-                        bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
-                        size_t index);
+std::vector<WideRange<T>> ranges_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                                      bool is_projectable,
+                                      const std::vector<Evaluation<T>>& evaluations,
+                                      std::span<const size_t> only);
 
 }  // namespace ref::value
