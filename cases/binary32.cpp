@@ -37,6 +37,43 @@ long floor_log2(const mpq_class& q) {
     return left >= right ? e : e - 1;
 }
 
+__extension__ typedef unsigned __int128 Uint128;
+
+// n units of 2^unit, n <= 2^24.
+Rounded rounded(float sign, double n, long unit, bool is_exact) {
+    // n is a double, its product with a power of two >= 2^-149 too.
+    const double magnitude = std::ldexp(n, static_cast<int>(unit));
+    if (magnitude >= 0x1p128) {
+        return {sign * std::numeric_limits<float>::infinity(), false};
+    }
+    return {sign * static_cast<float>(magnitude), is_exact};
+}
+
+// round_to_binary32 step by step, for num, den < 2^64 where 128 bits hold every number on the way;
+// nothing elsewhere.
+std::optional<Rounded> round_narrow(float sign, uint64_t num, uint64_t den) {
+    const auto num_bits = static_cast<long>(std::bit_width(num));
+    const long e = num_bits - static_cast<long>(std::bit_width(den));
+    const uint64_t left = e >= 0 ? num : num << -e;  // as long as the other then
+    const uint64_t right = e >= 0 ? den << e : den;
+    const long exponent = left >= right ? e : e - 1;
+    const long unit = std::max<long>(exponent - (kPrecision - 1), kMinExponent);
+    // unit < 64 - 23, and 2^unit den <= num if it is not negative.
+    if (num_bits - unit > 128) {
+        return std::nullopt;
+    }
+    const Uint128 above = unit < 0 ? Uint128{num} << -unit : Uint128{num};
+    const Uint128 below = unit < 0 ? Uint128{den} : Uint128{den} << unit;
+    auto n = static_cast<uint64_t>(above / below);
+    const Uint128 rest = above - n * below;
+    // Twice the rest against the divisor, without the carry.
+    const Uint128 other = below - rest;
+    if (rest > other || (rest == other && n % 2 != 0)) {
+        n += 1;
+    }
+    return rounded(sign, static_cast<double>(n), unit, rest == 0);
+}
+
 constexpr uint32_t kSignBit = 0x80000000U;
 constexpr uint32_t kExponentBits = 0x7f800000U;
 constexpr uint32_t kQuietNan = 0x7fc00000U;
@@ -77,6 +114,17 @@ Rounded round_to_binary32(const mpq_class& q) {
         return {0.0F, true};
     }
     const float sign = sgn(q) < 0 ? -1.0F : 1.0F;
+    if (mpz_size(q.get_num_mpz_t()) == 1 && mpz_size(q.get_den_mpz_t()) == 1) {
+        if (const std::optional<Rounded> narrow = round_narrow(
+                sign, mpz_getlimbn(q.get_num_mpz_t(), 0), mpz_getlimbn(q.get_den_mpz_t(), 0))) {
+            return *narrow;
+        }
+    }
+    return round_wide(q);
+}
+
+Rounded round_wide(const mpq_class& q) {
+    const float sign = sgn(q) < 0 ? -1.0F : 1.0F;
     const long exponent = floor_log2(q);
     if (exponent >= kOverflowExponent) {
         return {sign * std::numeric_limits<float>::infinity(), false};
@@ -99,12 +147,7 @@ Rounded round_to_binary32(const mpq_class& q) {
     if (half > 0 || (half == 0 && mpz_odd_p(n.get_mpz_t()) != 0)) {
         n += 1;
     }
-    // n <= 2^24 is a double, its product with a power of two >= 2^-149 too.
-    const double magnitude = std::ldexp(n.get_d(), static_cast<int>(unit));
-    if (magnitude >= 0x1p128) {
-        return {sign * std::numeric_limits<float>::infinity(), false};
-    }
-    return {sign * static_cast<float>(magnitude), is_exact};
+    return rounded(sign, n.get_d(), unit, is_exact);
 }
 
 Rounded round_to_binary32(const Number& n) {

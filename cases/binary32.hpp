@@ -34,7 +34,10 @@ struct Rounded {
 
 // The nearest binary32, ties to even, subnormals included; correct for every rational.
 Rounded round_to_binary32(const mpq_class& q);
-// As above, with the sign of a zero kept.
+// As above, for q != 0, by rationals alone: what round_to_binary32 takes where 128 bits are too
+// few.
+Rounded round_wide(const mpq_class& q);
+// As round_to_binary32, with the sign of a zero kept.
 Rounded round_to_binary32(const Number& n);
 
 // The largest binary32 below and the smallest above a rational that is no binary32 itself.

@@ -82,7 +82,8 @@ void LeafContext::error(const SourceLocation& where, std::string message) {
 }
 
 std::optional<Number> LeafContext::number(const TomlValue& value, const std::string& what) {
-    return number(value, what, names());
+    // Only expressions have names.
+    return number(value, what, value.is(Kind::string) ? names() : Names{});
 }
 
 std::optional<Number> LeafContext::number(const TomlValue& value, const std::string& what,

@@ -53,6 +53,12 @@ class SurfaceMaker {
         result_.indices.emplace();
     }
 
+    // Room for a mesh of so many.
+    void reserve(int64_t vertices, int64_t triangles) {
+        result_.clip.reserve(static_cast<size_t>(vertices));
+        result_.indices->reserve(3 * static_cast<size_t>(triangles));
+    }
+
     // A lattice over [-1,1]^2; each inner vertex is moved by up to 1/4 of a cell.
     void plane() {
         lattice([&](int64_t i, int64_t j) {
@@ -142,7 +148,9 @@ class SurfaceMaker {
                                   static_cast<float>(v.z), static_cast<float>(v.w));
     }
     void add_triangle(uint32_t a, uint32_t b, uint32_t c, bool is_turned) {
-        result_.indices->insert(result_.indices->end(), {a, is_turned ? c : b, is_turned ? b : c});
+        for (const uint32_t vertex : {a, is_turned ? c : b, is_turned ? b : c}) {
+            result_.indices->push_back(vertex);
+        }
     }
     template <class At>
     void lattice(At at) {
@@ -194,6 +202,7 @@ std::optional<Generated> generate_surface(GeneratorKeys& keys) {
     }
     SurfaceMaker maker(columns, rows, seed, {center.x.get_d(), center.y.get_d(), 0, 1},
                        radius.get_d());
+    maker.reserve(vertices, shape == 2 ? 8 * rows * rows : is_disc ? columns : 2 * columns * rows);
     switch (shape) {
         case 0:
             maker.plane();

@@ -35,6 +35,7 @@ class DrawLoader {
     DrawLoader(LeafContext& context, const TomlValue& table, const Target& target)
         : context_(context), table_(table), target_(target) {}
 
+    // Once: what is loaded is moved out.
     Draw load(const std::string& name, std::vector<std::string>& notes) {
         context_.known_keys(table_, "[[draw]]",
                             {"topology",      "space",          "vertices",
@@ -63,12 +64,12 @@ class DrawLoader {
             draw_.depth = read_depth_state(context_, *depth);
         }
         if (!context_.errors().empty() || !read_shape()) {
-            return draw_;
+            return std::move(draw_);
         }
         check_count(name, notes);
         if (!draw_.positions.empty()) {
             refuse_with_surface();
-            return draw_;
+            return std::move(draw_);
         }
         move_vertices(context_, table_, space_, target_, vertices_);
         const std::optional<std::vector<uint32_t>> order = vertex_order(
@@ -81,21 +82,21 @@ class DrawLoader {
         }
         read_color();
         if (!context_.errors().empty()) {
-            return draw_;
+            return std::move(draw_);
         }
-        const std::optional<std::vector<glm::vec4>> positions =
+        std::optional<std::vector<glm::vec4>> positions =
             to_clip(context_, vertices_, space_, draw_.viewport, table_.where, name, notes);
         if (!positions || !order) {
-            return draw_;
+            return std::move(draw_);
         }
         read_clipping(source, *positions, *order);
-        draw_.positions = ordered(*positions, *order);
+        draw_.positions = ordered(std::move(*positions), *order);
         for (Attribute& attribute : draw_.attributes) {
             if (attribute.source == Source::vertex) {
-                attribute.values = ordered(attribute.values, *order);
+                attribute.values = ordered(std::move(attribute.values), *order);
             }
         }
-        return draw_;
+        return std::move(draw_);
     }
 
   private:
@@ -114,8 +115,11 @@ class DrawLoader {
         return word ? static_cast<Enum>(*word) : otherwise;
     }
 
-    static std::vector<glm::vec4> ordered(const std::vector<glm::vec4>& values,
+    static std::vector<glm::vec4> ordered(std::vector<glm::vec4> values,
                                           const std::vector<uint32_t>& order) {
+        if (std::is_sorted(order.begin(), order.end())) {
+            return values;  // a permutation, so the identity
+        }
         std::vector<glm::vec4> result;
         result.reserve(order.size());
         for (const uint32_t i : order) {
@@ -144,10 +148,10 @@ class DrawLoader {
         draw_.depth.negative_one_to_one = worded("depth_volume", kVolumeWords, size_t{0}) != 0;
         draw_.distances = read_distances(context_, table_, source, positions);
         if (!draw_.distances.clip.empty()) {
-            draw_.distances.clip = ordered(draw_.distances.clip, order);
+            draw_.distances.clip = ordered(std::move(draw_.distances.clip), order);
         }
         if (!draw_.distances.cull.empty()) {
-            draw_.distances.cull = ordered(draw_.distances.cull, order);
+            draw_.distances.cull = ordered(std::move(draw_.distances.cull), order);
         }
     }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace cases {
@@ -137,9 +138,20 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
     size_t rounded_vertices = 0;
     size_t first_rounded = 0;
     mpq_class worst = 0;  // pixels
+    std::array<Number, 3> scaled;
+    // Most vertices have the w of the one before.
+    float last_w = 1;
+    mpq_class last_exact_w = 1;
+    const auto exact_of = [&](float value) -> const mpq_class& {
+        if (std::bit_cast<uint32_t>(value) != std::bit_cast<uint32_t>(last_w)) {
+            last_w = value;
+            last_exact_w = exact(static_cast<double>(value));
+        }
+        return last_exact_w;
+    };
     for (size_t v = 0; v < vertices.size(); ++v) {
-        ExactVertex clip = vertices[v];
-        const Rounded w = round_to_binary32(clip.xyzw[3]);
+        const ExactVertex& given = vertices[v];
+        const Rounded w = round_to_binary32(given.xyzw[3]);
         if ((std::isinf(w.value) && !w.exact) ||
             (space != Space::clip && std::fpclassify(w.value) == FP_ZERO)) {
             context.error(where,
@@ -147,21 +159,31 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
             return std::nullopt;
         }
         if (space != Space::clip) {
-            const mpq_class exact_w = exact(static_cast<double>(w.value));
-            if (space == Space::pixels) {
-                clip.xyzw[0] = {(clip.x() - sx.origin) / sx.half, false};
-                clip.xyzw[1] = {(clip.y() - sy.origin) / sy.half, false};
-            }
+            const mpq_class& exact_w = exact_of(w.value);
             for (size_t i = 0; i < 3; ++i) {
-                Number& n = clip.xyzw.at(i);
-                n.value *= exact_w;
+                Number& n = scaled.at(i);
+                n.negative_zero = given.xyzw.at(i).negative_zero;
+                if (space == Space::pixels && i < 2) {
+                    const Scale& s = i == 0 ? sx : sy;
+                    n.value = given.xyzw.at(i).value - s.origin;
+                    n.value /= s.half;
+                    n.negative_zero = false;
+                } else {
+                    n.value = given.xyzw.at(i).value;
+                }
+                if (exact_w != 1) {
+                    n.value *= exact_w;
+                }
                 n.negative_zero = n.value == 0 && (n.negative_zero != (exact_w < 0));
             }
         }
+        const auto clip = [&](size_t i) -> const Number& {
+            return space == Space::clip || i == 3 ? given.xyzw.at(i) : scaled.at(i);
+        };
         std::array<float, 4> bits{};
         bool is_exact = w.exact;
         for (size_t i = 0; i < 4; ++i) {
-            const Rounded rounded = i == 3 ? w : round_to_binary32(clip.xyzw.at(i));
+            const Rounded rounded = i == 3 ? w : round_to_binary32(clip(i));
             if (std::isinf(rounded.value) && !rounded.exact) {
                 context.error(where, fmt::format("{} of vertex {} is larger than the largest "
                                                  "binary32 in clip space",
@@ -177,12 +199,13 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
         }
         first_rounded = rounded_vertices == 0 ? v : first_rounded;
         ++rounded_vertices;
-        const mpq_class exact_w = exact(static_cast<double>(w.value));
-        const mpq_class dx =
-            abs((exact(static_cast<double>(bits[0])) - clip.x()) / exact_w * sx.half);
-        const mpq_class dy =
-            abs((exact(static_cast<double>(bits[1])) - clip.y()) / exact_w * sy.half);
-        worst = std::max({worst, dx, dy});
+        const mpq_class& exact_w = exact_of(w.value);
+        for (size_t i = 0; i < 2; ++i) {
+            mpq_class moved = abs(exact(static_cast<double>(bits.at(i))) - clip(i).value);
+            moved /= exact_w;
+            moved *= i == 0 ? sx.half : sy.half;
+            worst = std::max<mpq_class>(worst, abs(moved));
+        }
     }
     if (rounded_vertices != 0) {
         notes.push_back(fmt::format(

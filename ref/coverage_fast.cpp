@@ -5,30 +5,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "ref/coverage_rows.hpp"
+#include "ref/coverage_snapped.hpp"
 #include "ref/half_plane.hpp"
 
 namespace ref::fast {
 
 namespace {
-
-// Columns [low, high] of a row.
-struct Columns {
-    int64_t low = 0, high = -1;
-    bool is_empty() const { return low > high; }
-};
-
-template <class T>
-T floor_divide(T n, T d) {
-    const T q = n / d;
-    return n % d != 0 && (n < 0) != (d < 0) ? q - 1 : q;
-}
-
-int64_t floor_pixel(int64_t units) {
-    return units >> kFixedBits;
-}
-int64_t ceil_pixel(int64_t units) {
-    return -((-units) >> kFixedBits);
-}
 
 // Largest |position| in S47.16 for which the 64-bit row arithmetic cannot overflow: with |x|, |y|
 // and vertex coordinates <= 2^30, |a|, |b| <= 2^31, |c| <= 2^61 + 1, so |a x + b y + c| < 3 * 2^61
@@ -41,27 +24,6 @@ static_assert(3 * (Int128{1} << 61) + 1 < (Int128{1} << 63), "a narrow edge func
 // 2^29, |a|, |b| <= 2^30 and |c| <= 2^60 + 1, and samples add at most 2^61.
 constexpr int64_t kNarrowParallelLimit = int64_t{1} << 29;
 static_assert((Int128{1} << 61) + (Int128{1} << 60) + 1 < (Int128{1} << 63));
-
-// A half plane along the rows of one sample number: value at column 0, steps per row and column.
-template <class T>
-struct RowPlane {
-    T value = 0, row_step = 0, column_step = 0;
-
-    void cut(Columns& c) const {
-        if (column_step > 0) {
-            // value + i step >= 0  <=>  i >= ceil(-value / step)
-            c.low = std::max(c.low, clamp(-floor_divide<T>(value, column_step)));
-        } else if (column_step < 0) {
-            c.high = std::min(c.high, clamp(floor_divide<T>(value, -column_step)));
-        } else if (value < 0) {
-            c.high = c.low - 1;
-        }
-    }
-    static int64_t clamp(T column) {
-        constexpr T kFar = int64_t{1} << 40;
-        return static_cast<int64_t>(std::clamp<T>(column, -kFar, kFar));
-    }
-};
 
 template <class T>
 std::vector<RowPlane<T>> row_planes(const std::vector<HalfPlane>& planes,
@@ -88,76 +50,6 @@ struct RowSet {
     Columns columns;
     int64_t row_low = 0, row_high = -1;
 };
-
-struct Grid {
-    FixedPoint offset;  // of the sample in its pixel
-    uint32_t sample = 0;
-    Columns may_columns, must_columns;
-    int64_t may_row_low = 0, may_row_high = -1;
-    int64_t must_row_low = 0, must_row_high = -1;
-};
-
-int64_t first_at(int64_t low, int64_t offset) {
-    return ceil_pixel(low - offset);
-}
-int64_t last_at(int64_t high, int64_t offset) {
-    return floor_pixel(high - offset);
-}
-
-Grid grid_of(const Window& w, uint32_t sample, const cases::Target& target) {
-    Grid g;
-    g.sample = sample;
-    g.offset = sample_position(0, 0, sample, target);
-    g.may_columns = {w.pixel_x0, w.pixel_x1 - 1};
-    g.may_row_low = w.pixel_y0;
-    g.may_row_high = w.pixel_y1 - 1;
-    if (w.is_viewport_ignored) {
-        return g;  // nothing must be drawn
-    }
-    const auto limit = [](const Range& r, int64_t offset, int64_t& low, int64_t& high) {
-        low = std::max(low, first_at(r.low, offset));
-        high = std::min(high, last_at(r.high, offset));
-    };
-    limit(w.zone_x, g.offset.x, g.may_columns.low, g.may_columns.high);
-    limit(w.zone_y, g.offset.y, g.may_row_low, g.may_row_high);
-    g.must_columns = g.may_columns;
-    g.must_row_low = g.may_row_low;
-    g.must_row_high = g.may_row_high;
-    limit(w.core_x, g.offset.x, g.must_columns.low, g.must_columns.high);
-    limit(w.core_y, g.offset.y, g.must_row_low, g.must_row_high);
-    return g;
-}
-
-// Appends one row: `may` minus `must` is either. The may intervals may overlap; must lies inside
-// them.
-void emit_row(std::vector<Columns>& may, const Columns& must, const Span& where,
-              std::vector<Span>& out) {
-    const auto emit = [&](int64_t low, int64_t high, Coverage coverage) {
-        if (low <= high) {
-            Span s = where;
-            s.x0 = static_cast<uint32_t>(low);
-            s.x1 = static_cast<uint32_t>(high + 1);
-            s.coverage = coverage;
-            out.push_back(s);
-        }
-    };
-    if (may.size() > 1) {
-        std::sort(may.begin(), may.end(),
-                  [](const Columns& a, const Columns& b) { return a.low < b.low; });
-    }
-    int64_t next = std::numeric_limits<int64_t>::min();  // first column not yet done
-    for (const Columns& c : may) {
-        const int64_t low = std::max(c.low, next);
-        if (must.is_empty() || must.high < low || must.low > c.high) {
-            emit(low, c.high, Coverage::either);
-        } else {
-            emit(low, must.low - 1, Coverage::either);
-            emit(std::max(low, must.low), std::min(c.high, must.high), Coverage::must);
-            emit(must.high + 1, c.high, Coverage::either);
-        }
-        next = std::max(next, c.high + 1);
-    }
-}
 
 template <class T>
 void scan_sets(const CoverageSets& sets, const Grid& g, const Span& base, std::vector<Span>& out) {
@@ -274,6 +166,15 @@ bool is_on_edge(const TriangleSetup& setup, const FixedPoint& p) {
 
 void scan(const TriangleSetup& setup, uint32_t triangle, const cases::Target& target,
           std::vector<Span>& out) {
+    if (is_plain_snapped(setup)) {
+        scan_snapped(setup, triangle, target, out);
+    } else {
+        scan_by_sets(setup, triangle, target, out);
+    }
+}
+
+void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Target& target,
+                  std::vector<Span>& out) {
     if (setup.kind == TriangleSetup::Kind::nothing) {
         return;
     }

@@ -267,23 +267,6 @@ std::array<const Outline*, 4> TriangleSetup::outlines(size_t& count) const {
     return out;
 }
 
-VertexBoxes::VertexBoxes(const cases::Case& c, const Limits& limits, cases::Profile profile)
-    : case_(c), limits_(limits), profile_(profile), entries_(c.draws.size()) {
-    for (size_t d = 0; d < c.draws.size(); ++d) {
-        entries_[d].resize(c.draws[d].positions.size());
-    }
-}
-
-const std::optional<Box>& VertexBoxes::of(uint32_t draw, uint32_t vertex) {
-    Entry& entry = entries_[draw][vertex];
-    if (!entry.is_known) {
-        const cases::Draw& d = case_.draws[draw];
-        entry.box = position_box(d.positions[vertex], d.viewport, limits_, profile_);
-        entry.is_known = true;
-    }
-    return entry.box;
-}
-
 Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile profile) {
     Window w;
     const cases::Rect& r = draw.scissor;

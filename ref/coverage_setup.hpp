@@ -8,6 +8,7 @@
 // at each sample. Each vertex of an outline is a box of positions.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -49,16 +50,51 @@ struct DistanceCut {
     HalfPlane may, must;
 };
 
+// The boxes of an outline, in one piece. Nearly every outline is a triangle, and there may be
+// hundreds of thousands: the first three are kept in place, all of them elsewhere once there are
+// more.
+class BoxList {
+  public:
+    BoxList() = default;
+    BoxList(const BoxList& other) { *this = other; }
+    BoxList(BoxList&&) noexcept = default;
+    BoxList& operator=(BoxList&&) noexcept = default;
+    BoxList& operator=(const BoxList& other) {
+        near_ = other.near_;
+        all_ = other.all_ ? std::make_unique<All>(*other.all_) : nullptr;
+        return *this;
+    }
+    ~BoxList() = default;
+
+    Box& operator[](size_t i) {
+        if (i >= kNear && !all_) {
+            all_ = std::make_unique<All>();
+            std::copy(near_.begin(), near_.end(), all_->begin());
+        }
+        return all_ ? (*all_)[i] : near_[i];
+    }
+    // One that has been written to.
+    const Box& operator[](size_t i) const { return data()[i]; }
+    const Box* data() const { return all_ ? all_->data() : near_.data(); }
+
+  private:
+    static constexpr size_t kNear = 3;
+    using All = std::array<Box, kMaxClippedVertices>;
+    std::array<Box, kNear> near_{};
+    std::unique_ptr<All> all_;
+};
+
 struct Outline {
     OutlineMode mode = OutlineMode::empty;
     bool is_on_grid = true;                             // every corner of the boxes is a grid point
     uint32_t count = 0;                                 // vertices, at most kMaxClippedVertices
-    std::array<Box, kMaxClippedVertices> boxes{};       // in the order of the triangle
+    BoxList boxes;                                      // in the order of the triangle
     std::array<EdgeLabel, kMaxClippedVertices> edge{};  // from vertex i to the next
     // The same with neighbours whose boxes overlap drawn together into one box: what `must` is
-    // decided by in mode boxes. Edges inside such a box cannot separate it from the rest.
+    // decided by in mode boxes, and empty in the others. Edges inside such a box cannot separate it
+    // from the rest.
     uint32_t must_count = 0;
-    std::array<Box, kMaxClippedVertices> must_boxes{};
+    BoxList must_boxes;
     // Of the edge from box i to the next.
     std::array<EdgeTest, kMaxClippedVertices> must_test{};
     std::array<int8_t, kMaxClippedVertices> tie_side{};  // top_left: sign of E for the other boxes
@@ -123,10 +159,15 @@ class VertexBoxes {
   public:
     VertexBoxes(const cases::Case& c, const Limits& limits, cases::Profile profile);
     const std::optional<Box>& of(uint32_t draw, uint32_t vertex);
+    // The box of a vertex in the view volume; null if the vertex is not in it, has no box or is not
+    // representable.
+    const Box* inside_view(uint32_t draw, uint32_t vertex);
 
   private:
+    enum class View : uint8_t { unknown, inside, outside };
     struct Entry {
         bool is_known = false;
+        View view = View::unknown;  // and representable
         std::optional<Box> box;
     };
     const cases::Case& case_;

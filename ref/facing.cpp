@@ -52,9 +52,12 @@ AreaSigns area_signs(std::span<const Box> boxes) {
 
 AreaSigns snapped_area_signs(std::span<const Box> boxes, int64_t grid_step) {
     AreaSigns signs;
-    for (const FixedPoint& a : grid_points(boxes[0], grid_step)) {
-        for (const FixedPoint& b : grid_points(boxes[1], grid_step)) {
-            for (const FixedPoint& c : grid_points(boxes[2], grid_step)) {
+    const auto first = grid_points(boxes[0], grid_step);
+    const auto second = grid_points(boxes[1], grid_step);
+    const auto third = grid_points(boxes[2], grid_step);
+    for (const FixedPoint& a : first) {
+        for (const FixedPoint& b : second) {
+            for (const FixedPoint& c : third) {
                 const Int128 area = edge_function(a, b, c);
                 signs.negative = signs.negative || area < 0;
                 signs.zero = signs.zero || area == 0;

@@ -3,7 +3,7 @@
 #include "ref/narrowing.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 
 namespace ref {
 
@@ -61,39 +61,7 @@ Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
       predicates_(predicates),
       complements_(complements_of(c, triangles)),
       depth_(depth),
-      vertex_numbers_(c.draws.size()) {}
-
-size_t Narrowing::VertexHash::operator()(const VertexKey& key) const {
-    uint64_t h = 0;
-    for (const uint32_t word : key) {
-        h = (h ^ word) * 0x9e3779b97f4a7c15U;
-        h ^= h >> 29U;
-    }
-    return static_cast<size_t>(h);
-}
-
-uint32_t Narrowing::vertex_number(uint32_t draw, uint32_t vertex) {
-    const cases::Draw& d = case_.draws[draw];
-    std::vector<uint32_t>& numbers = vertex_numbers_[draw];
-    numbers.resize(d.positions.size());
-    if (numbers[vertex] == 0) {
-        const cases::Viewport& v = d.viewport;
-        const glm::vec4& p = d.positions[vertex];
-        // An edge that clip distances cut elsewhere is another edge.
-        const glm::vec4 distance =
-            d.distances.clip_count > 0 ? d.distances.clip[vertex] : glm::vec4(0);
-        VertexKey key{d.distances.clip_count, d.layer};
-        const std::array<float, 12> parts = {p.x,        p.y,        p.z,        p.w,
-                                             v.x,        v.y,        v.width,    v.height,
-                                             distance.x, distance.y, distance.z, distance.w};
-        for (size_t k = 0; k < parts.size(); ++k) {
-            key[k + 2] = std::bit_cast<uint32_t>(parts[k]);
-        }
-        const auto next = static_cast<uint32_t>(numbers_.size() + 1);
-        numbers[vertex] = numbers_.try_emplace(key, next).first->second;
-    }
-    return numbers[vertex];
-}
+      vertex_numbers_(c) {}
 
 bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
                           std::vector<Side>& sides) {
@@ -135,8 +103,8 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
         if (!has_edge[e]) {
             continue;
         }
-        const uint32_t a = vertex_number(triangle.draw, triangle.vertex[e]);
-        const uint32_t b = vertex_number(triangle.draw, triangle.vertex[(e + 1) % 3]);
+        const uint32_t a = vertex_numbers_.of(triangle.draw, triangle.vertex[e]);
+        const uint32_t b = vertex_numbers_.of(triangle.draw, triangle.vertex[(e + 1) % 3]);
         sides.push_back({edge_number(triangle, e), (a < b) == (setup.orientation > 0), member});
     }
     return has_edge[0] || has_edge[1] || has_edge[2];

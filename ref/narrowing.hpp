@@ -20,10 +20,8 @@
 // triangle that only the distance leaves it open.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -34,6 +32,7 @@
 #include "ref/expectation.hpp"
 #include "ref/triangle.hpp"
 #include "ref/triangle_setups.hpp"
+#include "ref/vertex_numbers.hpp"
 
 namespace ref {
 
@@ -114,11 +113,6 @@ class Narrowing {
         uint64_t edge = 0;
         uint32_t triangle = 0;
     };
-    // What makes two vertices the same: layer, the bits of position, viewport and clip distances.
-    using VertexKey = std::array<uint32_t, 14>;
-    struct VertexHash {
-        size_t operator()(const VertexKey& key) const;
-    };
 
     // Of the triangles that may cover p; sets of them alone.
     std::vector<Fixed> fixed_sets(const FixedPoint& p, std::span<const Hit> hits);
@@ -138,8 +132,6 @@ class Narrowing {
     int count_of(const FixedPoint& p, std::span<const Hit> hits,
                  const std::vector<uint32_t>& members) const;
     int winding_of(const FixedPoint& p, const TriangleSetup& setup, const Outline& outline) const;
-    // Equal for vertices of one layer with bitwise-equal position, viewport and clip distances.
-    uint32_t vertex_number(uint32_t draw, uint32_t vertex);
 
     const cases::Case& case_;
     cases::Profile profile_;
@@ -149,8 +141,7 @@ class Narrowing {
     uint32_t sample_ = 0;                  // of the pixel, the one at hand
     std::vector<Complement> complements_;  // by triangle, or empty
     DepthTest* depth_;                     // null: every fragment passes and writes
-    std::unordered_map<VertexKey, uint32_t, VertexHash> numbers_;
-    std::vector<std::vector<uint32_t>> vertex_numbers_;  // per draw; 0 = not yet numbered
+    VertexNumbers vertex_numbers_;
     std::vector<EdgeOwner> edge_owners_;  // sorted by edge, then triangle; when first asked for
 };
 

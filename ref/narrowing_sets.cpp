@@ -25,13 +25,14 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t m) {
 }  // namespace
 
 uint64_t Narrowing::edge_number(const Triangle& triangle, uint32_t edge) {
-    const uint32_t a = vertex_number(triangle.draw, triangle.vertex[edge]);
-    const uint32_t b = vertex_number(triangle.draw, triangle.vertex[(edge + 1) % 3]);
+    const uint32_t a = vertex_numbers_.of(triangle.draw, triangle.vertex[edge]);
+    const uint32_t b = vertex_numbers_.of(triangle.draw, triangle.vertex[(edge + 1) % 3]);
     return uint64_t{std::min(a, b)} << 32U | std::max(a, b);
 }
 
 std::span<const Narrowing::EdgeOwner> Narrowing::triangles_at(uint64_t edge) {
     if (edge_owners_.empty()) {
+        edge_owners_.reserve(3 * setups_.known().size());
         for (const uint32_t t : setups_.known()) {
             for (uint32_t e = 0; e < 3; ++e) {
                 edge_owners_.push_back({edge_number(triangles_[t], e), t});

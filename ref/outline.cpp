@@ -71,7 +71,7 @@ void draw_together(Outline& o, bool has_tie_rule) {
                                      [](EdgeLabel e) { return e >= kFirstClipEdge; })) {
         // A triangle as it is: nothing is drawn together and no edge is cut.
         o.must_count = o.count;
-        std::copy_n(o.boxes.begin(), o.count, o.must_boxes.begin());
+        o.must_boxes = o.boxes;
         for (size_t i = 0; i < o.count; ++i) {
             o.must_test[i] = EdgeTest::strict;
             o.tie_side[i] = 0;
@@ -81,7 +81,7 @@ void draw_together(Outline& o, bool has_tie_rule) {
         }
         return;
     }
-    std::vector<Box> boxes(o.boxes.begin(), o.boxes.begin() + o.count);
+    std::vector<Box> boxes(o.vertices().begin(), o.vertices().end());
     std::vector<EdgeLabel> labels(o.edge.begin(), o.edge.begin() + o.count);
     bool has_changed = o.count > 3;
     while (has_changed && boxes.size() > 1) {
@@ -99,7 +99,9 @@ void draw_together(Outline& o, bool has_tie_rule) {
         }
     }
     o.must_count = static_cast<uint32_t>(boxes.size());
-    std::copy(boxes.begin(), boxes.end(), o.must_boxes.begin());
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        o.must_boxes[i] = boxes[i];
+    }
     const bool is_cut = std::any_of(o.edge.begin(), o.edge.begin() + o.count,
                                     [](EdgeLabel e) { return e >= kFirstClipEdge; });
     for (size_t i = 0; i < boxes.size(); ++i) {
@@ -152,15 +154,16 @@ void choose_mode(Outline& o, int64_t step, cases::Profile profile) {
         o.mode = OutlineMode::empty;
         return;
     }
+    if (profile == cases::Profile::direct3d && o.count >= 3 && o.is_on_grid) {
+        const int64_t candidates = candidate_count(o, step);
+        if (o.count == 3 ? candidates <= kMaxCandidates : candidates == 1 && is_convex(o)) {
+            o.mode = OutlineMode::snapped;
+            o.must_count = 0;
+            return;
+        }
+    }
     draw_together(o, profile == cases::Profile::direct3d);
     o.mode = OutlineMode::boxes;
-    if (profile != cases::Profile::direct3d || o.count < 3 || !o.is_on_grid) {
-        return;
-    }
-    const int64_t candidates = candidate_count(o, step);
-    if (o.count == 3 ? candidates <= kMaxCandidates : candidates == 1 && is_convex(o)) {
-        o.mode = OutlineMode::snapped;
-    }
 }
 
 AreaSigns signs_of(const Outline& o, int64_t step) {

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/triangle.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <span>
+
 namespace ref {
 
 namespace {
 
 // Assembles the vertices of one run between restarts. Numbers from first on count up the
 // primitives.
-void assemble_run(const cases::Draw& draw, uint32_t draw_index, const std::vector<uint32_t>& run,
+void assemble_run(const cases::Draw& draw, uint32_t draw_index, std::span<const uint32_t> run,
                   uint32_t& primitive, std::vector<Triangle>& out) {
     const bool is_last = draw.provoking == cases::ProvokingVertex::last;
     const auto add = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t last) {
@@ -20,6 +24,9 @@ void assemble_run(const cases::Draw& draw, uint32_t draw_index, const std::vecto
         ++primitive;
     };
     const size_t n = run.size();
+    if (out.empty()) {  // nearly every case has one draw of one run
+        out.reserve(draw.topology == cases::Topology::triangle_list ? n / 3 : n);
+    }
     switch (draw.topology) {
         case cases::Topology::triangle_list:
             for (size_t i = 0; i + 2 < n; i += 3) {
@@ -47,24 +54,23 @@ std::vector<Triangle> assemble(const cases::Case& c) {
         const cases::Draw& draw = c.draws[d];
         const auto draw_index = static_cast<uint32_t>(d);
         uint32_t primitive = 0;
-        std::vector<uint32_t> run;
         if (!draw.indices) {
-            run.resize(draw.positions.size());
-            for (size_t i = 0; i < run.size(); ++i) {
-                run[i] = static_cast<uint32_t>(i);
-            }
+            std::vector<uint32_t> run(draw.positions.size());
+            std::iota(run.begin(), run.end(), 0U);
             assemble_run(draw, draw_index, run, primitive, out);
             continue;
         }
-        for (const uint32_t index : *draw.indices) {
-            if (draw.primitive_restart && index == cases::kRestartIndex) {
-                assemble_run(draw, draw_index, run, primitive, out);
-                run.clear();
-            } else {
-                run.push_back(index);
+        std::span<const uint32_t> rest(*draw.indices);
+        while (draw.primitive_restart) {
+            const auto restart = std::find(rest.begin(), rest.end(), cases::kRestartIndex);
+            if (restart == rest.end()) {
+                break;
             }
+            const auto size = static_cast<size_t>(restart - rest.begin());
+            assemble_run(draw, draw_index, rest.first(size), primitive, out);
+            rest = rest.subspan(size + 1);
         }
-        assemble_run(draw, draw_index, run, primitive, out);
+        assemble_run(draw, draw_index, rest, primitive, out);
     }
     return out;
 }

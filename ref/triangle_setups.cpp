@@ -3,8 +3,7 @@
 #include "ref/triangle_setups.hpp"
 
 #include <algorithm>
-
-#include "ref/clip.hpp"
+#include <cassert>
 
 namespace ref {
 
@@ -26,7 +25,7 @@ TriangleSetups::TriangleSetups(const cases::Case& c, const std::vector<Triangle>
       limits_(limits),
       profile_(profile),
       boxes_(c, limits, profile),
-      slot_(triangles.size(), 0) {
+      slot_(triangles.size(), kUnknown) {
     for (const cases::Draw& d : c.draws) {
         windows_.push_back(window_of(c, d, profile));
     }
@@ -36,14 +35,22 @@ TriangleSetups::TriangleSetups(const cases::Case& c, const std::vector<Triangle>
 }
 
 const TriangleSetup& TriangleSetups::operator[](uint32_t t) {
-    if (slot_[t] == 0) {
+    if (slot_[t] == kUnknown || slot_[t] == kForgotten) {
         const Triangle& triangle = triangles_[t];
         kept_.push_back(
             set_up(case_, triangle, limits_, profile_, boxes_, windows_[triangle.draw]));
-        known_.push_back(t);
+        if (slot_[t] == kUnknown) {
+            known_.push_back(t);
+        }
         slot_[t] = static_cast<uint32_t>(kept_.size());
     }
     return kept_[slot_[t] - 1];
+}
+
+void TriangleSetups::forget_last(uint32_t t) {
+    assert(slot_[t] == kept_.size());
+    kept_.pop_back();
+    slot_[t] = kForgotten;
 }
 
 bool TriangleSetups::may_touch_a_sample(uint32_t t) {
@@ -52,16 +59,10 @@ bool TriangleSetups::may_touch_a_sample(uint32_t t) {
     if (draw.distances.clip_count > 0) {
         return true;  // what clip distances cut off is snapped anew
     }
-    const auto& positions = draw.positions;
     Box hull;
     for (size_t k = 0; k < 3; ++k) {
-        const uint32_t v = triangle.vertex[k];
-        const glm::vec4& clip = positions[v];
-        if (!is_representable(clip, profile_) || !is_inside(clip)) {
-            return true;
-        }
-        const std::optional<Box>& box = boxes_.of(triangle.draw, v);
-        if (!box) {
+        const Box* const box = boxes_.inside_view(triangle.draw, triangle.vertex[k]);
+        if (box == nullptr) {
             return true;
         }
         hull = k == 0 ? *box

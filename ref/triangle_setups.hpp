@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The set-ups of a case's triangles. Most triangles of a mesh at scale lie between the samples:
-// they are never set up, and what is asked for is kept.
+// they are never set up, and what is asked for is kept, unless it is forgotten.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,10 @@ class TriangleSetups {
     // The set-up of triangle t, made when first asked for; valid as long as this object.
     const TriangleSetup& operator[](uint32_t t);
 
+    // Gives up the set-up that was made last, that of triangle t. It depends on nothing but the
+    // triangle, so it is made again, the same, if it is asked for again.
+    void forget_last(uint32_t t);
+
     // False only if it is proven that no sample lies in the closed rectangle around the boxes of
     // the triangle's vertices, within which everything stays that a device may draw of a triangle
     // inside the view volume. Such a triangle must not cover anything.
@@ -35,13 +39,15 @@ class TriangleSetups {
     const std::vector<uint32_t>& known() const { return known_; }
 
   private:
+    static constexpr uint32_t kUnknown = 0, kForgotten = 0xffffffffU;
+
     const cases::Case& case_;
     const std::vector<Triangle>& triangles_;
     Limits limits_;
     cases::Profile profile_;
     VertexBoxes boxes_;
     std::vector<Window> windows_;     // by draw
-    std::vector<uint32_t> slot_;      // 1 + place in kept_, by triangle; 0: not set up
+    std::vector<uint32_t> slot_;      // 1 + place in kept_, by triangle; or one of those below
     std::deque<TriangleSetup> kept_;  // stable addresses
     std::vector<uint32_t> known_;
     std::vector<FixedPoint> samples_;  // of a pixel

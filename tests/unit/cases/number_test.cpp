@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "cases/binary32.hpp"
 #include "cases/expression.hpp"
@@ -208,6 +209,49 @@ TEST(Binary32, AgreesWithTheProcessorOnEveryDouble) {
                                     (std::isfinite(expected) &&
                                      exact(static_cast<double>(expected)) == exact(value))));
     }));
+}
+
+// Numerators and denominators of every length up to 64 bits and a little more, ties between two
+// binary32 and numbers beside them, subnormals, and what overflows.
+TEST(Binary32, IsTheSameIn128BitsAndInRationals) {
+    std::mt19937_64 random(20261122);
+    const auto whole = [&random](unsigned long most) {
+        mpz_class n = random() >> (random() % 64);
+        if (random() % 4 == 0) {
+            n = (n >> 40 << 1) + 1;  // short and odd
+        }
+        return mpz_class(n << (random() % most)) + (random() % 8 == 0 ? 1 : 0);
+    };
+    size_t ties = 0;
+    size_t subnormal = 0;
+    for (int n = 0; n < 200000; ++n) {
+        mpz_class num = whole(3) + 1;
+        mpz_class den = whole(3) + 1;
+        if (n % 4 == 1) {  // a tie or next to one
+            num = (mpz_class(random() % (1U << 24U)) << 1) + 1;
+            den = 1;
+            num <<= random() % 30;
+            num += n % 8 == 1 ? 0 : 1;
+            mpz_mul_2exp(den.get_mpz_t(), den.get_mpz_t(), random() % 63);
+        } else if (n % 4 == 2) {  // some far below 1, some far above
+            num <<= random() % 140;
+            den <<= random() % 200;
+        }
+        mpq_class q(num, den);
+        q.canonicalize();
+        q = n % 3 == 0 ? mpq_class(-q) : q;
+        const Rounded want = round_wide(q);
+        const Rounded got = round_to_binary32(q);
+        ASSERT_EQ(std::bit_cast<uint32_t>(got.value), std::bit_cast<uint32_t>(want.value)) << q;
+        ASSERT_EQ(got.exact, want.exact) << q;
+        subnormal += std::fpclassify(want.value) == FP_SUBNORMAL ? 1U : 0U;
+        if (!want.exact && std::isfinite(want.value)) {
+            const Neighbours near = neighbours(q);
+            ties += 2 * q == exact(double{near.below}) + exact(double{near.above}) ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(ties, 1000U);
+    EXPECT_GT(subnormal, 100U);
 }
 
 TEST(Binary32, NeighboursEnclose) {
