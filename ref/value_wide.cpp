@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "ref/one_point.hpp"
@@ -19,6 +20,7 @@ namespace {
 template <class T>
 struct Round {
     std::vector<Reach<T>> reaches;
+    std::vector<Fit> fits;
     WideVerdict probes;
 };
 
@@ -68,37 +70,43 @@ Answer has_one_point(const WideSet<mpq_class>& set, const Candidate<mpq_class>& 
     return Answer::yes;
 }
 
-// Keeps the verdict with fewer failing values, then with the smaller ratio.
-void keep_better(WideVerdict& best, WideVerdict&& next, bool is_first) {
-    const bool better =
-        is_first || next.failing.size() < best.failing.size() ||
-        (next.failing.size() == best.failing.size() && next.worst_ratio < best.worst_ratio);
-    if (better) {
-        best = std::move(next);
+// How many values do not fit, and the largest error in budgets.
+struct Score {
+    size_t failing = 0;
+    double worst_ratio = 0;
+};
+
+Score score_of(std::span<const Fit> fits, std::span<const size_t> judged,
+               const WideVerdict& probes) {
+    Score out{probes.failing.size(), probes.worst_ratio};
+    for (const size_t i : judged) {
+        out.failing += fits[i].answer == Answer::no ? 1U : 0U;
+        out.worst_ratio = std::max(out.worst_ratio, fits[i].ratio);
     }
+    return out;
 }
 
-template <class T>
-void judge_value(const Reach<T>& reach, size_t index, double device, const Store& store,
-                 WideVerdict& verdict) {
-    const Fit f = fit(reach, device, store);
-    if (f.answer == Answer::unknown) {
-        verdict.is_known = false;
-        return;
-    }
-    verdict.worst_ratio = std::max(verdict.worst_ratio, f.ratio);
-    if (f.answer == Answer::no) {
-        verdict.failing.push_back(index);
-        verdict.ratios.push_back(f.ratio);
-    }
+// Fewer failing values, then the smaller ratio.
+bool is_better(const Score& a, const WideVerdict& than) {
+    return a.failing < than.failing.size() ||
+           (a.failing == than.failing.size() && a.worst_ratio < than.worst_ratio);
 }
 
-// Adds what the probes fail.
-void append(const WideVerdict& probes, WideVerdict& verdict) {
-    verdict.is_known = verdict.is_known && probes.is_known;
-    verdict.failing.insert(verdict.failing.end(), probes.failing.begin(), probes.failing.end());
-    verdict.ratios.insert(verdict.ratios.end(), probes.ratios.begin(), probes.ratios.end());
-    verdict.worst_ratio = std::max(verdict.worst_ratio, probes.worst_ratio);
+WideVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> judged,
+                       const WideVerdict& probes, const Score& score, ref::Basis basis) {
+    WideVerdict out;
+    out.basis = basis;
+    out.worst_ratio = score.worst_ratio;
+    for (const size_t i : judged) {
+        if (fits[i].answer == Answer::no) {
+            out.failing.push_back(i);
+            out.ratios.push_back(fits[i].ratio);
+        }
+    }
+    out.failing.insert(out.failing.end(), probes.failing.begin(), probes.failing.end());
+    out.ratios.insert(out.ratios.end(), probes.ratios.begin(), probes.ratios.end());
+    out.ok = out.failing.empty();
+    return out;
 }
 
 }  // namespace
@@ -110,28 +118,33 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                        std::span<const size_t> only) {
     const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
                                         [](const Quantity& q) { return q.kind == Kind::probe; });
-    WideVerdict best;
-    bool is_first = true;
+    std::vector<size_t> judged;
+    for (size_t i = 0; i < quantities.size(); ++i) {
+        if (is_judged(quantities[i], i, only)) {
+            judged.push_back(i);
+        }
+    }
+    const WideVerdict unknown{false, false, ref::Basis::unsnapped, 0, {}, {}};
+    std::optional<WideVerdict> best;
     const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
     std::vector<Round<T>> kept(rounds);
     const Evaluation<T>* before = nullptr;
     for (const Evaluation<T>& where : evaluations) {
         const Shared<T> shared(quantities, only, std::exchange(before, &where), where);
         for (size_t c = 0; c < rounds; ++c) {
-            WideVerdict verdict;
-            verdict.basis = set.candidates[c].name;
             if (set.candidates[c].is_piece) {
                 const Answer near =
                     is_near(set.candidates[c].bases.front(), where.sample, set.margin);
                 if (near == Answer::unknown) {
-                    return {false, false, verdict.basis, 0, {}, {}};
+                    return unknown;
                 }
                 if (near == Answer::no) {
                     continue;
                 }
             }
-            std::vector<Reach<T>>& reaches = kept[c].reaches;
+            auto& [reaches, fits, probes] = kept[c];
             reaches.resize(quantities.size());
+            fits.resize(quantities.size());
             for (const size_t i : shared.fresh) {
                 reaches[i] = {};
             }
@@ -141,35 +154,33 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                 add_candidate(set, set.candidates[k], quantities, is_projectable, where,
                               std::span<const size_t>(shared.fresh), device, reaches);
             }
-            for (size_t i = 0; i < quantities.size(); ++i) {
-                if (!is_judged(quantities[i], i, only)) {
-                    continue;
-                }
-                judge_value(reaches[i], i, static_cast<double>(quantities[i].get(device)),
-                            store_of(set, quantities[i]), verdict);
-                if (!verdict.is_known) {
-                    return verdict;
+            for (const size_t i : shared.fresh) {
+                const Quantity& q = quantities[i];
+                fits[i] = fit(reaches[i], static_cast<double>(q.get(device)), store_of(set, q));
+                if (fits[i].answer == Answer::unknown) {
+                    return unknown;
                 }
             }
-            if (has_probes) {
-                WideVerdict& probes = kept[c].probes;
-                if (shared.has_fresh_probes) {
-                    probes = {};
-                    judge_probes(set, std::span(set.candidates).subspan(first, last - first),
-                                 quantities, is_projectable, where, place, device, only, probes);
-                }
-                append(probes, verdict);
-                if (!verdict.is_known) {
-                    return verdict;
+            if (has_probes && shared.has_fresh_probes) {
+                probes = {};
+                judge_probes(set, std::span(set.candidates).subspan(first, last - first),
+                             quantities, is_projectable, where, place, device, only, probes);
+                if (!probes.is_known) {
+                    return unknown;
                 }
             }
-            verdict.ok = verdict.failing.empty();
+            const Score score = score_of(fits, judged, probes);
+            if (best && score.failing > 0 && !is_better(score, *best)) {
+                continue;
+            }
+            WideVerdict verdict =
+                verdict_of(fits, judged, probes, score, set.candidates[c].name);
             if (verdict.ok && where.is_one_point) {
                 size_t blamed = 0;
                 switch (has_one_point(set, set.candidates[c], quantities, where, device, only,
                                       blamed)) {
                     case Answer::unknown:
-                        return {false, false, verdict.basis, 0, {}, {}};
+                        return unknown;
                     case Answer::no:
                         verdict.ok = false;
                         verdict.failing.push_back(blamed);
@@ -183,11 +194,12 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
             if (verdict.ok && verdict.worst_ratio <= 1) {
                 return verdict;
             }
-            keep_better(best, std::move(verdict), is_first);
-            is_first = false;
+            if (!best || is_better({verdict.failing.size(), verdict.worst_ratio}, *best)) {
+                best = std::move(verdict);
+            }
         }
     }
-    return best;
+    return best.value_or(WideVerdict{});
 }
 
 template <class T>
