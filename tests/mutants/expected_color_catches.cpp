@@ -60,7 +60,7 @@ std::vector<ExpectedCatch> expected_color_catches() {
          {"blend/presets", "combination/several-draws"}},
         {Fault::blend_shift_only,
          Profile::vulkan,
-         {"blend/factors", "combination/several-draws"}},
+         {"blend/presets", "combination/several-draws"}},
         {Fault::blend_source_unclamped,
          Profile::vulkan,
          {"blend/clamp", "combination/blend-changes"}},
