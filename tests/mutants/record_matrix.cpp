@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Runs every fault and every legal device over the suite and writes down what was found. Slow; the
-// target record_mutants does it by night.
+// target record_mutants does all of it.
 //
-//     record_matrix faults LOG [--quick] [FAULT...]  adds to LOG; files it already holds are not
-//     run record_matrix legal LOG [--quick]              adds to LOG; devices it holds are not run
+//     record_matrix faults LOG [--quick] [FAULT...]  adds to LOG but files that it holds
+//     record_matrix legal LOG [--quick]              adds to LOG but devices that it holds
 //     record_matrix condense LOG FOLDER              writes FOLDER/matrix.tsv and legal.tsv
 //
 // A case file is asked about a fault leaf by leaf, until a leaf has a finding at the profile
