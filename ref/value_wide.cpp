@@ -173,8 +173,7 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
             if (best && score.failing > 0 && !is_better(score, *best)) {
                 continue;
             }
-            WideVerdict verdict =
-                verdict_of(fits, judged, probes, score, set.candidates[c].name);
+            WideVerdict verdict = verdict_of(fits, judged, probes, score, set.candidates[c].name);
             if (verdict.ok && where.is_one_point) {
                 size_t blamed = 0;
                 switch (has_one_point(set, set.candidates[c], quantities, where, device, only,

@@ -87,8 +87,7 @@ uint32_t VertexNumbers::of(uint32_t draw, uint32_t vertex) {
     }
     const auto hash = static_cast<uint32_t>(hash_of(draw, vertex));
     size_t k = hash & (slots_.size() - 1);
-    while (slots_[k].number != 0 &&
-           (slots_[k].hash != hash || !is_same(slots_[k], draw, vertex))) {
+    while (slots_[k].number != 0 && (slots_[k].hash != hash || !is_same(slots_[k], draw, vertex))) {
         k = (k + 1) & (slots_.size() - 1);
     }
     if (slots_[k].number == 0) {

@@ -33,7 +33,7 @@ class VertexNumbers {
     void grow();
 
     const cases::Case& case_;
-    std::vector<uint32_t> kinds_;                 // of draws: equal for equal layer, viewport, count
+    std::vector<uint32_t> kinds_;  // of draws: equal for equal layer, viewport, count
     std::vector<std::vector<uint32_t>> numbers_;  // per draw; 0 = not yet numbered
     // The first vertex of each number, in the first free slot from its hash on (Knuth, The Art of
     // Computer Programming 3, 6.4, algorithm L). At most half full; the size is a power of two.

@@ -64,8 +64,8 @@ TriangleSetup snapped(RandomCases& random, const cases::Case& c) {
 }
 
 auto fields(const fast::Span& s) {
-    return std::array<uint32_t, 6>{
-        s.y, s.sample, s.x0, s.x1, s.triangle, static_cast<uint32_t>(s.coverage)};
+    return std::array<uint32_t, 6>{s.y,  s.sample,   s.x0,
+                                   s.x1, s.triangle, static_cast<uint32_t>(s.coverage)};
 }
 
 TEST(MeshPaths, SnappedTrianglesAreScannedAsTheirHalfPlanesSay) {
@@ -102,7 +102,7 @@ TEST(MeshPaths, SnappedTrianglesFarAwayAreLeftToTheHalfPlanes) {
 // Few values, so that many vertices are the same, and some that only their bits tell apart.
 float component(RandomCases& random) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    constexpr float kValues[] = {0.0F,     -0.0F, 1.0F, 0x1.000002p0F, 0x1p-149F,
+    constexpr float kValues[] = {0.0F,       -0.0F,    1.0F, 0x1.000002p0F, 0x1p-149F,
                                  -0x1p-149F, 0x1p127F, kNan, -kNan};
     return kValues[random.integer(0, 8)];
 }
@@ -139,9 +139,9 @@ TEST(MeshPaths, VertexNumbersAreThoseOfAMapOfAllBits) {
                 draw.distances.clip_count > 0 ? draw.distances.clip[v] : glm::vec4(0);
             std::array<uint32_t, 14> key{draw.distances.clip_count, draw.layer};
             size_t at = 2;
-            for (const float f : {p.x, p.y, p.z, p.w, draw.viewport.x, draw.viewport.y,
-                                  draw.viewport.width, draw.viewport.height, cut.x, cut.y, cut.z,
-                                  cut.w}) {
+            for (const float f :
+                 {p.x, p.y, p.z, p.w, draw.viewport.x, draw.viewport.y, draw.viewport.width,
+                  draw.viewport.height, cut.x, cut.y, cut.z, cut.w}) {
                 key.at(at++) = std::bit_cast<uint32_t>(f);
             }
             const auto next = static_cast<uint32_t>(known.size() + 1);
