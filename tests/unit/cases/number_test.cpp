@@ -215,7 +215,7 @@ TEST(Binary32, AgreesWithTheProcessorOnEveryDouble) {
 // binary32 and numbers beside them, subnormals, and what overflows.
 TEST(Binary32, IsTheSameIn128BitsAndInRationals) {
     std::mt19937_64 random(20261122);
-    const auto whole = [&random](unsigned long most) {
+    const auto whole = [&random](unsigned long most) -> mpz_class {
         mpz_class n = random() >> (random() % 64);
         if (random() % 4 == 0) {
             n = (n >> 40 << 1) + 1;  // short and odd
