@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <limits>
 
 #include "ref/component.hpp"
@@ -19,14 +20,8 @@ namespace {
 
 using cases::ComponentKind;
 
-// Finite halves and infinities as they are; not for NaN.
 double half_of(uint32_t code) {
-    const auto fraction = static_cast<int>(code & 0x3ffU);
-    const auto exponent = static_cast<int>(code >> 10U & 0x1fU);
-    const double size = exponent == 0x1f ? std::numeric_limits<double>::infinity()
-                        : exponent == 0  ? std::ldexp(fraction, -24)
-                                         : std::ldexp(fraction + 0x400, exponent - 25);
-    return (code & 0x8000U) == 0 ? size : -size;
+    return static_cast<double>(glm::unpackHalf1x16(static_cast<uint16_t>(code)));
 }
 
 // The next half above a finite one; infinity above the largest.

@@ -28,13 +28,15 @@ int64_t narrow_edge(const FixedPoint& a, const FixedPoint& b, const FixedPoint& 
 using Corners = std::array<FixedPoint, 3>;
 
 struct Candidate {
+    Corners corners;
     std::array<RowPlane<int64_t>, 3> planes;
     Columns columns;
     int64_t row_low, row_high;
 };
 
 // The columns and rows of samples in the candidate's bounds; false if there are none.
-bool bound(const Corners& v, const Grid& g, Candidate& out) {
+bool bound(const Grid& g, Candidate& out) {
+    const Corners& v = out.corners;
     const auto [x0, x1] = std::minmax({v[0].x, v[1].x, v[2].x});
     const auto [y0, y1] = std::minmax({v[0].y, v[1].y, v[2].y});
     out.columns = {std::max(g.may_columns.low, first_at(x0, g.offset.x)),
@@ -45,10 +47,10 @@ bool bound(const Corners& v, const Grid& g, Candidate& out) {
 }
 
 // The edges at the first sample of the row.
-void set_planes(const Corners& v, const FixedPoint& origin, Candidate& out) {
+void set_planes(const FixedPoint& origin, Candidate& out) {
     for (size_t i = 0; i < 3; ++i) {
-        const FixedPoint& a = v.at(i);
-        const FixedPoint& b = v.at((i + 1) % 3);
+        const FixedPoint& a = out.corners.at(i);
+        const FixedPoint& b = out.corners.at((i + 1) % 3);
         out.planes.at(i) = {narrow_edge(a, b, origin) - (is_top_left(a, b) ? 0 : 1),
                             (b.x - a.x) * kFixedOne, (a.y - b.y) * kFixedOne};
     }
@@ -93,8 +95,8 @@ void scan_candidates(std::span<const Corners> corners, const Grid& g, bool has_m
     int64_t row_high = std::numeric_limits<int64_t>::min();
     std::vector<Candidate> candidates;
     for (const Corners& v : corners) {
-        Candidate c;
-        if (!bound(v, g, c)) {
+        Candidate c{v, {}, {}, 0, 0};
+        if (!bound(g, c)) {
             has_must = false;  // covers nothing here
             continue;
         }
@@ -102,12 +104,8 @@ void scan_candidates(std::span<const Corners> corners, const Grid& g, bool has_m
         row_high = std::max(row_high, c.row_high);
         candidates.push_back(c);
     }
-    size_t next = 0;
-    for (const Corners& v : corners) {
-        Candidate c;
-        if (bound(v, g, c)) {
-            set_planes(v, {g.offset.x, g.offset.y + row_low * kFixedOne}, candidates[next++]);
-        }
+    for (Candidate& c : candidates) {
+        set_planes({g.offset.x, g.offset.y + row_low * kFixedOne}, c);
     }
     scan_rows(candidates, g, has_must, row_low, row_high, base, out);
 }

@@ -23,7 +23,8 @@ class TriangleSetups {
     TriangleSetups(const cases::Case& c, const std::vector<Triangle>& triangles,
                    const Limits& limits, cases::Profile profile);
 
-    // The set-up of triangle t, made when first asked for; valid as long as this object.
+    // The set-up of triangle t, made when first asked for; valid as long as this object, or until
+    // it is forgotten.
     const TriangleSetup& operator[](uint32_t t);
 
     // Gives up the set-up that was made last, that of triangle t. It depends on nothing but the
@@ -47,7 +48,7 @@ class TriangleSetups {
     cases::Profile profile_;
     VertexBoxes boxes_;
     std::vector<Window> windows_;     // by draw
-    std::vector<uint32_t> slot_;      // 1 + place in kept_, by triangle; or one of those below
+    std::vector<uint32_t> slot_;      // 1 + place in kept_, by triangle; or one of the two above
     std::deque<TriangleSetup> kept_;  // stable addresses
     std::vector<uint32_t> known_;
     std::vector<FixedPoint> samples_;  // of a pixel
