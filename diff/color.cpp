@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace diff {
 
@@ -33,10 +32,7 @@ std::optional<ref::ColorWitness> ColorComparison::witness_of(size_t index,
         witness.writer = *writer;
         const int32_t attribute = case_.draws[expectation_.triangles[*writer].draw].color.attribute;
         if (attribute >= 0) {
-            const glm::vec4& written = capture_.attributes[static_cast<size_t>(attribute)][index];
-            const bool finite = std::isfinite(written.x) && std::isfinite(written.y) &&
-                                std::isfinite(written.z) && std::isfinite(written.w);
-            witness.written = finite ? &written : nullptr;
+            witness.written = &capture_.attributes[static_cast<size_t>(attribute)][index];
         }
     }
     return witness;

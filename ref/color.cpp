@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace ref {
 
@@ -124,7 +126,8 @@ bool ColorReference::replaces(uint32_t triangle, bool masked) const {
 }
 
 color::Source ColorReference::source_of(uint32_t triangle, SampleId id, const glm::vec4* written) {
-    const bool is_captured = written != nullptr && output_of(triangle).attribute >= 0;
+    const bool is_captured = written != nullptr && output_of(triangle).attribute >= 0 &&
+                             !glm::any(glm::isnan(*written)) && !glm::any(glm::isinf(*written));
     return is_captured ? point_source(*written) : source_of(triangle, id);
 }
 

@@ -23,8 +23,10 @@ namespace ref {
 // What a device tells of a sample besides its colour, if it has instruments.
 struct ColorWitness {
     uint32_t hits = 0;
-    uint32_t writer = 0;                 // the triangle that wrote last, if hits > 0
-    const glm::vec4* written = nullptr;  // what its fragment wrote, if that was captured
+    uint32_t writer = 0;  // the triangle that wrote last, if hits > 0
+    // What its fragment wrote, if that was captured; nothing is concluded from NaN or infinity,
+    // which the attribute's own plane has findings for.
+    const glm::vec4* written = nullptr;
 };
 
 struct ColorVerdict {

@@ -132,6 +132,7 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
     for (const Evaluation<T>& where : evaluations) {
         const Shared<T> shared(quantities, only, std::exchange(before, &where), where);
         for (size_t c = 0; c < rounds; ++c) {
+            // All evaluations of a fragment have one sample: a piece is near in all or in none.
             if (set.candidates[c].is_piece) {
                 const Answer near =
                     is_near(set.candidates[c].bases.front(), where.sample, set.margin);

@@ -237,6 +237,38 @@ TEST(ColorMemory, ColoursBeyondItsCapacityAreComputed) {
     check_remembered(ColorReference::kRemembered / 4, true, random);  // in each of four draws
 }
 
+// What a device wrote down of its fragment may be anything; NaN has no rational.
+TEST(ColorMemory, WhatIsNoNumberIsNotTakenForWhatWasWritten) {
+    std::mt19937 random(6);
+    const cases::Case c = flat_colors(cases::ColorFormat::rgba32_float, 6, false, random);
+    const Expectation expectation = expect(c, Limits{8}, Profile::direct3d);
+    ColorReference reference(c, expectation);
+    size_t compared = 0;
+    for (size_t index = 0; index < expectation.samples.size(); ++index) {
+        const auto begin = expectation.fragments_begin[index];
+        const auto hits = std::span(expectation.fragments)
+                              .subspan(begin, expectation.fragments_begin[index + 1] - begin);
+        if (hits.empty() ||
+            !std::all_of(hits.begin(), hits.end(), [](auto& h) { return h.is_certain; })) {
+            continue;
+        }
+        ++compared;
+        const SampleId id = sample_at(c.target, index);
+        ColorWitness witness{static_cast<uint32_t>(hits.size()), hits.back().triangle, nullptr};
+        const std::array<uint32_t, 4> codes = reference.codes(index, id, witness);
+        for (const float bad : {std::nanf(""), HUGE_VALF, -HUGE_VALF}) {
+            for (int k = 0; k < 4; ++k) {
+                glm::vec4 written(0.25F);
+                written[k] = bad;
+                witness.written = &written;
+                ASSERT_EQ(reference.codes(index, id, witness), codes) << index;
+                ASSERT_TRUE(reference.explains(index, id, codes, witness)) << index;
+            }
+        }
+    }
+    EXPECT_GT(compared, 100U);
+}
+
 TEST(ColorMemory, KeepsNoMoreThanItsCapacity) {
     ColorMemory memory({}, 2);
     const auto first = memory.name_of(0, true, {});
