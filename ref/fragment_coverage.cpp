@@ -103,10 +103,17 @@ const TriangleSetup& FragmentCoverage::setup(uint32_t t) {
 }
 
 const PixelCoverage& FragmentCoverage::of(uint32_t t, uint32_t x, uint32_t y) {
-    if (!last_ || last_->t != t || last_->x != x || last_->y != y) {
+    if (!last_ || !last_->is_of(t, x, y)) {
         last_ = {t, x, y, coverage_of(case_.target, setup(t), x, y, fast::classify)};
     }
-    return last_->coverage;
+    return last_->answer;
+}
+
+const Points& FragmentCoverage::region(uint32_t t, uint32_t x, uint32_t y) {
+    if (!last_region_ || !last_region_->is_of(t, x, y)) {
+        last_region_ = {t, x, y, pixel_region(setup(t), x, y)};
+    }
+    return last_region_->answer;
 }
 
 PixelCoverage FragmentCoverage::exact(uint32_t t, uint32_t x, uint32_t y) {

@@ -44,7 +44,9 @@ class FragmentCoverage {
                      const std::vector<Triangle>& triangles);
 
     const PixelCoverage& of(uint32_t t, uint32_t x, uint32_t y);
-    // The same from rationals alone.
+    // pixel_region() of the triangle's set-up; valid until the next call.
+    const std::vector<value::Point<mpq_class>>& region(uint32_t t, uint32_t x, uint32_t y);
+    // As of(), from rationals alone.
     PixelCoverage exact(uint32_t t, uint32_t x, uint32_t y);
     const TriangleSetup& setup(uint32_t t);
 
@@ -55,11 +57,16 @@ class FragmentCoverage {
     const std::vector<Triangle>& triangles_;
     VertexBoxes boxes_;
     std::vector<std::optional<TriangleSetup>> setups_;
+    template <class Answer>
     struct Last {
         uint32_t t = 0, x = 0, y = 0;
-        PixelCoverage coverage;
+        Answer answer;
+        bool is_of(uint32_t triangle, uint32_t column, uint32_t row) const {
+            return t == triangle && x == column && y == row;
+        }
     };
-    std::optional<Last> last_;
+    std::optional<Last<PixelCoverage>> last_;
+    std::optional<Last<std::vector<value::Point<mpq_class>>>> last_region_;
 };
 
 }  // namespace ref

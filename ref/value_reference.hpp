@@ -181,7 +181,7 @@ struct ValueReference::Impl {
     value::Fragment fragment(uint32_t t, SampleId id, Profile at, bool is_exact = false) {
         value::Fragment f = covered_fragment(t, id, at, is_exact);
         if (at != Profile::direct3d && c.target.samples > 1 && value::has_centroid(*f.draw)) {
-            f.region = pixel_region(coverage_at(at).setup(t), id.x, id.y);
+            f.region = coverage_at(at).region(t, id.x, id.y);
         }
         return f;
     }
