@@ -65,12 +65,15 @@ class AttributeReader {
         const TomlValue* from = table_.find("from");
         const size_t kind =
             from != nullptr ? context_.word(*from, "from", kFrom).value_or(SIZE_MAX) : SIZE_MAX;
-        for (const std::string_view key : {"seed", "components"}) {
-            if (table_.find(key) != nullptr && kind != 1) {
-                context_.error(table_.find(key)->where,
-                               fmt::format("{} goes with from = \"random\" only", key));
-                return false;
-            }
+        if (const TomlValue* seed = table_.find("seed"); seed != nullptr && kind != 1) {
+            context_.error(seed->where, "seed goes with from = \"random\" only");
+            return false;
+        }
+        if (const TomlValue* count = table_.find("components");
+            count != nullptr && from == nullptr) {
+            context_.error(count->where,
+                           "components goes with from = \"random\" or \"barycentric\" only");
+            return false;
         }
         attribute_.values.assign(source_.vertices.size(), glm::vec4(0.0F));
         if (const TomlValue* value = table_.find("values")) {
@@ -203,9 +206,18 @@ class AttributeReader {
                            "from = \"barycentric\" needs a triangle list without indices");
             return false;
         }
-        attribute_.components = 3;
+        const TomlValue* count = table_.find("components");
+        const std::optional<int64_t> components = count != nullptr
+                                                      ? context_.integer(*count, "components", 1, 3)
+                                                      : std::optional<int64_t>(3);
+        if (!components) {
+            return false;
+        }
+        attribute_.components = static_cast<uint32_t>(*components);
         for (size_t v = 0; v < source_.vertices.size(); ++v) {
-            attribute_.values[v][static_cast<glm::vec4::length_type>(v % 3)] = 1.0F;
+            if (const size_t corner = v % 3; corner < attribute_.components) {
+                attribute_.values[v][static_cast<glm::vec4::length_type>(corner)] = 1.0F;
+            }
         }
         return true;
     }

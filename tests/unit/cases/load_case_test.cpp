@@ -237,6 +237,10 @@ TEST(LoadCase, MakesAttributes) {
               (Vectors{{0, 0.5, 1, 0}, {0.125, 0.25, 2, 0}, {0, 8.5, 1, 0}}));
     EXPECT_EQ(values("from = \"barycentric\"").values,
               (Vectors{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}));
+    EXPECT_EQ(values("from = \"barycentric\"").components, 3U);
+    const Attribute two = values("from = \"barycentric\"\ncomponents = 2");
+    EXPECT_EQ(two.components, 2U);
+    EXPECT_EQ(two.values, (Vectors{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}}));
     const Attribute random = values("from = \"random\"\nseed = 5\ncomponents = 2");
     EXPECT_EQ(random.components, 2U);
     std::set<float> distinct;

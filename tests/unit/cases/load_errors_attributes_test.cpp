@@ -65,6 +65,12 @@ seed = -1)~"),
     {attribute(R"~(from = "random"
 components = 5)~"),
      R"~(f:10:14: error: components is not an integer from 1 to 4)~"},
+    {attribute(R"~(from = "barycentric"
+components = 4)~"),
+     R"~(f:10:14: error: components is not an integer from 1 to 3)~"},
+    {attribute(R"~(plane = "x"
+components = 2)~"),
+     R"~(f:10:14: error: components goes with from = "random" or "barycentric" only)~"},
     {attribute(R"~(name = "a"
 constant = 1
 [[draw.attribute]]
