@@ -146,6 +146,25 @@ struct Matcher {
         return chosen;
     }
 
+    // "coverage/size has 2 leaves, the first is coverage/size:k=1,o=64"; empty if there is no such
+    // case.
+    std::string leaves_of(const std::string& file) const {
+        size_t count = 0;
+        std::string first;
+        for (const Case& c : all) {
+            if (c.id == file) {
+                return file + " has no leaves";
+            }
+            if (c.id.starts_with(file + ":")) {
+                first = count == 0 ? c.id : first;
+                ++count;
+            }
+        }
+        return count == 0 ? ""
+                          : fmt::format("{} has {} {}, the first is {}", file, count,
+                                        count == 1 ? "leaf" : "leaves", first);
+    }
+
     // Why no case matches, and what may have been meant: a family, a case, a file.
     std::string nothing_matches(const std::string& word) const {
         if (word.ends_with(".toml")) {
@@ -165,6 +184,11 @@ struct Matcher {
         const bool is_folder = std::find(folders.begin(), folders.end(), bare) != folders.end();
         const std::string id = is_folder ? "" : nearest_name(word, ids);
         const std::string folder = is_folder ? bare : id.empty() ? nearest_name(bare, folders) : "";
+        if (id.empty() && folder.empty() && word.find(':') != std::string::npos) {
+            if (const std::string leaves = leaves_of(part_before_leaf(word)); !leaves.empty()) {
+                return "no case matches " + word + "; " + leaves;
+            }
+        }
         return with_hint("no case matches " + word, folder.empty() ? id : folder + "/**");
     }
 };

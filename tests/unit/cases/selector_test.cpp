@@ -99,6 +99,14 @@ TEST(Selector, SaysWhatIsWrong) {
          "error: no case matches coverage/half-squar; did you mean coverage/half-square?"},
         {"coverage/size:k=3,o=64",
          "error: no case matches coverage/size:k=3,o=64; did you mean coverage/size:k=1,o=64?"},
+        {"coverage/size:winding=reversed",
+         "error: no case matches coverage/size:winding=reversed; coverage/size has 2 leaves, the "
+         "first "
+         "is "
+         "coverage/size:k=1,o=64"},
+        {"coverage/half-square:side=12345",
+         "error: no case matches coverage/half-square:side=12345; coverage/half-square has no "
+         "leaves"},
         {"nothing-like-it", "error: no case matches nothing-like-it"},
         {"@rule:cover.insid", "error: no rule is called cover.insid; did you mean cover.inside?"},
         {"@rule:clip.volume", "error: no case checks the rule clip.volume"},
