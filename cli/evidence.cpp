@@ -158,6 +158,7 @@ class EvidenceMaker {
         value.quantity = v.quantity;
         value.exact = v.exact.size() <= 48 ? v.exact : std::string();
         value.nearest = v.nearest;
+        value.also = v.also;
         value.budget = v.is_flat ? 0 : v.budget;
         value.low = v.nearest - ref::kBudgetFactor * value.budget;
         value.high = v.nearest + ref::kBudgetFactor * value.budget;

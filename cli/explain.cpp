@@ -52,8 +52,8 @@ std::string values_text(const std::vector<ref::ExpectedValue>& values) {
     std::string text;
     for (const ref::ExpectedValue& v : values) {
         if (v.is_flat) {
-            text +=
-                fmt::format("        {:<14} {:.9g} exactly, bit for bit\n", v.quantity, v.nearest);
+            text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", v.quantity, v.nearest,
+                                v.also.empty() ? "exactly" : v.also);
         } else {
             text +=
                 fmt::format("        {:<14} {:.9g} = {}, accepted within {} x {:.3g}\n", v.quantity,

@@ -56,6 +56,9 @@ Json values_json(Reference& r, uint32_t triangle, size_t index) {
                           {"low", number(v.nearest - margin)},
                           {"high", number(v.nearest + margin)},
                           {"flat", v.is_flat}});
+        if (!v.also.empty()) {
+            values.back()["also"] = v.also;
+        }
     }
     return values;
 }

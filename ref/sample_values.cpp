@@ -3,7 +3,9 @@
 #include "ref/sample_values.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <span>
@@ -122,6 +124,19 @@ bool is_mask_in(const Fragment& f, float value, Profile profile) {
     return profile == Profile::vulkan || mask == own;
 }
 
+// "or A, B": component `c` of the pairs, but for `nominal`, each once.
+std::string others(std::span<const Pair> pairs, uint32_t c, float nominal) {
+    std::vector<float> numbers;
+    for (const Pair& p : pairs) {
+        const float n = c == 0 ? p.x : p.y;
+        if (!same_bits(n, nominal) && std::none_of(numbers.begin(), numbers.end(),
+                                                   [n](float m) { return same_bits(n, m); })) {
+            numbers.push_back(n);
+        }
+    }
+    return numbers.empty() ? "" : fmt::format("or {}", fmt::join(numbers, ", "));
+}
+
 }  // namespace
 
 bool is_sample_kind(Kind kind) {
@@ -205,6 +220,37 @@ std::string allowed_text(const Fragment& f, const Quantity& q) {
                                      f.coverage.may & f.draw->multisample.sample_mask)
                        : fmt::format("covered samples of one invocation, {} among them",
                                      f.id.sample);
+        case Kind::linear:
+        case Kind::perspective:
+        case Kind::flat:
+        case Kind::probe:
+            break;
+    }
+    return {};
+}
+
+std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) {
+    const float number = nominal_number(f, q);
+    const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
+    switch (q.kind) {
+        case Kind::pixel_centre:
+            return others(frag_coords(f, profile), q.component, number);
+        case Kind::sample_position:
+            return others(sample_positions(f, profile), q.component, number);
+        case Kind::sample_id:
+            return profile == Profile::vulkan ? "or that of another sample of the pixel" : "";
+        case Kind::sample_mask: {
+            const uint32_t state = f.draw->multisample.sample_mask;
+            const uint32_t must = f.coverage.must & state;
+            const uint32_t may = (f.coverage.may & state) | 1U << f.id.sample;
+            if (rate == ShadingRate::sample && profile != Profile::vulkan) {
+                return "";
+            }
+            if (rate == ShadingRate::fragment && f.coverage.is_one_fragment) {
+                return must == may ? "" : fmt::format("or others from {:#b} to {:#b}", must, may);
+            }
+            return fmt::format("or others of {:#b} with sample {}", may, f.id.sample);
+        }
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:

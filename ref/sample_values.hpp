@@ -31,4 +31,8 @@ bool may_be(const Fragment& fragment, const Quantity& quantity, const FragmentVa
 float nominal_number(const Fragment& fragment, const Quantity& quantity);
 std::string allowed_text(const Fragment& fragment, const Quantity& quantity);
 
+// What is allowed besides the likeliest number: "or 1.375, 1.875". Empty if nothing is.
+std::string also_allowed(const Fragment& fragment, const Quantity& quantity,
+                         cases::Profile profile);
+
 }  // namespace ref::value

@@ -61,10 +61,11 @@ struct FragmentVerdict {
 // One value as the reference has it, for pictures and explanations.
 struct ExpectedValue {
     std::string quantity;
-    std::string exact;     // "p/q"
-    double nearest = 0;    // the exact value rounded
-    double budget = 0;     // one budget, absolute
-    bool is_flat = false;  // compared bit for bit
+    std::string exact;      // "p/q"
+    double nearest = 0;     // the exact value rounded
+    double budget = 0;      // one budget, absolute
+    bool is_flat = false;   // compared bit for bit
+    std::string also = {};  // if is_flat: "or 1.375", other numbers that are right as well
 };
 
 // All that a value may be under a profile, rounded outwards to binary64.

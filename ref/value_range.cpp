@@ -134,6 +134,8 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
                                [static_cast<glm::vec4::length_type>(q.component)];
             }
             e.nearest = static_cast<double>(f);
+            e.also =
+                q.kind == Kind::flat ? std::string() : also_allowed(fragment, q, impl_->profile);
             e.exact = std::isfinite(f) ? mpq_class(e.nearest).get_str() : fmt::format("{}", f);
         } else {
             const auto index = static_cast<size_t>(&q - all.data());

@@ -48,6 +48,7 @@ struct SampleValue {
     double nearest = 0;        // the exact value rounded to binary64
     double budget = 0;         // one budget, absolute; 0 if it is compared bit for bit
     double low = 0, high = 0;  // what is accepted, all set-ups together
+    std::string also;          // "or 1.375": other numbers that are right where bits are compared
     bool has_device = false;   // the device wrote it
     uint32_t bits = 0;         // then: the binary32 that it wrote
     friend bool operator==(const SampleValue&, const SampleValue&) = default;

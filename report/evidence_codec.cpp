@@ -209,10 +209,14 @@ Geometry decode_geometry(const Json& json) {
 Json encode_evidence(const SampleEvidence& e) {
     Json values = Json::array();
     for (const SampleValue& v : e.values) {
-        values.push_back(
+        Json list =
             Json::array({encode_text(v.quantity), encode_text(v.exact), encode_number(v.nearest),
                          encode_number(v.budget), encode_number(v.low), encode_number(v.high),
-                         v.has_device ? Json(v.bits) : Json(nullptr)}));
+                         v.has_device ? Json(v.bits) : Json(nullptr)});
+        if (!v.also.empty()) {
+            list.push_back(encode_text(v.also));
+        }
+        values.push_back(std::move(list));
     }
     return Json{{"at", Json::array({e.x, e.y, e.sample})},
                 {"writer", encode_text(e.writer)},
@@ -240,6 +244,7 @@ SampleEvidence decode_evidence(const Json& json) {
         const Json& bits = entry(list, 6, "\"values\"");
         v.has_device = !bits.is_null();
         v.bits = v.has_device ? u32(bits, "bits") : 0;
+        v.also = list.size() > 7 ? decode_text(list[7], "also") : std::string();
         e.values.push_back(std::move(v));
     }
     return e;

@@ -181,6 +181,7 @@ std::vector<size_t> add_evidence(const Run& run, Json& list) {
             for (SampleValue& v : e.values) {
                 v.quantity = printable(v.quantity);
                 v.exact = printable(v.exact);
+                v.also = printable(v.also);
             }
             values.push_back(encode_evidence(e));
         }

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "ref/expectation.hpp"
 #include "ref/fragment_coverage.hpp"
@@ -277,6 +280,101 @@ TEST(BuiltIns, SampleIdAndPosition) {
     EXPECT_EQ(accepted(at, kPart, built_in(kPart, {0.125F, 0.625F, 0, 0}, true)), "vpd");
     EXPECT_EQ(accepted(at, kPart, built_in(kPart, {0.375F, 0.125F, 0, 0}, true)), "v--");
     EXPECT_EQ(accepted(at, kPart, built_in(kPart, {0.375F, 0.625F, 0, 0}, true)), "---");
+}
+
+// Numbers of a quantity that a profile accepts, tried one by one; `put` writes one into a fragment.
+template <class Put>
+std::set<float> accepted_numbers(ValueReference& values, SampleId id, const std::string& quantity,
+                                 const std::vector<float>& numbers, Put put) {
+    std::set<float> out;
+    for (const float n : numbers) {
+        for (const float other : numbers) {
+            FragmentValues v = fragment(id, {0, 0}, {0, 0});
+            put(v, n, other);
+            const FragmentVerdict verdict = values.judge(0, id, v);
+            const auto blamed = std::count_if(
+                verdict.mismatches.begin(), verdict.mismatches.end(), [&](const auto& m) {
+                    return m.quantity.substr(0, m.quantity.find('.')) ==
+                           quantity.substr(0, quantity.find('.'));
+                });
+            if (blamed == 0) {
+                out.insert(n);
+            }
+        }
+    }
+    return out;
+}
+
+// What explain and the report say besides the likeliest number is what judging accepts.
+TEST(BuiltIns, OtherNumbersThatAreRightAreTold) {
+    std::vector<float> places;  // in the pixel
+    for (const uint32_t k : {2U, 6U, 8U, 10U, 14U}) {
+        places.push_back(static_cast<float>(k) / 16);
+    }
+    const std::vector<float> whole = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    size_t several = 0;
+    size_t single = 0;
+    const auto check = [&](const cases::Case& c, const std::string& name,
+                           const std::vector<float>& numbers, float origin, auto put) {
+        for (const Profile profile : cases::kProfiles) {
+            for (const SampleId id : {kWhole, kPart, SampleId{4, 3, 0}}) {
+                if ((c.draws[0].multisample.sample_mask >> id.sample & 1U) == 0) {
+                    continue;  // nothing is written there
+                }
+                ValueReference values(c, {8}, profile);
+                const std::set<float> right = accepted_numbers(
+                    values, id, name, numbers,
+                    [&](FragmentValues& v, float a, float b) { put(v, id, a, b); });
+                for (const ExpectedValue& e : values.expected(0, id)) {
+                    if (e.quantity != name) {
+                        continue;
+                    }
+                    EXPECT_TRUE(e.is_flat);
+                    EXPECT_EQ(e.also.empty(), right.size() == 1) << e.also;
+                    (e.also.empty() ? single : several) += 1;
+                    const float base = origin < 0 ? 0 : static_cast<float>(id.x);
+                    EXPECT_EQ(right.count(static_cast<float>(e.nearest) - base), 1U);
+                    if (e.also.find_first_not_of("or ,.0123456789") == std::string::npos) {
+                        std::set<float> told = {static_cast<float>(e.nearest) - base};
+                        std::istringstream list(e.also.empty() ? "" : e.also.substr(3));
+                        for (std::string number; std::getline(list, number, ',');) {
+                            told.insert(std::stof(number) - base);
+                        }
+                        EXPECT_EQ(told, right) << e.also;
+                    }
+                }
+            }
+        }
+    };
+    const auto at_x = [](FragmentValues& v, SampleId id, float x, float y) {
+        v.frag_coord.x = static_cast<float>(id.x) + x;
+        v.frag_coord.y = static_cast<float>(id.y) + y;
+    };
+    for (const Auxiliary auxiliary : {Auxiliary::none, Auxiliary::sample}) {
+        for (const float least : {0.0F, 0.25F, 0.5F, 1.0F}) {
+            cases::Case c = triangle(auxiliary);
+            if (least > 0) {
+                c.draws[0].multisample.min_sample_shading = least;
+            }
+            check(c, "frag_coord.x", places, 0, at_x);
+        }
+    }
+    const auto in_attribute = [](FragmentValues& v, SampleId, float x, float y) {
+        v.attributes[0] = {x, y, 0, 0};
+    };
+    check(with_source(Source::sample_position, 2), "attribute 0.x", places, -1, in_attribute);
+    check(with_source(Source::sample_id, 1), "attribute 0.x", {0, 1, 2, 3, 4}, -1, in_attribute);
+    for (const float least : {0.0F, 0.5F, 1.0F}) {
+        cases::Case c = with_source(Source::sample_mask_in, 1);
+        if (least > 0) {
+            c.draws[0].multisample.min_sample_shading = least;
+        }
+        check(c, "attribute 0.x", whole, -1, in_attribute);
+        c.draws[0].multisample.sample_mask = 0b0101;
+        check(c, "attribute 0.x", whole, -1, in_attribute);
+    }
+    EXPECT_GT(several, 20U);
+    EXPECT_GT(single, 20U);
 }
 
 TEST(BuiltIns, InvocationsAreCountedUp) {

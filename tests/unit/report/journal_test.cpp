@@ -202,6 +202,7 @@ TEST(evidence, that_is_malformed_is_an_error) {
         {"/evidence/0/at", Json::array({1, 2})},
         {"/evidence/0/values/0", Json::array({"depth"})},
         {"/evidence/0/values/0/6", "bits"},
+        {"/evidence/0/values/1/7", 1},
         {"/pictures/errors", "%"},
         {"/pictures/width", 1e10}};
     for (const auto& [place, value] : breaks) {

@@ -103,6 +103,7 @@ SampleEvidence make_evidence() {
     value.bits = 0x7fc00001;
     SampleValue missing;
     missing.quantity = "depth";
+    missing.also = "or 1.375";
     e.values = {value, missing};
     return e;
 }
@@ -220,7 +221,8 @@ Run hostile_run() {
         r.id += kHostile;
         r.catches = kHostile;
         for (SampleEvidence& e : r.evidence) {
-            e.writer = e.allowed = e.hits = e.values[0].quantity = e.values[0].exact = kHostile;
+            e.writer = e.allowed = e.hits = e.values[0].quantity = e.values[0].exact =
+                e.values[1].also = kHostile;
         }
         r.file = r.description = r.bug = r.reason = r.step = r.signal = r.stderr_text = kHostile;
         r.rerun = r.explain = r.worst_quantity = kHostile;
