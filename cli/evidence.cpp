@@ -160,8 +160,9 @@ class EvidenceMaker {
         value.nearest = v.nearest;
         value.also = v.also;
         value.budget = v.is_flat ? 0 : v.budget;
-        value.low = v.nearest - ref::kBudgetFactor * value.budget;
-        value.high = v.nearest + ref::kBudgetFactor * value.budget;
+        const double reach = ref::budget_factor(expectation_.profile) * value.budget;
+        value.low = v.nearest - reach;
+        value.high = v.nearest + reach;
         if (plane.kind != Plane::Kind::frag_coord && !v.is_flat) {
             const ref::ValueRange range = values_.range(triangle, id,
                                                         plane.kind == Plane::Kind::depth

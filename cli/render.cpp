@@ -49,7 +49,7 @@ Json number(double v) {
 Json values_json(Reference& r, uint32_t triangle, size_t index) {
     Json values = Json::array();
     for (const ref::ExpectedValue& v : r.values.expected(triangle, r.id(index))) {
-        const double margin = v.is_flat ? 0 : ref::kBudgetFactor * v.budget;
+        const double margin = v.is_flat ? 0 : ref::budget_factor(r.expectation.profile) * v.budget;
         values.push_back({{"quantity", v.quantity},
                           {"exact", v.exact},
                           {"nearest", number(v.nearest)},

@@ -34,7 +34,6 @@ namespace ref {
 
 namespace {
 
-using value::kProvenFactor;
 using value::kUnderflow;
 using value::kUnitRoundoff;
 
@@ -62,12 +61,6 @@ struct Linear {
 struct Region {
     mpq_class x0, y0, x1, y1;
 };
-
-// K budgets, with u = 2^-24; about 1 part in 10^5 instead at profile vulkan (ref/value_candidates).
-mpq_class budget_factor(cases::Profile profile) {
-    return profile == cases::Profile::vulkan ? mpq_class(kProvenFactor * 16777216) / 100000
-                                             : mpq_class(kBudgetFactor);
-}
 
 struct Spread {
     mpq_class x, y;
@@ -297,7 +290,7 @@ std::vector<Linear> homogeneous_planes(const CutSource& s, std::span<const Clipp
 
 std::vector<Linear> planes_of(const CutSource& s, std::span<const ClippedVertex> polygon,
                               const Region& region, const Spread& moved) {
-    const mpq_class factor = budget_factor(s.profile);
+    const mpq_class factor = exact_budget_factor(s.profile);
     const uint32_t n = s.triangle.distance_count;
     const bool is_before_eye = std::all_of(s.triangle.clip.begin(), s.triangle.clip.end(),
                                            [](const glm::vec4& v) { return v.w >= 0x1p-126F; });

@@ -23,8 +23,6 @@ inline constexpr double kUnitRoundoff = 0x1p-24;  // u of binary32
 inline constexpr double kUnderflow = 0x1p-123;
 // One rounding at profile vulkan: "about 1 part in 10^5".
 inline constexpr double kVulkanRoundoff = 1e-5;
-// Budgets that are proven to hold to first order for the evaluations of docs/precision.md.
-inline constexpr int kProvenFactor = 8;
 
 template <class T>
 struct Point {

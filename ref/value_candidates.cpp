@@ -23,16 +23,6 @@ T from_float(float f) {
     return T(static_cast<double>(f));
 }
 
-// K at profile vulkan: about 1 part in 10^5 for each operation instead of u, and the factor that
-// docs/precision.md proves for every order of evaluation considered there.
-template <class T>
-T factor_for(cases::Profile profile) {
-    if (profile == cases::Profile::vulkan) {
-        return from_exact<T>(mpq_class(kProvenFactor * 16777216) / 100000);
-    }
-    return T(static_cast<double>(kBudgetFactor));
-}
-
 // Coordinates that a box offers on one axis: its ends.
 std::vector<int64_t> ends(int64_t low, int64_t high) {
     return low == high ? std::vector<int64_t>{low} : std::vector<int64_t>{low, high};
@@ -311,7 +301,7 @@ template <class T>
 WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> quantities,
                          const Limits& limits, cases::Profile profile) {
     WideSet<T> set;
-    set.factor = factor_for<T>(profile);
+    set.factor = from_exact<T>(exact_budget_factor(profile));
     set.margin = T(std::ldexp(1.0, -limits.subpixel_bits));
     set.any_of_all = profile == cases::Profile::vulkan;
     // w of a visible point is a convex combination of the w_i.

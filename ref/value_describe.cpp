@@ -36,8 +36,8 @@ std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const P
                            v->nearest);
     }
     const std::string text = v->exact ? exact_text(*v->exact) : std::string();
-    return fmt::format("{:.9g}{} within {} x {:.3g}{}", v->nearest,
-                       text.empty() ? "" : " = " + text, kBudgetFactor, v->budget,
+    return fmt::format("{:.9g}{} within {:.4g} x {:.3g}{}", v->nearest,
+                       text.empty() ? "" : " = " + text, budget_factor(place.profile), v->budget,
                        derivative_of(q.probe) ? ", or the difference of another quad" : "");
 }
 

@@ -174,16 +174,16 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
             const auto v = value::exact_value(basis, q, place);
             if (v.exists == Answer::yes) {
                 const std::string text = value::exact_text(v.value);
-                m.expected =
-                    fmt::format("{:.9g}{} within {} x {:.3g}", v.value.get_d(),
-                                text.empty() ? "" : " = " + text, kBudgetFactor, v.budget.get_d());
+                m.expected = fmt::format("{:.9g}{} within {:.4g} x {:.3g}", v.value.get_d(),
+                                         text.empty() ? "" : " = " + text, budget_factor(profile),
+                                         v.budget.get_d());
                 reach = v.reach.get_d();
                 if (q.attribute == -2 && !is_plain_depth(primitive)) {
                     m.rule = depth_rule(primitive, v.value.get_d());
                     m.expected =
-                        fmt::format("{:.9g} or near it (plane {:.9g} within {} x {:.3g})",
+                        fmt::format("{:.9g} or near it (plane {:.9g} within {:.4g} x {:.3g})",
                                     nominal_depth(primitive, basis, v.value.get_d(), profile),
-                                    v.value.get_d(), kBudgetFactor, v.budget.get_d());
+                                    v.value.get_d(), budget_factor(profile), v.budget.get_d());
                 }
             }
         }

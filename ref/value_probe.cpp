@@ -20,7 +20,7 @@ template <class T>
 struct Accepted {
     Range<T> range;
     Range<double> values;  // without the reach, rounded, for reports
-    double budget = 0;     // of the first basis, likewise
+    double budget = 0;  // the largest of the bases', likewise: what is accepted is within K of it
     bool is_known = true;
     bool is_undefined = false;
     bool is_first = true;
@@ -48,9 +48,9 @@ Accepted<T> value_over(const WideSet<T>& set, std::span<const Candidate<T>> cand
                 if (out.is_first) {
                     out.range = {low, high};
                     out.values = {nearest_double(v.value), nearest_double(v.value)};
-                    out.budget = nearest_double(v.budget);
                     out.is_first = false;
                 }
+                out.budget = std::max(out.budget, nearest_double(v.budget));
                 out.values.low = std::min(out.values.low, nearest_double(v.value));
                 out.values.high = std::max(out.values.high, nearest_double(v.value));
                 out.range.low = smaller(out.range.low, low);

@@ -9,6 +9,7 @@ const GLYPHS = {pass: "\u2713", unsupported: "\u2013", skip: "\u21b7", xfail: "x
 const STATUSES = Object.keys(GLYPHS);
 const EXPECTED = new Set(["pass", "unsupported", "skip", "xfail"]);
 const SPECIFICATION = "https://registry.khronos.org/vulkan/specs/latest/html/vkspec.html#";
+const MOST_BUDGETS = data.profile === "vulkan" ? 8e-5 * 2 ** 24 : 2;  // ref::budget_factor
 const byId = (id) => document.getElementById(id);
 const string = (k) => data.strings[k] === undefined ? "" : data.strings[k];  // texts that many cases share
 

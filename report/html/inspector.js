@@ -85,7 +85,6 @@ function findingsPart(told) {
 }
 
 const MAX_STEPS = 1e7;
-const MOST_BUDGETS = 2;  // ref::kBudgetFactor
 function valueRow(value, told, complete) {
   const [quantity, exact, nearestText, budgetText, lowText, highText, bits, also = ""] = value;
   const nearest = numberOf(nearestText), budget = numberOf(budgetText), low = numberOf(lowText), high = numberOf(highText);

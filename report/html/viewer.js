@@ -182,7 +182,7 @@ function legendEntries(scene, view) {
   if (view === "error") {
     const ramp = el("canvas", {width: 320, height: 28, class: "ramp", "aria-hidden": "true"}), context = ramp.getContext("2d");
     for (let x = 0; x < 320; ++x) { context.fillStyle = heatColor(Math.round(128 + 8 * HEAT_SPAN * (x / 160 - 1)), theme()); context.fillRect(x, 0, 1, 28); }
-    list.push(el("li", {class: "scale"}, "\u2264 1/256", ramp, "\u2265 256 budgets; 2 are accepted. Framed: not accepted"));
+    list.push(el("li", {class: "scale"}, "\u2264 1/256", ramp, "\u2265 256 budgets; " + Math.round(MOST_BUDGETS) + " are accepted. Framed: not accepted"));
   } else {
     list.push(entry("1 hit", box(palette.hits[1])), entry("2 hits", box(palette.hits[2])));
     if (present.has(1)) { list.push(entry("free", (c) => drawFree(c, palette, 0, 0, 18, 18))); }

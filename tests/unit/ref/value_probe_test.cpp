@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "value_case.hpp"
 
@@ -166,6 +167,62 @@ TEST(ValueProbe, OffsetsAreRoundedInEitherDirectionOrNotAtAll) {
         EXPECT_FALSE(accepts(c, {1.4375}, profile));
         EXPECT_FALSE(accepts(c, {1.625}, profile));
         EXPECT_EQ(accepts(c, {1.53125}, profile), profile != Profile::direct3d);
+    }
+}
+
+// A report tells an error in budgets: of what is accepted never more than K, that is two, or at
+// profile vulkan eight of 1e-5 instead of 2^-24 (docs/precision.md), a hundredth more for the
+// denominator's own error.
+TEST(ValueProbe, WhatIsAcceptedIsWithinItsBudgets) {
+    size_t accepted = 0;
+    size_t refused = 0;
+    for (const Probe probe : {Probe::at_offset, Probe::dx, Probe::width}) {
+        cases::Case c = value_test::make_case(
+            12, {value_test::clip_of(1, 1, 0.5, 1, 12), value_test::clip_of(11, 2, 0.5, 4, 12),
+                 value_test::clip_of(2, 11, 0.5, 2, 12)});
+        value_test::add_attribute(
+            c, Interpolation::smooth, 1,
+            {glm::vec4(1, 0, 0, 0), glm::vec4(4, 0, 0, 0), glm::vec4(-2, 0, 0, 0)});
+        c.draws[0].attributes[0].probe = probe;
+        c.draws[0].attributes[0].probe_offset = {0, 0.1875F};
+        for (const Profile profile : cases::kProfiles) {
+            ref::ValueReference reference(c, ref::Limits{4}, profile);
+            for (const ref::SampleId id :
+                 {ref::SampleId{9, 2, 0}, {5, 4, 0}, {3, 9, 0}, {1, 1, 0}}) {
+                const ref::FragmentValues exact = value_test::rounded(reference.expected(0, id));
+                for (int k = -75; k <= 75; ++k) {
+                    ref::FragmentValues device = exact;
+                    device.attributes[0].x += static_cast<float>(k) / 256.0F;
+                    const ref::FragmentVerdict verdict = reference.judge(0, id, device);
+                    (verdict.ok ? accepted : refused) += 1;
+                    if (verdict.ok) {
+                        EXPECT_LE(verdict.worst_ratio, 1.01 * ref::budget_factor(profile));
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_GT(accepted, 100U);
+    EXPECT_GT(refused, 100U);
+}
+
+// 1 part in 10^5 is 167.77 units u = 2^-24.
+TEST(ValueProbe, FindingsTellTheProfilesFactor) {
+    EXPECT_EQ(ref::exact_budget_factor(Profile::vulkan), mpq_class("4194304/3125"));
+    for (const Profile profile : cases::kProfiles) {
+        for (const Probe probe : {Probe::value, Probe::at_offset}) {
+            cases::Case c = hyperbola();
+            add_probe(c, probe);
+            ref::ValueReference reference(c, ref::Limits{}, profile);
+            ref::FragmentValues device = value_test::rounded(reference.expected(0, {1, 1, 0}));
+            device.attributes[0].x += 1;
+            const ref::FragmentVerdict verdict = reference.judge(0, {1, 1, 0}, device);
+            ASSERT_EQ(verdict.mismatches.size(), 1U);
+            const std::string& text = verdict.mismatches[0].expected;
+            EXPECT_NE(text.find(profile == Profile::vulkan ? " within 1342 x " : " within 2 x "),
+                      std::string::npos)
+                << text;
+        }
     }
 }
 
