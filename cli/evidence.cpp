@@ -160,7 +160,7 @@ class EvidenceMaker {
         value.nearest = v.nearest;
         value.also = v.also;
         value.budget = v.is_flat ? 0 : v.budget;
-        const double reach = ref::budget_factor(expectation_.profile) * value.budget;
+        const double reach = v.factor * value.budget;
         value.low = v.nearest - reach;
         value.high = v.nearest + reach;
         if (plane.kind != Plane::Kind::frag_coord && !v.is_flat) {

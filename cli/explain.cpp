@@ -48,16 +48,18 @@ std::string shortened(const std::string& exact) {
     return exact.size() <= kLimit ? exact : exact.substr(0, kLimit) + "...";
 }
 
-std::string values_text(const std::vector<ref::ExpectedValue>& values, cases::Profile profile) {
+std::string values_text(const std::vector<ref::ExpectedValue>& values) {
     std::string text;
     for (const ref::ExpectedValue& v : values) {
         if (v.is_flat) {
             text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", v.quantity, v.nearest,
                                 v.also.empty() ? "exactly" : v.also);
         } else {
-            text += fmt::format("        {:<14} {:.9g} = {}, accepted within {:.4g} x {:.3g}\n",
-                                v.quantity, v.nearest, shortened(v.exact),
-                                ref::budget_factor(profile), v.budget);
+            text += fmt::format(
+                "        {:<14} {:.9g} = {}{}{}{}\n", v.quantity, v.nearest, shortened(v.exact),
+                v.factor > 0 ? fmt::format(", accepted within {:.4g} x {:.3g}", v.factor, v.budget)
+                             : "",
+                v.also.empty() ? "" : ", ", v.also);
         }
     }
     return text;
@@ -210,7 +212,7 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     for (size_t i = 0; i < std::min(order.size(), kShown); ++i) {
         text += triangle_text(*order[i]);
         if (order[i]->coverage != ref::Coverage::must_not) {
-            text += values_text(values.expected(order[i]->index, sample), profile);
+            text += values_text(values.expected(order[i]->index, sample));
         }
     }
     if (order.size() > kShown) {

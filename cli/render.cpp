@@ -49,13 +49,15 @@ Json number(double v) {
 Json values_json(Reference& r, uint32_t triangle, size_t index) {
     Json values = Json::array();
     for (const ref::ExpectedValue& v : r.values.expected(triangle, r.id(index))) {
-        const double margin = v.is_flat ? 0 : ref::budget_factor(r.expectation.profile) * v.budget;
         values.push_back({{"quantity", v.quantity},
                           {"exact", v.exact},
                           {"nearest", number(v.nearest)},
-                          {"low", number(v.nearest - margin)},
-                          {"high", number(v.nearest + margin)},
                           {"flat", v.is_flat}});
+        if (v.is_flat || v.factor > 0) {
+            const double margin = v.factor * v.budget;
+            values.back()["low"] = number(v.nearest - margin);
+            values.back()["high"] = number(v.nearest + margin);
+        }
         if (!v.also.empty()) {
             values.back()["also"] = v.also;
         }

@@ -200,35 +200,6 @@ float nominal_number(const Fragment& f, const Quantity& q) {
     return 0;
 }
 
-std::string allowed_text(const Fragment& f, const Quantity& q) {
-    const float number = nominal_number(f, q);
-    const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
-    switch (q.kind) {
-        case Kind::pixel_centre:
-            return rate == ShadingRate::fragment
-                       ? fmt::format("{} exactly, the pixel centre", number)
-                   : rate == ShadingRate::sample
-                       ? fmt::format("{} exactly, sample {}", number, f.id.sample)
-                       : std::string("the location of a sample that the invocation stands for");
-        case Kind::sample_position:
-        case Kind::sample_id:
-            return fmt::format("{} exactly, sample {}", number, f.id.sample);
-        case Kind::sample_mask:
-            return rate == ShadingRate::fragment
-                       ? fmt::format("the covered samples, between {:#b} and {:#b}",
-                                     f.coverage.must & f.draw->multisample.sample_mask,
-                                     f.coverage.may & f.draw->multisample.sample_mask)
-                       : fmt::format("covered samples of one invocation, {} among them",
-                                     f.id.sample);
-        case Kind::linear:
-        case Kind::perspective:
-        case Kind::flat:
-        case Kind::probe:
-            break;
-    }
-    return {};
-}
-
 std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) {
     const float number = nominal_number(f, q);
     const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
@@ -238,12 +209,15 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
         case Kind::sample_position:
             return others(sample_positions(f, profile), q.component, number);
         case Kind::sample_id:
-            return profile == Profile::vulkan ? "or that of another sample of the pixel" : "";
+            return profile == Profile::vulkan && f.target->samples > 1
+                       ? "or that of another sample of the pixel"
+                       : "";
         case Kind::sample_mask: {
             const uint32_t state = f.draw->multisample.sample_mask;
-            const uint32_t must = f.coverage.must & state;
-            const uint32_t may = (f.coverage.may & state) | 1U << f.id.sample;
-            if (rate == ShadingRate::sample && profile != Profile::vulkan) {
+            const uint32_t own = 1U << f.id.sample;
+            const uint32_t must = (f.coverage.must & state) | own;
+            const uint32_t may = (f.coverage.may & state) | own;
+            if (may == own || (rate == ShadingRate::sample && profile != Profile::vulkan)) {
                 return "";
             }
             if (rate == ShadingRate::fragment && f.coverage.is_one_fragment) {
@@ -258,6 +232,19 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
             break;
     }
     return {};
+}
+
+std::string allowed_text(const Fragment& f, const Quantity& q, Profile profile) {
+    const std::string also = also_allowed(f, q, profile);
+    if (!also.empty()) {
+        return fmt::format("{} {}", nominal_number(f, q), also);
+    }
+    const bool is_centre = q.kind == Kind::pixel_centre &&
+                           shading_rate(*f.draw, f.target->samples) == ShadingRate::fragment;
+    return fmt::format("{} exactly, {}", nominal_number(f, q),
+                       is_centre                     ? "the pixel centre"
+                       : q.kind == Kind::sample_mask ? "the covered samples of the invocation"
+                                                     : fmt::format("sample {}", f.id.sample));
 }
 
 }  // namespace ref::value

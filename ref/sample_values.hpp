@@ -27,12 +27,12 @@ bool is_sample_kind(Kind kind);
 bool may_be(const Fragment& fragment, const Quantity& quantity, const FragmentValues& device,
             cases::Profile profile);
 
-// The likeliest number, and what is allowed in words.
+// The likeliest number; what is allowed besides, as "or 1.375, 1.875", empty if nothing is; and
+// all of it in words.
 float nominal_number(const Fragment& fragment, const Quantity& quantity);
-std::string allowed_text(const Fragment& fragment, const Quantity& quantity);
-
-// What is allowed besides the likeliest number: "or 1.375, 1.875". Empty if nothing is.
 std::string also_allowed(const Fragment& fragment, const Quantity& quantity,
+                         cases::Profile profile);
+std::string allowed_text(const Fragment& fragment, const Quantity& quantity,
                          cases::Profile profile);
 
 }  // namespace ref::value

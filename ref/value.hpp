@@ -7,8 +7,8 @@
 // "Polygon barycentrics"; Brown, "Barycentric Coordinates as Interpolants", eq. 4 and 5); a
 // noperspective value, depth and 1/w are linear. The device may set the planes up from snapped or
 // unsnapped positions, or from a clipped piece's vertices, but one basis has to explain all values
-// of a fragment. Around each basis the binary32 budget of docs/design.md, times kBudgetFactor, is
-// accepted.
+// of a fragment. Around each basis the binary32 budget of docs/precision.md, times K
+// (exact_budget_factor), is accepted.
 #pragma once
 
 #include <gmpxx.h>
@@ -31,13 +31,14 @@ namespace ref {
 
 // Accepted error in units of the budget. Measured maxima of every driver stand in
 // docs/precision.md.
-inline constexpr int kBudgetFactor = 2;  // K, but at profile vulkan
+inline constexpr int kBudgetFactor = 2;  // K of practice and direct3d
 
 // Budgets that are proven to hold to first order for the evaluations of docs/precision.md.
 inline constexpr int kProvenFactor = 8;
 
-// K of a profile. At vulkan an operation may be wrong by about 1 part in 10^5 instead of
-// u = 2^-24, the unit of the budget, and K is the proven factor: 8 x 10^-5 / u, about 1342.
+// K of a profile. At vulkan an operation may be wrong by about 1 part in 10^5
+// (value::kVulkanRoundoff) instead of u = 2^-24 (value::kUnitRoundoff), of which the budget is
+// made, and K is the proven factor: 8 x 10^-5 / u, about 1342.
 inline mpq_class exact_budget_factor(cases::Profile profile) {
     constexpr int64_t kParts = 100000;
     constexpr int64_t kUnits = 1 << 24;
@@ -82,8 +83,9 @@ struct ExpectedValue {
     std::string exact;      // "p/q"
     double nearest = 0;     // the exact value rounded
     double budget = 0;      // one budget, absolute
+    double factor = 0;      // so many budgets are accepted; 0: what is accepted is not told in them
     bool is_flat = false;   // compared bit for bit
-    std::string also = {};  // if is_flat: "or 1.375", other numbers that are right as well
+    std::string also = {};  // "or 1.375": what else is right
 };
 
 // All that a value may be under a profile, rounded outwards to binary64.

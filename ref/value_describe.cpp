@@ -10,9 +10,13 @@
 
 namespace ref::value {
 
+namespace {
+constexpr const char* kLodFreedom = "or up to half a level and the freedom of the quad away";
+}  // namespace
+
 Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
-                              const Evaluation<mpq_class>& place) {
-    const mpq_class factor(kBudgetFactor);
+                              const Evaluation<mpq_class>& place, cases::Profile profile) {
+    const mpq_class factor = exact_budget_factor(profile);
     const auto site = make_site(basis, basis.planes[kPlaneInvW],
                                 q.at_sample     ? place.sample
                                 : q.at_centroid ? place.centroid.front()
@@ -32,8 +36,7 @@ std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const P
         return "a number that the values around the pixel explain";
     }
     if (q.probe == cases::Probe::lod) {
-        return fmt::format("{:.9g}, or up to half a level and the freedom of the quad away",
-                           v->nearest);
+        return fmt::format("{:.9g}, {}", v->nearest, kLodFreedom);
     }
     const std::string text = v->exact ? exact_text(*v->exact) : std::string();
     return fmt::format("{:.9g}{} within {:.4g} x {:.3g}{}", v->nearest,
@@ -43,7 +46,7 @@ std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const P
 
 bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
                      std::span<const Quantity> all, const Evaluation<mpq_class>& place,
-                     double device) {
+                     cases::Profile profile, double device) {
     if (basis.orientation == 0 || !std::isfinite(device)) {
         return false;
     }
@@ -51,7 +54,7 @@ bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
         if (other.attribute != q.attribute || other.component == q.component) {
             continue;
         }
-        const auto v = exact_value(basis, other, place);
+        const auto v = exact_value(basis, other, place, profile);
         if (v.exists == Answer::yes && abs(mpq_class(device) - v.value) <= v.reach) {
             return true;
         }
@@ -93,6 +96,11 @@ void add_expected_probe(const Primitive& primitive, const Basis<mpq_class>& basi
     e.exact = v->exact ? v->exact->get_str() : fmt::format("{}", v->nearest);
     e.nearest = v->nearest;
     e.budget = v->budget;
+    if (q.probe == cases::Probe::lod) {
+        e.also = kLodFreedom;
+    } else {
+        e.factor = budget_factor(place.profile);
+    }
     out.push_back(std::move(e));
     if (!derivative_of(q.probe)) {
         return;
@@ -104,7 +112,7 @@ void add_expected_probe(const Primitive& primitive, const Basis<mpq_class>& basi
     for (const auto& [name, value] :
          {std::pair{"partial x of ", partials->dx}, std::pair{"partial y of ", partials->dy},
           std::pair{"total differential of ", partials->total}}) {
-        out.push_back({name + q.name, value.get_str(), value.get_d(), 0, false});
+        out.push_back({name + q.name, value.get_str(), value.get_d(), 0, 0, false});
     }
 }
 

@@ -14,9 +14,9 @@
 
 namespace ref::value {
 
-// A linear or perspective value at its first place.
+// A linear or perspective value at its first place, and what the profile accepts around it.
 Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
-                              const Evaluation<mpq_class>& place);
+                              const Evaluation<mpq_class>& place, cases::Profile profile);
 
 // p/q if it is short enough to be read, else nothing.
 std::string exact_text(const mpq_class& q);
@@ -27,7 +27,7 @@ std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const P
 // Whether a barycentric component holds what another component of the attribute ought to.
 bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
                      std::span<const Quantity> all, const Evaluation<mpq_class>& place,
-                     double device);
+                     cases::Profile profile, double device);
 
 // Appends the expected value of a probe; of a derivative also Brown's partials (ref/partials.hpp),
 // called "partial x of attribute 0.x", "total differential of ...".

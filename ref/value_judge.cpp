@@ -49,7 +49,7 @@ void ValueReference::Impl::judge_samples(uint32_t t, SampleId id, const Fragment
             m.quantity = q.name;
             m.rule = q.rule;
             m.level = at;
-            m.expected = allowed_text(*f, q);
+            m.expected = allowed_text(*f, q, at);
             m.got = bits_of(q.get(device));
             m.ratio = std::numeric_limits<double>::infinity();
             out.mismatches.push_back(std::move(m));

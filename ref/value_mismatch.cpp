@@ -167,11 +167,11 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
             continue;
         }
         if (q.rule == "barycentric.value" &&
-            value::is_other_vertex(basis, q, all, place, static_cast<double>(got))) {
+            value::is_other_vertex(basis, q, all, place, profile, static_cast<double>(got))) {
             m.rule = "barycentric.order";
         }
         if (basis.orientation != 0) {
-            const auto v = value::exact_value(basis, q, place);
+            const auto v = value::exact_value(basis, q, place, profile);
             if (v.exists == Answer::yes) {
                 const std::string text = value::exact_text(v.value);
                 m.expected = fmt::format("{:.9g}{} within {:.4g} x {:.3g}", v.value.get_d(),

@@ -154,8 +154,8 @@ namespace {
 using Valuation = std::optional<Valued<mpq_class>>;
 
 Valuation value_of(const Basis<mpq_class>& basis, const Quantity& q, uint32_t plane, double x,
-                   double y) {
-    const mpq_class factor(kBudgetFactor);
+                   double y, cases::Profile profile) {
+    const mpq_class factor = exact_budget_factor(profile);
     const auto site =
         make_site(basis, basis.planes[kPlaneInvW], {mpq_class(x), mpq_class(y)}, factor);
     const auto v = value_at(site, basis.planes[plane], q.is_perspective, factor);
@@ -168,8 +168,8 @@ Valuation difference_of(const Basis<mpq_class>& basis, const Quantity& q, uint32
     const Difference d = differences_of(quads_of(place.id).front(), axis, is_coarse).front();
     const double x = place.id.x + 0.5;
     const double y = place.id.y + 0.5;
-    auto plus = value_of(basis, q, plane, x + d.plus[0], y + d.plus[1]);
-    const auto minus = value_of(basis, q, plane, x + d.minus[0], y + d.minus[1]);
+    auto plus = value_of(basis, q, plane, x + d.plus[0], y + d.plus[1], place.profile);
+    const auto minus = value_of(basis, q, plane, x + d.minus[0], y + d.minus[1], place.profile);
     if (!plus || !minus) {
         return std::nullopt;
     }
@@ -231,7 +231,7 @@ std::optional<ProbeValue> expected_probe(const Basis<mpq_class>& basis, const Qu
         }
     } else {
         const Spots spots = probe_spots(q, place).front();
-        v = value_of(basis, q, q.plane, spots.front()[0], spots.front()[1]);
+        v = value_of(basis, q, q.plane, spots.front()[0], spots.front()[1], place.profile);
         if (!v) {
             return std::nullopt;
         }

@@ -147,13 +147,14 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample)
                                           impl_->probe_place(t, sample, impl_->profile), out);
                 continue;
             }
-            const auto v = value::exact_value(basis, q, place);
+            const auto v = value::exact_value(basis, q, place, impl_->profile);
             if (v.exists != Answer::yes) {
                 continue;
             }
             e.exact = v.value.get_str();
             e.nearest = v.value.get_d();
             e.budget = v.budget.get_d();
+            e.factor = budget_factor(impl_->profile);
             if (q.attribute == -2 && !is_plain_depth(primitive)) {
                 e.nearest = nominal_depth(primitive, basis, e.nearest, impl_->profile);
             }

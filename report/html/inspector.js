@@ -97,13 +97,13 @@ function valueRow(value, told, complete) {
     const off = Math.abs(got - nearest) / budget;
     budgets = off <= MOST_BUDGETS ? shortNumber(off, 3) + " budgets" : inside || complete ? "another set-up" : shortNumber(off, 3) + " budgets";
   }
-  const verdict = bits === null ? "" : f ? el("strong", {class: "bad"}, "\u2717", el("span", {class: "hidden-text"}, " wrong")) : inside || complete ? "\u2713" : "outside";
+  const verdict = bits === null ? "" : f ? el("strong", {class: "bad"}, "\u2717", el("span", {class: "hidden-text"}, " wrong")) : inside || complete ? "\u2713" : also ? "" : "outside";
   return el("tr", {class: f ? "wrong" : ""},
     el("th", {scope: "row"}, quantity),
     el("td", {}, el("span", {class: "number"}, exact && exact !== shortNumber(nearest) ? exact + " = " : "", shortNumber(nearest)),
-      el("div", {class: "quiet number small"}, also ? also + ", bit for bit" : budget === 0 ? "bit for bit" : "[" + shortNumber(low) + ", " + shortNumber(high) + "]")),
+      el("div", {class: "quiet number small"}, also ? also + (budget === 0 ? ", bit for bit" : "") : budget === 0 ? "bit for bit" : "[" + shortNumber(low) + ", " + shortNumber(high) + "]")),
     el("td", {}, bits === null ? el("span", {class: "quiet"}, "not drawn") : [el("span", {class: "number"}, floatText(bits)), el("div", {class: "quiet number small"}, hex(bits))]),
-    el("td", {class: "off"}, bits === null ? "" : [also && !f && steps !== 0 ? "one of these" : steps === null ? "no number" : steps > MAX_STEPS ? "> 10\u2077 ulp" : steps + " ulp", el("div", {class: "quiet small"}, budgets)]),
+    el("td", {class: "off"}, bits === null ? "" : [also && !f && complete && steps !== 0 ? "one of these" : steps === null ? "no number" : steps > MAX_STEPS ? "> 10\u2077 ulp" : steps + " ulp", el("div", {class: "quiet small"}, budgets)]),
     el("td", {}, verdict));
 }
 

@@ -84,7 +84,7 @@ function caseRow(entry) {
   return el("tr", {class: "case-row " + (isExpected(record) ? "" : "unexpected"), "data-case": record.id, onclick: (event) => { if (event.target.tagName !== "A") { openCase(record.id); } }},
     el("td", {}, statusTag(record.status)), el("td", {}, el("a", {class: "id", href: "#case=" + encodeURIComponent(record.id)}, record.id)),
     el("td", {class: "quiet what"}, happened(record)), el("td", {class: "number right"}, entry.wrong ? String(entry.wrong) : ""),
-    el("td", {class: "number right"}, record.worst ? record.worst[1] : ""), el("td", {class: "number right quiet"}, record.time));
+    el("td", {class: "number right told"}, record.worst ? record.worst[1] : ""), el("td", {class: "number right quiet"}, record.time));
 }
 
 function groupBody(name, members, total, anySearch) {

@@ -101,9 +101,7 @@ TEST(Selector, SaysWhatIsWrong) {
          "error: no case matches coverage/size:k=3,o=64; did you mean coverage/size:k=1,o=64?"},
         {"coverage/size:winding=reversed",
          "error: no case matches coverage/size:winding=reversed; coverage/size has 2 leaves, the "
-         "first "
-         "is "
-         "coverage/size:k=1,o=64"},
+         "first is coverage/size:k=1,o=64"},
         {"coverage/half-square:side=12345",
          "error: no case matches coverage/half-square:side=12345; coverage/half-square has no "
          "leaves"},

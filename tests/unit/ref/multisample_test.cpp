@@ -315,10 +315,11 @@ TEST(BuiltIns, OtherNumbersThatAreRightAreTold) {
     size_t several = 0;
     size_t single = 0;
     const auto check = [&](const cases::Case& c, const std::string& name,
-                           const std::vector<float>& numbers, float origin, auto put) {
+                           const std::vector<float>& numbers, bool is_in_framebuffer, auto put) {
         for (const Profile profile : cases::kProfiles) {
             for (const SampleId id : {kWhole, kPart, SampleId{4, 3, 0}}) {
-                if ((c.draws[0].multisample.sample_mask >> id.sample & 1U) == 0) {
+                if (id.sample >= c.target.samples ||
+                    (c.draws[0].multisample.sample_mask >> id.sample & 1U) == 0) {
                     continue;  // nothing is written there
                 }
                 ValueReference values(c, {8}, profile);
@@ -332,7 +333,7 @@ TEST(BuiltIns, OtherNumbersThatAreRightAreTold) {
                     EXPECT_TRUE(e.is_flat);
                     EXPECT_EQ(e.also.empty(), right.size() == 1) << e.also;
                     (e.also.empty() ? single : several) += 1;
-                    const float base = origin < 0 ? 0 : static_cast<float>(id.x);
+                    const float base = is_in_framebuffer ? static_cast<float>(id.x) : 0;
                     EXPECT_EQ(right.count(static_cast<float>(e.nearest) - base), 1U);
                     if (e.also.find_first_not_of("or ,.0123456789") == std::string::npos) {
                         std::set<float> told = {static_cast<float>(e.nearest) - base};
@@ -356,23 +357,28 @@ TEST(BuiltIns, OtherNumbersThatAreRightAreTold) {
             if (least > 0) {
                 c.draws[0].multisample.min_sample_shading = least;
             }
-            check(c, "frag_coord.x", places, 0, at_x);
+            check(c, "frag_coord.x", places, true, at_x);
         }
     }
     const auto in_attribute = [](FragmentValues& v, SampleId, float x, float y) {
         v.attributes[0] = {x, y, 0, 0};
     };
-    check(with_source(Source::sample_position, 2), "attribute 0.x", places, -1, in_attribute);
-    check(with_source(Source::sample_id, 1), "attribute 0.x", {0, 1, 2, 3, 4}, -1, in_attribute);
+    check(with_source(Source::sample_position, 2), "attribute 0.x", places, false, in_attribute);
+    check(with_source(Source::sample_id, 1), "attribute 0.x", {0, 1, 2, 3, 4}, false, in_attribute);
     for (const float least : {0.0F, 0.5F, 1.0F}) {
         cases::Case c = with_source(Source::sample_mask_in, 1);
         if (least > 0) {
             c.draws[0].multisample.min_sample_shading = least;
         }
-        check(c, "attribute 0.x", whole, -1, in_attribute);
-        c.draws[0].multisample.sample_mask = 0b0101;
-        check(c, "attribute 0.x", whole, -1, in_attribute);
+        check(c, "attribute 0.x", whole, false, in_attribute);
+        for (const uint32_t mask : {0b0101U, 0b0100U, 0b0001U}) {
+            c.draws[0].multisample.sample_mask = mask;
+            check(c, "attribute 0.x", whole, false, in_attribute);
+        }
     }
+    cases::Case one = with_source(Source::sample_id, 1);
+    one.target.samples = 1;
+    check(one, "attribute 0.x", {0, 1, 2}, false, in_attribute);
     EXPECT_GT(several, 20U);
     EXPECT_GT(single, 20U);
 }
