@@ -99,16 +99,23 @@ int64_t whole(float v) {
     return v >= 0.0F && v < 0x1p16F && same_bits(v, std::floor(v)) ? static_cast<int64_t>(v) : -1;
 }
 
+// gl_SampleMaskIn of the invocation that writes the sample: all of `must`, nothing beyond `may`.
+struct MaskBounds {
+    uint32_t own = 0, must = 0, may = 0;
+};
+MaskBounds mask_bounds(const Fragment& f) {
+    const uint32_t own = 1U << f.id.sample;
+    const uint32_t state = f.draw->multisample.sample_mask;
+    return {own, (f.coverage.must & state) | own, (f.coverage.may & state) | own};
+}
+
 bool is_mask_in(const Fragment& f, float value, Profile profile) {
     const int64_t got = whole(value);
     if (got < 0) {
         return false;
     }
     const auto mask = static_cast<uint32_t>(got);
-    const uint32_t own = 1U << f.id.sample;
-    const uint32_t state = f.draw->multisample.sample_mask;
-    const uint32_t may = (f.coverage.may & state) | own;
-    const uint32_t must = f.coverage.must & state;
+    const auto [own, must, may] = mask_bounds(f);
     if ((mask & own) == 0 || (mask & ~may) != 0) {
         return false;
     }
@@ -213,10 +220,7 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
                        ? "or that of another sample of the pixel"
                        : "";
         case Kind::sample_mask: {
-            const uint32_t state = f.draw->multisample.sample_mask;
-            const uint32_t own = 1U << f.id.sample;
-            const uint32_t must = (f.coverage.must & state) | own;
-            const uint32_t may = (f.coverage.may & state) | own;
+            const auto [own, must, may] = mask_bounds(f);
             if (may == own || (rate == ShadingRate::sample && profile != Profile::vulkan)) {
                 return "";
             }

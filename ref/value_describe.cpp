@@ -10,9 +10,7 @@
 
 namespace ref::value {
 
-namespace {
 constexpr const char* kLodFreedom = "or up to half a level and the freedom of the quad away";
-}  // namespace
 
 Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
                               const Evaluation<mpq_class>& place, cases::Profile profile) {

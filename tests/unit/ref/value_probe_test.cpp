@@ -234,6 +234,29 @@ TEST(ValueProbe, FindingsTellTheProfilesFactor) {
     }
 }
 
+// What is accepted of a level is no number of budgets: neither explain nor a report tells one.
+TEST(ValueProbe, LevelsOfDetailAreToldWithTheirFreedom) {
+    for (const Profile profile : cases::kProfiles) {
+        cases::Case c = hyperbola();
+        value_test::add_attribute(c, Interpolation::smooth, 2,
+                                  {glm::vec4(0), glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0)});
+        c.draws[0].attributes.back().probe = Probe::lod;
+        c.draws[0].attributes.back().texture_size = {32, 32};
+        ref::ValueReference reference(c, ref::Limits{}, profile);
+        size_t levels = 0;
+        for (const ref::ExpectedValue& e : reference.expected(0, {1, 1, 0})) {
+            if (e.quantity.starts_with("attribute")) {
+                ++levels;
+                EXPECT_EQ(e.factor, 0) << e.quantity;
+                EXPECT_EQ(e.also, "or up to half a level and the freedom of the quad away");
+            } else if (!e.is_flat) {
+                EXPECT_EQ(e.factor, ref::budget_factor(profile)) << e.quantity;
+            }
+        }
+        EXPECT_EQ(levels, 2U);
+    }
+}
+
 TEST(ValueProbe, LevelsOfDetailLieInTheSpecifiedRange) {
     // s = x / 8, t = y / 8 on a texture of 32 x 32: m = 4 each, log2 4 = 2 to 2 + 1/2.
     cases::Case c = hyperbola();
