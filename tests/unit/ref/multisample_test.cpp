@@ -132,6 +132,34 @@ TEST(PixelRegion, IsPixelAndTriangle) {
     EXPECT_TRUE(pixel_region(coverage.setup(0), 7, 7).empty());
 }
 
+// The last region is kept: another triangle, column or row has its own.
+TEST(PixelRegion, IsThatOfTheTriangleAndPixelAskedFor) {
+    const cases::Case c =
+        pixels(8, 8, {{1, 1}, {7, 1}, {1, 7}, {7.25, 1.5}, {7.25, 7.5}, {1.5, 7.25}}, 4);
+    const Expectation e = expect(c, {8}, Profile::vulkan);
+    ASSERT_EQ(e.triangles.size(), 2U);
+    FragmentCoverage coverage(c, {8}, Profile::vulkan, e.triangles);
+    size_t parts = 0;
+    const auto check = [&](uint32_t t, uint32_t x, uint32_t y) {
+        const std::vector<P> right = pixel_region(coverage.setup(t), x, y);
+        const std::vector<P>& kept = coverage.region(t, x, y);
+        ASSERT_TRUE(std::equal(kept.begin(), kept.end(), right.begin(), right.end(),
+                               [](const P& a, const P& b) { return a.x == b.x && a.y == b.y; }))
+            << t << " at " << x << "," << y;
+        parts += right.size() > 4 || right.size() == 3 ? 1U : 0U;
+    };
+    for (uint32_t y = 0; y < 8; ++y) {
+        for (uint32_t x = 0; x < 8; ++x) {
+            for (const uint32_t t : {0U, 0U, 1U}) {
+                check(t, x, y);
+            }
+            check(1, x, 7 - y);  // another row, and then another column alone
+            check(1, 7 - x, 7 - y);
+        }
+    }
+    EXPECT_GT(parts, 20U);
+}
+
 TEST(Places, WithoutDecorationTheCentreOrAnywhere) {
     const cases::Case c = triangle(Auxiliary::none);
     const Point centre{2.5, 2.5}, corner{2, 3}, sample{2.875, 2.375};
