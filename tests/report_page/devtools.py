@@ -17,6 +17,10 @@ import time
 
 TIMEOUT = 60  # seconds that an answer may take
 
+# What the browser answers to an expression whose page is left for another meanwhile, or is not there yet.
+BETWEEN_PAGES = ("Inspected target navigated or closed", "Execution context was destroyed", "Cannot find context",
+                 "Cannot find default execution context")
+
 
 def find_chromium():
     """The browser's path, or None: EDGECASE_CHROMIUM or one of the usual names."""
@@ -24,6 +28,10 @@ def find_chromium():
         if name and shutil.which(name):
             return shutil.which(name)
     return None
+
+
+class Refused(RuntimeError):
+    """The browser's answer to a command is an error."""
 
 
 class Browser:
@@ -85,7 +93,7 @@ class Browser:
             answer = self._receive(end)
             if answer.get("id") == number:
                 if "error" in answer:
-                    raise RuntimeError(f"{method}: {answer['error'].get('message')}")
+                    raise Refused(f"{method}: {answer['error'].get('message')}")
                 return answer["result"]
             if "method" in answer:
                 self.events.append(answer)
@@ -131,18 +139,28 @@ class Page:
 
     def run(self, expression):
         """The value of a JavaScript expression."""
-        answer = self.send("Runtime.evaluate", {"expression": expression, "returnByValue": True, "awaitPromise": True})
+        answer = self.send("Runtime.evaluate", {"expression": expression, "returnByValue": True})
         if "exceptionDetails" in answer:
             details = answer["exceptionDetails"]
             raise AssertionError(f"{expression}: {details.get('exception', {}).get('description', details)}")
         return answer["result"].get("value")
 
     def wait_for(self, expression):
+        """Waits until an expression is true, here or in the page that a link leads to."""
         end = time.monotonic() + TIMEOUT
-        while not self.run(expression):
+        while not self._is_true(expression):
             if time.monotonic() > end:
                 raise AssertionError(f"never true: {expression}")
             time.sleep(0.02)
+
+    def _is_true(self, expression):
+        """False, too, where the page was left while the expression ran: it says nothing of the next one."""
+        try:
+            return self.run(expression)
+        except Refused as refused:
+            if not any(text in str(refused) for text in BETWEEN_PAGES):
+                raise
+            return False
 
     def text(self, selector):
         return self.run(f"(document.querySelector({json.dumps(selector)}) || {{innerText: ''}}).innerText")
