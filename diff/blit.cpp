@@ -100,7 +100,7 @@ class BlitComparison {
         finding.expected = show(reference_.nominal(x, y), case_.target.color->format);
         finding.got = show(got, case_.target.color->format);
         finding.why = reference_.explain(x, y);
-        add(std::move(finding), index);
+        verdict_.add(std::move(finding), case_.target);
     }
 
     // The loosest profile at which the codes are wrong.
@@ -111,22 +111,6 @@ class BlitComparison {
             }
         }
         return verdict_.profile;
-    }
-
-    void add(Finding finding, size_t index) {
-        const bool first = verdict_.ok();
-        verdict_.min_x = first ? finding.x : std::min(verdict_.min_x, finding.x);
-        verdict_.min_y = first ? finding.y : std::min(verdict_.min_y, finding.y);
-        verdict_.max_x = first ? finding.x : std::max(verdict_.max_x, finding.x);
-        verdict_.max_y = first ? finding.y : std::max(verdict_.max_y, finding.y);
-        verdict_.level = first ? finding.level : std::min(verdict_.level, finding.level);
-        ++verdict_.counts[static_cast<size_t>(finding.kind)];
-        verdict_.marks[index] = finding.kind == FindingKind::extra     ? SampleMark::extra
-                                : finding.kind == FindingKind::missing ? SampleMark::missing
-                                                                       : SampleMark::value;
-        if (verdict_.findings.size() < kMaxFindings) {
-            verdict_.findings.push_back(std::move(finding));
-        }
     }
 
     const cases::Case& case_;

@@ -279,27 +279,12 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
             finding.rule = rule->id;
             finding.level = rule->profile;
             place(finding, c.target, ref::sample_at(c.target, difference.sample));
-            const uint32_t row = place_of(finding).layer * c.target.height + finding.y;
             finding.quantity = fmt::format("{}, {}", plane_name(difference.plane, difference.word),
                                            derivations[k].name);
             finding.expected = show_bits(difference.plane, difference.expected);
             finding.got = show_bits(difference.plane, difference.got);
             finding.why = why_of(derivations[k]);
-            const bool first = verdict.ok();
-            verdict.level = first ? finding.level : std::min(verdict.level, finding.level);
-            verdict.min_x = first ? finding.x : std::min(verdict.min_x, finding.x);
-            verdict.min_y = first ? row : std::min(verdict.min_y, row);
-            verdict.max_x = first ? finding.x : std::max(verdict.max_x, finding.x);
-            verdict.max_y = first ? row : std::max(verdict.max_y, row);
-            ++verdict.counts[static_cast<size_t>(FindingKind::value)];
-            if (difference.sample < verdict.marks.size() &&
-                (verdict.marks[difference.sample] == SampleMark::ok ||
-                 verdict.marks[difference.sample] == SampleMark::either)) {
-                verdict.marks[difference.sample] = SampleMark::value;
-            }
-            if (verdict.findings.size() < kMaxFindings) {
-                verdict.findings.push_back(std::move(finding));
-            }
+            verdict.add(std::move(finding), c.target);
         }
         verdict.counts[static_cast<size_t>(FindingKind::value)] +=
             found[k].different - found[k].differences.size();

@@ -10,6 +10,7 @@
 
 #include "cases/derive.hpp"
 #include "diff/blank_capture.hpp"
+#include "diff/last_fragment.hpp"
 #include "diff/pixel_check.hpp"
 #include "ref/color.hpp"
 
@@ -146,7 +147,7 @@ class Completion {
     }
 
     bool fits_triangle(uint32_t t, size_t index, const ref::FragmentValues& values) {
-        return values_.judge(t, id_of(index), values, part_of(t)).ok;
+        return values_.judge(t, id_of(index), values, part_of(case_, expectation_, t)).ok;
     }
 
     std::pair<uint32_t, uint32_t> hits_of(size_t index, const ref::HitBounds& bounds) const {
@@ -202,7 +203,8 @@ class Completion {
             if (expected.writers_count == 1) {
                 return t;
             }
-            ref::FragmentVerdict verdict = values_.judge(t, id_of(index), values, part_of(t));
+            ref::FragmentVerdict verdict =
+                values_.judge(t, id_of(index), values, part_of(case_, expectation_, t));
             if (!best || (verdict.ok && !best_verdict->ok) ||
                 (verdict.ok == best_verdict->ok &&
                  verdict.worst_ratio <= best_verdict->worst_ratio)) {
@@ -228,12 +230,6 @@ class Completion {
             }
         }
         return writer;
-    }
-
-    ref::FragmentPart part_of(uint32_t t) const {
-        return case_.draws[expectation_.triangles[t].draw].depth.write
-                   ? ref::FragmentPart::all
-                   : ref::FragmentPart::all_but_depth;
     }
 
     const cases::Case& case_;

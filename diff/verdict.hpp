@@ -57,11 +57,19 @@ inline void place(Finding& finding, const cases::Target& target, const ref::Samp
         finding.layer = id.layer;
     }
 }
+inline Finding finding_at(FindingKind kind, const cases::Target& target, const ref::SampleId& id) {
+    Finding finding;
+    finding.kind = kind;
+    place(finding, target, id);
+    return finding;
+}
 // "pixel (3, 4)", of a target with several layers "layer 1, pixel (3, 4)".
 std::string pixel_text(const cases::Target& target, const ref::SampleId& id);
 
 // What the comparison saw at a sample, for pictures: one byte a sample.
 enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value, order };
+
+inline constexpr size_t kMaxFindings = 1000;
 
 struct Verdict {
     cases::Profile profile = cases::Profile::direct3d;
@@ -83,9 +91,13 @@ struct Verdict {
     // number of budgets reaches the value); negative where none was. Empty if the case has none.
     std::vector<float> error_ratios;
     bool ok() const { return error.empty() && counts == std::array<uint64_t, kFindingKinds>{}; }
-};
-inline constexpr size_t kMaxFindings = 1000;
 
+    // Counts a finding of a target; keeps it if fewer than kMaxFindings are kept. The first finding
+    // at a sample gives it its mark.
+    void add(Finding finding, const cases::Target& target);
+    // The error at a sample, in budgets, is at least `ratio`.
+    void raise_error(size_t index, double ratio);
+};
 // Judges a capture. A case without any sample that must be hit is an error, never a pass.
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                 const CaptureView& capture);

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/last_fragment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace diff {
+
+LastFragment::Outcome LastFragment::judge(size_t index, ref::SampleId id) {
+    const ref::SampleExpectation& expected = expectation_.samples[index];
+    const Writer& writer = capture_.writers[index];
+    ref::FragmentValues device;
+    device.frag_coord = capture_.frag_coord[index];
+    device.depth = capture_.depth.empty() ? 0.0F : capture_.depth[index];
+    for (uint32_t a = 0; a < capture_.attribute_count; ++a) {
+        device.attributes[a] = capture_.attributes[a][index];
+    }
+    Outcome out;
+    // Without gl_PrimitiveID several triangles may have the writer's provoking vertex: one that
+    // explains the fragment is enough.
+    ref::FragmentVerdict best;
+    for (uint32_t k = 0; k < expected.writers_count; ++k) {
+        const uint32_t t = expectation_.writers[expected.writers_begin + k];
+        if (!wrote(writer, expectation_.triangles[t])) {
+            continue;
+        }
+        ref::FragmentVerdict v =
+            values_.judge(t, id, device, part_of(case_, expectation_, t));
+        if (!out.triangle || (v.ok && !best.ok) ||
+            (v.ok == best.ok && v.worst_ratio < best.worst_ratio)) {
+            best = std::move(v);
+            out.triangle = t;
+        }
+    }
+    if (!out.triangle) {
+        out.finding = writer_finding(id, writer, expected);
+        return out;
+    }
+    const uint32_t t = *out.triangle;
+    if (part_of(case_, expectation_, t) != ref::FragmentPart::all && selection_.depth) {
+        ++out.compared_values;
+        out.finding = judge_older_depth(id, expected, device);
+    }
+    // FragCoord.xy, z, w; depth
+    out.compared_values += (selection_.frag_coord ? 3U : 0U) + (selection_.depth ? 1U : 0U);
+    const auto& draw = case_.draws[expectation_.triangles[t].draw];
+    for (size_t a = 0; a < draw.attributes.size(); ++a) {
+        out.compared_values += selection_.attributes.at(a) ? draw.attributes[a].components : 0U;
+    }
+    out.worst_ratio = best.worst_ratio;
+    for (ref::ValueMismatch& m : best.mismatches) {
+        out.values.push_back(value_finding(id, std::move(m), t));
+    }
+    return out;
+}
+
+Finding LastFragment::value_finding(ref::SampleId id, ref::ValueMismatch mismatch,
+                                    uint32_t t) const {
+    Finding finding = finding_at(FindingKind::value, case_.target, id);
+    finding.rule = std::move(mismatch.rule);
+    finding.level = mismatch.level;
+    finding.quantity = std::move(mismatch.quantity);
+    finding.expected = std::move(mismatch.expected);
+    finding.got = std::move(mismatch.got);
+    finding.ratio = mismatch.ratio;
+    finding.why = fmt::format(
+        "triangle {} of draw {}: no set-up from snapped or unsnapped vertices explains the fragment",
+        expectation_.triangles[t].primitive, expectation_.triangles[t].draw);
+    return finding;
+}
+
+// Depth where the last writer did not write it: some fragment's of those that may have been the
+// last to do so, or the clear value.
+std::optional<Finding> LastFragment::judge_older_depth(ref::SampleId id,
+                                                       const ref::SampleExpectation& expected,
+                                                       const ref::FragmentValues& device) {
+    if (expected.depth_may_be_clear && is_clear_depth(case_.target, device.depth)) {
+        return std::nullopt;
+    }
+    Finding finding = finding_at(FindingKind::value, case_.target, id);
+    finding.rule = "depth.write";
+    finding.level = cases::Profile::vulkan;
+    finding.quantity = "depth";
+    finding.expected = expected.depth_may_be_clear ? "the clear value" : "";
+    for (uint32_t k = 0; k < expected.depth_count; ++k) {
+        const uint32_t t = expectation_.depth_writers[expected.depth_begin + k];
+        const ref::FragmentVerdict v = values_.judge(t, id, device, ref::FragmentPart::depth);
+        if (v.ok) {
+            return std::nullopt;
+        }
+        const ref::ValueMismatch& m = v.mismatches.front();
+        finding.level =
+            k == 0 && !expected.depth_may_be_clear ? m.level : std::max(finding.level, m.level);
+        finding.expected += (finding.expected.empty() ? "" : ", or ") + m.expected;
+        finding.ratio = m.ratio;
+    }
+    finding.got = fmt::format("{:.9g}", device.depth);
+    finding.why = "the last fragment's draw does not write depth; no older one left this";
+    return finding;
+}
+
+bool LastFragment::wrote(const Writer& writer, const ref::Triangle& t) const {
+    return writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
+           (!capture_.has_primitive || writer.primitive == t.primitive);
+}
+
+bool LastFragment::is_provoking(const Writer& writer) const {
+    return std::any_of(
+        expectation_.triangles.begin(), expectation_.triangles.end(), [&](const auto& t) {
+            return t.draw == writer.draw && t.provoking == writer.provoking_vertex;
+        });
+}
+
+
+const char* LastFragment::provoking_rule(uint32_t draw) const {
+    const bool is_last = draw < case_.draws.size() &&
+                         case_.draws[draw].provoking == cases::ProvokingVertex::last;
+    return is_last ? "provoking.last" : "provoking.first";
+}
+
+Finding LastFragment::writer_finding(ref::SampleId id, const Writer& writer,
+                                     const ref::SampleExpectation& expected) {
+    Finding finding = finding_at(FindingKind::order, case_.target, id);
+    finding.rule = "order.primitive";
+    finding.why = "another triangle than the last one that may cover the sample wrote it";
+    std::string allowed;
+    for (uint32_t k = 0; k < std::min(expected.writers_count, 4U); ++k) {
+        const ref::Triangle& t =
+            expectation_.triangles[expectation_.writers[expected.writers_begin + k]];
+        allowed += fmt::format("{}draw {} primitive {} (provoking vertex {})",
+                               k == 0 ? "" : ", or ", t.draw, t.primitive, t.provoking);
+        const bool same_primitive =
+            writer.draw == t.draw && capture_.has_primitive && writer.primitive == t.primitive;
+        if (same_primitive && writer.provoking_vertex != t.provoking) {
+            finding.rule = provoking_rule(writer.draw);
+            finding.why = "the right triangle, but its flat inputs come from another vertex";
+        }
+    }
+    if (!capture_.has_primitive && finding.rule == "order.primitive" && !is_provoking(writer)) {
+        finding.rule = provoking_rule(writer.draw);
+        finding.why = "no triangle of that draw has this provoking vertex";
+    }
+    if (expected.writers_count > 4) {
+        allowed += fmt::format(", or {} others", expected.writers_count - 4);
+    }
+    finding.expected = allowed;
+    if (finding.rule == "order.primitive") {
+        attribution_.attribute_writer(finding,
+                                      [&](const ref::Triangle& t) { return wrote(writer, t); });
+    } else {
+        finding.level = cases::Profile::vulkan;
+    }
+    finding.got = capture_.has_primitive
+                      ? fmt::format("draw {} primitive {} (provoking vertex {})", writer.draw,
+                                    writer.primitive, writer.provoking_vertex)
+                      : fmt::format("draw {} (provoking vertex {})", writer.draw,
+                                    writer.provoking_vertex);
+    return finding;
+}
+
+}  // namespace diff

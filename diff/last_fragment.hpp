@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The fragment that a sample holds: which triangle it says it is of, and whether that one may have
+// been the last and gives its values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "diff/attribution.hpp"
+#include "diff/capture.hpp"
+#include "diff/verdict.hpp"
+#include "ref/expectation.hpp"
+#include "ref/sample.hpp"
+#include "ref/value.hpp"
+
+namespace diff {
+
+// What of a fragment triangle `t` leaves in a sample: a draw that does not write depth leaves an
+// older fragment's depth.
+inline ref::FragmentPart part_of(const cases::Case& c, const ref::Expectation& expectation,
+                                 uint32_t t) {
+    return c.draws[expectation.triangles[t].draw].depth.write ? ref::FragmentPart::all
+                                                              : ref::FragmentPart::all_but_depth;
+}
+
+class LastFragment {
+  public:
+    // All must outlive this object; `values` judges what `selection` says.
+    LastFragment(const cases::Case& c, const ref::Expectation& expectation,
+                 const CaptureView& capture, const ref::ValueSelection& selection,
+                 Attribution& attribution, ref::ValueReference& values)
+        : case_(c),
+          expectation_(expectation),
+          capture_(capture),
+          selection_(selection),
+          attribution_(attribution),
+          values_(values) {}
+
+    struct Outcome {
+        std::optional<uint32_t> triangle;  // none: none of those that may be last wrote it
+        // Without a triangle: what is said of the writer. Else of depth that the triangle did not
+        // write.
+        std::optional<Finding> finding;
+        std::vector<Finding> values;   // that the triangle does not give
+        double worst_ratio = 0;        // largest error of the values, in budgets
+        uint64_t compared_values = 0;  // numbers
+    };
+
+    // Judges a sample that was hit as often as it may be; `index` is that of `id`.
+    Outcome judge(size_t index, ref::SampleId id);
+
+  private:
+    bool wrote(const Writer& writer, const ref::Triangle& t) const;
+    bool is_provoking(const Writer& writer) const;
+    const char* provoking_rule(uint32_t draw) const;
+    Finding value_finding(ref::SampleId id, ref::ValueMismatch mismatch, uint32_t t) const;
+    std::optional<Finding> judge_older_depth(ref::SampleId id,
+                                             const ref::SampleExpectation& expected,
+                                             const ref::FragmentValues& device);
+    Finding writer_finding(ref::SampleId id, const Writer& writer,
+                           const ref::SampleExpectation& expected);
+
+    const cases::Case& case_;
+    const ref::Expectation& expectation_;
+    const CaptureView& capture_;
+    const ref::ValueSelection& selection_;
+    Attribution& attribution_;
+    ref::ValueReference& values_;
+};
+
+}  // namespace diff
