@@ -186,7 +186,8 @@ class Comparison {
         verdict_.compared_values += outcome.compared_values;
         if (outcome.worst_ratio > verdict_.worst_ratio) {
             verdict_.worst_ratio = outcome.worst_ratio;
-            verdict_.worst_quantity = pixel_text(case_.target, id);
+            verdict_.worst_quantity =
+                fmt::format("{} at {}", outcome.worst_quantity, sample_text(case_.target, id));
         }
         verdict_.raise_error(index, outcome.worst_ratio);
         judge_color(index, id, outcome.triangle);

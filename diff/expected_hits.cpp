@@ -29,10 +29,8 @@ std::string check_expected_hits(const cases::Case& c) {
                                    : b.total_min <= 9         ? static_cast<char>('0' + b.total_min)
                                                               : '#';
             if (drawn != reference) {
-                return fmt::format(
-                    "the picture has '{}' at {}{}, the reference says {} hit(s)", drawn,
-                    pixel_text(c.target, id),
-                    c.target.samples > 1 ? fmt::format(", sample {}", id.sample) : "", to_text(b));
+                return fmt::format("the picture has '{}' at {}, the reference says {} hit(s)",
+                                   drawn, sample_text(c.target, id), to_text(b));
             }
         }
     }

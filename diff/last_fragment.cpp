@@ -27,8 +27,7 @@ LastFragment::Outcome LastFragment::judge(size_t index, ref::SampleId id) {
         if (!wrote(writer, expectation_.triangles[t])) {
             continue;
         }
-        ref::FragmentVerdict v =
-            values_.judge(t, id, device, part_of(case_, expectation_, t));
+        ref::FragmentVerdict v = values_.judge(t, id, device, part_of(case_, expectation_, t));
         if (!out.triangle || (v.ok && !best.ok) ||
             (v.ok == best.ok && v.worst_ratio < best.worst_ratio)) {
             best = std::move(v);
@@ -51,6 +50,7 @@ LastFragment::Outcome LastFragment::judge(size_t index, ref::SampleId id) {
         out.compared_values += selection_.attributes.at(a) ? draw.attributes[a].components : 0U;
     }
     out.worst_ratio = best.worst_ratio;
+    out.worst_quantity = best.worst_quantity;
     for (ref::ValueMismatch& m : best.mismatches) {
         out.values.push_back(value_finding(id, std::move(m), t));
     }
@@ -67,7 +67,8 @@ Finding LastFragment::value_finding(ref::SampleId id, ref::ValueMismatch mismatc
     finding.got = std::move(mismatch.got);
     finding.ratio = mismatch.ratio;
     finding.why = fmt::format(
-        "triangle {} of draw {}: no set-up from snapped or unsnapped vertices explains the fragment",
+        "triangle {} of draw {}: no set-up from snapped or unsnapped vertices explains the "
+        "fragment",
         expectation_.triangles[t].primitive, expectation_.triangles[t].draw);
     return finding;
 }
@@ -108,16 +109,15 @@ bool LastFragment::wrote(const Writer& writer, const ref::Triangle& t) const {
 }
 
 bool LastFragment::is_provoking(const Writer& writer) const {
-    return std::any_of(
-        expectation_.triangles.begin(), expectation_.triangles.end(), [&](const auto& t) {
-            return t.draw == writer.draw && t.provoking == writer.provoking_vertex;
-        });
+    return std::any_of(expectation_.triangles.begin(), expectation_.triangles.end(),
+                       [&](const auto& t) {
+                           return t.draw == writer.draw && t.provoking == writer.provoking_vertex;
+                       });
 }
 
-
 const char* LastFragment::provoking_rule(uint32_t draw) const {
-    const bool is_last = draw < case_.draws.size() &&
-                         case_.draws[draw].provoking == cases::ProvokingVertex::last;
+    const bool is_last =
+        draw < case_.draws.size() && case_.draws[draw].provoking == cases::ProvokingVertex::last;
     return is_last ? "provoking.last" : "provoking.first";
 }
 
@@ -153,11 +153,11 @@ Finding LastFragment::writer_finding(ref::SampleId id, const Writer& writer,
     } else {
         finding.level = cases::Profile::vulkan;
     }
-    finding.got = capture_.has_primitive
-                      ? fmt::format("draw {} primitive {} (provoking vertex {})", writer.draw,
-                                    writer.primitive, writer.provoking_vertex)
-                      : fmt::format("draw {} (provoking vertex {})", writer.draw,
-                                    writer.provoking_vertex);
+    finding.got =
+        capture_.has_primitive
+            ? fmt::format("draw {} primitive {} (provoking vertex {})", writer.draw,
+                          writer.primitive, writer.provoking_vertex)
+            : fmt::format("draw {} (provoking vertex {})", writer.draw, writer.provoking_vertex);
     return finding;
 }
 

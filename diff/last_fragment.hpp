@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -46,9 +47,10 @@ class LastFragment {
         // Without a triangle: what is said of the writer. Else of depth that the triangle did not
         // write.
         std::optional<Finding> finding;
-        std::vector<Finding> values;   // that the triangle does not give
-        double worst_ratio = 0;        // largest error of the values, in budgets
-        uint64_t compared_values = 0;  // numbers
+        std::vector<Finding> values;      // that the triangle does not give
+        double worst_ratio = 0;           // largest error of the values, in budgets
+        std::string_view worst_quantity;  // whose, as in ref::FragmentVerdict
+        uint64_t compared_values = 0;     // numbers
     };
 
     // Judges a sample that was hit as often as it may be; `index` is that of `id`.

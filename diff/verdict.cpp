@@ -34,6 +34,11 @@ std::string pixel_text(const cases::Target& target, const ref::SampleId& id) {
     return fmt::format("{}pixel ({}, {})", layer, id.x, id.y);
 }
 
+std::string sample_text(const cases::Target& target, const ref::SampleId& id) {
+    return pixel_text(target, id) +
+           (target.samples > 1 ? fmt::format(", sample {}", id.sample) : std::string());
+}
+
 std::string_view to_string(FindingKind kind) {
     switch (kind) {
         case FindingKind::missing:

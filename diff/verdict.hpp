@@ -65,6 +65,8 @@ inline Finding finding_at(FindingKind kind, const cases::Target& target, const r
 }
 // "pixel (3, 4)", of a target with several layers "layer 1, pixel (3, 4)".
 std::string pixel_text(const cases::Target& target, const ref::SampleId& id);
+// As pixel_text, of a target with several samples "pixel (3, 4), sample 2".
+std::string sample_text(const cases::Target& target, const ref::SampleId& id);
 
 // What the comparison saw at a sample, for pictures: one byte a sample.
 enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value, order };
@@ -82,7 +84,7 @@ struct Verdict {
     uint32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;
     uint64_t must_samples = 0, either_samples = 0, compared_samples = 0, compared_values = 0;
     double worst_ratio = 0;      // largest accepted or rejected error in budgets (K of this case)
-    std::string worst_quantity;  // where
+    std::string worst_quantity;  // whose and where: "attribute 0.x at pixel (3, 4)"
     std::vector<uint8_t>
         expected_hits;  // nominal hits a sample, saturated at 254; 255 where several are allowed
     std::vector<uint8_t> device_hits;  // saturated at 255

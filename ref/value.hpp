@@ -19,6 +19,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -74,6 +75,9 @@ struct FragmentVerdict {
     bool ok = true;
     Basis basis = Basis::unsnapped;  // the basis that explains the fragment best
     double worst_ratio = 0;          // largest |error| / budget over its values under that basis
+    // The value that has it, as in ValueMismatch; empty if none has an error. Refers to the
+    // ValueReference.
+    std::string_view worst_quantity;
     std::vector<ValueMismatch> mismatches;
 };
 

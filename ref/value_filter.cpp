@@ -56,7 +56,7 @@ Filter make_filter(const Basis<Ball>& basis) {
 
 bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
                     const Places& places, const FragmentValues& device, double factor,
-                    double& worst_ratio) {
+                    WorstError& worst) {
     if (!filter.usable) {
         return false;
     }
@@ -64,7 +64,7 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
     const Evaluated d_centre = evaluate(inv_w, places.centre);
     const Evaluated d_sample = evaluate(inv_w, places.sample);
     const Evaluated d_centroid = evaluate(inv_w, places.centroid);
-    double worst = 0;
+    WorstError found;
     for (const Quantity& q : quantities) {
         if (q.kind != Kind::linear && q.kind != Kind::perspective) {
             continue;
@@ -79,7 +79,7 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
             if (!((error + n.e) * kUp <= factor * plane.budget)) {
                 return false;
             }
-            worst = std::max(worst, error / plane.budget);
+            found.raise(error / plane.budget, q);
             continue;
         }
         // |v - n/d| <= K ((b_n + f b_d)/d + 2u f), times d: |v d - n| <= K (b_n + f b_d + 2u |n|).
@@ -96,9 +96,9 @@ bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
         if (!((error + slack) * kUp <= factor * scaled * kDown)) {
             return false;
         }
-        worst = std::max(worst, error / scaled);
+        found.raise(error / scaled, q);
     }
-    worst_ratio = worst;
+    worst = found;
     return true;
 }
 

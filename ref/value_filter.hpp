@@ -34,17 +34,17 @@ struct Places {
 };
 
 // True if every numeric value (linear or perspective) is proven to be within `factor` budgets.
-// `worst_ratio` then holds the largest error in budgets, rounded (for reports only).
+// `worst` then is the largest error, rounded (for reports only).
 bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
                     const Places& places, const FragmentValues& device, double factor,
-                    double& worst_ratio);
+                    WorstError& worst);
 
 struct ProbePlace;
 
 // The same for the probes (Kind::probe), at one sample a pixel: one arrangement of the quad
-// explains all of them. `worst_ratio` grows to their largest error in budgets.
+// explains all of them. `worst` grows to their largest error.
 bool filter_accepts_probes(const Filter& filter, std::span<const Quantity> quantities,
                            const ProbePlace& place, const FragmentValues& device, double factor,
-                           double& worst_ratio);
+                           WorstError& worst);
 
 }  // namespace ref::value

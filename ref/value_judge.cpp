@@ -58,6 +58,15 @@ void ValueReference::Impl::judge_samples(uint32_t t, SampleId id, const Fragment
     }
 }
 
+namespace {
+
+void tell_worst(const value::WorstError& worst, FragmentVerdict& out) {
+    out.worst_ratio = worst.ratio;
+    out.worst_quantity = worst.quantity;
+}
+
+}  // namespace
+
 bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues& device,
                                   FragmentVerdict& out) {
     const value::Loaded& triangle = load_filters(t);
@@ -77,21 +86,21 @@ bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues&
     }
     const std::span<const Quantity> all(selected.at(triangles[t].draw));
     const value::ProbePlace place = probe_place(t, id, profile);
-    const auto accepts = [&](const value::Filter& filter, double& ratio) {
-        return filter_accepts(filter, all, places, device, kBudgetFactor, ratio) &&
-               filter_accepts_probes(filter, all, place, device, kBudgetFactor, ratio);
+    const auto accepts = [&](const value::Filter& filter, value::WorstError& worst) {
+        return filter_accepts(filter, all, places, device, kBudgetFactor, worst) &&
+               filter_accepts_probes(filter, all, place, device, kBudgetFactor, worst);
     };
-    double ratio = 0;
-    bool is_decided = accepts(triangle.unsnapped, ratio);
-    out.worst_ratio = ratio;
-    if (triangle.has_snapped && !(is_decided && ratio <= 1)) {
-        double snapped_ratio = 0;
-        if (accepts(triangle.snapped, snapped_ratio) && (!is_decided || snapped_ratio < ratio)) {
+    value::WorstError worst;
+    bool is_decided = accepts(triangle.unsnapped, worst);
+    if (triangle.has_snapped && !(is_decided && worst.ratio <= 1)) {
+        value::WorstError snapped;
+        if (accepts(triangle.snapped, snapped) && (!is_decided || snapped.ratio < worst.ratio)) {
             is_decided = true;
             out.basis = Basis::snapped;
-            out.worst_ratio = snapped_ratio;
+            worst = snapped;
         }
     }
+    tell_worst(worst, out);
     return is_decided;
 }
 
@@ -118,7 +127,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
         const value::WideVerdict verdict =
             exact_only ? wide_exact(t, id, device, profile) : wide(t, id, device, profile);
         out.basis = verdict.basis;
-        out.worst_ratio = verdict.worst_ratio;
+        tell_worst(verdict.worst, out);
         if (!verdict.ok && is_brief) {
             for (size_t k = 0; k < verdict.failing.size(); ++k) {
                 ValueMismatch m;
@@ -133,7 +142,13 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const Fragm
     }
     out.ok = out.mismatches.empty();
     for (const ValueMismatch& m : out.mismatches) {
-        out.worst_ratio = std::max(out.worst_ratio, m.ratio);
+        if (m.ratio > out.worst_ratio) {
+            const auto q = std::find_if(all.begin(), all.end(), [&](const Quantity& any) {
+                return any.name == m.quantity;
+            });
+            tell_worst({m.ratio, q == all.end() ? std::string_view() : std::string_view(q->name)},
+                       out);
+        }
     }
     return out;
 }

@@ -327,7 +327,7 @@ void judge_probes(const WideSet<T>& set, std::span<const Candidate<T>> candidate
     const auto [has_quad, has_plain] = depends_on_quad(quantities);
     std::vector<size_t> failing;
     std::vector<double> ratios;
-    double worst = 0;
+    WorstError worst;
     bool is_first = true;
     for (const Quad& quad : quads_of(place.id)) {
         if (!is_first && (!has_quad || (quad.is_coarse && !has_plain))) {
@@ -335,7 +335,7 @@ void judge_probes(const WideSet<T>& set, std::span<const Candidate<T>> candidate
         }
         std::vector<size_t> now;
         std::vector<double> now_ratios;
-        double now_worst = 0;
+        WorstError now_worst;
         for (size_t i = 0; i < quantities.size(); ++i) {
             const bool is_asked =
                 only.empty() || std::find(only.begin(), only.end(), i) != only.end();
@@ -348,26 +348,28 @@ void judge_probes(const WideSet<T>& set, std::span<const Candidate<T>> candidate
                 verdict.is_known = false;
                 return;
             }
-            now_worst = std::max(now_worst, r.ratio);
+            now_worst.raise(r.ratio, quantities[i]);
             if (r.answer == Answer::no) {
                 now.push_back(i);
                 now_ratios.push_back(r.ratio);
             }
         }
         if (is_first || now.size() < failing.size() ||
-            (now.size() == failing.size() && now_worst < worst)) {
+            (now.size() == failing.size() && now_worst.ratio < worst.ratio)) {
             failing = std::move(now);
             ratios = std::move(now_ratios);
             worst = now_worst;
         }
         is_first = false;
-        if (failing.empty() && worst <= 1) {
+        if (failing.empty() && worst.ratio <= 1) {
             break;
         }
     }
     verdict.failing.insert(verdict.failing.end(), failing.begin(), failing.end());
     verdict.ratios.insert(verdict.ratios.end(), ratios.begin(), ratios.end());
-    verdict.worst_ratio = std::max(verdict.worst_ratio, worst);
+    if (worst.ratio > verdict.worst.ratio) {
+        verdict.worst = worst;
+    }
 }
 
 template void judge_probes<Ball>(const WideSet<Ball>&, std::span<const Candidate<Ball>>,

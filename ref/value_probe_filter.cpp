@@ -186,7 +186,7 @@ class FilterProber {
 
 bool filter_accepts_probes(const Filter& filter, std::span<const Quantity> quantities,
                            const ProbePlace& place, const FragmentValues& device, double factor,
-                           double& worst_ratio) {
+                           WorstError& worst) {
     const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
                                         [](const Quantity& q) { return q.kind == Kind::probe; });
     if (!has_probes) {
@@ -197,18 +197,18 @@ bool filter_accepts_probes(const Filter& filter, std::span<const Quantity> quant
     }
     const FilterProber prober(filter, place, factor);
     for (const Quad& quad : quads_of(place.id)) {
-        double worst = worst_ratio;
+        WorstError found = worst;
         const bool is_accepted =
             std::all_of(quantities.begin(), quantities.end(), [&](const Quantity& q) {
                 if (q.kind != Kind::probe) {
                     return true;
                 }
                 const double ratio = prober.judge(q, quad, static_cast<double>(q.get(device)));
-                worst = std::max(worst, ratio);
+                found.raise(ratio, q);
                 return ratio >= 0;
             });
         if (is_accepted) {
-            worst_ratio = worst;
+            worst = found;
             return true;
         }
     }

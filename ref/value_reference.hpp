@@ -267,7 +267,7 @@ struct ValueReference::Impl {
     value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at) {
         const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
-            return {true, true, ref::Basis::unsnapped, 0, {}, {}};
+            return {true, true, ref::Basis::unsnapped, {}, {}, {}};
         }
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
@@ -298,7 +298,7 @@ struct ValueReference::Impl {
                                   Profile at) {
         const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
-            return {true, true, ref::Basis::unsnapped, 0, {}, {}};
+            return {true, true, ref::Basis::unsnapped, {}, {}, {}};
         }
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);

@@ -52,6 +52,18 @@ struct Quantity {
     float get(const FragmentValues& device) const;
 };
 
+// The largest error among the values of a fragment.
+struct WorstError {
+    double ratio = 0;           // in budgets
+    std::string_view quantity;  // Quantity::name of the value that has it; empty while ratio is 0
+
+    void raise(double other, const Quantity& of) {
+        if (other > ratio) {
+            *this = {other, of.name};
+        }
+    }
+};
+
 // Whether a plane of its own belongs to it, and whether that plane's value is a quotient by 1/w.
 inline bool has_plane(const Quantity& q) {
     return q.kind == Kind::linear || q.kind == Kind::perspective || q.kind == Kind::probe;

@@ -73,15 +73,15 @@ Answer has_one_point(const WideSet<mpq_class>& set, const Candidate<mpq_class>& 
 // How many values do not fit, and the largest error in budgets.
 struct Score {
     size_t failing = 0;
-    double worst_ratio = 0;
+    WorstError worst;
 };
 
-Score score_of(std::span<const Fit> fits, std::span<const size_t> judged,
-               const WideVerdict& probes) {
-    Score out{probes.failing.size(), probes.worst_ratio};
+Score score_of(std::span<const Quantity> quantities, std::span<const Fit> fits,
+               std::span<const size_t> judged, const WideVerdict& probes) {
+    Score out{probes.failing.size(), probes.worst};
     for (const size_t i : judged) {
         out.failing += fits[i].answer == Answer::no ? 1U : 0U;
-        out.worst_ratio = std::max(out.worst_ratio, fits[i].ratio);
+        out.worst.raise(fits[i].ratio, quantities[i]);
     }
     return out;
 }
@@ -89,14 +89,14 @@ Score score_of(std::span<const Fit> fits, std::span<const size_t> judged,
 // Fewer failing values, then the smaller ratio.
 bool is_better(const Score& a, const WideVerdict& than) {
     return a.failing < than.failing.size() ||
-           (a.failing == than.failing.size() && a.worst_ratio < than.worst_ratio);
+           (a.failing == than.failing.size() && a.worst.ratio < than.worst.ratio);
 }
 
 WideVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> judged,
                        const WideVerdict& probes, const Score& score, ref::Basis basis) {
     WideVerdict out;
     out.basis = basis;
-    out.worst_ratio = score.worst_ratio;
+    out.worst = score.worst;
     for (const size_t i : judged) {
         if (fits[i].answer == Answer::no) {
             out.failing.push_back(i);
@@ -124,7 +124,7 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
             judged.push_back(i);
         }
     }
-    const WideVerdict unknown{false, false, ref::Basis::unsnapped, 0, {}, {}};
+    const WideVerdict unknown{false, false, ref::Basis::unsnapped, {}, {}, {}};
     std::optional<WideVerdict> best;
     const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
     std::vector<Round<T>> kept(rounds);
@@ -170,7 +170,7 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                     return unknown;
                 }
             }
-            const Score score = score_of(fits, judged, probes);
+            const Score score = score_of(quantities, fits, judged, probes);
             if (best && score.failing > 0 && !is_better(score, *best)) {
                 continue;
             }
@@ -185,16 +185,17 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                         verdict.ok = false;
                         verdict.failing.push_back(blamed);
                         verdict.ratios.push_back(std::numeric_limits<double>::infinity());
-                        verdict.worst_ratio = std::numeric_limits<double>::infinity();
+                        verdict.worst = {std::numeric_limits<double>::infinity(),
+                                         quantities[blamed].name};
                         break;
                     case Answer::yes:
                         break;
                 }
             }
-            if (verdict.ok && verdict.worst_ratio <= 1) {
+            if (verdict.ok && verdict.worst.ratio <= 1) {
                 return verdict;
             }
-            if (!best || is_better({verdict.failing.size(), verdict.worst_ratio}, *best)) {
+            if (!best || is_better({verdict.failing.size(), verdict.worst}, *best)) {
                 best = std::move(verdict);
             }
         }

@@ -75,7 +75,7 @@ struct WideVerdict {
     bool is_known = true;
     bool ok = false;
     ref::Basis basis = ref::Basis::unsnapped;
-    double worst_ratio = 0;
+    WorstError worst;
     std::vector<size_t> failing;  // indices into the quantities
     std::vector<double> ratios;   // of the failing ones
 };

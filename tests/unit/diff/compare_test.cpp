@@ -306,6 +306,50 @@ TEST(Compare, WrongAttributeIsAValueFinding) {
     EXPECT_EQ(only(v).kind, FindingKind::value);
     EXPECT_EQ(only(v).quantity, "attribute 0.x");
     EXPECT_GT(only(v).ratio, 2.0);
+    EXPECT_EQ(v.worst_ratio, only(v).ratio);
+    EXPECT_EQ(v.worst_quantity, "attribute 0.x at pixel (2, 2)");
+}
+
+TEST(Compare, TheLargestErrorHasItsValueAndSample) {
+    cases::Case c = diagonal();
+    c.target.samples = 2;
+    add_attribute(c, cases::Interpolation::smooth, {0, 1, 0, 1, 1, 0});
+    c.draws[0].attributes[0].auxiliary = cases::Auxiliary::sample;
+    Checked k(c);
+    EXPECT_TRUE(k.verdict().worst_quantity.starts_with("frag_coord.w at pixel ("));
+    float& w = k.capture.frag_coord[2 * k.at(5, 3) + 1].w;
+    w = std::nextafter(w, 2.0F);
+    const diff::Verdict v = k.verdict();
+    EXPECT_TRUE(v.ok()) << only(v).why;
+    EXPECT_EQ(v.worst_quantity, "frag_coord.w at pixel (5, 3), sample 1");
+}
+
+// The first finding at a sample gives its mark; the box and the level are those of all.
+TEST(Compare, FindingsAreCountedWhereTheyAre) {
+    cases::Target target;
+    target.width = 4;
+    target.height = 4;
+    target.layers = 2;
+    diff::Verdict v;
+    v.level = Profile::direct3d;
+    v.marks.assign(32, diff::SampleMark::ok);
+    v.marks[5] = diff::SampleMark::either;
+    const auto add = [&](FindingKind kind, ref::SampleId id, Profile level) {
+        diff::Finding finding = diff::finding_at(kind, target, id);
+        finding.level = level;
+        v.add(std::move(finding), target);
+    };
+    add(FindingKind::order, {1, 1, 0}, Profile::direct3d);
+    EXPECT_EQ(v.level, Profile::direct3d);
+    add(FindingKind::value, {1, 1, 0}, Profile::vulkan);
+    add(FindingKind::extra, {3, 2, 0, 1}, Profile::practice);
+    EXPECT_EQ(v.marks[5], diff::SampleMark::order);
+    EXPECT_EQ(v.marks[16 + 8 + 3], diff::SampleMark::extra);
+    EXPECT_EQ(v.level, Profile::vulkan);
+    EXPECT_EQ((std::array{v.min_x, v.min_y, v.max_x, v.max_y}), (std::array{1U, 1U, 3U, 6U}));
+    EXPECT_EQ(v.counts, (std::array<uint64_t, diff::kFindingKinds>{0, 1, 0, 1, 1}));
+    EXPECT_EQ(v.findings.size(), 3U);
+    EXPECT_FALSE(v.ok());
 }
 
 TEST(Compare, NanIsWrongUnderEveryProfile) {

@@ -160,10 +160,10 @@ TEST(ValueAlone, EvaluationsShareWhatIsTheSame) {
                 is_known = is_known && one.is_known;
                 if (!best || one.failing.size() < best->failing.size() ||
                     (one.failing.size() == best->failing.size() &&
-                     one.worst_ratio < best->worst_ratio)) {
+                     one.worst.ratio < best->worst.ratio)) {
                     best = std::move(one);
                 }
-                if (best->ok && best->worst_ratio <= 1) {
+                if (best->ok && best->worst.ratio <= 1) {
                     break;
                 }
             }
@@ -174,7 +174,8 @@ TEST(ValueAlone, EvaluationsShareWhatIsTheSame) {
             }
             ASSERT_EQ(all.failing, best->failing) << n;
             ASSERT_EQ(all.ratios, best->ratios) << n;
-            ASSERT_EQ(all.worst_ratio, best->worst_ratio) << n;
+            ASSERT_EQ(all.worst.ratio, best->worst.ratio) << n;
+            ASSERT_EQ(all.worst.quantity, best->worst.quantity) << n;
             ++compared;
             wrong += all.ok ? 0U : 1U;
             several += evaluations.size() > 2 ? 1U : 0U;

@@ -139,6 +139,37 @@ TEST(ValueHand, ExactValuesRoundedOncePass) {
     }
 }
 
+// Values are moved one by one, by half a budget more than one and far beyond what is accepted.
+TEST(ValueHand, TheLargestErrorIsThatOfTheValueThatWasMoved) {
+    const cases::Case c = brown_case();
+    const ref::SampleId id{3, 0, 0};
+    ref::ValueReference reference = reference_of(c, Profile::direct3d);
+    const std::vector<ref::ExpectedValue> all = reference.expected(0, id);
+    EXPECT_LT(reference.judge(0, id, rounded(all)).worst_ratio, 0.5);
+    size_t moved = 0;
+    for (size_t k = 0; k < all.size(); ++k) {
+        if (all[k].is_flat || all[k].factor <= 0) {
+            continue;
+        }
+        ++moved;
+        for (const double budgets : {1.5, 40.0}) {
+            std::vector<ref::ExpectedValue> other = all;
+            other[k].nearest += budgets * all[k].budget;
+            const ref::FragmentValues device = rounded(other);
+            for (const ref::FragmentVerdict& verdict :
+                 {reference.judge(0, id, device), reference.judge_exact(0, id, device)}) {
+                EXPECT_EQ(verdict.ok, budgets < 2) << all[k].quantity;
+                EXPECT_NEAR(verdict.worst_ratio, budgets, 0.6) << all[k].quantity;
+                EXPECT_EQ(verdict.worst_quantity, all[k].quantity);
+            }
+        }
+    }
+    EXPECT_EQ(moved, 5U);  // z, w, depth, two inputs
+    ref::FragmentValues device = rounded(all);
+    device.attributes[2].x += 1;
+    EXPECT_EQ(reference.judge(0, id, device).worst_quantity, "attribute 2.x");
+}
+
 // Judges the brown case with one value replaced; returns the single mismatch.
 ref::ValueMismatch mismatch_of(const cases::Case& c, Profile profile, ref::SampleId id,
                                const std::function<void(ref::FragmentValues&)>& change) {

@@ -201,6 +201,9 @@ TEST(ValueProbe, WhatIsAcceptedIsWithinItsBudgets) {
                     for (int k = 0; k < 30; ++k) {
                         const float middle = (right + wrong) / 2;
                         const ref::FragmentVerdict verdict = judged(middle);
+                        if (verdict.worst_ratio > 1) {
+                            EXPECT_EQ(verdict.worst_quantity, "attribute 0.x");
+                        }
                         if (verdict.ok) {
                             EXPECT_LE(verdict.worst_ratio, 1.01 * ref::budget_factor(profile));
                         }
