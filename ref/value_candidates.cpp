@@ -267,7 +267,7 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
             // Attributes are convex combinations of the three, clipped or not.
             for (const float f : attribute_values(
                      primitive, static_cast<uint32_t>(quantity.attribute), quantity.component)) {
-                add(from_float<T>(f));
+                add(from_float<T>(std::isfinite(f) ? f : 0.0F));  // as in plane_inputs()
             }
         } else if (polygon.empty()) {
             for (size_t i = 0; i < 3; ++i) {

@@ -182,7 +182,11 @@ void print_families(const Matrix& matrix) {
     fmt::print(
         "\n## Families\n\n"
         "Which faults hang on a family. *Alone*: no other family catches the fault at its loosest "
-        "profile. *One of two*: without the family only one would be left that catches it.\n\n"
+        "profile. *One of two*: without the family only one would be left that catches it. Here "
+        "each "
+        "case is drawn once, as these faults stay the same from rendering to rendering; what the "
+        "relations of `repeat` and `tiled` see is a device that changes its mind, which no other "
+        "check does (`tests/mutants/inconsistent_test.cpp`).\n\n"
         "| family | faults caught | alone | one of two |\n| --- | --- | --- | --- |\n");
     const auto list = [](const std::vector<std::string>& names) {
         std::string out;

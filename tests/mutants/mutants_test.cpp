@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
@@ -22,6 +21,7 @@
 #include "mutants/matrix.hpp"
 #include "mutants/recorded.hpp"
 #include "report/sentences.hpp"
+#include "share.hpp"
 
 namespace mutants {
 
@@ -264,28 +264,7 @@ TEST(Recorded, EveryLegalDeviceHasNoFalseAlarm) {
 // Which faults are run on all the cases that expected_catches() names: the k-th of n shares, by
 // EDGECASE_MUTANT_SHARE=k/n (0/1: all). Without it a quarter, another one whenever the suite grows.
 bool is_in_share(std::string_view name) {
-    size_t share = suite().cases.size() % 4, shares = 4;
-    if (const char* text = std::getenv("EDGECASE_MUTANT_SHARE")) {
-        const std::string_view words(text);
-        const size_t slash = words.find('/');
-        size_t k = 0, n = 0;
-        const auto parse = [](std::string_view part, size_t& to) {
-            const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), to);
-            return error == std::errc{} && end == part.data() + part.size();
-        };
-        const bool is_good = slash != std::string_view::npos && parse(words.substr(0, slash), k) &&
-                             parse(words.substr(slash + 1), n) && k < n;
-        EXPECT_TRUE(is_good) << "EDGECASE_MUTANT_SHARE=" << words << ": must be k/n with k < n";
-        if (is_good) {
-            share = k;
-            shares = n;
-        }
-    }
-    uint32_t hash = 2166136261U;  // FNV-1a
-    for (const char c : name) {
-        hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-    }
-    return hash % shares == share;
+    return test_support::share_of("EDGECASE_MUTANT_SHARE", 4, suite().cases.size()).has(name);
 }
 
 class Mutant : public testing::TestWithParam<FaultInfo> {

@@ -170,6 +170,33 @@ TEST(ValueHand, TheLargestErrorIsThatOfTheValueThatWasMoved) {
     EXPECT_EQ(reference.judge(0, id, device).worst_quantity, "attribute 2.x");
 }
 
+// A bad number of one vertex leaves its own component free and no other, in both implementations.
+TEST(ValueHand, BadNumbersOfAVertexFreeTheirComponentAlone) {
+    for (const float bad :
+         {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+        cases::Case c = make_case(
+            8, {clip_of(0, 0, 0.25, 1, 8), clip_of(8, 0, 0.5, 2, 8), clip_of(0, 8, 1, 1, 8)});
+        add_attribute(c, Interpolation::smooth, 2,
+                      {glm::vec4(0, 0, 0, 0), glm::vec4(bad, 1, 0, 0), glm::vec4(1, 2, 0, 0)});
+        const ref::SampleId id{3, 0, 0};
+        for (const Profile profile : cases::kProfiles) {
+            ref::ValueReference reference = reference_of(c, profile);
+            ref::FragmentValues device = rounded(reference.expected(0, id));
+            for (const float any : {0.0F, bad, -7.0F}) {
+                device.attributes[0].x = any;
+                EXPECT_TRUE(reference.judge(0, id, device).ok);
+                EXPECT_TRUE(reference.judge_exact(0, id, device).ok);
+            }
+            device.attributes[0].y += 0.25F;
+            for (const ref::FragmentVerdict& verdict :
+                 {reference.judge(0, id, device), reference.judge_exact(0, id, device)}) {
+                ASSERT_EQ(verdict.mismatches.size(), 1U);
+                EXPECT_EQ(verdict.mismatches[0].quantity, "attribute 0.y");
+            }
+        }
+    }
+}
+
 // Judges the brown case with one value replaced; returns the single mismatch.
 ref::ValueMismatch mismatch_of(const cases::Case& c, Profile profile, ref::SampleId id,
                                const std::function<void(ref::FragmentValues&)>& change) {
