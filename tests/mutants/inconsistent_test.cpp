@@ -30,8 +30,7 @@ const std::vector<cases::Case>& related() {
     static const std::vector<cases::Case> cases = [] {
         std::vector<cases::Case> out;
         const cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
-        const auto share =
-            test_support::share_of("EDGECASE_RELATION_SHARE", 8, suite.cases.size());
+        const auto share = test_support::share_of("EDGECASE_RELATION_SHARE", 8, suite.cases.size());
         for (const cases::Case& c : suite.cases) {
             const size_t samples = size_t{c.target.width} * c.target.rows() * c.target.samples;
             if (!c.relations.empty() && samples <= kMostSamples && share.has(c.id)) {

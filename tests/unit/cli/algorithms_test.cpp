@@ -5,11 +5,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <set>
 
 #include "cases/loader.hpp"
 #include "cli/backend.hpp"
 #include "diff/verdict.hpp"
+
+namespace ref::algorithms {
+
+// How ctest names a parameter.
+void PrintTo(const Device& device, std::ostream* out) {
+    *out << device.name;
+}
+
+}  // namespace ref::algorithms
 
 namespace cli {
 namespace {

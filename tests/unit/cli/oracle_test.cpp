@@ -38,8 +38,7 @@ const Leaves& leaves() {
     static const Leaves kLeaves = [] {
         Leaves out;
         const auto suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
-        const auto share =
-            test_support::share_of("EDGECASE_ORACLE_SHARE", 32, suite.cases.size());
+        const auto share = test_support::share_of("EDGECASE_ORACLE_SHARE", 32, suite.cases.size());
         for (const cases::Case& c : suite.cases) {
             if (c.blit || !share.has(c.id)) {
                 continue;
