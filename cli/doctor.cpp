@@ -168,11 +168,15 @@ struct Diagnosis {
     std::vector<vk_harness::DeviceInfo> devices;
     std::vector<std::string> problems;
     std::vector<std::string> advice;
+    bool usable = false;  // what the options choose can run the suite
 };
 
 void add_failure(Diagnosis& d, const vk_harness::Failure& failure) {
     d.problems.push_back(failure.message);
     d.problems.insert(d.problems.end(), failure.reasons.begin(), failure.reasons.end());
+    if (!d.devices.empty()) {
+        return;  // the driver works, it is not what was asked for
+    }
     if (failure.stage == vk_harness::Stage::loader) {
         d.advice.emplace_back("sudo apt install libvulkan1 mesa-vulkan-drivers");
     } else {
@@ -180,12 +184,21 @@ void add_failure(Diagnosis& d, const vk_harness::Failure& failure) {
     }
 }
 
+bool is_usable(const vk_harness::DeviceInfo& device) {
+    return device.missing.empty();
+}
+
+enum class Question { devices, chosen };
+
+// Lists the devices, or starts the one that the options choose.
 cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& options,
-                                 Diagnosis& d) {
+                                 Question question, Diagnosis& d) {
     SignalFd signals;
-    cases::Expected<WorkerClient> client = WorkerClient::start_listing(
-        worker_command(program), worker_options(options),
-        std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)));
+    const auto start =
+        question == Question::devices ? WorkerClient::start_listing : WorkerClient::start;
+    cases::Expected<WorkerClient> client =
+        start(worker_command(program), worker_options(options),
+              std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)));
     if (!client) {
         return tl::unexpected(client.error());
     }
@@ -200,21 +213,43 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
             d.problems.emplace_back("the loader finds no device");
             d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
         }
+        d.usable = std::any_of(list->begin(), list->end(), is_usable);
+    } else if (const auto* device = std::get_if<vk_harness::DeviceInfo>(&*answer);
+               device != nullptr) {
+        d.usable = true;
+        if (d.devices.empty()) {  // no driver's
+            d.devices.push_back(*device);
+        }
     } else if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer);
                failure != nullptr) {
+        d.usable = false;
         add_failure(d, *failure);
     } else if (const auto* death = std::get_if<Death>(&*answer); death != nullptr) {
+        d.usable = false;
         const Stop stop = explain_death(*death);
         d.problems.insert(d.problems.end(), stop.lines.begin(), stop.lines.end());
     }
     return {};
 }
 
-bool is_usable(const vk_harness::DeviceInfo& device) {
-    return device.missing.empty();
+// Every device of the drivers, and whether the chosen one, or the first usable, can run the suite.
+cases::Expected<void> ask(const Program& program, const DeviceOptions& options, Diagnosis& d) {
+    const bool is_driver = options.renderer.empty();
+    if (is_driver) {
+        for (const Manifest& m : d.manifests) {
+            if (!m.problem.empty()) {
+                d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
+            }
+        }
+        if (const auto listed = ask_worker(program, options, Question::devices, d);
+            !listed || d.devices.empty() || options.device.empty()) {
+            return listed;
+        }
+    }
+    return ask_worker(program, options, Question::chosen, d);
 }
 
-Json to_json(const Diagnosis& d, bool usable) {
+Json to_json(const Diagnosis& d) {
     Json manifests = Json::array();
     for (const Manifest& m : d.manifests) {
         manifests.push_back({{"file", m.file}, {"library", m.library}, {"problem", m.problem}});
@@ -243,12 +278,12 @@ Json to_json(const Diagnosis& d, bool usable) {
                          {"found", part.found},
                          {"advice", part.found.empty() ? part.advice : ""}});
     }
-    return {{"parts", parts},         {"usable", usable},   {"manifests_chosen_by", d.chosen_by},
+    return {{"parts", parts},         {"usable", d.usable},   {"manifests_chosen_by", d.chosen_by},
             {"manifests", manifests}, {"devices", devices}, {"problems", d.problems},
             {"advice", d.advice}};
 }
 
-void print(const Diagnosis& d, bool usable) {
+void print(const Diagnosis& d, const DeviceOptions& options) {
     const auto line = [](const std::string& text) {
         std::printf("%s\n", report::printable(text).c_str());
     };
@@ -292,7 +327,14 @@ void print(const Diagnosis& d, bool usable) {
     for (const std::string& advice : d.advice) {
         line("try:     " + advice);
     }
-    line(usable ? "ready: 'edgecase run' works here" : "not ready: no device can run the suite");
+    const std::string chosen =
+        !options.renderer.empty() ? "renderer " + options.renderer
+        : !options.device.empty() ? "device '" + options.device + "'"
+                                  : std::string();
+    const std::string on = chosen.empty() ? "" : " on the " + chosen;
+    line(d.usable         ? "ready: 'edgecase run' works here" + on
+         : chosen.empty() ? "not ready: no device can run the suite"
+                          : "not ready: no " + chosen + " can run the suite");
 }
 
 }  // namespace
@@ -301,26 +343,20 @@ int doctor_command(const Program& program, const DoctorOptions& options) {
     Diagnosis d;
     d.parts = find_parts(program);
     d.manifests = find_manifests(options.device.icd, d.chosen_by);
-    for (const Manifest& m : d.manifests) {
-        if (!m.problem.empty()) {
-            d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
-        }
-    }
-    if (const auto asked = ask_worker(program, options.device, d); !asked) {
+    if (const auto asked = ask(program, options.device, d); !asked) {
         return report_stop({report::kExitInternal, {asked.error().message}});
     }
-    const bool usable = std::any_of(d.devices.begin(), d.devices.end(), is_usable);
-    if (!d.devices.empty() && !usable) {
+    if (!d.devices.empty() && std::none_of(d.devices.begin(), d.devices.end(), is_usable)) {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
     }
     if (options.json) {
         const std::string text =
-            to_json(d, usable).dump(2, ' ', false, Json::error_handler_t::replace);
+            to_json(d).dump(2, ' ', false, Json::error_handler_t::replace);
         std::printf("%s\n", text.c_str());
     } else {
-        print(d, usable);
+        print(d, options.device);
     }
-    return usable ? report::kExitOk : report::kExitDevice;
+    return d.usable ? report::kExitOk : report::kExitDevice;
 }
 
 }  // namespace cli
