@@ -15,6 +15,7 @@
 #include "cases/selector.hpp"
 #include "cli/command_options.hpp"
 #include "cli/commands.hpp"
+#include "cli/outputs.hpp"
 #include "cli/worker.hpp"
 #include "report/run.hpp"
 
@@ -238,7 +239,7 @@ int edgecase_main(int argc, const char* const* argv) {
         {"version", [] { return version_command(); }},
         {"help", [] { return 0; }},
     };
-    return table.at(*parsed)();
+    return finish_output(table.at(*parsed)());
 }
 
 }  // namespace cli

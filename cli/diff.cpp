@@ -264,10 +264,17 @@ int conclude(const DiffOptions& options, const fs::path& folder, const std::stri
         return report_stop(stop_with(report::kExitInternal, cases::to_string(run.error())));
     }
     const RunOptions& o = options.run;
-    const cases::Errors errors = write_reports(*run, {folder, o.json, o.junit, o.html});
+    const ReportFiles files{folder, o.json, o.junit, o.html};
+    const cases::Errors errors = write_reports(*run, files);
+    const bool failed = !errors.empty() || !failure.empty();
+    const int code = report::exit_code(*run);
+    const bool overrides = failed && code != report::kExitInterrupted;
     if (!o.quiet) {
         std::fputs(skipped_text(skipped).c_str(), console);
-        std::fputs(report::console_summary(*run, (folder / "report.html").string(), style).c_str(),
+        std::fputs(report::console_summary(
+                       *run, written_page(files, errors), style,
+                       overrides ? report::exit_text(report::kExitInternal, why) : std::string())
+                       .c_str(),
                    console);
     }
     for (const cases::Error& error : errors) {
@@ -276,9 +283,7 @@ int conclude(const DiffOptions& options, const fs::path& folder, const std::stri
     if (!failure.empty()) {
         std::fprintf(stderr, "edgecase: %s\n", failure.c_str());
     }
-    const int code = report::exit_code(*run);
-    const bool failed = !errors.empty() || !failure.empty();
-    return failed && code != report::kExitInterrupted ? report::kExitInternal : code;
+    return overrides ? report::kExitInternal : code;
 }
 
 }  // namespace

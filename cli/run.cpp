@@ -23,6 +23,7 @@
 namespace cli {
 
 namespace fs = std::filesystem;
+#include "report/sentences.hpp"
 using report::CaseRecord;
 using report::Run;
 
@@ -245,20 +246,28 @@ int conclude(const Prepared& p, std::FILE* console, const report::ConsoleStyle& 
     const cases::Errors ci = write_ci(*run, chosen_ci(p.options.ci), p.folder, console);
     errors.insert(errors.end(), ci.begin(), ci.end());
     if (!p.options.quiet) {
-        std::fputs(
-            report::console_summary(*run, (p.folder / "report.html").string(), style).c_str(),
-            console);
+        const std::string why =
+            failure.empty() ? "a report could not be written" : "the run stopped early";
+        std::fputs(report::console_summary(
+                       *run, written_page(files, errors), style,
+                       overrides ? report::exit_text(report::kExitInternal, why) : std::string())
+                       .c_str(),
+                   console);
     }
     for (const cases::Error& error : errors) {
         std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
     }
     if (!failure.empty()) {
-        std::fprintf(stderr, "edgecase: the run stopped early: %s; go on with --resume %s\n",
+        std::fprintf(stderr,
+                     "edgecase: the run stopped early: %s; go on with 'edgecase run --resume %s'\n",
                      failure.c_str(), shell_quote(p.folder.string()).c_str());
     }
-    const int code = report::exit_code(*run);
-    const bool failed = !errors.empty() || !failure.empty();
-    return failed && code != report::kExitInterrupted ? report::kExitInternal : code;
+    if (run->interrupted) {
+        std::fflush(console);
+        std::fprintf(stderr, "edgecase: interrupted; go on with 'edgecase run --resume %s'\n",
+                     shell_quote(p.folder.string()).c_str());
+    }
+    return overrides ? report::kExitInternal : code;
 }
 
 LoopConfig loop_config(const Program& program, const RunOptions& options) {
@@ -276,6 +285,9 @@ LoopConfig loop_config(const Program& program, const RunOptions& options) {
 }
 
 int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerClient worker,
+    const bool failed = !errors.empty() || !failure.empty();
+    const int code = report::exit_code(*run);
+    const bool overrides = failed && code != report::kExitInterrupted;
                  SignalFd& signals) {
     const bool resumed = !p.header.device.name.empty();
     const RunOptions& options = p.options;

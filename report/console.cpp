@@ -165,7 +165,7 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
 }
 
 std::string console_summary(const Run& run, const std::string& report_path,
-                            const ConsoleStyle& style) {
+                            const ConsoleStyle& style, const std::string& exit_words) {
     const auto count = totals(run);
     std::string text =
         fmt::format("{} {}", run.cases.size(), run.cases.size() == 1 ? "case" : "cases");
@@ -185,7 +185,7 @@ std::string console_summary(const Run& run, const std::string& report_path,
                         ratio_text(worst->worst_ratio), worst->worst_quantity.empty() ? "" : ", ",
                         printable(worst->worst_quantity), printable(worst->id));
     }
-    const std::string exit = exit_text(exit_code(run));
+    const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
     text += report_path.empty() ? exit + '\n'
                                 : fmt::format("report {}    {}\n", printable(report_path), exit);
     return style.wrap ? wrapped(text, style.width) : text;

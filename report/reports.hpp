@@ -35,9 +35,10 @@ std::string console_header(const Run& run, const ConsoleStyle& style);
 // What is printed at once for an unexpected result: three lines (what, why, how to repeat it), and
 // a fourth with the command that explains its first wrong sample, if there is one.
 std::string console_case(const CaseRecord& record, const ConsoleStyle& style);
-// Last lines: totals, worst error in budgets, where the report lies, exit code with its meaning.
+// Last lines: totals, worst error in budgets, where the report lies, exit code with its meaning
+// (`exit_words`, or, if empty, those of the run).
 std::string console_summary(const Run& run, const std::string& report_path,
-                            const ConsoleStyle& style);
+                            const ConsoleStyle& style, const std::string& exit_words = {});
 
 // Text that a driver or file may have filled with anything, made safe for a terminal or XML:
 // valid UTF-8, no control characters but newline and tab (shown as \xNN).

@@ -102,3 +102,4 @@ class Interrupt(JournalTest):
 
 if __name__ == "__main__":
     unittest.main()
+        self.assertIn(f"edgecase: interrupted; go on with 'edgecase run --resume {self.out}'\n".encode(), output)
