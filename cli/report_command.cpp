@@ -118,7 +118,9 @@ int report_command(const Program&, const ReportOptions& options) {
     cases::Errors errors = write_reports(run, files);
     const bool stdout_taken = options.json == "-" || options.junit == "-" || options.html == "-";
     std::FILE* console = stdout_taken ? stderr : stdout;
-    const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    style.folder =
+        shell_quote(options.merge ? source->folder.string() : options.directories.front());
     if (!options.quiet) {
         std::fputs(report::console_header(run, style).c_str(), console);
     }
@@ -130,8 +132,6 @@ int report_command(const Program&, const ReportOptions& options) {
     std::fflush(console);
     const cases::Errors ci = write_ci(run, chosen_ci(options.ci), files.folder, console);
     errors.insert(errors.end(), ci.begin(), ci.end());
-    for (const cases::Error& error : errors) {
-        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
     const bool is_whole = source->missing_shards.empty();
     const bool failed = !errors.empty() || !is_whole;
     if (!options.quiet) {
@@ -147,6 +147,8 @@ int report_command(const Program&, const ReportOptions& options) {
                    console);
         std::fflush(console);
     }
+    for (const cases::Error& error : errors) {
+        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
     }
     if (!is_whole) {
         std::fprintf(stderr,

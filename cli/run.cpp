@@ -340,7 +340,8 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
 
     const bool stdout_taken = options.json == "-" || options.junit == "-" || options.html == "-";
     std::FILE* console = stdout_taken ? stderr : stdout;
-    const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    style.folder = shell_quote(p.folder.string());
     if (!options.quiet) {
         std::fputs(report::console_header(p.header, style).c_str(), console);
         std::fflush(console);

@@ -158,6 +158,12 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
     if (!record.explain.empty()) {
         text += fmt::format("{}explain: {}\n", kIndent, printable(record.explain));
     }
+    const bool is_outdated = record.status == Status::xpass || record.status == Status::improved;
+    if (is_outdated && !record.expectation.empty() && !style.folder.empty()) {
+        const std::string file = record.expectation.substr(0, record.expectation.rfind(':'));
+        text += fmt::format("{}update: edgecase expect --update {} {}\n", kIndent,
+                            printable(style.folder), printable(file));
+    }
     if (style.verbose) {
         text += ascii_picture(record, style);
     }

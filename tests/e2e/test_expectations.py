@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
 """Expectation files: known problems do not fail a run, news of any kind does."""
+import re
 import unittest
 
 from support import ProgramTest
@@ -48,6 +49,25 @@ class Statuses(ExpectationTest):
     def test_no_expect(self):
         self.expectations("fam/c3  fail  bug#1  # It is known.\n")
         self.run_suite("--no-expect", fault="flip-pixel@fam/c3", check=1)
+
+
+    def rerun(self, done):
+        return re.search(r"rerun: (?:\w+=\S+ )*\S+ (.*)\n", done.stdout)[1]
+
+    def test_the_rerun_line_repeats_how_it_was_judged(self):
+        path = self.expectations("fam/c3  fail  bug#1  # It is known.\n")
+        done = self.run_suite("--no-expect", fault="flip-pixel@fam/c3", check=1)
+        self.assertEqual(self.rerun(done), "run fam/c3 --renderer reference --no-expect")
+        done = self.run_suite("--expect", path, "--timeout", "7.5", "fam/c1", fault="flip-pixel@fam/c1", check=1)
+        self.assertEqual(self.rerun(done), f"run fam/c1 --renderer reference --timeout 7.5 --expect {path}")
+
+    def test_an_unexpected_pass_names_the_command(self):
+        path = self.expectations("fam/c3  fail  bug#1  # It is known.\n")
+        line = f"      update: edgecase expect --update {self.out} {path}\n"
+        self.assertIn(line, self.run_suite(check=1).stdout)
+        self.assertIn(line, self.edgecase("report", self.out, check=0).stdout)
+        self.edgecase("expect", "--update", self.out, path, check=0)
+        self.run_suite(check=0)
 
 
 class Files(ExpectationTest):
