@@ -27,14 +27,14 @@ constexpr const char* kFooter =
     "\n"
     "Exit codes:\n"
     "    0  every selected case ended as expected\n"
-    "    1  an unexpected result: fail, crash, timeout, device lost, flake, xpass, improved, "
-    "error\n"
+    "    1  an unexpected result: fail, crash, timeout, device lost, flake, xpass, improved\n"
     "    2  wrong use of the command line\n"
     "    3  an invalid case, suite, expectation file or journal\n"
     "    4  no case is selected\n"
     "    5  no device, or not the demanded one\n"
     "    6  everything was skipped or unsupported\n"
-    "    7  internal error, or cases were not run or could not be judged\n"
+    "    7  internal error, or cases were not run or could not be judged, or a report could not be "
+    "written\n"
     "  130  interrupted; the reports hold what was done\n";
 
 const std::map<std::string, std::string>& shell_names() {

@@ -180,6 +180,13 @@ class Listing(ProgramTest):
         self.assertEqual({s["class"] for s in picture["samples"]}, {"must"})
 
 
+    def test_exit_codes_are_those_of_the_manual(self):
+        rows = re.findall(r"^\| (\d+) \| (.*) \|$", (SOURCE / "docs" / "cli.md").read_text(), re.M)
+        self.assertEqual(len(rows), 9)
+        for text in (self.edgecase("--help", check=0).stdout, self.edgecase("man", check=0).stdout):
+            for code, meaning in rows:
+                self.assertRegex(text, rf"\b{code}  {re.escape(meaning)}\n")
+
 class Selection(ProgramTest):
     def order(self, *words):
         self.run_suite(*words, check=0)
