@@ -116,6 +116,20 @@ class Files(ExpectationTest):
     def test_conflict(self):
         self.refused("fam/c3 fail bug#1  # Known.\nfam/c* crash bug#2  # Known.\n", "disagrees")
 
+    def test_expect_checks_what_a_run_checks(self):
+        for text, sentence in (("fam/cc3 fail bug#1  # Known.\n", "did you mean 'fam/c"),
+                               ("fam/c3 fail bug#1  # Known.\nfam/c* crash bug#2  # Known.\n", "disagrees about 'fam/c3'")):
+            path = self.expectations(text)
+            self.assertIn(sentence, self.edgecase("expect", path, check=3).stderr)
+        self.edgecase("expect", self.expectations("fam/c3 fail bug#1  # Known.\n"), check=0)
+
+    def test_a_file_that_is_something_else(self):
+        path = self.expectations("", header="{\"a\": 1,\n \"b\x01\": 2}\n")
+        self.assertEqual(self.edgecase("expect", path, check=3).stderr,
+                         f"edgecase: {path}:1:1: error: the first line must be '# edgecase-expectations 1'\n")
+        path = self.expectations("fam/c3 f\x1b[31m bug#1  # Known.\n")
+        self.assertNotIn("\x1b", self.edgecase("expect", path, check=3).stderr)
+
     def test_no_header(self):
         self.refused("fam/c3 fail bug#1  # Known.\n", "first line", header="")
 
