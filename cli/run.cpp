@@ -111,6 +111,16 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     if (!options) {
         return tl::unexpected(options.error());
     }
+    // What the first part took from variables, it takes again.
+    for (const char* variable :
+         {"EDGECASE_PROFILE", "EDGECASE_DEVICE", "EDGECASE_ICD", "EDGECASE_TIMEOUT"}) {
+        ::unsetenv(variable);
+        for (const auto& [name, value] : earlier->environment) {
+            if (name == variable) {
+                ::setenv(variable, value.c_str(), 1);
+            }
+        }
+    }
     p.options = std::move(*options);
     p.options.jobs = now.jobs;
     p.options.quiet = now.quiet;
@@ -376,6 +386,16 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
     header.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     header.interrupted = end.interrupted;
     std::string failure = end.failure;
+    if (const auto earlier = std::count_if(p.header.cases.begin(), p.header.cases.end(),
+                                           [](const CaseRecord& record) {
+                                               return record.status != report::Status::not_run &&
+                                                      !report::is_expected(record.status);
+                                           });
+        resumed && earlier > 0) {
+        std::fprintf(console, "%td unexpected %s before the interruption: edgecase report %s\n",
+                     earlier, earlier == 1 ? "result" : "results", style.folder.c_str());
+        std::fflush(console);
+    }
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }

@@ -184,7 +184,9 @@ std::string console_summary(const Run& run, const std::string& report_path,
                 "  " + painted(fmt::format("{} {}", count.at(k), word), color_of(status), style);
         }
     }
-    text += fmt::format("   {}   seed {}\n", seconds_text(run.seconds), run.seed);
+    const bool is_cut = run.ended.empty() && !(run.seconds > 0);
+    text +=
+        fmt::format("   {}   seed {}\n", is_cut ? "cut off" : seconds_text(run.seconds), run.seed);
     if (const CaseRecord* worst = worst_case(run)) {
         text +=
             fmt::format("largest accepted error {} budgets{}{} in {}\n",
