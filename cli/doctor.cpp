@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/device_answer.hpp"
+#include "cli/manifest.hpp"
 #include "cli/run_plan.hpp"
 #include "cli/suite.hpp"
 #include "report/reports.hpp"
@@ -25,44 +25,14 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-struct Manifest {
-    std::string file, library, problem;
-};
-
-Manifest read_manifest(const fs::path& file) {
-    Manifest manifest{file.string(), "", ""};
-    std::ifstream in(file);
-    if (!in) {
-        manifest.problem = "cannot be read";
-        return manifest;
-    }
-    const Json json = Json::parse(in, nullptr, false);
-    const Json::json_pointer where("/ICD/library_path");
-    if (json.is_discarded() || !json.contains(where) || !json.at(where).is_string()) {
-        manifest.problem = "is no driver manifest (no ICD.library_path)";
-        return manifest;
-    }
-    manifest.library = json.at(where).get<std::string>();
-    if (manifest.library.find('/') != std::string::npos) {
-        fs::path library = manifest.library;
-        if (library.is_relative()) {
-            library = file.parent_path() / library;
-        }
-        std::error_code ignored;
-        if (!fs::exists(library, ignored)) {
-            manifest.problem = "names a library that does not exist";
-        }
-    }
-    return manifest;
-}
-
 std::string value_of(const char* variable) {
     const char* value = std::getenv(variable);
     return value != nullptr ? value : "";
 }
 
 // The manifests that the loader looks at, and the variable that chose them, if any.
-std::vector<Manifest> find_manifests(const std::string& icd, std::string& chosen_by) {
+std::vector<Manifest> find_manifests(const std::string& icd, const std::string& icd_from,
+                                     std::string& chosen_by) {
     std::vector<fs::path> places;
     const auto add_list = [&](const std::string& list, const std::string& below) {
         std::istringstream in(list);
@@ -73,7 +43,7 @@ std::vector<Manifest> find_manifests(const std::string& icd, std::string& chosen
         }
     };
     if (!icd.empty()) {
-        chosen_by = "--icd";
+        chosen_by = icd_from;
         places.emplace_back(icd);
     } else {
         for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
@@ -174,8 +144,9 @@ struct Diagnosis {
 void add_failure(Diagnosis& d, const vk_harness::Failure& failure) {
     d.problems.push_back(failure.message);
     d.problems.insert(d.problems.end(), failure.reasons.begin(), failure.reasons.end());
-    if (!d.devices.empty()) {
-        return;  // the driver works, it is not what was asked for
+    if (!d.devices.empty() ||
+        (!d.chosen_by.empty() && failure.stage != vk_harness::Stage::loader)) {
+        return;  // the driver works, but is not what was asked for; or another one was chosen
     }
     if (failure.stage == vk_harness::Stage::loader) {
         d.advice.emplace_back("sudo apt install libvulkan1 mesa-vulkan-drivers");
@@ -211,7 +182,9 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
         d.devices = *list;
         if (list->empty()) {
             d.problems.emplace_back("the loader finds no device");
-            d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
+            if (d.chosen_by.empty()) {
+                d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
+            }
         }
         d.usable = std::any_of(list->begin(), list->end(), is_usable);
     } else if (const auto* device = std::get_if<vk_harness::DeviceInfo>(&*answer);
@@ -241,8 +214,13 @@ cases::Expected<void> ask(const Program& program, const DeviceOptions& options, 
                 d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
             }
         }
-        if (const auto listed = ask_worker(program, options, Question::devices, d);
-            !listed || d.devices.empty() || options.device.empty()) {
+        const auto listed = ask_worker(program, options, Question::devices, d);
+        for (const Manifest& m : d.manifests) {
+            if (const std::string why = d.devices.empty() ? load_problem(m) : ""; !why.empty()) {
+                d.problems.push_back("the driver library " + m.library + " does not load: " + why);
+            }
+        }
+        if (!listed || d.devices.empty() || options.device.empty()) {
             return listed;
         }
     }
@@ -278,7 +256,7 @@ Json to_json(const Diagnosis& d) {
                          {"found", part.found},
                          {"advice", part.found.empty() ? part.advice : ""}});
     }
-    return {{"parts", parts},         {"usable", d.usable},   {"manifests_chosen_by", d.chosen_by},
+    return {{"parts", parts},         {"usable", d.usable}, {"manifests_chosen_by", d.chosen_by},
             {"manifests", manifests}, {"devices", devices}, {"problems", d.problems},
             {"advice", d.advice}};
 }
@@ -327,10 +305,9 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
     for (const std::string& advice : d.advice) {
         line("try:     " + advice);
     }
-    const std::string chosen =
-        !options.renderer.empty() ? "renderer " + options.renderer
-        : !options.device.empty() ? "device '" + options.device + "'"
-                                  : std::string();
+    const std::string chosen = !options.renderer.empty() ? "renderer " + options.renderer
+                               : !options.device.empty() ? "device '" + options.device + "'"
+                                                         : std::string();
     const std::string on = chosen.empty() ? "" : " on the " + chosen;
     line(d.usable         ? "ready: 'edgecase run' works here" + on
          : chosen.empty() ? "not ready: no device can run the suite"
@@ -342,7 +319,7 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
 int doctor_command(const Program& program, const DoctorOptions& options) {
     Diagnosis d;
     d.parts = find_parts(program);
-    d.manifests = find_manifests(options.device.icd, d.chosen_by);
+    d.manifests = find_manifests(options.device.icd, options.device.icd_from, d.chosen_by);
     if (const auto asked = ask(program, options.device, d); !asked) {
         return report_stop({report::kExitInternal, {asked.error().message}});
     }
@@ -350,8 +327,7 @@ int doctor_command(const Program& program, const DoctorOptions& options) {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
     }
     if (options.json) {
-        const std::string text =
-            to_json(d).dump(2, ' ', false, Json::error_handler_t::replace);
+        const std::string text = to_json(d).dump(2, ' ', false, Json::error_handler_t::replace);
         std::printf("%s\n", text.c_str());
     } else {
         print(d, options.device);

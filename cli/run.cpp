@@ -17,6 +17,8 @@
 #include "cli/device_answer.hpp"
 #include "cli/outputs.hpp"
 #include "cli/run_loop.hpp"
+#include "cli/fault.hpp"
+#include "cli/manifest.hpp"
 #include "cli/run_plan.hpp"
 #include "report/journal.hpp"
 
@@ -304,9 +306,17 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
     check_pictures(p.plan);
     OrStop<ReadyWorker> first = await_first_worker(std::move(worker), signals);
     if (!first) {
-        return report_stop(first.error());
+        Stop stop = first.error();
+        const std::string& icd = options.device.icd;
+        const Manifest manifest = icd.empty() ? Manifest{} : read_manifest(icd);
+        if (const std::string why = load_problem(manifest); !why.empty()) {
+            stop.lines.push_back("  the driver library '" + manifest.library +
+                                 "' does not load: " + why);
+        }
+        return report_stop(stop);
     }
     const report::Device device = to_report(first->device);
+    config.icd_from = options.device.icd_from;
     if (resumed && !is_same_device(device, p.header.device)) {
         return report_stop(stop_with(
             report::kExitDevice, "the run cannot go on: it was on '" + p.header.device.name +
