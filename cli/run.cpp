@@ -6,26 +6,28 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <regex>
 #include <set>
 #include <variant>
 
+#include "cases/selector.hpp"
 #include "cli/ci.hpp"
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/device_answer.hpp"
-#include "cli/outputs.hpp"
-#include "cli/run_loop.hpp"
 #include "cli/fault.hpp"
 #include "cli/manifest.hpp"
+#include "cli/outputs.hpp"
+#include "cli/run_loop.hpp"
 #include "cli/run_plan.hpp"
 #include "report/journal.hpp"
+#include "report/sentences.hpp"
 
 namespace cli {
 
 namespace fs = std::filesystem;
-#include "report/sentences.hpp"
 using report::CaseRecord;
 using report::Run;
 
@@ -109,10 +111,6 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
             fs::current_path(value, ignored);
         }
     }
-    OrStop<RunOptions> options = parse_run_arguments(earlier->arguments);
-    if (!options) {
-        return tl::unexpected(options.error());
-    }
     // What the first part took from variables, it takes again.
     for (const char* variable :
          {"EDGECASE_PROFILE", "EDGECASE_DEVICE", "EDGECASE_ICD", "EDGECASE_TIMEOUT"}) {
@@ -122,6 +120,10 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
                 ::setenv(variable, value.c_str(), 1);
             }
         }
+    }
+    OrStop<RunOptions> options = parse_run_arguments(earlier->arguments);
+    if (!options) {
+        return tl::unexpected(options.error());
     }
     p.options = std::move(*options);
     p.options.jobs = now.jobs;
@@ -163,6 +165,23 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     return p;
 }
 
+// A fault that no case can show looks like a runner that does not see it.
+void warn_of_idle_faults(const std::vector<std::string>& ids) {
+    const char* list = std::getenv("EDGECASE_FAULT");
+    const auto faults = parse_faults(list != nullptr ? list : "");
+    if (!faults) {
+        return;  // the worker says so
+    }
+    for (const Fault& fault : *faults) {
+        if (fault.glob != "**" && std::none_of(ids.begin(), ids.end(), [&](const std::string& id) {
+                return cases::glob_matches(fault.glob, id);
+            })) {
+            std::fprintf(stderr, "edgecase: warning: EDGECASE_FAULT: '%s' matches no case\n",
+                         fault.glob.c_str());
+        }
+    }
+}
+
 OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     OrStop<Selection> selection = select_cases(program, options);
     if (!selection) {
@@ -171,6 +190,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     Prepared p;
     p.options = options;
     p.selection = std::move(*selection);
+    warn_of_idle_faults(p.selection.suite_ids);
     Run& header = p.header;
     header.tool_version = kVersion;
     header.arguments = program.arguments;
@@ -257,6 +277,9 @@ int conclude(const Prepared& p, std::FILE* console, const report::ConsoleStyle& 
     cases::Errors errors = write_reports(*run, files);
     const cases::Errors ci = write_ci(*run, chosen_ci(p.options.ci), p.folder, console);
     errors.insert(errors.end(), ci.begin(), ci.end());
+    const bool failed = !errors.empty() || !failure.empty();
+    const int code = report::exit_code(*run);
+    const bool overrides = failed && code != report::kExitInterrupted;
     if (!p.options.quiet) {
         const std::string why =
             failure.empty() ? "a report could not be written" : "the run stopped early";
@@ -286,6 +309,7 @@ LoopConfig loop_config(const Program& program, const RunOptions& options) {
     LoopConfig config;
     config.command = worker_command(program);
     config.worker = worker_options(options.device);
+    config.icd_from = options.device.icd_from;
     config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
     config.schedule.lanes = options.jobs;
     config.schedule.batch = options.batch;
@@ -297,9 +321,6 @@ LoopConfig loop_config(const Program& program, const RunOptions& options) {
 }
 
 int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerClient worker,
-    const bool failed = !errors.empty() || !failure.empty();
-    const int code = report::exit_code(*run);
-    const bool overrides = failed && code != report::kExitInterrupted;
                  SignalFd& signals) {
     const bool resumed = !p.header.device.name.empty();
     const RunOptions& options = p.options;
@@ -316,7 +337,6 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
         return report_stop(stop);
     }
     const report::Device device = to_report(first->device);
-    config.icd_from = options.device.icd_from;
     if (resumed && !is_same_device(device, p.header.device)) {
         return report_stop(stop_with(
             report::kExitDevice, "the run cannot go on: it was on '" + p.header.device.name +
@@ -366,6 +386,16 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
         std::fputs(report::console_header(p.header, style).c_str(), console);
         std::fflush(console);
     }
+    if (const auto earlier = std::count_if(p.header.cases.begin(), p.header.cases.end(),
+                                           [](const CaseRecord& record) {
+                                               return record.status != report::Status::not_run &&
+                                                      !report::is_expected(record.status);
+                                           });
+        resumed && earlier > 0) {
+        std::fprintf(console, "%td unexpected %s before the interruption: edgecase report %s\n",
+                     earlier, earlier == 1 ? "result" : "results", style.folder.c_str());
+        std::fflush(console);
+    }
     Progress progress(options.quiet ? ProgressStyle::none : options.progress, p.plan.size());
     constexpr size_t kPrinted = 100;  // unexpected results in full; the reports hold all
     size_t unexpected = 0;
@@ -396,16 +426,6 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
     header.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     header.interrupted = end.interrupted;
     std::string failure = end.failure;
-    if (const auto earlier = std::count_if(p.header.cases.begin(), p.header.cases.end(),
-                                           [](const CaseRecord& record) {
-                                               return record.status != report::Status::not_run &&
-                                                      !report::is_expected(record.status);
-                                           });
-        resumed && earlier > 0) {
-        std::fprintf(console, "%td unexpected %s before the interruption: edgecase report %s\n",
-                     earlier, earlier == 1 ? "result" : "results", style.folder.c_str());
-        std::fflush(console);
-    }
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }
