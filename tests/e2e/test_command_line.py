@@ -141,6 +141,11 @@ class Usage(ProgramTest):
         self.write_case("fam/bad", "format = 1\ndescriptoin = 'x'\n")
         self.refused(["run"], "bad.toml:2:", 3)
 
+    def test_the_readme_puts_the_program_on_the_path(self):
+        lines = (SOURCE / "README.md").read_text().splitlines()
+        first = next(k for k, line in enumerate(lines) if line.startswith("    edgecase run "))
+        self.assertIn("build/release/bin:$PATH", lines[first - 1])
+
     def test_help_needs_nothing(self):
         env = self.environment() | {"EDGECASE_SUITE": "nowhere", "VK_DRIVER_FILES": "nowhere", "VK_ICD_FILENAMES": "nowhere"}
         for words in (["--help"], ["run", "--help"], ["man"], ["completion", "bash"], ["version"]):
@@ -174,6 +179,13 @@ class Usage(ProgramTest):
             done = self.edgecase(command, "--help", check=0)
             self.assertIn("--help", done.stdout)
         self.assertIn("130", self.edgecase("--help", check=0).stdout)
+
+    def test_exit_codes_are_those_of_the_manual(self):
+        rows = re.findall(r"^\| (\d+) \| (.*) \|$", (SOURCE / "docs" / "cli.md").read_text(), re.M)
+        self.assertEqual(len(rows), 9)
+        for text in (self.edgecase("--help", check=0).stdout, self.edgecase("man", check=0).stdout):
+            for code, meaning in rows:
+                self.assertRegex(text, rf"\b{code}  {re.escape(meaning)}\n")
 
     def test_manual_lists_every_option(self):
         manual = (SOURCE / "docs" / "cli.md").read_text()
@@ -222,7 +234,9 @@ class Listing(ProgramTest):
     def test_lint_finds_a_wrong_picture(self):
         picture = "\\n".join(["........"] * 8)
         self.write_case("fam/c3", (self.suite / "fam/c3.toml").read_text() + f'[expect]\nhits = "{picture}"\n')
-        self.assertIn("c3.toml", self.edgecase("lint", check=3).stderr)
+        done = self.edgecase("lint", check=3)
+        self.assertRegex(done.stderr, r"^edgecase: .*c3\.toml:")
+        self.assertEqual(done.stdout, "10 cases and 0 expectation files checked, 1 error\n")
 
     def test_explain(self):
         self.assertIn("must be covered", self.edgecase("explain", "fam/c1", "--pixel", "2,2", check=0).stdout)
@@ -253,13 +267,6 @@ class Listing(ProgramTest):
         self.assertEqual(len(picture["samples"]), 36)
         self.assertEqual({s["class"] for s in picture["samples"]}, {"must"})
 
-
-    def test_exit_codes_are_those_of_the_manual(self):
-        rows = re.findall(r"^\| (\d+) \| (.*) \|$", (SOURCE / "docs" / "cli.md").read_text(), re.M)
-        self.assertEqual(len(rows), 9)
-        for text in (self.edgecase("--help", check=0).stdout, self.edgecase("man", check=0).stdout):
-            for code, meaning in rows:
-                self.assertRegex(text, rf"\b{code}  {re.escape(meaning)}\n")
 
 class Selection(ProgramTest):
     def order(self, *words):

@@ -96,7 +96,7 @@ class Files(ExpectationTest):
         self.assertEqual(self.statuses()["fam/c3"], "xpass")
         self.assertIn(f"XPASS fam/c3   passes; the expectation of fail (bug#1) {ended}\n", done.stdout)
         self.assertEqual(self.edgecase("lint", check=3).stderr,
-                         f"{path}:3:1: error: the expectation of 'fam/c3' ended on 2020-01-01; re-check it, "
+                         f"edgecase: {path}:3:1: error: the expectation of 'fam/c3' ended on 2020-01-01; re-check it, "
                          "or extend the date\n")
         self.expectations("fam/c3 skip - until=2020-01-01  # Too slow.\n")
         self.run_suite(fault="flip-pixel@fam/c3", check=1)
