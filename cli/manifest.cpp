@@ -26,7 +26,9 @@ Manifest read_manifest(const fs::path& file) {
     Manifest manifest{file.string(), "", "", {}};
     std::error_code ignored;
     if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
-        manifest.problem = "is no file";
+        manifest.problem = fs::is_directory(file, ignored)
+                               ? "is a folder; name the JSON file of a driver in it"
+                               : "is no regular file";
         return manifest;
     }
     std::ifstream in(file);

@@ -88,7 +88,7 @@ class Usage(ProgramTest):
         (self.folder / "gone.json").write_text('{"ICD": {"library_path": "./gone.so"}}')
         (self.folder / "junk.so").write_text("junk")
         (self.folder / "junk.json").write_text('{"file_format_version": "1.0.0", "ICD": {"library_path": "./junk.so", "api_version": "1.3.0"}}')
-        for file, sentence in (("text.json", "(--icd) is no driver manifest (no ICD.library_path)"), (".", "(--icd) is no file"),
+        for file, sentence in (("text.json", "(--icd) is no driver manifest (no ICD.library_path)"), (".", "(--icd) is a folder; name the JSON file"),
                                ("gone.json", "(--icd) names a library that does not exist"),
                                ("junk.json", "the driver library './junk.so' does not load: ")):
             done = self.edgecase("run", "--icd", file, check=5)
@@ -119,6 +119,8 @@ class Usage(ProgramTest):
             text = self.edgecase(command, "--help", check=0).stdout
             self.assertIn("the id or the file of one case", text)
             self.assertNotIn("SELECTOR", text)
+            self.assertNotIn("CASE...", text)
+        self.refused(["explain", "fam/c1", "fam/c2", "--pixel", "1,1"], "'fam/c2' was not expected here")
 
     def test_a_matrix_repeats_no_error(self):
         text = CASE.format(n=1).replace("[target]", "[matrix]\nk = [1, 2, 3]\n[target]", 1)
