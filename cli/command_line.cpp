@@ -123,6 +123,9 @@ Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::s
         text = text.substr(0, at) + " needs a value; write " + text.substr(0, at) + " " +
                text.substr(begin, text.size() - kMissing.size() - begin);
     }
+    if (text.starts_with("CASE: At Most 1 ")) {
+        text = "this command works on one case, and several are given; give the id of one";
+    }
     if (!command.empty()) {
         text = name_variable(text, *app.get_subcommand(command), words);
     }

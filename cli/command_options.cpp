@@ -161,6 +161,7 @@ void add_suite(CLI::App* app, SuiteOptions& o) {
 // For commands that work on one case.
 void add_case(CLI::App* app, SuiteOptions& o) {
     app->add_option("CASE", o.selectors, "the id or the file of one case")
+        ->multi_option_policy(CLI::MultiOptionPolicy::Throw)  // not the last one of several
         ->expected(0, 1)
         ->type_name("");
     add_suite_folder(app, o);

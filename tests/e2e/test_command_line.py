@@ -120,7 +120,7 @@ class Usage(ProgramTest):
             self.assertIn("the id or the file of one case", text)
             self.assertNotIn("SELECTOR", text)
             self.assertNotIn("CASE...", text)
-        self.refused(["explain", "fam/c1", "fam/c2", "--pixel", "1,1"], "'fam/c2' was not expected here")
+        self.refused(["explain", "fam/c1", "fam/c2", "--pixel", "1,1"], "this command works on one case, and several are given; give the id of one")
 
     def test_a_matrix_repeats_no_error(self):
         text = CASE.format(n=1).replace("[target]", "[matrix]\nk = [1, 2, 3]\n[target]", 1)
