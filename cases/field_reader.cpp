@@ -94,7 +94,10 @@ std::optional<Number> LeafContext::number(const TomlValue& value, const std::str
     if (value.is(Kind::floating)) {
         if (!std::isfinite(value.floating)) {
             error(value.where,
-                  fmt::format("{} is not a finite number; inf and nan cannot be drawn", what));
+                  fmt::format(
+                      "{} is not a finite number; inf and nan may stand in positions of space "
+                      "\"clip\" and in attributes only",
+                      what));
             return std::nullopt;
         }
         return from_double(value.floating);

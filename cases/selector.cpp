@@ -182,6 +182,13 @@ struct Matcher {
             }
         }
         const bool is_folder = std::find(folders.begin(), folders.end(), bare) != folders.end();
+        std::error_code ignored;
+        if (!is_folder && std::filesystem::is_directory(word, ignored)) {
+            return word + " is a folder outside the suite; write --suite " + word;
+        }
+        if (!is_folder && std::filesystem::is_regular_file(word, ignored)) {
+            return word + " is no case file (*.toml)";
+        }
         const std::string id = is_folder ? "" : nearest_name(word, ids);
         const std::string folder = is_folder ? bare : id.empty() ? nearest_name(bare, folders) : "";
         if (id.empty() && folder.empty() && word.find(':') != std::string::npos) {

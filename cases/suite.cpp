@@ -8,6 +8,7 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 #include "cases/loader.hpp"
@@ -78,7 +79,13 @@ ExpectedAll<std::vector<Case>> load_as(const fs::path& file, const std::string& 
             {{file.string(), 0, 0},
              "the file's name cannot be an id; use letters, digits, '_', '-' and '.' only"}});
     }
-    return load_text(*text, file.string(), id, contents);
+    ExpectedAll<std::vector<Case>> cases = load_text(*text, file.string(), id, contents);
+    if (!cases) {  // leaves of a matrix repeat what is wrong with all of them
+        std::set<std::string> told;
+        std::erase_if(cases.error(),
+                      [&](const Error& error) { return !told.insert(to_string(error)).second; });
+    }
+    return cases;
 }
 
 // Each file's cases, in the order of the files. Files do not depend on each other, so several

@@ -15,6 +15,7 @@
 #include "cases/selector.hpp"
 #include "cli/command_options.hpp"
 #include "cli/commands.hpp"
+#include "cli/outputs.hpp"
 #include "cli/worker.hpp"
 #include "report/run.hpp"
 
@@ -62,8 +63,42 @@ Stop unknown_words(CLI::App& command) {
                        command.get_name());
 }
 
+// Whether the words give the option; else its value, if any, is that of its variable.
+bool is_given(const CLI::Option& option, const std::vector<std::string>& words) {
+    const auto names_it = [&](const std::string& word) {
+        const bool is_long = word.starts_with("--");
+        const std::vector<std::string>& names = is_long ? option.get_lnames() : option.get_snames();
+        return word.starts_with('-') &&
+               std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+                   return is_long ? word == "--" + name || word.starts_with("--" + name + "=")
+                                  : word.starts_with("-" + name);
+               });
+    };
+    const auto end = std::find(words.begin(), words.end(), "--");
+    return std::any_of(words.begin(), end, names_it);
+}
+
+bool is_given(const CLI::App& command, const std::string& name,
+              const std::vector<std::string>& words) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    return option != nullptr && is_given(*option, words);
+}
+
+// The sentence, which begins with the name of an option, about its variable if that was meant.
+std::string name_variable(const std::string& text, const CLI::App& command,
+                          const std::vector<std::string>& words) {
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name() + ":";
+        if (text.starts_with(name) && !option->get_envname().empty() && !is_given(*option, words)) {
+            return option->get_envname() + text.substr(name.size() - 1);
+        }
+    }
+    return text;
+}
+
 // What CLI11 says, as one sentence.
-Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command) {
+Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::string& command,
+                 const std::vector<std::string>& words) {
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) {
@@ -78,7 +113,7 @@ Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::s
             command.empty() ? nullptr : app.get_subcommand(command)->get_option_no_throw(name);
         const std::string form = option == nullptr ? "" : option->get_type_name();
         text = name + ": '" + text.substr(equals + 3) + "' is not a value that it takes" +
-               (form.empty() ? "" : "; write " + form);
+               (form.empty() ? "" : "; write " + form) + (form == "I/N" ? " with 1 <= I <= N" : "");
     }
     // "--seed: 1 required N missing"
     constexpr std::string_view kRequired = ": 1 required ", kMissing = " missing";
@@ -88,16 +123,24 @@ Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::s
         text = text.substr(0, at) + " needs a value; write " + text.substr(0, at) + " " +
                text.substr(begin, text.size() - kMissing.size() - begin);
     }
+    if (text.starts_with("CASE: At Most 1 ")) {
+        text = "this command works on one case, and several are given; give the id of one";
+    }
+    if (!command.empty()) {
+        text = name_variable(text, *app.get_subcommand(command), words);
+    }
     return usage_error(text, command);
 }
 
 // A resumed run has the options of the interrupted one, so others would be ignored.
-OrStop<std::monostate> check_resume(const CLI::App& run) {
+OrStop<std::monostate> check_resume(const CLI::App& run, const std::vector<std::string>& words) {
     const std::vector<std::string> may = {"--resume",  "--jobs",  "--quiet",
                                           "--verbose", "--color", "--progress"};
     for (const CLI::Option* option : run.get_options()) {
         const std::string name = option->get_name();
-        if (option->count() > 0 && std::find(may.begin(), may.end(), name) == may.end()) {
+        const bool is_variable = !option->get_envname().empty() && !is_given(*option, words);
+        if (option->count() > 0 && !is_variable &&
+            std::find(may.begin(), may.end(), name) == may.end()) {
             const bool is_option = !name.empty() && name.front() == '-';
             return tl::unexpected(usage_error(
                 "--resume goes on with the cases and options of the interrupted run, so " +
@@ -109,9 +152,10 @@ OrStop<std::monostate> check_resume(const CLI::App& run) {
     return std::monostate{};
 }
 
-OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o) {
+OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o,
+                                 const std::vector<std::string>& words) {
     if (!o.resume.empty()) {
-        if (auto checked = check_resume(run); !checked) {
+        if (auto checked = check_resume(run, words); !checked) {
             return checked;
         }
     }
@@ -124,6 +168,41 @@ OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o) {
         return tl::unexpected(usage_error(
             "--require-device: '" + o.require_device + "' is not a regular expression (ECMAScript)",
             "run"));
+    }
+    return std::monostate{};
+}
+
+// An algorithm has no driver, so these would be ignored.
+OrStop<std::monostate> check_device(const CLI::App& command, DeviceOptions& o,
+                                    const std::vector<std::string>& words) {
+    for (const char* name : {"--device", "--icd"}) {
+        if (!o.renderer.empty() && is_given(command, name, words)) {
+            return tl::unexpected(usage_error(std::string(name) + " chooses a driver, and '" +
+                                                  o.renderer +
+                                                  "' draws without one; leave out one of the two",
+                                              command.get_name()));
+        }
+    }
+    o.icd_from = is_given(command, "--icd", words) ? "--icd" : "EDGECASE_ICD";
+    return std::monostate{};
+}
+
+// One report only can go to standard output.
+OrStop<std::monostate> check_files(const CLI::App& command) {
+    std::string taken;
+    for (const char* name : {"--json", "--junit", "--html"}) {
+        const CLI::Option* option = command.get_option_no_throw(name);
+        if (option == nullptr || option->get_type_size() == 0 || option->results().empty() ||
+            option->results().back() != "-") {
+            continue;
+        }
+        if (!taken.empty()) {
+            return tl::unexpected(usage_error(taken + " and " + name +
+                                                  " cannot both go to standard output; give one a "
+                                                  "file",
+                                              command.get_name()));
+        }
+        taken = name;
     }
     return std::monostate{};
 }
@@ -164,7 +243,7 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
         std::fputs((is_command ? command->help("edgecase") : app.help()).c_str(), stdout);
         return std::string("help");
     } catch (const CLI::ParseError& error) {
-        return tl::unexpected(parse_error(error, app, is_command ? first : ""));
+        return tl::unexpected(parse_error(error, app, is_command ? first : "", words));
     }
     if (!is_command) {
         return std::string("version");
@@ -173,13 +252,25 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
     if (!command->remaining().empty()) {
         return tl::unexpected(unknown_words(*command));
     }
+    if (const auto checked = check_files(*command); !checked) {
+        return tl::unexpected(checked.error());
+    }
     if (first == "explain") {
         if (const auto checked = check_explain(all.explain); !checked) {
             return tl::unexpected(checked.error());
         }
     }
+    for (const auto& [name, device] :
+         {std::pair("run", &all.run.device), std::pair("doctor", &all.doctor.device),
+          std::pair("bench", &all.bench.device)}) {
+        if (first == name) {
+            if (const auto checked = check_device(*command, *device, words); !checked) {
+                return tl::unexpected(checked.error());
+            }
+        }
+    }
     if (first == "run") {
-        if (const auto checked = check_run(*command, all.run); !checked) {
+        if (const auto checked = check_run(*command, all.run, words); !checked) {
             return tl::unexpected(checked.error());
         }
     }
@@ -238,7 +329,7 @@ int edgecase_main(int argc, const char* const* argv) {
         {"version", [] { return version_command(); }},
         {"help", [] { return 0; }},
     };
-    return table.at(*parsed)();
+    return finish_output(table.at(*parsed)());
 }
 
 }  // namespace cli

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/command_options.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <map>
+#include <type_traits>
 
 #include "cases/selector.hpp"
 #include "cli/command_examples.hpp"
@@ -27,14 +30,14 @@ constexpr const char* kFooter =
     "\n"
     "Exit codes:\n"
     "    0  every selected case ended as expected\n"
-    "    1  an unexpected result: fail, crash, timeout, device lost, flake, xpass, improved, "
-    "error\n"
+    "    1  an unexpected result: fail, crash, timeout, device lost, flake, xpass, improved\n"
     "    2  wrong use of the command line\n"
     "    3  an invalid case, suite, expectation file or journal\n"
     "    4  no case is selected\n"
     "    5  no device, or not the demanded one\n"
     "    6  everything was skipped or unsupported\n"
-    "    7  internal error, or cases were not run or could not be judged\n"
+    "    7  internal error, or cases were not run or could not be judged, or a report could not be "
+    "written\n"
     "  130  interrupted; the reports hold what was done\n";
 
 const std::map<std::string, std::string>& shell_names() {
@@ -120,6 +123,23 @@ bool parse_number(std::string_view text, uint32_t& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
+// Refuses what is no number of the range, in our own words.
+template <class T>
+CLI::Validator in_range(T least, T most) {
+    return {[least, most](const std::string& text) {
+                T value{};
+                const auto [end, error] =
+                    std::from_chars(text.data(), text.data() + text.size(), value);
+                const bool is_number = error == std::errc() && end == text.data() + text.size();
+                if (is_number && value >= least && value <= most) {
+                    return std::string();
+                }
+                return fmt::format("'{}' is no {} from {} to {}", text,
+                                   std::is_integral_v<T> ? "whole number" : "number", least, most);
+            },
+            ""};
+}
+
 // "A<separator>B"
 bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& b) {
     const size_t at = text.find(separator);
@@ -127,11 +147,24 @@ bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& 
            parse_number(std::string_view(text).substr(at + 1), b);
 }
 
-void add_suite(CLI::App* app, SuiteOptions& o) {
-    app->add_option("SELECTOR", o.selectors, "which cases; all without one")->type_name("");
+void add_suite_folder(CLI::App* app, SuiteOptions& o) {
     app->add_option("--suite", o.suite, "the folder of the suite (EDGECASE_SUITE)")
         ->type_name("DIR")
         ->group("Selection");
+}
+
+void add_suite(CLI::App* app, SuiteOptions& o) {
+    app->add_option("SELECTOR", o.selectors, "which cases; all without one")->type_name("");
+    add_suite_folder(app, o);
+}
+
+// For commands that work on one case.
+void add_case(CLI::App* app, SuiteOptions& o) {
+    app->add_option("CASE", o.selectors, "the id or the file of one case")
+        ->multi_option_policy(CLI::MultiOptionPolicy::Throw)  // not the last one of several
+        ->expected(0, 1)
+        ->type_name("");
+    add_suite_folder(app, o);
 }
 
 void add_profile(CLI::App* app, cases::Profile& profile) {
@@ -141,9 +174,9 @@ void add_profile(CLI::App* app, cases::Profile& profile) {
 }
 
 void add_subpixel_bits(CLI::App* app, uint32_t& bits) {
-    app->add_option("--subpixel-bits", bits, "subpixel precision bits of the device [8]")
+    app->add_option("--subpixel-bits", bits, "subpixel precision bits of the device, 4 to 16 [8]")
         ->type_name("N")
-        ->check(CLI::Range(4, 16))
+        ->check(in_range(4U, 16U))
         ->group("Judging");
 }
 
@@ -159,7 +192,7 @@ void add_device(CLI::App* app, DeviceOptions& o) {
     app->add_option("--timeout", o.timeout, "seconds without a sign of life that end a worker [30]")
         ->type_name("SECONDS")
         ->envname("EDGECASE_TIMEOUT")
-        ->check(CLI::Range(0.01, 86400.0))
+        ->check(in_range(0.01, 86400.0))
         ->group("Isolation");
     add_choice(app, "--renderer", o.renderer, renderer_names(),
                "what draws: a driver, or an algorithm of docs/algorithms.md")
@@ -204,15 +237,18 @@ void define_run(CLI::App& app, RunOptions& o) {
                return parse_pair(results.back(), '/', s.index, s.count) && s.index >= 1 &&
                       s.index <= s.count;
            },
-           "the I-th of N parts, by a hash of the id")
+           "the I-th of N parts, by a hash of the id; 1 <= I <= N")
         ->type_name("I/N")
         ->group("Selection");
     run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
         ->group("Selection");
-    run->add_option("--seed", o.seed, "seed of --shuffle [1]")->type_name("N")->group("Selection");
+    run->add_option("--seed", o.seed, "seed of --shuffle [1]")
+        ->type_name("N")
+        ->check(in_range<uint64_t>(0, UINT64_MAX))
+        ->group("Selection");
     run->add_option("--repeat", o.repeat, "draw each case N times; other bits make a flake [1]")
         ->type_name("N")
-        ->check(CLI::Range(1, 1000000))
+        ->check(in_range(1U, 1000000U))
         ->group("Selection");
     add_device(run, o.device);
     run->add_option("--require-device", o.require_device,
@@ -229,19 +265,19 @@ void define_run(CLI::App& app, RunOptions& o) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Judging");
     run->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
-    run->add_option("-j,--jobs", o.jobs, "workers [one a core, at most 4]")
+    run->add_option("-j,--jobs", o.jobs, "workers, 1 to 256 [one a core, at most 4]")
         ->type_name("N")
         ->envname("EDGECASE_JOBS")
-        ->check(CLI::Range(1, 256))
+        ->check(in_range(1U, 256U))
         ->group("Isolation");
-    run->add_option("--batch", o.batch, "cases in one submission, at most [16]")
+    run->add_option("--batch", o.batch, "cases in one submission, at most; 1 to 1024 [16]")
         ->type_name("N")
-        ->check(CLI::Range(1, 1024))
+        ->check(in_range(1U, 1024U))
         ->group("Isolation");
     run->add_option("--retries", o.retries,
                     "how often an unexpected failure is drawn again, alone [1]")
         ->type_name("N")
-        ->check(CLI::Range(0, 1000))
+        ->check(in_range(0U, 1000U))
         ->group("Isolation");
     run->add_option("--resume", o.resume, "go on with an interrupted run")
         ->type_name("DIR")
@@ -312,7 +348,7 @@ void define_others(CLI::App& app, AllOptions& all) {
 
     CLI::App* explain =
         app.add_subcommand("explain", "why a sample must, must not or may be covered");
-    add_suite(explain, all.explain.suite);
+    add_case(explain, all.explain.suite);
     explain
         ->add_option(
             "--pixel",
@@ -331,7 +367,7 @@ void define_others(CLI::App& app, AllOptions& all) {
 
     CLI::App* render =
         app.add_subcommand("render", "write the reference picture of a case; needs no Vulkan");
-    add_suite(render, all.render.suite);
+    add_case(render, all.render.suite);
     render
         ->add_option("-o,--output", all.render.output,
                      "*.exr (values), *.png (to look at) or *.json")
@@ -405,7 +441,7 @@ void define_others(CLI::App& app, AllOptions& all) {
     add_device(bench, all.bench.device);
     bench->add_option("--runs", all.bench.runs, "pairs of processes that are timed [3]")
         ->type_name("N")
-        ->check(CLI::Range(1, 1000));
+        ->check(in_range(1U, 1000U));
     bench->add_flag("--json", all.bench.json, "as JSON");
     bench->add_flag("--bare", all.bench.bare, "")->group("");
 

@@ -41,7 +41,7 @@ OptionEntry describe(const CLI::Option& option) {
 
 bool CommandEntry::takes_cases() const {
     return std::any_of(options.begin(), options.end(), [](const OptionEntry& o) {
-        return o.is_positional && o.names.front() == "SELECTOR";
+        return o.is_positional && (o.names.front() == "SELECTOR" || o.names.front() == "CASE");
     });
 }
 

@@ -14,6 +14,7 @@
 #include "cli/suite.hpp"
 #include "report/comparison.hpp"
 #include "report/journal.hpp"
+#include "report/sentences.hpp"
 
 namespace cli {
 
@@ -59,8 +60,7 @@ int compare_command(const Program&, const CompareOptions& options) {
     const bool stdout_taken = options.json == "-" || options.html == "-";
     std::FILE* console = stdout_taken ? stderr : stdout;
     const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
-    std::fputs(report::comparison_text(runs, *comparison, style).c_str(), console);
-    std::fflush(console);
+    cases::Errors errors;
     if (!options.html.empty()) {
         std::vector<std::string> reports;
         for (const std::string& folder : options.directories) {
@@ -68,16 +68,24 @@ int compare_command(const Program&, const CompareOptions& options) {
         }
         const std::string page = report::comparison_html(runs, *comparison, reports);
         if (const auto written = write_text(options.html, page); !written) {
-            return report_stop({report::kExitInternal, {written.error().message}});
+            errors.push_back(written.error());
         }
     }
     if (!options.json.empty()) {
         const std::string json = report::comparison_json(runs, *comparison);
         if (const auto written = write_text(options.json, json); !written) {
-            return report_stop({report::kExitInternal, {written.error().message}});
+            errors.push_back(written.error());
         }
     }
-    return report::exit_code(*comparison);
+    const std::string exit =
+        errors.empty() ? std::string()
+                       : report::exit_text(report::kExitInternal, "a file could not be written");
+    std::fputs(report::comparison_text(runs, *comparison, style, exit).c_str(), console);
+    std::fflush(console);
+    for (const cases::Error& error : errors) {
+        std::fprintf(stderr, "edgecase: %s\n", error.message.c_str());
+    }
+    return errors.empty() ? report::exit_code(*comparison) : report::kExitInternal;
 }
 
 }  // namespace cli

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/device_answer.hpp"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <sstream>
 #include <utility>
 
+#include "cli/manifest.hpp"
 #include "report/reports.hpp"
 
 namespace cli {
@@ -51,11 +48,10 @@ Stop explain_death(const Death& death) {
 
 OrStop<WorkerClient> start_first_worker(const LoopConfig& config) {
     const std::string& icd = config.worker.vulkan.icd_file;
-    if (!icd.empty() && ::access(icd.c_str(), R_OK) != 0) {
-        return tl::unexpected(Stop{
-            report::kExitDevice,
-            {"the driver manifest '" + icd + "' (--icd) cannot be read: " + std::strerror(errno) +
-             "; 'edgecase doctor' lists those installed"}});
+    if (!icd.empty() && config.worker.renderer.empty()) {
+        if (const std::string wrong = check_manifest(icd, config.icd_from); !wrong.empty()) {
+            return tl::unexpected(Stop{report::kExitDevice, {wrong}});
+        }
     }
     cases::Expected<WorkerClient> client =
         WorkerClient::start(config.command, config.worker, config.timeout);

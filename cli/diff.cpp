@@ -138,22 +138,6 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
                                        : "; did you mean '" + nearest + "'?")));
 }
 
-// "edgecase diff ID --captures DIR ...", quoted for a shell.
-std::string again_line(const Program& program, const DiffOptions& options, const std::string& id) {
-    std::string line = shell_quote(program.arguments.front()) + " diff " + shell_quote(id) +
-                       " --captures " + shell_quote(options.captures);
-    if (!options.run.suite.suite.empty()) {
-        line += " --suite " + shell_quote(options.run.suite.suite);
-    }
-    if (options.run.profile != cases::Profile::direct3d) {
-        line += " --profile " + std::string(cases::to_string(options.run.profile));
-    }
-    if (options.subpixel_bits != 8) {
-        line += " --subpixel-bits " + std::to_string(options.subpixel_bits);
-    }
-    return line;
-}
-
 std::string host_name() {
     utsname name{};
     ::uname(&name);
@@ -206,7 +190,7 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     header.device.has_primitive_id = true;
     for (const cases::Case& c : selection.cases) {
         header.cases.push_back(make_record(c));
-        header.cases.back().rerun = again_line(program, options, c.id);
+        header.cases.back().rerun = diff_line(program, options, c.id);
     }
     return header;
 }
@@ -219,6 +203,7 @@ void settle(CaseRecord& record, const ExpectedById& expected) {
     }
     record.expected = found->second.status;
     record.bug = found->second.bug;
+    record.expectation = found->second.where.file + ":" + std::to_string(found->second.where.line);
     record.status = judge_expected(record.status, found->second.status);
 }
 
@@ -264,10 +249,19 @@ int conclude(const DiffOptions& options, const fs::path& folder, const std::stri
         return report_stop(stop_with(report::kExitInternal, cases::to_string(run.error())));
     }
     const RunOptions& o = options.run;
-    const cases::Errors errors = write_reports(*run, {folder, o.json, o.junit, o.html});
+    const ReportFiles files{folder, o.json, o.junit, o.html};
+    const cases::Errors errors = write_reports(*run, files);
+    const bool failed = !errors.empty() || !failure.empty();
+    const int code = report::exit_code(*run);
+    const bool overrides = failed && code != report::kExitInterrupted;
     if (!o.quiet) {
+        const std::string why =
+            failure.empty() ? "a report could not be written" : "judging stopped early";
         std::fputs(skipped_text(skipped).c_str(), console);
-        std::fputs(report::console_summary(*run, (folder / "report.html").string(), style).c_str(),
+        std::fputs(report::console_summary(
+                       *run, written_page(files, errors), style,
+                       overrides ? report::exit_text(report::kExitInternal, why) : std::string())
+                       .c_str(),
                    console);
     }
     for (const cases::Error& error : errors) {
@@ -276,9 +270,7 @@ int conclude(const DiffOptions& options, const fs::path& folder, const std::stri
     if (!failure.empty()) {
         std::fprintf(stderr, "edgecase: %s\n", failure.c_str());
     }
-    const int code = report::exit_code(*run);
-    const bool failed = !errors.empty() || !failure.empty();
-    return failed && code != report::kExitInterrupted ? report::kExitInternal : code;
+    return overrides ? report::kExitInternal : code;
 }
 
 }  // namespace
@@ -306,7 +298,8 @@ int diff_command(const Program& program, const DiffOptions& options) {
     }
     const bool stdout_taken = o.json == "-" || o.junit == "-" || o.html == "-";
     std::FILE* console = stdout_taken ? stderr : stdout;
-    const report::ConsoleStyle style = console_style(console, o.color, o.verbose);
+    report::ConsoleStyle style = console_style(console, o.color, o.verbose);
+    style.folder = shell_quote(folder.string());
     if (!o.quiet) {
         std::fputs(report::console_header(header, style).c_str(), console);
         std::fflush(console);

@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/device_answer.hpp"
+#include "cli/manifest.hpp"
 #include "cli/run_plan.hpp"
 #include "cli/suite.hpp"
 #include "report/reports.hpp"
@@ -25,44 +25,14 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-struct Manifest {
-    std::string file, library, problem;
-};
-
-Manifest read_manifest(const fs::path& file) {
-    Manifest manifest{file.string(), "", ""};
-    std::ifstream in(file);
-    if (!in) {
-        manifest.problem = "cannot be read";
-        return manifest;
-    }
-    const Json json = Json::parse(in, nullptr, false);
-    const Json::json_pointer where("/ICD/library_path");
-    if (json.is_discarded() || !json.contains(where) || !json.at(where).is_string()) {
-        manifest.problem = "is no driver manifest (no ICD.library_path)";
-        return manifest;
-    }
-    manifest.library = json.at(where).get<std::string>();
-    if (manifest.library.find('/') != std::string::npos) {
-        fs::path library = manifest.library;
-        if (library.is_relative()) {
-            library = file.parent_path() / library;
-        }
-        std::error_code ignored;
-        if (!fs::exists(library, ignored)) {
-            manifest.problem = "names a library that does not exist";
-        }
-    }
-    return manifest;
-}
-
 std::string value_of(const char* variable) {
     const char* value = std::getenv(variable);
     return value != nullptr ? value : "";
 }
 
 // The manifests that the loader looks at, and the variable that chose them, if any.
-std::vector<Manifest> find_manifests(const std::string& icd, std::string& chosen_by) {
+std::vector<Manifest> find_manifests(const std::string& icd, const std::string& icd_from,
+                                     std::string& chosen_by) {
     std::vector<fs::path> places;
     const auto add_list = [&](const std::string& list, const std::string& below) {
         std::istringstream in(list);
@@ -73,7 +43,7 @@ std::vector<Manifest> find_manifests(const std::string& icd, std::string& chosen
         }
     };
     if (!icd.empty()) {
-        chosen_by = "--icd";
+        chosen_by = icd_from;
         places.emplace_back(icd);
     } else {
         for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
@@ -168,11 +138,16 @@ struct Diagnosis {
     std::vector<vk_harness::DeviceInfo> devices;
     std::vector<std::string> problems;
     std::vector<std::string> advice;
+    bool usable = false;  // what the options choose can run the suite
 };
 
 void add_failure(Diagnosis& d, const vk_harness::Failure& failure) {
     d.problems.push_back(failure.message);
     d.problems.insert(d.problems.end(), failure.reasons.begin(), failure.reasons.end());
+    if (!d.devices.empty() ||
+        (!d.chosen_by.empty() && failure.stage != vk_harness::Stage::loader)) {
+        return;  // the driver works, but is not what was asked for; or another one was chosen
+    }
     if (failure.stage == vk_harness::Stage::loader) {
         d.advice.emplace_back("sudo apt install libvulkan1 mesa-vulkan-drivers");
     } else {
@@ -180,12 +155,21 @@ void add_failure(Diagnosis& d, const vk_harness::Failure& failure) {
     }
 }
 
+bool is_usable(const vk_harness::DeviceInfo& device) {
+    return device.missing.empty();
+}
+
+enum class Question { devices, chosen };
+
+// Lists the devices, or starts the one that the options choose.
 cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& options,
-                                 Diagnosis& d) {
+                                 Question question, Diagnosis& d) {
     SignalFd signals;
-    cases::Expected<WorkerClient> client = WorkerClient::start_listing(
-        worker_command(program), worker_options(options),
-        std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)));
+    const auto start =
+        question == Question::devices ? WorkerClient::start_listing : WorkerClient::start;
+    cases::Expected<WorkerClient> client =
+        start(worker_command(program), worker_options(options),
+              std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)));
     if (!client) {
         return tl::unexpected(client.error());
     }
@@ -198,23 +182,52 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
         d.devices = *list;
         if (list->empty()) {
             d.problems.emplace_back("the loader finds no device");
-            d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
+            if (d.chosen_by.empty()) {
+                d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
+            }
+        }
+        d.usable = std::any_of(list->begin(), list->end(), is_usable);
+    } else if (const auto* device = std::get_if<vk_harness::DeviceInfo>(&*answer);
+               device != nullptr) {
+        d.usable = true;
+        if (d.devices.empty()) {  // no driver's
+            d.devices.push_back(*device);
         }
     } else if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer);
                failure != nullptr) {
+        d.usable = false;
         add_failure(d, *failure);
     } else if (const auto* death = std::get_if<Death>(&*answer); death != nullptr) {
+        d.usable = false;
         const Stop stop = explain_death(*death);
         d.problems.insert(d.problems.end(), stop.lines.begin(), stop.lines.end());
     }
     return {};
 }
 
-bool is_usable(const vk_harness::DeviceInfo& device) {
-    return device.missing.empty();
+// Every device of the drivers, and whether the chosen one, or the first usable, can run the suite.
+cases::Expected<void> ask(const Program& program, const DeviceOptions& options, Diagnosis& d) {
+    const bool is_driver = options.renderer.empty();
+    if (is_driver) {
+        for (const Manifest& m : d.manifests) {
+            if (!m.problem.empty()) {
+                d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
+            }
+        }
+        const auto listed = ask_worker(program, options, Question::devices, d);
+        for (const Manifest& m : d.manifests) {
+            if (const std::string why = d.devices.empty() ? load_problem(m) : ""; !why.empty()) {
+                d.problems.push_back("the driver library " + m.library + " does not load: " + why);
+            }
+        }
+        if (!listed || d.devices.empty() || options.device.empty()) {
+            return listed;
+        }
+    }
+    return ask_worker(program, options, Question::chosen, d);
 }
 
-Json to_json(const Diagnosis& d, bool usable) {
+Json to_json(const Diagnosis& d) {
     Json manifests = Json::array();
     for (const Manifest& m : d.manifests) {
         manifests.push_back({{"file", m.file}, {"library", m.library}, {"problem", m.problem}});
@@ -243,12 +256,12 @@ Json to_json(const Diagnosis& d, bool usable) {
                          {"found", part.found},
                          {"advice", part.found.empty() ? part.advice : ""}});
     }
-    return {{"parts", parts},         {"usable", usable},   {"manifests_chosen_by", d.chosen_by},
+    return {{"parts", parts},         {"usable", d.usable}, {"manifests_chosen_by", d.chosen_by},
             {"manifests", manifests}, {"devices", devices}, {"problems", d.problems},
             {"advice", d.advice}};
 }
 
-void print(const Diagnosis& d, bool usable) {
+void print(const Diagnosis& d, const DeviceOptions& options) {
     const auto line = [](const std::string& text) {
         std::printf("%s\n", report::printable(text).c_str());
     };
@@ -292,7 +305,13 @@ void print(const Diagnosis& d, bool usable) {
     for (const std::string& advice : d.advice) {
         line("try:     " + advice);
     }
-    line(usable ? "ready: 'edgecase run' works here" : "not ready: no device can run the suite");
+    const std::string chosen = !options.renderer.empty() ? "renderer " + options.renderer
+                               : !options.device.empty() ? "device '" + options.device + "'"
+                                                         : std::string();
+    const std::string on = chosen.empty() ? "" : " on the " + chosen;
+    line(d.usable         ? "ready: 'edgecase run' works here" + on
+         : chosen.empty() ? "not ready: no device can run the suite"
+                          : "not ready: no " + chosen + " can run the suite");
 }
 
 }  // namespace
@@ -300,27 +319,20 @@ void print(const Diagnosis& d, bool usable) {
 int doctor_command(const Program& program, const DoctorOptions& options) {
     Diagnosis d;
     d.parts = find_parts(program);
-    d.manifests = find_manifests(options.device.icd, d.chosen_by);
-    for (const Manifest& m : d.manifests) {
-        if (!m.problem.empty()) {
-            d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
-        }
-    }
-    if (const auto asked = ask_worker(program, options.device, d); !asked) {
+    d.manifests = find_manifests(options.device.icd, options.device.icd_from, d.chosen_by);
+    if (const auto asked = ask(program, options.device, d); !asked) {
         return report_stop({report::kExitInternal, {asked.error().message}});
     }
-    const bool usable = std::any_of(d.devices.begin(), d.devices.end(), is_usable);
-    if (!d.devices.empty() && !usable) {
+    if (!d.devices.empty() && std::none_of(d.devices.begin(), d.devices.end(), is_usable)) {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
     }
     if (options.json) {
-        const std::string text =
-            to_json(d, usable).dump(2, ' ', false, Json::error_handler_t::replace);
+        const std::string text = to_json(d).dump(2, ' ', false, Json::error_handler_t::replace);
         std::printf("%s\n", text.c_str());
     } else {
-        print(d, usable);
+        print(d, options.device);
     }
-    return usable ? report::kExitOk : report::kExitDevice;
+    return d.usable ? report::kExitOk : report::kExitDevice;
 }
 
 }  // namespace cli

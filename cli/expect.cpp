@@ -34,11 +34,23 @@ Stop invalid(const cases::Errors& errors) {
     return stop;
 }
 
-// Form, statuses and dates of a file.
-int show(const std::string& name) {
+// Form, statuses and dates of a file, and that its lines fit the suite and each other.
+int show(const Program& program, const ExpectOptions& options) {
+    const std::string& name = options.file;
     const auto file = load_expectations(name);
     if (!file) {
         return report_stop(invalid(file.error()));
+    }
+    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite, cases::Contents::ids);
+    if (!suite) {
+        return report_stop(suite.error());
+    }
+    std::vector<std::string> ids;
+    for (const cases::Case& c : suite->cases) {
+        ids.push_back(c.id);
+    }
+    if (const auto resolved = resolve_expectations({*file}, ids, true); !resolved) {
+        return report_stop(invalid(resolved.error()));
     }
     std::array<size_t, report::kStatuses> count{};
     for (const ExpectationLine& line : file->lines) {
@@ -150,7 +162,7 @@ OrStop<Update> make_update(const Program& program, const ExpectOptions& options,
 
 int expect_command(const Program& program, const ExpectOptions& options) {
     if (options.update.empty()) {
-        return show(options.file);
+        return show(program, options);
     }
     const OrStop<UpdateWords> words = check_words(options);
     if (!words) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cases/selector.hpp"
+#include "report/reports.hpp"
 
 namespace cli {
 
@@ -76,6 +77,9 @@ class Parser {
             const size_t end = std::min(text.find('\n', begin), text.size());
             ++line_;
             parse_line(trim(text.substr(begin, end - begin)));
+            if (line_ == 1 && !errors_.empty()) {
+                return tl::unexpected(errors_);  // something else: its lines would tell nothing
+            }
             begin = end + 1;
         }
         if (line_ == 0) {
@@ -95,7 +99,7 @@ class Parser {
 
   private:
     void fail(std::string message) {
-        errors_.push_back({{file_.path.string(), line_, 1}, std::move(message)});
+        errors_.push_back({{file_.path.string(), line_, 1}, report::printable(message)});
     }
 
     void parse_line(std::string_view line) {

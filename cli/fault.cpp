@@ -76,13 +76,16 @@ cases::Expected<std::vector<Fault>> parse_faults(std::string_view list) {
         }
         if (!found) {
             std::vector<std::string> names;
+            std::string all;
             for (const auto& [name, kind] : kNames) {
+                all += (names.empty() ? "" : ", ") + std::string(name);
                 names.emplace_back(name);
             }
-            return tl::unexpected(cases::Error{{},
-                                               "EDGECASE_FAULT names an unknown fault '" +
-                                                   std::string(word) + "'; the nearest is '" +
-                                                   cases::nearest_name(word, names) + "'"});
+            const std::string nearest = cases::nearest_name(std::string(word), names);
+            return tl::unexpected(cases::Error{
+                {},
+                "EDGECASE_FAULT names an unknown fault '" + std::string(word) + "'; " +
+                    (nearest.empty() ? "there are " + all : "did you mean '" + nearest + "'?")});
         }
     }
     return faults;

@@ -122,6 +122,11 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
     return errors;
 }
 
+// "1 error", "2 errors"
+std::string counted(size_t n, const std::string& word) {
+    return std::to_string(n) + " " + word + (n == 1 ? "" : "s");
+}
+
 }  // namespace
 
 int list_command(const Program& program, const ListOptions& options) {
@@ -160,7 +165,12 @@ int list_command(const Program& program, const ListOptions& options) {
 int lint_command(const Program& program, const LintOptions& options) {
     const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
     if (!suite) {
-        return report_stop(suite.error());
+        const int code = report_stop(suite.error());
+        if (!options.quiet && code == report::kExitInvalidFile) {
+            std::printf("the suite cannot be read, %s\n",
+                        counted(suite.error().lines.size(), "error").c_str());
+        }
+        return code;
     }
     std::vector<cases::Errors> found(suite->selected.size());
     Pool pool(std::thread::hardware_concurrency());
@@ -185,13 +195,13 @@ int lint_command(const Program& program, const LintOptions& options) {
     size_t errors = 0;
     for (const cases::Errors& list : found) {
         for (const cases::Error& error : list) {
-            std::fprintf(stderr, "%s\n", cases::to_string(error).c_str());
+            std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
             ++errors;
         }
     }
     if (!options.quiet) {
-        std::printf("%zu cases and %zu expectation files checked, %zu errors\n",
-                    suite->selected.size(), files, errors);
+        std::printf("%s and %s checked, %s\n", counted(suite->selected.size(), "case").c_str(),
+                    counted(files, "expectation file").c_str(), counted(errors, "error").c_str());
     }
     if (errors != 0) {
         return report::kExitInvalidFile;

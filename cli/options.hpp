@@ -30,6 +30,7 @@ struct SuiteOptions {
 struct DeviceOptions {
     std::string device;
     std::string icd;
+    std::string icd_from = "--icd";  // or the variable that holds it
     bool validation = false;
     std::string renderer;  // "": a driver; "reference"; a device of ref/algorithms
     double timeout = 30;   // seconds without a sign of life

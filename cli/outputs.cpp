@@ -3,9 +3,11 @@
 #include "cli/outputs.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -112,6 +114,29 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
     pages.get();
     errors.insert(errors.end(), of_pages.begin(), of_pages.end());
     return errors;
+}
+
+std::string written_page(const ReportFiles& files, const cases::Errors& errors) {
+    const std::string page = (files.folder / "report.html").string();
+    const bool is_missing = std::any_of(
+        errors.begin(), errors.end(),
+        [&](const cases::Error& error) { return error.message.starts_with("'" + page + "'"); });
+    return is_missing ? std::string() : page;
+}
+
+int finish_output(int code) {
+    const bool flushed = std::fflush(stdout) == 0;
+    const int reason = flushed ? 0 : errno;
+    if (flushed && std::ferror(stdout) == 0) {
+        return code;
+    }
+    pollfd out{STDOUT_FILENO, POLLOUT, 0};
+    if (reason == EPIPE || (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0)) {
+        return code;
+    }
+    std::fprintf(stderr, "edgecase: standard output cannot be written%s%s\n",
+                 reason == 0 ? "" : ": ", reason == 0 ? "" : std::strerror(reason));
+    return code == report::kExitInterrupted ? code : report::kExitInternal;
 }
 
 report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose) {

@@ -28,6 +28,12 @@ cases::Expected<void> write_text(const std::string& file, const std::string& tex
 
 // Writes all reports of a run and returns what could not be written.
 cases::Errors write_reports(const report::Run& run, const ReportFiles& files);
+// report.html in the folder, as the summary names it; empty if it could not be written.
+std::string written_page(const ReportFiles& files, const cases::Errors& errors);
+
+// The exit code of a command that ends with `code`: what standard output did not take (a full disk)
+// is told and makes it kExitInternal; a reader that has read enough is no error.
+int finish_output(int code);
 
 // Console style for a stream: colour by `when`, NO_COLOR and whether it is a terminal.
 report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose);

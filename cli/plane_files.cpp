@@ -155,7 +155,7 @@ class Reader {
         std::map<std::string, fs::path> files;  // by plane
         const std::vector<PlaneSpec> specs = planes_of(case_);
         for (const fs::path& file : files_in(folder_)) {
-            if (file.filename() == kUnsupportedFile) {
+            if (file.filename() == kUnsupportedFile && fs::is_regular_file(file)) {
                 std::ifstream stream(file);
                 std::getline(stream, out_.unsupported);
                 if (out_.unsupported.empty()) {
@@ -167,6 +167,13 @@ class Reader {
             const auto spec = std::find_if(specs.begin(), specs.end(), [&](const PlaneSpec& s) {
                 return s.name == file.stem().string();
             });
+            std::error_code none;
+            if (fs::is_directory(file, none)) {
+                if (spec == specs.end()) {
+                    continue;
+                }
+                return failure(quoted(file) + " is a folder; a plane is a file");
+            }
             if (spec == specs.end()) {
                 return failure(unknown(file, specs));
             }
@@ -207,7 +214,9 @@ class Reader {
         std::vector<fs::path> files;
         std::error_code none;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-            if (entry.is_regular_file(none)) {
+            // A folder that has a plane's name is a mistake, others may hold other cases.
+            if (entry.is_regular_file(none) ||
+                (entry.is_directory(none) && entry.path().has_extension())) {
                 files.push_back(entry.path());
             }
         }

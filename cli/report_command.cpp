@@ -12,6 +12,7 @@
 #include "cli/suite.hpp"
 #include "report/journal.hpp"
 #include "report/merge.hpp"
+#include "report/sentences.hpp"
 
 namespace cli {
 
@@ -117,7 +118,9 @@ int report_command(const Program&, const ReportOptions& options) {
     cases::Errors errors = write_reports(run, files);
     const bool stdout_taken = options.json == "-" || options.junit == "-" || options.html == "-";
     std::FILE* console = stdout_taken ? stderr : stdout;
-    const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    style.folder =
+        shell_quote(options.merge ? source->folder.string() : options.directories.front());
     if (!options.quiet) {
         std::fputs(report::console_header(run, style).c_str(), console);
     }
@@ -126,27 +129,36 @@ int report_command(const Program&, const ReportOptions& options) {
             std::fputs(report::console_case(record, style).c_str(), console);
         }
     }
-    if (!options.quiet) {
-        const std::string html = (files.folder / "report.html").string();
-        std::fputs(report::console_summary(run, html, style).c_str(), console);
-    }
     std::fflush(console);
     const cases::Errors ci = write_ci(run, chosen_ci(options.ci), files.folder, console);
     errors.insert(errors.end(), ci.begin(), ci.end());
+    const bool is_whole = source->missing_shards.empty();
+    const bool failed = !errors.empty() || !is_whole;
+    if (!options.quiet) {
+        // What the run came to is not this command's end.
+        std::string exit =
+            options.merge ? report::exit_text(run) : "the run ended with " + report::exit_text(run);
+        if (failed) {
+            exit =
+                report::exit_text(report::kExitInternal, is_whole ? "a report could not be written"
+                                                                  : "shards are missing");
+        }
+        std::fputs(report::console_summary(run, written_page(files, errors), style, exit).c_str(),
+                   console);
+        std::fflush(console);
+    }
     for (const cases::Error& error : errors) {
         std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
     }
-    if (!source->missing_shards.empty()) {
+    if (!is_whole) {
         std::fprintf(stderr,
                      "edgecase: %s not among the folders, so not every case of the run is here; "
                      "name the folders of all shards\n",
                      shards_text(source->missing_shards).c_str());
-        return report::kExitInternal;
     }
-    if (!errors.empty()) {
-        return report::kExitInternal;
-    }
-    return options.merge ? report::exit_code(run) : report::kExitOk;
+    return failed          ? report::kExitInternal
+           : options.merge ? report::exit_code(run)
+                           : report::kExitOk;
 }
 
 int completion_command(const std::string& shell) {

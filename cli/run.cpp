@@ -6,19 +6,24 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <regex>
 #include <set>
 #include <variant>
 
+#include "cases/selector.hpp"
 #include "cli/ci.hpp"
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "cli/device_answer.hpp"
+#include "cli/fault.hpp"
+#include "cli/manifest.hpp"
 #include "cli/outputs.hpp"
 #include "cli/run_loop.hpp"
 #include "cli/run_plan.hpp"
 #include "report/journal.hpp"
+#include "report/sentences.hpp"
 
 namespace cli {
 
@@ -106,6 +111,16 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
             fs::current_path(value, ignored);
         }
     }
+    // What the first part took from variables, it takes again.
+    for (const char* variable :
+         {"EDGECASE_PROFILE", "EDGECASE_DEVICE", "EDGECASE_ICD", "EDGECASE_TIMEOUT"}) {
+        ::unsetenv(variable);
+        for (const auto& [name, value] : earlier->environment) {
+            if (name == variable) {
+                ::setenv(variable, value.c_str(), 1);
+            }
+        }
+    }
     OrStop<RunOptions> options = parse_run_arguments(earlier->arguments);
     if (!options) {
         return tl::unexpected(options.error());
@@ -150,6 +165,23 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     return p;
 }
 
+// A fault that no case can show looks like a runner that does not see it.
+void warn_of_idle_faults(const std::vector<std::string>& ids) {
+    const char* list = std::getenv("EDGECASE_FAULT");
+    const auto faults = parse_faults(list != nullptr ? list : "");
+    if (!faults) {
+        return;  // the worker says so
+    }
+    for (const Fault& fault : *faults) {
+        if (fault.glob != "**" && std::none_of(ids.begin(), ids.end(), [&](const std::string& id) {
+                return cases::glob_matches(fault.glob, id);
+            })) {
+            std::fprintf(stderr, "edgecase: warning: EDGECASE_FAULT: '%s' matches no case\n",
+                         fault.glob.c_str());
+        }
+    }
+}
+
 OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     OrStop<Selection> selection = select_cases(program, options);
     if (!selection) {
@@ -158,6 +190,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     Prepared p;
     p.options = options;
     p.selection = std::move(*selection);
+    warn_of_idle_faults(p.selection.suite_ids);
     Run& header = p.header;
     header.tool_version = kVersion;
     header.arguments = program.arguments;
@@ -244,27 +277,39 @@ int conclude(const Prepared& p, std::FILE* console, const report::ConsoleStyle& 
     cases::Errors errors = write_reports(*run, files);
     const cases::Errors ci = write_ci(*run, chosen_ci(p.options.ci), p.folder, console);
     errors.insert(errors.end(), ci.begin(), ci.end());
+    const bool failed = !errors.empty() || !failure.empty();
+    const int code = report::exit_code(*run);
+    const bool overrides = failed && code != report::kExitInterrupted;
     if (!p.options.quiet) {
-        std::fputs(
-            report::console_summary(*run, (p.folder / "report.html").string(), style).c_str(),
-            console);
+        const std::string why =
+            failure.empty() ? "a report could not be written" : "the run stopped early";
+        std::fputs(report::console_summary(
+                       *run, written_page(files, errors), style,
+                       overrides ? report::exit_text(report::kExitInternal, why) : std::string())
+                       .c_str(),
+                   console);
     }
     for (const cases::Error& error : errors) {
         std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
     }
     if (!failure.empty()) {
-        std::fprintf(stderr, "edgecase: the run stopped early: %s; go on with --resume %s\n",
+        std::fprintf(stderr,
+                     "edgecase: the run stopped early: %s; go on with 'edgecase run --resume %s'\n",
                      failure.c_str(), shell_quote(p.folder.string()).c_str());
     }
-    const int code = report::exit_code(*run);
-    const bool failed = !errors.empty() || !failure.empty();
-    return failed && code != report::kExitInterrupted ? report::kExitInternal : code;
+    if (run->interrupted) {
+        std::fflush(console);
+        std::fprintf(stderr, "edgecase: interrupted; go on with 'edgecase run --resume %s'\n",
+                     shell_quote(p.folder.string()).c_str());
+    }
+    return overrides ? report::kExitInternal : code;
 }
 
 LoopConfig loop_config(const Program& program, const RunOptions& options) {
     LoopConfig config;
     config.command = worker_command(program);
     config.worker = worker_options(options.device);
+    config.icd_from = options.device.icd_from;
     config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
     config.schedule.lanes = options.jobs;
     config.schedule.batch = options.batch;
@@ -282,7 +327,14 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
     check_pictures(p.plan);
     OrStop<ReadyWorker> first = await_first_worker(std::move(worker), signals);
     if (!first) {
-        return report_stop(first.error());
+        Stop stop = first.error();
+        const std::string& icd = options.device.icd;
+        const Manifest manifest = icd.empty() ? Manifest{} : read_manifest(icd);
+        if (const std::string why = load_problem(manifest); !why.empty()) {
+            stop.lines.push_back("  the driver library '" + manifest.library +
+                                 "' does not load: " + why);
+        }
+        return report_stop(stop);
     }
     const report::Device device = to_report(first->device);
     if (resumed && !is_same_device(device, p.header.device)) {
@@ -328,9 +380,20 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
 
     const bool stdout_taken = options.json == "-" || options.junit == "-" || options.html == "-";
     std::FILE* console = stdout_taken ? stderr : stdout;
-    const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    report::ConsoleStyle style = console_style(console, options.color, options.verbose);
+    style.folder = shell_quote(p.folder.string());
     if (!options.quiet) {
         std::fputs(report::console_header(p.header, style).c_str(), console);
+        std::fflush(console);
+    }
+    if (const auto earlier = std::count_if(p.header.cases.begin(), p.header.cases.end(),
+                                           [](const CaseRecord& record) {
+                                               return record.status != report::Status::not_run &&
+                                                      !report::is_expected(record.status);
+                                           });
+        resumed && earlier > 0) {
+        std::fprintf(console, "%td unexpected %s before the interruption: edgecase report %s\n",
+                     earlier, earlier == 1 ? "result" : "results", style.folder.c_str());
         std::fflush(console);
     }
     Progress progress(options.quiet ? ProgressStyle::none : options.progress, p.plan.size());

@@ -36,6 +36,7 @@ struct PlannedCase {
 struct LoopConfig {
     std::vector<std::string> command;  // starts a worker
     WorkerOptions worker;
+    std::string icd_from = "--icd";  // what chose worker.vulkan.icd_file
     std::chrono::milliseconds timeout{30000};
     Schedule::Options schedule;  // its lanes: workers
     cases::Profile profile = cases::Profile::direct3d;

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run_plan.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ctime>
 #include <set>
 
@@ -152,6 +154,15 @@ void add_suite_and_profile(std::vector<std::string>& words, const RunOptions& op
     }
 }
 
+void add_expectations(std::vector<std::string>& words, const RunOptions& options) {
+    if (options.no_expect) {
+        words.emplace_back("--no-expect");
+    }
+    for (const std::string& file : options.expect) {
+        words.insert(words.end(), {"--expect", file});
+    }
+}
+
 // A case outside the suite is named by its file.
 std::string selector_of(const RunOptions& options, const std::string& id) {
     const std::string base = id.substr(0, id.find(':'));
@@ -199,7 +210,25 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
     if (options.repeat > 1) {
         words.insert(words.end(), {"--repeat", std::to_string(options.repeat)});
     }
+    if (std::abs(options.device.timeout - DeviceOptions().timeout) > 0) {
+        words.insert(words.end(), {"--timeout", fmt::format("{}", options.device.timeout)});
+    }
+    add_expectations(words, options);
     return driver_settings() + join(words);
+}
+
+std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id) {
+    std::vector<std::string> words = {program.arguments.front(), "diff",
+                                      selector_of(options.run, id), "--captures", options.captures};
+    add_suite_and_profile(words, options.run);
+    if (options.subpixel_bits != 8) {
+        words.insert(words.end(), {"--subpixel-bits", std::to_string(options.subpixel_bits)});
+    }
+    if (!options.name.empty()) {
+        words.insert(words.end(), {"--name", options.name});
+    }
+    add_expectations(words, options.run);
+    return join(words);
 }
 
 std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,

@@ -41,6 +41,7 @@ OrStop<std::vector<ExpectationFile>> find_expectations(const RunOptions& options
 
 // The words of a command on one case that repeat how this run was set up, quoted for a shell.
 std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id);
+std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id);
 std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
                          uint32_t subpixel_bits);
 

@@ -142,7 +142,7 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
 
 std::string to_github_summary(const Run& run) {
     const Device& d = run.device;
-    std::string text = fmt::format("## Edgecase: {}\n\n", exit_text(exit_code(run)));
+    std::string text = fmt::format("## Edgecase: {}\n\n", exit_text(run));
     text +=
         fmt::format("{}, {}{}{}{}, {} subpixel bits, profile {}, seed {}, {}\n\n", cell(d.name),
                     cell(d.driver_name), d.driver_info.empty() ? "" : " ", cell(d.driver_info),

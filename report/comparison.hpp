@@ -65,9 +65,9 @@ std::string heading(Change change, size_t count);
 std::string exit_words(const Comparison& comparison);
 
 // The table for a terminal. style.verbose lists every case that is not the same and draws where the
-// kept pictures (--capture all) differ.
+// kept pictures (--capture all) differ. The last line is `exit`, or, if empty, exit_words.
 std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison& comparison,
-                            const ConsoleStyle& style);
+                            const ConsoleStyle& style, const std::string& exit = {});
 // What the table's JSON and the page say alike of run `index`: its letter, folder, device, driver,
 // subpixel bits.
 nlohmann::ordered_json compared_run(const NamedRun& run, const Comparison& comparison,

@@ -79,7 +79,7 @@ Json data_of(const std::vector<NamedRun>& runs, const Comparison& comparison,
         const Run& run = runs[k].run;
         Json json = compared_run(runs[k], comparison, k);
         json["cases"] = run.cases.size();
-        json["exit"] = exit_text(exit_code(run));
+        json["exit"] = exit_text(run);
         json["report"] = reports[k];
         list.push_back(std::move(json));
     }

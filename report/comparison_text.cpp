@@ -115,7 +115,7 @@ std::string exit_words(const Comparison& comparison) {
 }
 
 std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison& comparison,
-                            const ConsoleStyle& style) {
+                            const ConsoleStyle& style, const std::string& exit) {
     std::string text;
     for (size_t k = 0; k < runs.size(); ++k) {
         const Run& run = runs[k].run;
@@ -170,7 +170,7 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
             text += fmt::format("  and {} more (-v lists them)\n", count - told);
         }
     }
-    text += exit_words(comparison) + '\n';
+    text += (exit.empty() ? exit_words(comparison) : exit) + '\n';
     return style.wrap ? wrapped(text, style.width) : text;
 }
 

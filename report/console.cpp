@@ -158,6 +158,12 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
     if (!record.explain.empty()) {
         text += fmt::format("{}explain: {}\n", kIndent, printable(record.explain));
     }
+    const bool is_outdated = record.status == Status::xpass || record.status == Status::improved;
+    if (is_outdated && !record.expectation.empty() && !style.folder.empty()) {
+        const std::string file = record.expectation.substr(0, record.expectation.rfind(':'));
+        text += fmt::format("{}update: edgecase expect --update {} {}\n", kIndent,
+                            printable(style.folder), printable(file));
+    }
     if (style.verbose) {
         text += ascii_picture(record, style);
     }
@@ -165,7 +171,7 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
 }
 
 std::string console_summary(const Run& run, const std::string& report_path,
-                            const ConsoleStyle& style) {
+                            const ConsoleStyle& style, const std::string& exit_words) {
     const auto count = totals(run);
     std::string text =
         fmt::format("{} {}", run.cases.size(), run.cases.size() == 1 ? "case" : "cases");
@@ -178,14 +184,16 @@ std::string console_summary(const Run& run, const std::string& report_path,
                 "  " + painted(fmt::format("{} {}", count.at(k), word), color_of(status), style);
         }
     }
-    text += fmt::format("   {}   seed {}\n", seconds_text(run.seconds), run.seed);
+    const bool is_cut = run.ended.empty() && !(run.seconds > 0);
+    text +=
+        fmt::format("   {}   seed {}\n", is_cut ? "cut off" : seconds_text(run.seconds), run.seed);
     if (const CaseRecord* worst = worst_case(run)) {
         text +=
             fmt::format("largest accepted error {} budgets{}{} in {}\n",
                         ratio_text(worst->worst_ratio), worst->worst_quantity.empty() ? "" : ", ",
                         printable(worst->worst_quantity), printable(worst->id));
     }
-    const std::string exit = exit_text(exit_code(run));
+    const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
     text += report_path.empty() ? exit + '\n'
                                 : fmt::format("report {}    {}\n", printable(report_path), exit);
     return style.wrap ? wrapped(text, style.width) : text;

@@ -64,8 +64,8 @@ std::string header(const Run& run) {
     const Device& d = run.device;
     std::string text =
         fmt::format("<h1>{}</h1>\n", markup(d.name.empty() ? std::string("no device") : d.name));
-    text += fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n",
-                        markup(exit_text(exit_code(run))));
+    text +=
+        fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n", markup(exit_text(run)));
     text += key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info);
     text += key_fact("Vulkan", d.api_version);
     text += key_fact("subpixel bits", fmt::format("{}", d.subpixel_bits));

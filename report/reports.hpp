@@ -26,18 +26,21 @@ std::vector<std::string> to_html_parts(const Run& run);
 
 struct ConsoleStyle {
     bool color = false;
-    bool verbose = false;  // adds an ASCII picture of each unexpected case
-    uint32_t width = 100;  // columns
-    bool wrap = false;     // lines are broken to fit the width
+    bool verbose = false;     // adds an ASCII picture of each unexpected case
+    uint32_t width = 100;     // columns
+    bool wrap = false;        // lines are broken to fit the width
+    std::string folder = {};  // of the run, for commands that take it; empty: they are left out
 };
 // First line of a run: tool version, device, driver, Vulkan version, subpixel bits, profile, seed.
 std::string console_header(const Run& run, const ConsoleStyle& style);
 // What is printed at once for an unexpected result: three lines (what, why, how to repeat it), and
-// a fourth with the command that explains its first wrong sample, if there is one.
+// a fourth with the command that explains its first wrong sample, if there is one, or that brings
+// the expectation file up to date.
 std::string console_case(const CaseRecord& record, const ConsoleStyle& style);
-// Last lines: totals, worst error in budgets, where the report lies, exit code with its meaning.
+// Last lines: totals, worst error in budgets, where the report lies, exit code with its meaning
+// (`exit_words`, or, if empty, those of the run).
 std::string console_summary(const Run& run, const std::string& report_path,
-                            const ConsoleStyle& style);
+                            const ConsoleStyle& style, const std::string& exit_words = {});
 
 // Text that a driver or file may have filled with anything, made safe for a terminal or XML:
 // valid UTF-8, no control characters but newline and tab (shown as \xNN).

@@ -169,7 +169,28 @@ std::string why_it_happened(const CaseRecord& record) {
     return words.empty() ? "no reason was given" : "the driver's last words: " + words;
 }
 
-std::string exit_text(int code) {
+std::string exit_text(const Run& run) {
+    const int code = exit_code(run);
+    std::string why;
+    if (code == kExitInternal) {
+        const auto count = totals(run);
+        const auto add = [&](Status status, std::string_view what, std::string_view what_of_all) {
+            const size_t n = count.at(static_cast<size_t>(status));
+            if (n > 0) {
+                why +=
+                    fmt::format("{}{} {}", why.empty() ? "" : ", ", n, n == 1 ? what : what_of_all);
+            }
+        };
+        add(Status::not_run, "case was not run", "cases were not run");
+        add(Status::error, "case could not be judged", "cases could not be judged");
+    }
+    return exit_text(code, why);
+}
+
+std::string exit_text(int code, const std::string& why) {
+    if (!why.empty()) {
+        return fmt::format("exit {}: {}", code, why);
+    }
     std::string_view text = "internal error, or cases were not run or could not be judged";
     switch (code) {
         case kExitOk:

@@ -33,8 +33,10 @@ std::string why_it_happened(const CaseRecord& record);
 // is never hidden behind a difference in a tie. The record has at least one.
 const diff::Finding& leading_finding(const CaseRecord& record);
 
-// "exit 1: unexpected results"
-std::string exit_text(int code);
+// "exit 1: unexpected results"; `why` stands in place of what the code means in general.
+std::string exit_text(int code, const std::string& why = {});
+// The same of a whole run, with what was not judged: "exit 7: 12 cases were not run".
+std::string exit_text(const Run& run);
 
 // The case with the largest accepted error in budgets (what findings are off by stands with them);
 // null if no case without a finding compared a value.

@@ -24,7 +24,9 @@ size_t columns(std::string_view text) {
 std::string wrapped_line(std::string_view line, size_t width) {
     const size_t indent = std::min(line.find_first_not_of(' '), line.size());
     const std::string_view body = line.substr(indent);
-    if (columns(line) <= width || body.starts_with("rerun: ") || body.starts_with("explain: ")) {
+    const bool is_command = body.starts_with("rerun: ") || body.starts_with("explain: ") ||
+                            body.starts_with("update: ");
+    if (columns(line) <= width || is_command) {
         return std::string(line);
     }
     const std::string deeper(std::min(indent + 2, width / 2), ' ');

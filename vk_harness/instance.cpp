@@ -3,6 +3,7 @@
 #include "vk_harness/instance.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -110,9 +111,11 @@ Result<Instance> Instance::create(const Options& options) {
     if (result != VK_SUCCESS) {
         Failure failure = call_failure(Stage::instance, result, "vkCreateInstance");
         if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
-            failure.message +=
-                ": the loader found no Vulkan driver; install one (Debian: mesa-vulkan-drivers) or "
-                "name its JSON file";
+            failure.message += std::getenv("VK_DRIVER_FILES") != nullptr ||
+                                       std::getenv("VK_ICD_FILENAMES") != nullptr
+                                   ? ": the loader could not use the driver that was chosen"
+                                   : ": the loader found no Vulkan driver; install one (Debian: "
+                                     "mesa-vulkan-drivers) or name its JSON file";
         }
         return fail(std::move(failure));
     }

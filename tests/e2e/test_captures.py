@@ -36,6 +36,17 @@ class Contract(Captures):
                 self.judge(check=0)
                 shutil.rmtree(self.captures)
 
+    def test_the_rerun_line_keeps_name_and_expectations(self):
+        self.deliver("coverage.u8", bytes(SIDE * SIDE))
+        done = self.judge("--name", "mine", "--no-expect", "--subpixel-bits", "4", check=1)
+        self.assertIn(f"diff {CASE} --captures {self.captures} --subpixel-bits 4 --name mine --no-expect\n", done.stdout)
+
+    def test_a_folder_that_is_called_like_a_plane(self):
+        file = self.deliver("coverage.u8", bytes(INSIDE))
+        (file.parent / "depth.f32").mkdir()
+        (file.parent / "other.case").mkdir()
+        self.rejects(f"'{file.parent / 'depth.f32'}' is a folder; a plane is a file")
+
     def test_black_pictures_fail(self):
         count = SIDE * SIDE
         for name, data in (("coverage.u8", bytes(count)), ("coverage.png", png(SIDE, SIDE, [0] * count)),

@@ -54,6 +54,82 @@ class Usage(ProgramTest):
                       ["--seed", "1x"], ["--batch", "99999999999999999999"]):
             self.refused(["run", *words], words[0].lstrip("-")[:3])
 
+    def test_numbers_outside_their_range(self):
+        for words, sentence in ((["--seed", "-1"], "--seed: '-1' is no whole number from 0 to 18446744073709551615"),
+                                (["--seed", "9" * 23], f"--seed: '{'9' * 23}' is no whole number from 0 to 18446744073709551615"),
+                                (["-j", "abc"], "--jobs: 'abc' is no whole number from 1 to 256"),
+                                (["--timeout", "0"], "--timeout: '0' is no number from 0.01 to 86400"),
+                                (["--shard", "0/4"], "--shard: '0/4' is not a value that it takes; write I/N with 1 <= I <= N")):
+            done = self.edgecase("run", *words, check=2)
+            self.assertEqual(done.stderr, f"edgecase: {sentence}; see 'edgecase run --help'\n")
+
+    def test_a_variable_is_named(self):
+        for name, value in (("PROFILE", "foo"), ("TIMEOUT", "x"), ("JOBS", "0")):
+            done = self.edgecase("run", env=self.environment() | {f"EDGECASE_{name}": value}, check=2)
+            self.assertTrue(done.stderr.startswith(f"edgecase: EDGECASE_{name}: '{value}' is no"), done.stderr)
+            option = f"--{name.lower()}"
+            done = self.edgecase("run", option, "0,", env=self.environment() | {f"EDGECASE_{name}": value}, check=2)
+            self.assertTrue(done.stderr.startswith(f"edgecase: {option}: '0,' is no"), done.stderr)
+        done = self.edgecase("run", env=self.environment() | {"EDGECASE_ICD": "nowhere.json"}, check=5)
+        self.assertIn("the driver manifest 'nowhere.json' (EDGECASE_ICD) cannot be read", done.stderr)
+
+    def test_a_device_without_a_driver(self):
+        for option in ("--device", "--icd"):
+            self.refused(["run", "--renderer", "tiles", option, "x"], f"{option} chooses a driver, and 'tiles' draws without one")
+        self.run_suite("--quick", check=0)
+
+    def test_two_reports_on_standard_output(self):
+        for words in (["run"], ["report", "x"], ["diff", "--captures", "x"]):
+            self.refused([*words, "--json", "-", "--html", "-"], "--json and --html cannot both go to standard output")
+        self.refused(["compare", "x", "x", "--json", "-", "--html", "-"], "--json and --html cannot both go to standard output")
+
+    def test_manifests_that_are_none(self):
+        (self.folder / "text.json").write_text("hello")
+        (self.folder / "gone.json").write_text('{"ICD": {"library_path": "./gone.so"}}')
+        (self.folder / "junk.so").write_text("junk")
+        (self.folder / "junk.json").write_text('{"file_format_version": "1.0.0", "ICD": {"library_path": "./junk.so", "api_version": "1.3.0"}}')
+        for file, sentence in (("text.json", "(--icd) is no driver manifest (no ICD.library_path)"), (".", "(--icd) is a folder; name the JSON file"),
+                               ("gone.json", "(--icd) names a library that does not exist"),
+                               ("junk.json", "the driver library './junk.so' does not load: ")):
+            done = self.edgecase("run", "--icd", file, check=5)
+            self.assertIn(sentence, done.stderr)
+            self.assertNotIn("mesa-vulkan-drivers", done.stderr)
+        done = self.edgecase("doctor", "--icd", "junk.json", check=5)
+        self.assertIn("problem: the driver library ./junk.so does not load: ", done.stdout)
+        self.assertNotIn("mesa-vulkan-drivers", done.stdout)
+
+    def test_faults(self):
+        env = self.environment("foo")
+        self.assertIn("unknown fault 'foo'; there are segv, abort,", self.edgecase("run", "--renderer=reference", env=env, check=5).stderr)
+        env = self.environment("sgev")
+        self.assertIn("did you mean 'segv'?", self.edgecase("run", "--renderer=reference", env=env, check=5).stderr)
+        self.assertEqual(self.run_suite(fault="segv@fam/cc1", check=0).stderr,
+                         "edgecase: warning: EDGECASE_FAULT: 'fam/cc1' matches no case\n")
+
+    def test_folders_and_files_that_are_no_cases(self):
+        (self.folder / "mine").mkdir()
+        (self.folder / "notes.txt").write_text("")
+        self.refused(["run", "mine"], "mine is a folder outside the suite; write --suite mine", 4)
+        self.refused(["run", "notes.txt"], "notes.txt is no case file (*.toml)", 4)
+        (self.folder / "fam").mkdir()
+        self.refused(["run", "fam"], "did you mean fam/**?", 4)
+
+    def test_help_of_commands_for_one_case(self):
+        for command in ("explain", "render"):
+            text = self.edgecase(command, "--help", check=0).stdout
+            self.assertIn("the id or the file of one case", text)
+            self.assertNotIn("SELECTOR", text)
+            self.assertNotIn("CASE...", text)
+        self.refused(["explain", "fam/c1", "fam/c2", "--pixel", "1,1"], "this command works on one case, and several are given; give the id of one")
+
+    def test_a_matrix_repeats_no_error(self):
+        text = CASE.format(n=1).replace("[target]", "[matrix]\nk = [1, 2, 3]\n[target]", 1)
+        self.write_case("fam/m", text.replace("[1,1]", "[nan,1]"))
+        done = self.edgecase("lint", check=3)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn('inf and nan may stand in positions of space "clip" and in attributes only', done.stderr)
+        self.assertEqual(done.stdout, "the suite cannot be read, 1 error\n")
+
     def test_regular_expression(self):
         self.refused(["run", "--require-device", "("], "regular expression")
 
@@ -66,6 +142,11 @@ class Usage(ProgramTest):
     def test_invalid_case_file(self):
         self.write_case("fam/bad", "format = 1\ndescriptoin = 'x'\n")
         self.refused(["run"], "bad.toml:2:", 3)
+
+    def test_the_readme_puts_the_program_on_the_path(self):
+        lines = (SOURCE / "README.md").read_text().splitlines()
+        first = next(k for k, line in enumerate(lines) if line.startswith("    edgecase run "))
+        self.assertIn("build/release/bin:$PATH", lines[first - 1])
 
     def test_help_needs_nothing(self):
         env = self.environment() | {"EDGECASE_SUITE": "nowhere", "VK_DRIVER_FILES": "nowhere", "VK_ICD_FILENAMES": "nowhere"}
@@ -100,6 +181,13 @@ class Usage(ProgramTest):
             done = self.edgecase(command, "--help", check=0)
             self.assertIn("--help", done.stdout)
         self.assertIn("130", self.edgecase("--help", check=0).stdout)
+
+    def test_exit_codes_are_those_of_the_manual(self):
+        rows = re.findall(r"^\| (\d+) \| (.*) \|$", (SOURCE / "docs" / "cli.md").read_text(), re.M)
+        self.assertEqual(len(rows), 9)
+        for text in (self.edgecase("--help", check=0).stdout, self.edgecase("man", check=0).stdout):
+            for code, meaning in rows:
+                self.assertRegex(text, rf"\b{code}  {re.escape(meaning)}\n")
 
     def test_manual_lists_every_option(self):
         manual = (SOURCE / "docs" / "cli.md").read_text()
@@ -148,7 +236,9 @@ class Listing(ProgramTest):
     def test_lint_finds_a_wrong_picture(self):
         picture = "\\n".join(["........"] * 8)
         self.write_case("fam/c3", (self.suite / "fam/c3.toml").read_text() + f'[expect]\nhits = "{picture}"\n')
-        self.assertIn("c3.toml", self.edgecase("lint", check=3).stderr)
+        done = self.edgecase("lint", check=3)
+        self.assertRegex(done.stderr, r"^edgecase: .*c3\.toml:")
+        self.assertEqual(done.stdout, "10 cases and 0 expectation files checked, 1 error\n")
 
     def test_explain(self):
         self.assertIn("must be covered", self.edgecase("explain", "fam/c1", "--pixel", "2,2", check=0).stdout)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
 """Expectation files: known problems do not fail a run, news of any kind does."""
+import re
 import unittest
 
 from support import ProgramTest
@@ -50,6 +51,25 @@ class Statuses(ExpectationTest):
         self.run_suite("--no-expect", fault="flip-pixel@fam/c3", check=1)
 
 
+    def rerun(self, done):
+        return re.search(r"rerun: (?:\w+=\S+ )*\S+ (.*)\n", done.stdout)[1]
+
+    def test_the_rerun_line_repeats_how_it_was_judged(self):
+        path = self.expectations("fam/c3  fail  bug#1  # It is known.\n")
+        done = self.run_suite("--no-expect", fault="flip-pixel@fam/c3", check=1)
+        self.assertEqual(self.rerun(done), "run fam/c3 --renderer reference --no-expect")
+        done = self.run_suite("--expect", path, "--timeout", "7.5", "fam/c1", fault="flip-pixel@fam/c1", check=1)
+        self.assertEqual(self.rerun(done), f"run fam/c1 --renderer reference --timeout 7.5 --expect {path}")
+
+    def test_an_unexpected_pass_names_the_command(self):
+        path = self.expectations("fam/c3  fail  bug#1  # It is known.\n")
+        line = f"      update: edgecase expect --update {self.out} {path}\n"
+        self.assertIn(line, self.run_suite(check=1).stdout)
+        self.assertIn(line, self.edgecase("report", self.out, check=0).stdout)
+        self.edgecase("expect", "--update", self.out, path, check=0)
+        self.run_suite(check=0)
+
+
 class Files(ExpectationTest):
     def refused(self, text, words, header=HEADER, exit_code=3):
         self.expectations(text, header)
@@ -76,7 +96,7 @@ class Files(ExpectationTest):
         self.assertEqual(self.statuses()["fam/c3"], "xpass")
         self.assertIn(f"XPASS fam/c3   passes; the expectation of fail (bug#1) {ended}\n", done.stdout)
         self.assertEqual(self.edgecase("lint", check=3).stderr,
-                         f"{path}:3:1: error: the expectation of 'fam/c3' ended on 2020-01-01; re-check it, "
+                         f"edgecase: {path}:3:1: error: the expectation of 'fam/c3' ended on 2020-01-01; re-check it, "
                          "or extend the date\n")
         self.expectations("fam/c3 skip - until=2020-01-01  # Too slow.\n")
         self.run_suite(fault="flip-pixel@fam/c3", check=1)
@@ -95,6 +115,20 @@ class Files(ExpectationTest):
 
     def test_conflict(self):
         self.refused("fam/c3 fail bug#1  # Known.\nfam/c* crash bug#2  # Known.\n", "disagrees")
+
+    def test_expect_checks_what_a_run_checks(self):
+        for text, sentence in (("fam/cc3 fail bug#1  # Known.\n", "did you mean 'fam/c"),
+                               ("fam/c3 fail bug#1  # Known.\nfam/c* crash bug#2  # Known.\n", "disagrees about 'fam/c3'")):
+            path = self.expectations(text)
+            self.assertIn(sentence, self.edgecase("expect", path, check=3).stderr)
+        self.edgecase("expect", self.expectations("fam/c3 fail bug#1  # Known.\n"), check=0)
+
+    def test_a_file_that_is_something_else(self):
+        path = self.expectations("", header="{\"a\": 1,\n \"b\x01\": 2}\n")
+        self.assertEqual(self.edgecase("expect", path, check=3).stderr,
+                         f"edgecase: {path}:1:1: error: the first line must be '# edgecase-expectations 1'\n")
+        path = self.expectations("fam/c3 f\x1b[31m bug#1  # Known.\n")
+        self.assertNotIn("\x1b", self.edgecase("expect", path, check=3).stderr)
 
     def test_no_header(self):
         self.refused("fam/c3 fail bug#1  # Known.\n", "first line", header="")

@@ -7,7 +7,7 @@ import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from support import ProgramTest
+from support import PROGRAM, ProgramTest
 
 
 class Charging(ProgramTest):
@@ -161,6 +161,32 @@ class Output(ProgramTest):
     def test_json_on_standard_output(self):
         done = self.run_suite("--json", "-", check=0)
         self.assertEqual(len(json.loads(done.stdout)["cases"]), 10)
+
+    def test_the_last_line_is_the_exit_code(self):
+        done = self.run_suite("--json", "/nonexistent/x.json", check=7)
+        self.assertIn("exit 7: a report could not be written\n", done.stdout)
+        done = self.edgecase("report", self.out, "-o", "/proc/x", check=7)
+        self.assertNotIn("/proc/x", done.stdout)
+        self.assertIn("exit 7: a report could not be written\n", done.stdout)
+        done = self.edgecase("compare", self.out, self.out, "--html", "/nonexistent/x.html", check=7)
+        self.assertIn("exit 7: a file could not be written\n", done.stdout)
+        self.run_suite(fault="flip-pixel@fam/c1", check=1)
+        self.assertIn("the run ended with exit 1: unexpected results\n", self.edgecase("report", self.out, check=0).stdout)
+
+    def test_standard_output_that_is_full(self):
+        self.run_suite(check=0)
+        for words in (("list", "--json"), ("explain", "fam/c1", "--pixel", "1,1"), ("version",), ("man",), ("lint",), ("doctor", "--renderer=tiles"),
+                      ("run", "--help"), ("report", self.out), ("compare", self.out, self.out), ("explain", "--rule", "cover.inside")):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([PROGRAM, *map(str, words)], env=self.environment(), cwd=self.folder, stdout=full,
+                                      stderr=subprocess.PIPE, text=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, 7, words)
+            self.assertIn("edgecase: standard output cannot be written", done.stderr)
+
+    def test_a_reader_that_has_read_enough(self):
+        done = subprocess.run(["bash", "-c", '"$0" man | head -n 1; exit ${PIPESTATUS[0]}', PROGRAM], env=self.environment(), cwd=self.folder,
+                              capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.stderr, "")
 
     def test_report_rebuilds(self):
         self.run_suite(fault="segv@fam/c3", check=1)

@@ -55,6 +55,25 @@ class Resume(JournalTest):
         self.run_suite(out=whole, check=0)
         self.assertEqual(comparable(self.results()), comparable(self.results(whole)))
 
+    def test_what_failed_before_is_named(self):
+        process = self.start_hanging()
+        process.kill()
+        process.communicate()
+        journal = self.out / "journal.jsonl"
+        self.wait_for_no_orphans()
+        self.assertIn("   cut off   seed", self.edgecase("report", self.out).stdout)
+        text = journal.read_text().replace('"status":"pass"', '"status":"fail"', 2)
+        journal.write_text(text)
+        done = self.edgecase("run", "--resume", self.out, "-q", check=1)
+        self.assertEqual(done.stdout, f"2 unexpected results before the interruption: edgecase report {self.out}\n")
+
+    def test_variables_of_the_first_part_count(self):
+        env = self.environment() | {"EDGECASE_PROFILE": "vulkan"}
+        self.edgecase("run", "--renderer=reference", "-o", self.out, env=env, check=0)
+        self.edgecase("run", "--resume", self.out, env=env, check=0)
+        self.edgecase("run", "--resume", self.out, env=self.environment() | {"EDGECASE_DEVICE": "x"}, check=0)
+        self.assertEqual(self.results()["profile"], "vulkan")
+
     def test_a_finished_run_draws_nothing(self):
         self.run_suite(check=0)
         lines = len((self.out / "journal.jsonl").read_text().splitlines())
@@ -91,6 +110,7 @@ class Interrupt(JournalTest):
         statuses = self.statuses()
         self.assertEqual([statuses[i] for i in self.ids[:8]], ["pass"] * 8)
         self.assertEqual(statuses["fam/c8"], "not_run")
+        self.assertIn(f"edgecase: interrupted; go on with 'edgecase run --resume {self.out}'\n".encode(), output)
         self.wait_for_no_orphans()
 
     def test_sigint(self):

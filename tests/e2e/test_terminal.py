@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a person sees: colours, widths, progress, help, completion, the manual page."""
 import fcntl
+import json
 import os
 import pty
 import re
@@ -195,6 +196,17 @@ class Doctor(ProgramTest):
         layer.write_text("{}")
         text = self.edgecase("doctor", "--renderer=reference", env=env).stdout
         self.assertIn(f"for '--validation': {layer}\n", text)
+
+    def test_ready_is_about_what_was_chosen(self):
+        text = self.edgecase("doctor", "--renderer=tiles", check=0).stdout
+        self.assertIn("Edgecase algorithm tiles", text)
+        self.assertIn("ready: 'edgecase run' works here on the renderer tiles\n", text)
+        for words, variables in ((["--device", "nosuch"], {}), ([], {"EDGECASE_DEVICE": "nosuch"})):
+            done = self.edgecase("doctor", *words, env=self.environment() | variables, check=5)
+            self.assertIn("not ready: no device 'nosuch' can run the suite\n", done.stdout)
+        self.assertFalse(json.loads(self.edgecase("doctor", "--json", "--device", "nosuch", check=5).stdout)["usable"])
+        text = self.edgecase("doctor", "--device", "llvmpipe", check=0).stdout
+        self.assertIn("ready: 'edgecase run' works here on the device 'llvmpipe'\n", text)
 
 
 if __name__ == "__main__":
