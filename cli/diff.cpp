@@ -201,10 +201,7 @@ void settle(CaseRecord& record, const ExpectedById& expected) {
     if (found == expected.end() || record.status == Status::not_run) {
         return;
     }
-    record.expected = found->second.status;
-    record.bug = found->second.bug;
-    record.expectation = found->second.where.file + ":" + std::to_string(found->second.where.line);
-    record.status = judge_expected(record.status, found->second.status);
+    apply(found->second, record);
 }
 
 // "not judged: depth in 12 cases, writer in 3 cases"
@@ -348,7 +345,7 @@ int diff_command(const Program& program, const DiffOptions& options) {
             record.findings.clear();
         };
         if (const auto found = expected->find(c.id);
-            found != expected->end() && found->second.status == Status::skip) {
+            found != expected->end() && skips(found->second)) {
             record.status = Status::skip;
             record.reason = found->second.note;
             pool.submit([] {}, finish);

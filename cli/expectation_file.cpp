@@ -376,4 +376,17 @@ Status judge_expected(Status actual, std::optional<Status> expected, bool is_pas
     return Status::improved;  // bad, but less bad than the line says
 }
 
+void apply(const ExpectationLine& line, report::CaseRecord& record) {
+    record.expected = line.status;
+    record.bug = line.bug;
+    record.expectation = line.where.file + ":" + std::to_string(line.where.line);
+    record.expired = line.is_past ? line.until : "";
+    record.actual = record.status;
+    record.status = judge_expected(record.status, line.status, line.is_past);
+}
+
+bool skips(const ExpectationLine& line) {
+    return line.status == report::Status::skip && !line.is_past;
+}
+
 }  // namespace cli

@@ -68,6 +68,12 @@ cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
 // date is past excuses nothing, and is news even if the case passes.
 report::Status judge_expected(report::Status actual, std::optional<report::Status> expected,
                               bool is_past = false);
+
+// Makes of what happened what it counts as, and writes down what was expected. A line whose day is
+// past excuses nothing.
+void apply(const ExpectationLine& line, report::CaseRecord& record);
+// Whether a case is not to be drawn at all.
+bool skips(const ExpectationLine& line);
 // One error for each line whose date is past.
 cases::Errors past_lines(const ExpectationFile& file);
 // True for a day of the calendar, YYYY-MM-DD.

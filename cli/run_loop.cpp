@@ -59,8 +59,7 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
     slots_.front().client.emplace(std::move(first));
     for (size_t k = 0; k < cases_.size(); ++k) {
         const PlannedCase& c = cases_[k];
-        if (!c.error.empty() ||
-            (c.expected && c.expected->status == Status::skip && !c.expected->is_past)) {
+        if (!c.error.empty() || (c.expected && skips(*c.expected))) {
             CaseRecord record = fresh_record(k);
             record.status = c.error.empty() ? Status::skip : Status::error;
             record.reason = c.error.empty() ? c.expected->note : c.error;
@@ -399,12 +398,7 @@ void RunLoop::settle(size_t k, CaseRecord record) {
 
 void RunLoop::finish(size_t k, CaseRecord record) {
     if (const auto& expected = cases_[k].expected; expected) {
-        record.expected = expected->status;
-        record.bug = expected->bug;
-        record.expectation = expected->where.file + ":" + std::to_string(expected->where.line);
-        record.expired = expected->is_past ? expected->until : "";
-        record.actual = record.status;
-        record.status = judge_expected(record.status, expected->status, expected->is_past);
+        apply(*expected, record);
     }
     check(journal_.write_end(record));
     ++settled_;

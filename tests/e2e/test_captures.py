@@ -202,6 +202,10 @@ class Contract(Captures):
         known.write_text('# edgecase-expectations 1\n# device: mine*\nfam/c1 fail bug#1 # It draws nothing yet.\n')
         done = self.judge("--name", "mine", "--expect", known)
         self.assertEqual((done.returncode, self.record()["status"]), (0, "xfail"), done.stderr)
+        for status in ("fail", "skip"):
+            known.write_text(f'# edgecase-expectations 1\n# device: mine*\nfam/c1 {status} bug#1 until=2020-01-01 # It draws nothing yet.\n')
+            done = self.judge("--name", "mine", "--expect", known, check=1)
+            self.assertEqual((done.returncode, self.record()["status"]), (1, "fail"), done.stderr)
 
 
 class WrongInput(Captures):
