@@ -24,18 +24,18 @@ constexpr std::array kRules = {
          "If two triangles lie on either side of a common edge with identical end points, a sample "
          "on that edge "
          "is covered by exactly one of them. Which one is free in Vulkan.",
-         "primsrast-polygons-basic", "3.4.2", "ref/expectation.hpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/narrowing.cpp"},
     Rule{"cover.shared-vertex", Profile::practice,
          "A sample on a shared vertex belongs to exactly one triangle",
          "The Vulkan text speaks of pairs of triangles and contradicts itself where more than two "
          "meet in the "
          "sample; the intention, and every known device, is exactly one hit.",
-         "primsrast-polygons-basic", "3.4.2", "ref/expectation.hpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/narrowing.cpp"},
     Rule{"cover.clipped-edge", Profile::practice, "A shared edge stays closed after clipping",
          "The Vulkan text does not promise that two clipped triangles stay watertight along their "
          "shared edge; "
          "every known clipper does.",
-         "vertexpostproc-clipping", "15.4", "ref/expectation.hpp"},
+         "vertexpostproc-clipping", "15.4", "ref/narrowing.cpp"},
     Rule{"cover.degenerate", Profile::direct3d, "A triangle without area covers nothing",
          "No sample is strictly inside. Vulkan leaves the samples on its edges free; with the "
          "top-left rule "
@@ -55,10 +55,10 @@ constexpr std::array kRules = {
          "a = -1/2 sum(x_i y_i+1 - x_i+1 y_i) in framebuffer coordinates; positive is "
          "counter-clockwise. "
          "Zero area is back facing. Free where the sign depends on snapping.",
-         "primsrast-polygons-basic", "15.11.1", "ref/coverage.hpp"},
+         "primsrast-polygons-basic", "15.11.1", "ref/facing.cpp"},
     Rule{"face.cull", Profile::vulkan, "A culled triangle draws nothing",
          "Culling by facing happens before fragments are produced.", "primsrast-polygons-basic",
-         "15.11", "ref/expectation.hpp"},
+         "15.11", "ref/coverage_setup.cpp"},
     Rule{"clip.volume", Profile::vulkan, "Nothing is drawn outside the clip volume",
          "-w <= x <= w, -w <= y <= w, 0 <= z <= w; what lies behind the eye does not show.",
          "vertexpostproc-clipping", "15.4", "ref/clip.hpp"},
@@ -99,7 +99,7 @@ constexpr std::array kRules = {
          "fundamentals-floating-point", "15.4", "ref/position.hpp"},
     Rule{"scissor.half-open", Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",
-         "fragops-scissor", "15.14", "ref/expectation.hpp"},
+         "fragops-scissor", "15.14", "ref/coverage_setup.cpp"},
     Rule{"sample.locations", Profile::vulkan, "Samples lie exactly at their locations",
          "The standard locations, or those that the pipeline asks for, in the order of their "
          "indices; they are points, never areas, and are not snapped.",
@@ -122,13 +122,14 @@ constexpr std::array kRules = {
          "allowed.",
          "primsrast-sampleshading", "", "diff/pixel_check.cpp"},
     Rule{
-        "interp.centroid", Profile::practice, "centroid inputs are evaluated inside the primitive",
-        "Somewhere in the pixel and in the triangle (Vulkan); one place for all centroid inputs of "
-        "a fragment (practice); the centre if all samples are covered, else the first covered "
-        "sample (Direct3D).",
+        "interp.centroid", Profile::vulkan, "centroid inputs are evaluated inside the primitive",
+        "Somewhere in the pixel and in the triangle; one place for all centroid inputs of a "
+        "fragment, within the binary32 budget, from profile practice on; the centre if all samples "
+        "are covered, else the first covered sample, at direct3d.",
         "shaders-interpolation-decorations", "3.5.5", "ref/value_places.hpp"},
-    Rule{"interp.sample", Profile::practice, "sample inputs are evaluated at the sample",
-         "Exactly at the location of the sample that is written; binary32 budget.",
+    Rule{"interp.sample", Profile::vulkan, "sample inputs are evaluated at the sample",
+         "Exactly at the location of the sample that is written; within the binary32 budget from "
+         "profile practice on.",
          "shaders-interpolation-decorations", "16.4", "ref/value_places.hpp"},
     Rule{"fragcoord.sample", Profile::vulkan, "FragCoord.xy is a sample of the invocation",
          "With sample shading one of its samples, exactly; the sample itself where every sample "
@@ -146,13 +147,14 @@ constexpr std::array kRules = {
          "VK_EXT_provoking_vertex: 3i+2 in a list, i+2 in a strip and in a fan. The order of the "
          "vertices, and with it facing, stays.",
          "drawing-primitive-topologies", "", "ref/triangle.hpp"},
-    Rule{"interp.linear", Profile::practice, "noperspective values are linear in framebuffer space",
-         "a f_a + b f_b + c f_c with barycentric coordinates at the sample; binary32 budget of "
-         "docs/design.md.",
+    Rule{"interp.linear", Profile::vulkan, "noperspective values are linear in framebuffer space",
+         "a f_a + b f_b + c f_c with barycentric coordinates at the sample, each operation to 1 "
+         "part "
+         "in 10^5; within the binary32 budget of docs/precision.md from profile practice on.",
          "primsrast-polygon-barycentrics", "15.16", "ref/value.hpp"},
-    Rule{"interp.perspective", Profile::practice, "smooth values are perspective-correct",
-         "(sum a_i f_i/w_i) / (sum a_i/w_i); binary32 budget of docs/precision.md. Vulkan itself "
-         "bounds only each operation, to 1 part in 10^5.",
+    Rule{"interp.perspective", Profile::vulkan, "smooth values are perspective-correct",
+         "(sum a_i f_i/w_i) / (sum a_i/w_i), each operation to 1 part in 10^5; within the binary32 "
+         "budget of docs/precision.md from profile practice on.",
          "primsrast-polygon-barycentrics", "15.16", "ref/value.hpp"},
     Rule{"interp.hull", Profile::vulkan, "A value stays inside the vertex values' range",
          "NaN, or a value outside the hull of the vertex values by more than the budget, is wrong "
@@ -160,14 +162,15 @@ constexpr std::array kRules = {
          "profile.",
          "primsrast-polygon-barycentrics", "", "ref/value.hpp"},
     Rule{"interp.flat", Profile::vulkan, "flat values arrive bit for bit",
-         "Finite normal numbers of the provoking vertex, unchanged.", "vertexpostproc-flatshading",
-         "15.16", "ref/value.hpp"},
+         "Finite normal numbers of the provoking vertex, unchanged; a denormal may be flushed to "
+         "zero, zero may lose its sign, NaN and infinity need not arrive.",
+         "vertexpostproc-flatshading", "15.16", "ref/value.hpp"},
     Rule{"fragcoord.xy", Profile::vulkan, "FragCoord.xy is the pixel centre",
          "Exactly (i + 1/2, j + 1/2) without sample shading.",
+         "interfaces-builtin-variables-fragcoord", "", "ref/sample_values.cpp"},
+    Rule{"fragcoord.w", Profile::vulkan, "FragCoord.w is the interpolated 1/w",
+         "Linear in framebuffer space; within the binary32 budget from profile practice on.",
          "interfaces-builtin-variables-fragcoord", "", "ref/value.hpp"},
-    Rule{"fragcoord.w", Profile::practice, "FragCoord.w is the interpolated 1/w",
-         "Linear in framebuffer space; binary32 budget.", "interfaces-builtin-variables-fragcoord",
-         "", "ref/value.hpp"},
     Rule{"store.unorm", Profile::vulkan, "A colour is stored as one of the two nearest codes",
          "r = f (2^b - 1) of the clamped value; a whole r is stored as it is, otherwise one of its "
          "two "
@@ -199,9 +202,10 @@ constexpr std::array kRules = {
          "blending of "
          "exactly representable values is exact.",
          "invariance", "", "diff/capture.cpp"},
-    Rule{"depth.linear", Profile::practice, "Depth is linear in framebuffer space",
-         "z_f is interpolated linearly at the sample; binary32 budget on a D32 target and for "
-         "FragCoord.z.",
+    Rule{"depth.linear", Profile::vulkan, "Depth is linear in framebuffer space",
+         "z_f is interpolated linearly at the sample; on a D32 target and for FragCoord.z within "
+         "the "
+         "binary32 budget from profile practice on.",
          "primsrast-polygon-barycentrics", "15.10", "ref/value.hpp"},
     Rule{"repeat.same", Profile::vulkan, "The same commands draw the same bits",
          "Same draws, same state, same device: every sample of every attachment has the same bits, "
@@ -262,34 +266,40 @@ constexpr std::array kRules = {
     Rule{"depth.write", Profile::vulkan, "Depth is written where the test passes and writes are on",
          "A fragment that fails, or whose draw does not write depth, leaves the older depth.",
          "fragops-depth-write", "17.12", "ref/depth_test.hpp"},
-    Rule{"interp.at-offset", Profile::practice, "interpolateAtOffset evaluates at centre + offset",
+    Rule{"interp.at-offset", Profile::vulkan, "interpolateAtOffset evaluates at centre + offset",
          "The offset may be rounded to subPixelInterpolationOffsetBits fraction bits, in either "
-         "direction; multiples of 1/16 need no rounding.",
+         "direction; multiples of 1/16 need no rounding. Within the binary32 budget from profile "
+         "practice on.",
          "limits-subPixelInterpolationOffsetBits", "16.5", "ref/value_probe.hpp"},
-    Rule{"interp.at-sample", Profile::practice, "interpolateAtSample evaluates at that sample",
+    Rule{"interp.at-sample", Profile::vulkan, "interpolateAtSample evaluates at that sample",
          "At the location of the given sample, whatever the qualifier of the input; at the centre "
-         "with one sample a pixel.",
+         "with one sample a pixel. Within the binary32 budget from profile practice on.",
          "shaders-interpolation-decorations", "16.5", "ref/value_probe.hpp"},
-    Rule{"interp.at-centroid", Profile::practice,
+    Rule{"interp.at-centroid", Profile::vulkan,
          "interpolateAtCentroid evaluates where a centroid input is",
-         "A point of the pixel and of the primitive; at the centre with one sample a pixel.",
+         "A point of the pixel and of the primitive; at the centre with one sample a pixel. Within "
+         "the binary32 budget from profile practice on.",
          "shaders-interpolation-decorations", "16.5", "ref/value_places.hpp"},
-    Rule{"derivative.fine", Profile::practice,
+    Rule{"derivative.fine", Profile::vulkan,
          "A fine derivative is the difference inside the pixel's own row or column",
          "P(x+1) - P(x) or P(x) - P(x-1), as the pixel lies in its quad, which may begin at any "
-         "pixel; one quad explains all derivatives of a fragment. Binary32 budgets of both values.",
+         "pixel; one quad explains all derivatives of a fragment. Within the binary32 budgets of "
+         "both values from profile practice on.",
          "shaders-derivative-operations", "22.5", "ref/value_probe.hpp"},
-    Rule{"derivative.coarse", Profile::practice,
+    Rule{"derivative.coarse", Profile::vulkan,
          "A coarse derivative is a difference inside the pixel's quad",
-         "Any row (dFdx) or column (dFdy) of the quad. Binary32 budgets of both values.",
+         "Any row (dFdx) or column (dFdy) of the quad; within the binary32 budgets of both values "
+         "from profile practice on.",
          "shaders-derivative-operations", "22.5", "ref/value_probe.hpp"},
-    Rule{"derivative.plain", Profile::practice,
+    Rule{"derivative.plain", Profile::vulkan,
          "dFdx and dFdy are both coarse or both fine derivatives",
-         "Which of the two is free, but it \"must\" be chosen consistently between x and y.",
+         "Which of the two is free, but it \"must\" be chosen consistently between x and y. Within "
+         "the binary32 budgets of both values from profile practice on.",
          "shaders-derivative-operations", "22.5", "ref/value_probe.hpp"},
-    Rule{"lod.query", Profile::practice, "A level of detail follows from the quad's differences",
+    Rule{"lod.query", Profile::vulkan, "A level of detail follows from the quad's differences",
          "log2 rho with max(m) <= rho <= sqrt(2) sum(m), to mipmapPrecisionBits bits, of the "
-         "differences of any row and column of the quad.",
+         "differences of any row and column of the quad; those within the binary32 budget from "
+         "profile practice on.",
          "textures-lod-and-scale-factor", "7.18", "ref/value_probe.hpp"},
     Rule{"stencil.count", Profile::vulkan, "The stencil counts as the fragments do",
          "Where stencil and depth test pass, front faces add one and back faces subtract one, "
@@ -302,11 +312,11 @@ constexpr std::array kRules = {
          "Between the least and the greatest sample of the pixel; from profile practice on the "
          "mean, within one step of the format.",
          "renderpass-resolve-operations", "", "diff/resolve.hpp"},
-    Rule{"barycentric.value", Profile::practice,
-         "Barycentric built-ins interpolate the unit vectors",
-         "With perspective or, BaryCoordNoPersp, linearly; binary32 budget.",
+    Rule{"barycentric.value", Profile::vulkan, "Barycentric built-ins interpolate the unit vectors",
+         "With perspective or, BaryCoordNoPersp, linearly; within the binary32 budget from profile "
+         "practice on.",
          "primsrast-barycentric", "", "ref/value.hpp"},
-    Rule{"barycentric.order", Profile::practice, "Barycentric vertex order follows the topology",
+    Rule{"barycentric.order", Profile::vulkan, "Barycentric vertex order follows the topology",
          "The triangle's vertices turned so that the provoking vertex is the first (or the last, "
          "with the last vertex convention), as the tables for lists, strips and fans say.",
          "primsrast-barycentric", "", "ref/value_setup.cpp"},
@@ -318,8 +328,10 @@ constexpr std::array kRules = {
         "either neighbouring code.",
         "copies-imagescaling", "", "ref/blit.hpp"},
     Rule{"blit.linear", Profile::vulkan, "A filtered blit weighs the four nearest texels",
-         "Weights of the fractions of u - 1/2 and v - 1/2 within a step of subTexelPrecisionBits, "
-         "the edge clamped at the image or at the region, the filter at the source's precision or "
+         "Weights of the fractions of u - 1/2 and v - 1/2 within 1/16, a step of the 4 "
+         "subTexelPrecisionBits that every device has (a device that has more is not held to "
+         "them); the edge clamped at the image or at the region, the filter at the source's "
+         "precision or "
          "better.",
          "copies-imagescaling", "", "ref/blit.hpp"},
     Rule{"blit.outside", Profile::vulkan, "A blit leaves everything outside its region alone",

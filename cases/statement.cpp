@@ -47,7 +47,7 @@ constexpr Statement kStatements[] = {
     {10, "which way vertices are rounded", Strictness::free, tolerance,
      "At direct3d to the nearest, within 0.6 of a unit; at practice down or up; at vulkan "
      "it is not given.",
-     {"snap.nearest"}, ""},
+     {"snap.nearest", "cover.inside", "cover.outside"}, "", Profile::practice},
     {11, "a sample on an edge that two triangles share", exact, exact,
      "Exactly one of the two hits it; which one, only direct3d says.",
      {"cover.shared-edge", "tie.top-left"}, ""},
@@ -85,7 +85,7 @@ constexpr Statement kStatements[] = {
      {"number.undefined"}, ""},
     {21, "magnitudes beyond 2^32", undefined, tolerance,
      "Open at vulkan; the other profiles go as far as binary32.",
-     {"cover.inside", "clip.volume"}, ""},
+     {"cover.inside", "clip.volume"}, "", Profile::practice},
     {22, "a vertex behind the eye", exact, exact,
      "The exact clipped polygon, with its derived band; nothing of the part behind the eye.",
      {"clip.volume"}, ""},
@@ -97,11 +97,11 @@ constexpr Statement kStatements[] = {
      {"face.area-sign"}, ""},
     {25, "facing where the sign depends on snapping", Strictness::free, exact,
      "Either face, decided by the snapped vertices at direct3d.",
-     {"face.area-sign"}, ""},
+     {"face.area-sign"}, "", Profile::direct3d},
     {26, "facing of a triangle with vertices behind the eye", contrary, exact,
      "The sign of what is visible, at practice: the text allows the area of the unclipped "
      "triangle, which has the other sign.",
-     {"face.area-sign"}, ""},
+     {"face.area-sign"}, "", Profile::practice},
     {27, "culling", exact, exact,
      "A culled triangle hits nothing.",
      {"face.cull"}, ""},
@@ -152,8 +152,8 @@ constexpr Statement kStatements[] = {
      {"sample.mask", "sample.mask-in"}, ""},
     {42, "alpha to coverage", Strictness::free, Strictness::free,
      "",
-     {}, "No algorithm is given, and even the ends 0 and 1 are only intended; the one certain "
-     "thing, that no sample is added, follows for every device from the coverage rules."},
+     {}, "Not checked: no case turns it on. No algorithm is given, and even the ends 0 and 1 are "
+     "only intended; that it adds no sample is certain, and not checked either."},
     {43, "the number of invocations under sample shading", tolerance, exact,
      "At least as many distinct ones as minSampleShading asks for; more are always legal.",
      {"sample.shading", "sample.id"}, ""},
@@ -182,7 +182,7 @@ constexpr Statement kStatements[] = {
     {51, "where centroid inputs are evaluated", Strictness::free, exact,
      "Anywhere in the part of the pixel that the triangle covers; at direct3d the centre or"
      " the first covered sample.",
-     {"interp.at-centroid", "interp.perspective"}, ""},
+     {"interp.centroid", "interp.at-centroid", "interp.perspective"}, ""},
     {52, "where sample inputs are evaluated", exact, exact,
      "At the sample.",
      {"interp.sample", "interp.at-sample"}, ""},
@@ -205,9 +205,9 @@ constexpr Statement kStatements[] = {
      "Bit for bit the provoking vertex's value, first or last.",
      {"interp.flat", "provoking.first", "provoking.last"}, ""},
     {59, "flat values that are NaN, infinite, -0 or denormal", Strictness::free, exact,
-     "",
-     {}, "Shader loads may change them; the loader takes finite normal numbers and 0 for "
-     "attributes."},
+     "A denormal or 0 of either sign arrives as it is or as a zero; NaN and infinity need not "
+     "arrive, but spoil nothing else.",
+     {"interp.flat", "number.undefined"}, ""},
     {60, "barycentric built-ins", exact, not_spoken,
      "The order of the vertices exactly, the values as any other interpolation.",
      {"barycentric.order", "barycentric.value"}, ""},
@@ -247,8 +247,8 @@ constexpr Statement kStatements[] = {
      {"depth.repeat"}, ""},
     {72, "writing FragCoord.z to FragDepth", Strictness::free, exact,
      "",
-     {}, "Vulkan only relates shaders that do so to each other; fixed-function depth is judged "
-     "by its own rules."},
+     {}, "Not checked: no shader here writes FragDepth. Vulkan only relates shaders that do so to "
+     "each other (Rule 5), not to the depth that fixed functions compute."},
     {73, "storing UNORM", tolerance, tolerance,
      "Either code next to the value; whole codes exactly.",
      {"store.unorm", "store.srgb"}, ""},
@@ -280,7 +280,7 @@ constexpr Statement kStatements[] = {
      "Exactly the selected sample.",
      {"resolve.select"}, ""},
     {82, "blits without scaling, mirrored or by whole factors", exact, not_spoken,
-     "Exactly the texel, at practice.",
+     "The one texel: the same bits from practice on, or a neighbouring code at vulkan.",
      {"blit.nearest", "blit.outside"}, ""},
     {83, "scaled blits", Strictness::free, not_spoken,
      "Any texel, or weight, that the derived error of the coordinate allows; either edge "
@@ -294,14 +294,27 @@ constexpr Statement kStatements[] = {
      {}, "The scheme is the device's choice."},
     {86, "conservative overestimation", tolerance, tolerance,
      "",
-     {}, "An extension of another kind of rasterization; this suite is about filled triangles "
-     "by point sampling."},
+     {}, "Not checked: no pipeline here turns VK_EXT_conservative_rasterization on. A pixel is then "
+     "hit if it touches the triangle, enlarged by an amount of the device's choice; the reference "
+     "knows points in a triangle, not areas."},
     {87, "conservative underestimation and FullyCovered", tolerance, tolerance,
      "",
-     {}, "As the statement before."},
+     {}, "Not checked, as the statement before."},
     {88, "lines and points", Strictness::free, Strictness::free,
      "",
      {}, "Not triangles."},
+    {89, "the layer that a triangle names", exact, exact,
+     "All its hits, depths and colours in that layer, none in another.",
+     {"layer.select"}, ""},
+    {90, "storing integers and binary32", exact, exact,
+     "Bit for bit what the shader wrote.",
+     {"store.integer", "store.float"}, ""},
+    {91, "the colour write mask", exact, exact,
+     "Masked components keep their bits.",
+     {"blend.write-mask"}, ""},
+    {92, "when depth is written", exact, exact,
+     "Where the test passes and writes are on; else the older depth stays.",
+     {"depth.write"}, ""},
     // clang-format on
 };
 

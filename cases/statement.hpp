@@ -7,8 +7,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
+
+#include "cases/profile.hpp"
 
 namespace cases {
 
@@ -32,6 +35,9 @@ struct Statement {
     std::array<std::string_view, 4> rules;
     // If no rule judges it: why not.
     std::string_view reason;
+    // The loosest profile at which breaking it is a finding, where that is not the loosest of its
+    // rules': they judge other statements, too.
+    std::optional<Profile> from = {};
 };
 
 // All statements by number.

@@ -309,12 +309,12 @@ void Attribution::attribute_writer(Finding& finding,
         return;
     }
     // A looser profile lets the writer cover the sample: it is a question of who owns it.
-    const Ties ties = ties_of(s);
-    if (ties.first != nullptr) {
+    const bool is_direct3d = finding.level == cases::Profile::direct3d;
+    if (const Ties ties = ties_of(s); is_direct3d && ties.first != nullptr) {
         finding.rule = "tie.top-left";
         finding.why = fmt::format("{}: {}", name_of(*ties.first), ties.first->reason);
     } else {
-        finding.rule = finding.level == cases::Profile::direct3d ? "snap.nearest" : "cover.outside";
+        finding.rule = is_direct3d ? "snap.nearest" : "cover.outside";
         finding.why = "where the vertices snap decides which triangle covers the sample";
     }
     like_writer_.insert_or_assign(finding.level, finding);

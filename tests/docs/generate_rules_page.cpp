@@ -24,9 +24,11 @@ std::string link_to(std::string_view rule) {
     return fmt::format("[`{}`](#{})", rule, anchor);
 }
 
-// The table of statements; false if one of them is judged by no case and does not say why.
+// The table of statements; false if one of them is judged by no case and does not say why, or if
+// no statement names some rule.
 bool print_statements(const LeavesOfRule& leaves) {
     bool is_complete = true;
+    std::set<std::string_view> named;
     fmt::print(
         "\n## What the specifications say\n\n"
         "Every statement of Vulkan 1.4 and Direct3D 11.3 on filled triangles, how strict it is, "
@@ -54,6 +56,7 @@ bool print_statements(const LeavesOfRule& leaves) {
                 is_complete = false;
                 continue;
             }
+            named.insert(rule->id);
             profile = std::min(profile, rule->profile);
             rules += (rules.empty() ? "" : " ") + link_to(id);
             const std::string file = fmt::format("`{}`", rule->code);
@@ -68,8 +71,19 @@ bool print_statements(const LeavesOfRule& leaves) {
         }
         fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", statement.number, statement.topic,
                    to_string(statement.vulkan), to_string(statement.direct3d),
-                   rules.empty() ? "not judged" : to_string(profile),
+                   rules.empty() ? "not judged" : to_string(statement.from.value_or(profile)),
                    rules.empty() ? statement.reason : statement.judged, rules, code);
+        if (statement.from && *statement.from <= profile) {
+            fmt::print(stderr, "error: statement {} is a finding from {} on by its rules already\n",
+                       statement.number, to_string(profile));
+            is_complete = false;
+        }
+    }
+    for (const cases::Rule& rule : cases::all_rules()) {
+        if (named.count(rule.id) == 0) {
+            fmt::print(stderr, "error: no statement names the rule {}\n", rule.id);
+            is_complete = false;
+        }
     }
     return is_complete;
 }

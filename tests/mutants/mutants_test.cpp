@@ -225,6 +225,22 @@ TEST(Recorded, EveryFaultIsCaughtByAFirstOrLastLeaf) {
     }
 }
 
+// A rule's profile is the loosest at which breaking it is a finding: no finding is looser.
+TEST(Recorded, NoFindingIsLooserThanItsRule) {
+    for (const Kill& kill : recorded().kills) {
+        std::vector<Lead> leads = {kill.lead};
+        for (const LeadCount& count : kill.leads) {
+            leads.push_back(count.lead);
+        }
+        for (const Lead& lead : leads) {
+            const cases::Rule* rule = cases::find_rule(lead.rule);
+            ASSERT_NE(rule, nullptr) << lead.rule;
+            EXPECT_GE(lead.level, rule->profile)
+                << to_string(kill.fault) << ", " << kill.family << ": " << lead.rule;
+        }
+    }
+}
+
 TEST(Recorded, LevelsAreNoStricterThanExpected) {
     for (const ExpectedCatch& row : expected_catches()) {
         EXPECT_LE(loosest(kills_of(recorded(), row.fault)), row.profile) << to_string(row.fault);
@@ -286,6 +302,11 @@ TEST_P(Mutant, IsCaughtAsRecorded) {
         ASSERT_FALSE(verdict.ok()) << kill.leaf << " does not catch it any more";
         const diff::Finding& lead = report::leading_finding(record);
         EXPECT_EQ(cases::to_string(lead.level), cases::to_string(kill.level)) << kill.leaf;
+        for (const diff::Finding& finding : verdict.findings) {
+            const cases::Rule* rule = cases::find_rule(finding.rule);
+            ASSERT_NE(rule, nullptr) << finding.rule;
+            EXPECT_GE(finding.level, rule->profile) << kill.leaf << ": " << finding.rule;
+        }
         EXPECT_EQ(lead.rule, kill.lead.rule)
             << kill.leaf << "; if that is better, build the target record_mutants";
     }
