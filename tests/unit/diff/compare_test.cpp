@@ -387,6 +387,17 @@ TEST(Compare, ContradictingAttachmentsAreAFinding) {
     EXPECT_EQ(only(ghost.verdict()).rule, "write.consistent");
 }
 
+TEST(Compare, WrongSamplesAreCountedOnceEach) {
+    Checked k(diagonal());
+    EXPECT_EQ(k.verdict().wrong_samples(), 0U);
+    k.capture.frag_coord[k.at(1, 1)].x += 1;
+    k.capture.frag_coord[k.at(1, 1)].y += 1;
+    clear_sample(k.capture, k.at(2, 2));
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(v.findings.size(), 3U);
+    EXPECT_EQ(v.wrong_samples(), 2U);
+}
+
 TEST(Compare, CaseWithoutControlIsAnError) {
     const Checked k(pixel_case(8, 8, {{0.6, 0.6}, {1.4, 0.6}, {1, 1.4}}));
     EXPECT_NE(k.verdict().error.find("no sample that must be covered"), std::string::npos);
