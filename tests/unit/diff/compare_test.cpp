@@ -387,6 +387,27 @@ TEST(Compare, ContradictingAttachmentsAreAFinding) {
     EXPECT_EQ(only(ghost.verdict()).rule, "write.consistent");
 }
 
+TEST(Compare, ContradictionsAreToldByPlane) {
+    const auto told = [](const auto& change) {
+        Checked k(pixel_case(8, 8, {{0, 0}, {4, 0}, {0, 4}}));
+        change(k);
+        return only(k.verdict()).got;
+    };
+    EXPECT_EQ(told([](Checked& k) { set_hits(k.capture, k.at(7, 7), 193, 0); }),
+              "hits 193 front, 0 back; writer: nothing drawn; FragCoord: nothing drawn");
+    EXPECT_EQ(told([](Checked& k) { k.capture.depth[k.at(7, 7)] = 0.5F; }),
+              "hits: nothing drawn; depth: 0.5");
+    EXPECT_EQ(told([](Checked& k) {
+                  k.capture.writers[k.at(7, 7)].draw = 3;
+                  k.capture.frag_coord[k.at(7, 7)] = {7.5F, 7.5F, 0.0F, 1.0F};
+              }),
+              "hits: nothing drawn; writer: draw 3, triangle none, provoking vertex none; "
+              "FragCoord: (7.5, 7.5, 0, 1)");
+    EXPECT_EQ(told([](Checked& k) { k.capture.hits[k.at(7, 7)].z += 1; }),
+              "hit counter (0, 0, 4097, 4096), which no fragments leave; writer: nothing drawn; "
+              "FragCoord: nothing drawn; depth: nothing drawn");
+}
+
 TEST(Compare, WrongSamplesAreCountedOnceEach) {
     Checked k(diagonal());
     EXPECT_EQ(k.verdict().wrong_samples(), 0U);
