@@ -408,6 +408,15 @@ TEST(Compare, ContradictionsAreToldByPlane) {
               "FragCoord: nothing drawn; depth: nothing drawn");
 }
 
+TEST(Compare, OneTriangleThatHitsTwiceIsNotSaidToBeElsewhere) {
+    Checked k(pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}}));
+    set_hits(k.capture, k.at(1, 1), 0, 2);
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::double_hit);
+    EXPECT_EQ(only(v).rule, "cover.outside");
+    EXPECT_EQ(only(v).why, "triangle 0 of draw 0 alone may cover the sample, and only once");
+}
+
 TEST(Compare, WrongSamplesAreCountedOnceEach) {
     Checked k(diagonal());
     EXPECT_EQ(k.verdict().wrong_samples(), 0U);
