@@ -428,6 +428,16 @@ TEST(Compare, WrongSamplesAreCountedOnceEach) {
     EXPECT_EQ(v.wrong_samples(), 2U);
 }
 
+TEST(Compare, AFractionIsToldWhereItSaysMore) {
+    Checked k(diagonal());
+    k.capture.frag_coord[k.at(1, 1)].w = 2;
+    EXPECT_TRUE(only(k.verdict()).expected.starts_with("1 within ")) << only(k.verdict()).expected;
+    Checked depth(diagonal());
+    depth.capture.depth[depth.at(1, 1)] += 0.25F;
+    EXPECT_NE(only(depth.verdict()).expected.find(" = 1/2 within "), std::string::npos)
+        << only(depth.verdict()).expected;
+}
+
 TEST(Compare, CaseWithoutControlIsAnError) {
     const Checked k(pixel_case(8, 8, {{0.6, 0.6}, {1.4, 0.6}, {1, 1.4}}));
     EXPECT_NE(k.verdict().error.find("no sample that must be covered"), std::string::npos);
