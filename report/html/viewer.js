@@ -34,10 +34,11 @@ function makeViewer(record, onSample, onChange) {
 
   // As large as the picture, with room for a scrollbar across if there is one down, and the other way round.
   function fit(pane, width, height, widest) {
-    const highest = Math.max(260, window.innerHeight - 110), key = [width, height, widest, highest].join();
+    const highest = Math.max(262, window.innerHeight - 110), key = [width, height, widest, highest].join();
     if (pane.fitted === key) { return; }
     pane.fitted = key;
     const {frame} = pane, borders = 2;
+    pane.canvas.style.width = pane.canvas.style.height = "0";  // as it was painted last it may stick out
     const set = (name, size) => { frame.style[name] = size + "px"; };
     set("width", Math.min(width + borders, widest));
     set("height", Math.min(height + borders, highest));
@@ -49,7 +50,7 @@ function makeViewer(record, onSample, onChange) {
   const kindOf = (pane) => pane.kind !== "blink" ? pane.kind : viewer.blinkOn ? "device" : "expected";
   function draw() {
     const zoom = zoomNow(), width = (pictures.width + 2) * zoom, height = (pictures.height + 2) * zoom;
-    const share = Math.floor(stage.clientWidth / (viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1)) - 14;
+    const share = Math.floor(stage.clientWidth / (viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1)) - 12;  // what fitZoom() leaves, and two borders
     for (const pane of panes) {
       pane.sizer.style.width = width + "px";
       pane.sizer.style.height = height + "px";

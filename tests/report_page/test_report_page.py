@@ -379,6 +379,17 @@ class Shapes(PageTest):
                     for side in ("Width", "Height"):
                         self.assertEqual(frame[side][0] > frame[side][1], side == scrolled, (case, view, frame))
 
+    def test_a_picture_that_fits_needs_no_scrollbar(self):
+        page = self.open("#case=shapes%2Fcut")
+        frame = "document.querySelector('.frame')"
+        for view in ("difference", "side"):
+            for width in range(1400, 1440, 3):
+                page.send("Emulation.setDeviceMetricsOverride", {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False})
+                page.run(f"(() => {{ page.viewer.setView('{view}'); page.viewer.setZoom(64); page.viewer.setZoom(0); }})()")
+                sizes = page.run(f"[{frame}.offsetWidth - {frame}.scrollWidth, {frame}.offsetHeight - {frame}.scrollHeight,"
+                                 f"{frame}.offsetWidth - {frame}.firstChild.offsetWidth, {frame}.offsetHeight - {frame}.firstChild.offsetHeight]")
+                self.assertEqual(sizes, [2, 2, 2, 2], (width, view))
+
 
 class Size(PageTest):
     def test_thousands_of_cases_stay_small_and_open(self):
