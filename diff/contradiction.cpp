@@ -47,11 +47,12 @@ std::string contradiction_text(const CaptureView& capture, size_t index) {
     const bool holds =
         same_bits(hits.z, kHitGuard) && same_bits(hits.w, kHitGuard + hits.x + hits.y);
     const bool is_hit = hits.x + hits.y > 0;
-    std::string text = !holds ? fmt::format("hit counter ({}, {}, {}, {}), which no fragments "
-                                               "leave",
-                                               hits.x, hits.y, hits.z, hits.w)
-                       : is_hit  ? fmt::format("hits {} front, {} back", hits.x, hits.y)
-                                 : "hits: nothing drawn";
+    std::string text = !holds ? fmt::format(
+                                    "hit counter ({}, {}, {}, {}), which no fragments "
+                                    "leave",
+                                    hits.x, hits.y, hits.z, hits.w)
+                       : is_hit ? fmt::format("hits {} front, {} back", hits.x, hits.y)
+                                : "hits: nothing drawn";
     // All planes beside a broken counter, else those that disagree with it.
     const auto add = [&](bool is_drawn, const std::string& name, const std::string& said) {
         if (!holds || is_drawn != is_hit) {
