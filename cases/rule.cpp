@@ -14,10 +14,10 @@ constexpr std::array kRules = {
          "Whatever positions the device may use for the vertices, the sample is inside: it must be "
          "hit.",
          "primsrast-polygons-basic", "3.4.2", "ref/coverage.hpp"},
-    Rule{"cover.outside", Profile::vulkan, "A sample strictly outside a triangle is not covered",
-         "The sample is outside the convex hull of the positions that the device may use for the "
-         "vertices: "
-         "it must not be hit.",
+    Rule{"cover.outside", Profile::vulkan,
+         "A triangle covers no sample strictly outside it, and none twice",
+         "It must not hit a sample outside the convex hull of the positions that the device may "
+         "use for its vertices, nor any sample more than once.",
          "primsrast-polygons-basic", "3.4.2", "ref/coverage.hpp"},
     Rule{"cover.shared-edge", Profile::vulkan,
          "A sample on a shared edge belongs to exactly one triangle",

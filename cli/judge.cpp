@@ -33,6 +33,7 @@ bool keep_verdict(CaseRecord& record, const diff::Verdict& verdict, KeepPictures
     record.reason = verdict.error;
     record.findings = verdict.findings;
     record.counts = verdict.counts;
+    record.wrong_samples = verdict.wrong_samples();
     record.level = verdict.level;
     record.min_x = verdict.min_x;
     record.min_y = verdict.min_y;

@@ -233,8 +233,17 @@ Cause cause_of_count(const cases::Case& c, const ref::SampleExplanation& s, case
     if (const std::optional<Cause> cause = cause_of_suppressed(s)) {
         return *cause;
     }
+    // Whichever hit it once more: one that lies elsewhere, or one of these again.
+    if (may == 1) {
+        const auto t = std::find_if(s.triangles.begin(), s.triangles.end(), [](const auto& e) {
+            return e.coverage != ref::Coverage::must_not;
+        });
+        return {"cover.outside",
+                fmt::format("{} alone may cover the sample, and only once", name_of(*t))};
+    }
     return {"cover.outside",
-            fmt::format("at most {} of the triangles near the sample may cover it", may)};
+            may == 0 ? std::string("no triangle near the sample may cover it")
+                     : fmt::format("{} triangles may cover the sample, each only once", may)};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
+#include "diff/contradiction.hpp"
 #include "diff/last_fragment.hpp"
 #include "diff/pixel_check.hpp"
 #include "diff/resolve.hpp"
@@ -136,15 +137,7 @@ class Comparison {
                 finding.level = cases::Profile::vulkan;
                 finding.quantity = "attachments";
                 finding.expected = "all attachments written by the same fragments";
-                const glm::vec4& h = capture_.hits[index];
-                const Writer& w = capture_.writers[index];
-                finding.got = fmt::format(
-                    "hit counter ({}, {}, {}, {}), draw {}, primitive {}, provoking vertex {}, "
-                    "FragCoord.x {}, "
-                    "depth {}",
-                    h.x, h.y, h.z, h.w, w.draw, w.primitive, w.provoking_vertex,
-                    capture_.frag_coord[index].x,
-                    capture_.depth.empty() ? kClearDepth : capture_.depth[index]);
+                finding.got = contradiction_text(capture_, index);
                 finding.why = "the attachments of one sample contradict each other";
                 verdict_.device_hits[index] = 255;
                 add(std::move(finding));

@@ -288,6 +288,8 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
         }
         verdict.counts[static_cast<size_t>(FindingKind::value)] +=
             found[k].different - found[k].differences.size();
+        verdict.has_unmarked =
+            verdict.has_unmarked || found[k].different > found[k].differences.size();
     }
 }
 

@@ -84,4 +84,13 @@ void Verdict::add(Finding finding, const cases::Target& target) {
     }
 }
 
+std::optional<uint64_t> Verdict::wrong_samples() const {
+    if (has_unmarked || marks.empty()) {
+        return std::nullopt;
+    }
+    return static_cast<uint64_t>(std::count_if(marks.begin(), marks.end(), [](SampleMark mark) {
+        return mark != SampleMark::ok && mark != SampleMark::either;
+    }));
+}
+
 }  // namespace diff

@@ -92,11 +92,14 @@ struct Verdict {
     // [sample] largest error of the values that were compared there, in budgets (infinite where no
     // number of budgets reaches the value); negative where none was. Empty if the case has none.
     std::vector<float> error_ratios;
+    bool has_unmarked = false;  // some wrong samples were counted, but have no mark
     bool ok() const { return error.empty() && counts == std::array<uint64_t, kFindingKinds>{}; }
 
     // Counts a finding of a target; keeps it if fewer than kMaxFindings are kept. The first finding
     // at a sample gives it its mark.
     void add(Finding finding, const cases::Target& target);
+    // How many samples have a finding, which may have several; nothing where it is not known.
+    std::optional<uint64_t> wrong_samples() const;
     // The error at a sample, in budgets, is at least `ratio`.
     void raise_error(size_t index, double ratio);
 };

@@ -23,9 +23,10 @@ Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
     return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
 }
 
-std::string exact_text(const mpq_class& q) {
-    const std::string text = q.get_str();
-    return text.size() <= 40 ? text : std::string();
+std::string number_text(double nearest, const std::optional<mpq_class>& exact) {
+    const std::string text = fmt::format("{:.9g}", nearest);
+    const std::string fraction = exact ? exact->get_str() : text;
+    return fraction == text || fraction.size() > 40 ? text : text + " = " + fraction;
 }
 
 std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const ProbePlace& place) {
@@ -36,9 +37,8 @@ std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const P
     if (q.probe == cases::Probe::lod) {
         return fmt::format("{:.9g}, {}", v->nearest, kLodFreedom);
     }
-    const std::string text = v->exact ? exact_text(*v->exact) : std::string();
-    return fmt::format("{:.9g}{} within {:.4g} x {:.3g}{}", v->nearest,
-                       text.empty() ? "" : " = " + text, budget_factor(place.profile), v->budget,
+    return fmt::format("{} within {:.4g} x {:.3g}{}", number_text(v->nearest, v->exact),
+                       budget_factor(place.profile), v->budget,
                        derivative_of(q.probe) ? ", or the difference of another quad" : "");
 }
 

@@ -4,6 +4,7 @@
 // What the reference expects, as numbers and words for reports. No verdict rests on it.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,8 +19,8 @@ namespace ref::value {
 Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
                               const Evaluation<mpq_class>& place, cases::Profile profile);
 
-// p/q if it is short enough to be read, else nothing.
-std::string exact_text(const mpq_class& q);
+// "0.333333333 = 1/3"; without the fraction if it says no more, or is too long to be read.
+std::string number_text(double nearest, const std::optional<mpq_class>& exact);
 
 // What a probe is expected to be: the number of the likeliest quad, and what it is made of.
 std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const ProbePlace& place);

@@ -173,10 +173,9 @@ void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValue
         if (basis.orientation != 0) {
             const auto v = value::exact_value(basis, q, place, profile);
             if (v.exists == Answer::yes) {
-                const std::string text = value::exact_text(v.value);
-                m.expected = fmt::format("{:.9g}{} within {:.4g} x {:.3g}", v.value.get_d(),
-                                         text.empty() ? "" : " = " + text, budget_factor(profile),
-                                         v.budget.get_d());
+                m.expected = fmt::format("{} within {:.4g} x {:.3g}",
+                                         value::number_text(v.value.get_d(), v.value),
+                                         budget_factor(profile), v.budget.get_d());
                 reach = v.reach.get_d();
                 if (q.attribute == -2 && !is_plain_depth(primitive)) {
                     m.rule = depth_rule(primitive, v.value.get_d());

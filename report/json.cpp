@@ -117,6 +117,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"level", wrong ? Json(cases::to_string(r.level)) : Json(nullptr)},
         {"counts", counts_json(r)},
         {"finding_total", finding_total(r)},
+        {"wrong_samples", r.wrong_samples ? Json(*r.wrong_samples) : Json(nullptr)},
         {"findings", std::move(findings)},
         {"bounding_box", std::move(box)},
         {"must_samples", r.must_samples},

@@ -297,6 +297,7 @@ Json encode_case(const CaseRecord& r) {
                       {"messages", encode_texts(r.messages)},
                       {"findings", std::move(findings)},
                       {"counts", std::move(counts)},
+                      {"wrong_samples", r.wrong_samples ? Json(*r.wrong_samples) : Json(nullptr)},
                       {"level", cases::to_string(r.level)},
                       {"min_x", r.min_x},
                       {"min_y", r.min_y},
@@ -353,6 +354,10 @@ CaseRecord decode_case(const Json& json) {
     }
     for (size_t k = 0; k < r.counts.size(); ++k) {
         r.counts.at(k) = whole_of(counts[k], "counts", std::numeric_limits<uint64_t>::max());
+    }
+    if (json.contains("wrong_samples") && !json.at("wrong_samples").is_null()) {
+        r.wrong_samples.emplace();
+        read(json, "wrong_samples", *r.wrong_samples);
     }
     read(json, "level", r.level);
     read(json, "min_x", r.min_x);

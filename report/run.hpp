@@ -108,6 +108,7 @@ struct CaseRecord {
     // From the verdict:
     std::vector<diff::Finding> findings;
     std::array<uint64_t, diff::kFindingKinds> counts{};
+    std::optional<uint64_t> wrong_samples;  // a sample may have several findings
     cases::Profile level = cases::Profile::direct3d;
     uint32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;  // as in diff::Verdict
     uint64_t must_samples = 0, either_samples = 0, compared_samples = 0, compared_values = 0;

@@ -76,13 +76,25 @@ std::string sample_text(const diff::Finding& finding) {
 }
 
 std::string counts_text(const CaseRecord& record) {
+    uint64_t total = 0;
+    for (const uint64_t count : record.counts) {
+        total += count;
+    }
+    // Several numbers of a sample may be wrong: then the samples are told, too.
+    const bool has_more = record.wrong_samples && total > *record.wrong_samples;
     std::string text;
     for (size_t k = 0; k < diff::kFindingKinds; ++k) {
         const auto kind = static_cast<diff::FindingKind>(k);
-        if (count_of(record, kind) > 0) {
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count_of(record, kind),
-                                diff::to_string(kind));
+        const uint64_t count = count_of(record, kind);
+        if (count > 0) {
+            const bool is_plural = has_more && kind == diff::FindingKind::value && count > 1;
+            text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", count, diff::to_string(kind),
+                                is_plural ? "s" : "");
         }
+    }
+    if (has_more) {
+        return fmt::format("{} of {} samples wrong ({})", *record.wrong_samples,
+                           record.compared_samples, text);
     }
     return text.empty() ? text : fmt::format("{} of {} samples", text, record.compared_samples);
 }

@@ -22,7 +22,8 @@ std::string_view meaning(cases::Profile level);
 
 // "(3,4)", or "(3,4) sample 2" if the sample is not 0.
 std::string sample_text(const diff::Finding& finding);
-// "2 missing, 1 double of 64 samples"; empty without findings.
+// "2 missing, 1 double of 64 samples", or "5 of 64 samples wrong (2 missing, 6 values)" where some
+// have several findings; empty without any.
 std::string counts_text(const CaseRecord& record);
 // One line that tells what happened to a case, without its id.
 std::string what_happened(const CaseRecord& record);

@@ -30,6 +30,7 @@ function paint(canvas, scene, shot) {
     if (shot.options.outlines) { paintRegions(view, scene.geometry); eachLayer(view, scene.geometry, paintTriangles); }
     if (shot.options.samples && scene.geometry.blit.length === 0) { paintSamples(view, scene); }
   }
+  if (shot.kind === "error") { paintErrorNumbers(view, scene); }
   if (shot.cursor && isInPicture(p, shot.cursor)) { paintCursor(view, scene, shot.cursor); }
 }
 
@@ -97,7 +98,6 @@ function paintError(view, k, x, y, w, h) {
   }
   context.fillStyle = heatColor(p.errors[k], view.theme);
   context.fillRect(x, y, w, h);
-  const error = errorOf(p.errors[k]);
   if (p.marks[k] > 1 && Math.min(w, h) >= 5) {  // not accepted: a frame of two colours
     context.lineWidth = Math.max(1, w / 16);
     context.strokeStyle = "#ffffff";
@@ -107,7 +107,19 @@ function paintError(view, k, x, y, w, h) {
     context.strokeRect(x + 1.5, y + 1.5, w - 3, h - 3);
     context.setLineDash([]);
   }
-  if (Math.min(w, h) >= 34) { drawLetter(context, error === Infinity ? "\u221e" : shortNumber(error, 2).replace(/e\+?/, "e"), x + w / 2, y + h / 2, 11); }
+}
+
+// Over triangles and below sample positions, so that nothing hides them.
+function paintErrorNumbers(view, scene) {
+  const {context, p} = view;
+  if (!p.errors) { return; }
+  eachCell(view, scene, (k, x, y, w, h) => {
+    if (p.errors[k] !== 0 && Math.min(w, h) >= 34) { drawLetter(context, errorNumber(p.errors[k]), x + w / 2, y + h - 9, 11); }
+  });
+}
+function errorNumber(code) {
+  const error = errorOf(code);
+  return error === Infinity ? "\u221e" : error >= 1e4 || (error > 0 && error < 1e-3) ? error.toExponential(1).replace("e+", "e") : shortNumber(error, 2).replace(/e\+?/, "e");
 }
 
 function paintGrid(view) {

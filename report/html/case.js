@@ -61,7 +61,7 @@ function findingsSection(page) {
     const row = el("tr", {class: "pick", tabIndex: 0, onclick: () => page.pin(f), onkeydown: (event) => {
       if (event.key === "Enter") { page.pin(f); }
     }}, el("td", {class: "number"}, pixelName((record.pictures || {}).layer_height, f.x, f.y) + (f.sample ? " s" + f.sample : "")), el("td", {}, f.kind), el("td", {}, ruleLink(f.rule)), el("td", {}, levelTag(f.level)),
-    el("td", {class: "number"}, f.quantity ? f.quantity + ": " : "", f.expected), el("td", {class: "number"}, f.got), el("td", {class: "number right"}, f.ratio || ""), el("td", {class: "why"}, f.why));
+    el("td", {class: "number"}, f.quantity ? f.quantity + ": " : "", f.expected), el("td", {class: numberClass(f.got)}, f.got), el("td", {class: "number right"}, f.ratio || ""), el("td", {class: "why"}, f.why));
     return row;
   });
   const rest = record.finding_total - page.findings.length;

@@ -15,6 +15,8 @@ function turnTheme() {
   for (const repaint of painters) { repaint(); }
 }
 const painters = new Set();
+const PLURALS = {regression: "regressions", fix: "fixes"};
+const TOLD_BY_RESULTS = new Set(["regression", "fix", "fails otherwise", "fails alike"]);  // the detail says what a run's cell does
 
 // Where a case stands in the report of a run.
 function caseLink(k, id, child) {
@@ -32,7 +34,7 @@ function tiles() {
   return data.kinds.filter((kind) => kind.count > 0).map((kind) => {
     const isListed = kind.name !== "same";
     const tile = el(isListed ? "button" : "div", {type: isListed ? "button" : null, class: "tile", "data-kind": kind.name, title: kind.text, "aria-pressed": isListed ? String(!hidden.has(kind.name)) : null},
-      el("span", {class: "tally"}, String(kind.count)), kind.name === "same" ? "the same bit for bit" : kind.name);
+      el("span", {class: "tally"}, String(kind.count)), kind.name === "same" ? "the same bit for bit" : kind.count === 1 ? kind.name : PLURALS[kind.name] || kind.name);
     if (isListed) { tile.addEventListener("click", () => {
       if (hidden.has(kind.name)) { hidden.delete(kind.name); } else { hidden.add(kind.name); }
       tile.setAttribute("aria-pressed", String(!hidden.has(kind.name)));
@@ -100,7 +102,7 @@ function showDetail(entry, row) {
   row.querySelector("button").setAttribute("aria-expanded", String(!open));
   if (open) { row.nextSibling.remove(); return; }
   const told = entry.results.map((result, k) => result && el("li", {}, el("strong", {}, data.runs[k].name + ": "), result.what || word(result.status), result.why ? el("div", {class: "quiet"}, result.why) : null));
-  row.after(el("tr", {class: "detail"}, el("td", {colspan: data.runs.length + 2}, el("ul", {class: "plain"}, told),
+  row.after(el("tr", {class: "detail"}, el("td", {colspan: row.cells.length}, el("ul", {class: "plain"}, told),
     entry.pictures ? picturePart(entry) : el("p", {class: "quiet"}, "No pictures of both: the runs hit the same samples, or did not keep them (run --capture all keeps them)."))));
 }
 
@@ -116,10 +118,11 @@ function showList() {
     const entries = shown.filter((entry) => entry.change === kind.name).slice(0, left);
     left -= entries.length;
     if (entries.length === 0) { continue; }
+    const hasDetail = !TOLD_BY_RESULTS.has(kind.name);
     sections.push(el("section", {"data-kind": kind.name}, el("h2", {}, kind.text), el("div", {class: "scroll"},
-      table("", ["case", ...data.runs.map((run) => run.name), "detail"], entries.map((entry) => {
+      table("", ["case", ...data.runs.map((run) => run.name), hasDetail ? "detail" : []].flat(), entries.map((entry) => {
         const button = el("button", {type: "button", class: "link id", "aria-expanded": "false"}, entry.id);
-        const row = el("tr", {class: "compared", "data-case": entry.id}, el("td", {}, button), data.runs.map((_, k) => resultCell(entry, k)), el("td", {class: "quiet"}, entry.detail));
+        const row = el("tr", {class: "compared", "data-case": entry.id}, el("td", {}, button), data.runs.map((_, k) => resultCell(entry, k)), hasDetail ? el("td", {class: "quiet"}, entry.detail) : null);
         button.addEventListener("click", () => showDetail(entry, row));
         return row;
       })))));

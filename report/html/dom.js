@@ -33,6 +33,8 @@ function add(parent, ...children) {
   return parent;
 }
 
+const numberClass = (text) => text.length > 20 ? "number" : "number whole";  // one that fits in a line is not broken
+
 const word = (status) => status.replace("_", " ");
 const plural = (count, noun) => count + " " + noun + (count === 1 ? "" : noun.endsWith("y") ? "" : "s");
 const isExpected = (record) => EXPECTED.has(record.status);

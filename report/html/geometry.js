@@ -30,6 +30,10 @@ function openTriangle(t) {
   return triangle;
 }
 
+// A blit's texels are written; the samples of triangles are covered.
+const isBlitScene = (scene) => Boolean(scene.geometry) && scene.geometry.blit.length > 0;
+const spoken = (scene, text) => isBlitScene(scene) ? text.replace("covered", "written") : text;
+
 const triangleName = (t, g) => "triangle " + t.primitive + (g.scissors.length > 1 || t.draw > 0 ? " of draw " + t.draw : "");
 
 // `y` is a row of its layer, as those of triangles.
@@ -55,6 +59,14 @@ function placeText(seen) {
   const kinds = seen.zero.map((e) => e.kind).join(" and ");
   return (seen.zero.length > 1 ? "exactly on the corner of a " + kinds + " edge" : "exactly on a " + kinds + " edge") +
     (seen.owns ? ": the top-left rule gives it to this triangle" : ": the top-left rule gives it to the neighbour");
+}
+
+// Whether a pixel lies outside the scissor of a triangle's draw; `y` is a row of its layer.
+function isOutsideScissor(g, triangle, x, y) {
+  const scissor = g.scissors[triangle.draw];
+  if (!scissor) { return false; }
+  const [left, top, width, height] = scissor;
+  return x < left || y < top || x >= left + width || y >= top + height;
 }
 
 // Distance of a point from a triangle's nearest edge line, in pixels, for sorting alone.

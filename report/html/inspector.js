@@ -25,18 +25,20 @@ function makeInspector(record, scene) {
 const sampleName = (scene, at) => pixelName(scene.pictures.layerHeight, at.x, at.y) + (scene.pictures.samples > 1 ? " sample " + at.sample : "");
 
 function sampleTitle(scene, at) {
-  const parts = [el("strong", {}, (scene.geometry && scene.geometry.blit.length ? "Texel " : "Pixel ") + sampleName(scene, at))];
-  if (scene.geometry && !scene.geometry.blit.length) {
+  const parts = [el("strong", {}, (isBlitScene(scene) ? "Texel " : "Pixel ") + sampleName(scene, at))];
+  if (scene.geometry && !isBlitScene(scene)) {
     parts.push(el("span", {class: "quiet"}, " at " + pointText(samplePosition(scene.geometry, at.x, rowInLayer(scene.pictures, at.y), at.sample))));
   }
   return parts;
 }
 
+const deviceText = (scene, hits) => !isBlitScene(scene) ? hitsText(hits, false) : hits ? "written" : "not written";
+
 // The same for a screen reader, when the arrow keys have moved there.
 function sampleSentence(scene, at) {
   if (!isInPicture(scene.pictures, at)) { return ""; }
   const p = scene.pictures, k = indexOf(p, at);
-  return "Pixel " + sampleName(scene, at) + ": " + MARK_TEXT[p.marks[k]] + "; reference: " + classText(p.expected[k]) + ", device: " + hitsText(p.device[k], false) +
+  return (isBlitScene(scene) ? "Texel " : "Pixel ") + sampleName(scene, at) + ": " + spoken(scene, MARK_TEXT[p.marks[k]]) + "; reference: " + spoken(scene, classText(p.expected[k])) + ", device: " + deviceText(scene, p.device[k]) +
     (scene.ties.has(k) ? "; exactly on an edge" : "");
 }
 
@@ -51,9 +53,9 @@ function verdictPart(scene, at, known) {
   const rows = [];
   const fact = (name, value) => { if (value) { rows.push(el("dt", {}, name), el("dd", {}, value)); } };
   const expected = p.expected[k];
-  fact("reference", [el("strong", {"data-class": expected === SEVERAL ? "either" : expected === 0 ? "must-not" : "must"}, classText(expected)),
-    known && known.allowed ? ", hits " + known.allowed : expected === SEVERAL || expected === 0 ? "" : ", " + hitsText(expected, true)]);
-  fact("device", (known && known.hits ? known.hits : hitsText(p.device[k], false)) + (known && known.writer ? ", last by " + known.writer : ""));
+  fact("reference", [el("strong", {"data-class": expected === SEVERAL ? "either" : expected === 0 ? "must-not" : "must"}, spoken(scene, classText(expected))),
+    known && known.allowed ? ", hits " + known.allowed : expected === SEVERAL || expected === 0 || isBlitScene(scene) ? "" : ", " + hitsText(expected, true)]);
+  fact("device", (known && known.hits ? known.hits : deviceText(scene, p.device[k])) + (known && known.writer ? ", last by " + known.writer : ""));
   if (p.errors && p.errors[k]) { fact("error", errorText(p.errors[k])); }
   const color = (plane) => [plane[k], plane[p.count + k], plane[2 * p.count + k]];
   const chip = (c) => { const s = el("span", {class: "chip", "aria-hidden": "true"}); s.style.background = "rgb(" + c.join(",") + ")"; return [s, " " + c.join(", ")]; };
@@ -62,7 +64,7 @@ function verdictPart(scene, at, known) {
   if (p.depths && p.depths[k]) {
     fact("device depth", "about " + shortNumber(p.depthLow + (p.depthHigh - p.depthLow) * (p.depths[k] - 1) / 254, 4));
   }
-  return el("div", {class: "verdict-part"}, el("div", {class: "mark-line"}, swatch, el("strong", {"data-mark": MARKS[mark]}, MARK_TEXT[mark])), el("dl", {}, rows));
+  return el("div", {class: "verdict-part"}, el("div", {class: "mark-line"}, swatch, el("strong", {"data-mark": MARKS[mark]}, spoken(scene, MARK_TEXT[mark]))), el("dl", {}, rows));
 }
 
 function findingsPart(told) {
@@ -79,14 +81,15 @@ function findingsPart(told) {
       el("p", {}, ruleLink(f.rule), " ", levelTag(f.level), el("span", {class: "quiet"}, " " + data.meanings[f.level])),
       rule ? el("p", {}, el("strong", {}, rule.title + ". "), el("span", {class: "quiet"}, rule.text)) : null,
       el("p", {class: "why"}, f.why),
-      list.map((g) => el("p", {class: "pair"}, g.quantity ? el("strong", {}, g.quantity + ": ") : null, "expected ", el("span", {class: "number"}, g.expected), ", got ",
-        el("span", {class: "number"}, g.got), g.ratio ? ", " + g.ratio + " budgets off" : "")));
+      list.map((g) => el("p", {class: "pair"}, g.quantity ? el("strong", {}, g.quantity + ": ") : null, "expected ", el("span", {class: numberClass(g.expected)}, g.expected), ", got ",
+        el("span", {class: numberClass(g.got)}, g.got), g.ratio ? ", " + g.ratio + " budgets off" : "")));
   }));
 }
 
 const MAX_STEPS = 1e7;
-function valueRow(value, told, complete) {
-  const [quantity, exact, nearestText, budgetText, lowText, highText, bits, also = ""] = value;
+function valueRow(value, told, complete, drawn) {
+  const [quantity, fraction, nearestText, budgetText, lowText, highText, bits, also = ""] = value;
+  const exact = fraction.replace(MINUS, "\u2212");
   const nearest = numberOf(nearestText), budget = numberOf(budgetText), low = numberOf(lowText), high = numberOf(highText);
   const f = told.find((g) => g.quantity === quantity), got = bits === null ? NaN : floatOf(bits);
   const steps = bits === null ? null : ulps(bits, nearest), inside = got >= low && got <= high;
@@ -102,20 +105,20 @@ function valueRow(value, told, complete) {
     el("th", {scope: "row"}, quantity),
     el("td", {}, el("span", {class: "number"}, exact && exact !== shortNumber(nearest) ? exact + " = " : "", shortNumber(nearest)),
       el("div", {class: "quiet number small"}, also ? also + (budget === 0 ? ", bit for bit" : "") : budget === 0 ? "bit for bit" : "[" + shortNumber(low) + ", " + shortNumber(high) + "]")),
-    el("td", {}, bits === null ? el("span", {class: "quiet"}, "not drawn") : [el("span", {class: "number"}, floatText(bits)), el("div", {class: "quiet number small"}, hex(bits))]),
+    el("td", {}, bits === null ? el("span", {class: "quiet"}, drawn ? "not compared" : "not drawn") : [el("span", {class: "number"}, floatText(bits)), el("div", {class: "quiet number small"}, hex(bits))]),
     el("td", {class: "off"}, bits === null ? "" : [also && !f && complete && steps !== 0 ? "one of these" : steps === null ? "no number" : steps > MAX_STEPS ? "> 10\u2077 ulp" : steps + " ulp", el("div", {class: "quiet small"}, budgets)]),
     el("td", {}, verdict));
 }
 
 // `complete`: all findings of the sample are here, so that a value without one was accepted.
 function valuesPart(scene, at, known, told, complete) {
+  const drawn = isInPicture(scene.pictures, at) && scene.pictures.device[indexOf(scene.pictures, at)] > 0;
   if (!known || known.values.length === 0) {
-    const drawn = isInPicture(scene.pictures, at) && scene.pictures.device[indexOf(scene.pictures, at)] > 0 && scene.pictures.errors;
-    return drawn ? el("p", {class: "quiet small"}, "Values are kept for wrong samples and their neighbours; the command \u201cexplain\u201d tells them for any sample.") : null;
+    return drawn && scene.pictures.errors ? el("p", {class: "quiet small"}, "Values are kept for wrong samples and their neighbours; the command \u201cexplain\u201d tells them for any sample.") : null;
   }
   return el("div", {class: "values"}, el("h3", {}, "Values"), el("div", {class: "scroll"},
     table("", ["quantity", "exact, [all set-ups]", "device", "off by", el("span", {class: "hidden-text"}, "verdict")], [...known.values].sort((a, b) => told.some((f) => f.quantity === b[0]) - told.some((f) => f.quantity === a[0]))
-      .map((v) => valueRow(v, told, complete)), "compact")));
+      .map((v) => valueRow(v, told, complete, drawn)), "compact")));
 }
 
 function edgeRow(e) {
@@ -137,7 +140,7 @@ function trianglesPart(scene, at) {
   for (const seen of list.slice(0, SHOWN_TRIANGLES)) {
     const t = seen.triangle;
     parts.push(el("details", {class: "triangle place-" + seen.place, open: seen.place !== "outside" || list[0] === seen},
-      el("summary", {}, el("strong", {}, triangleName(t, g)), " ", placeText(seen)),
+      el("summary", {}, el("strong", {}, triangleName(t, g)), " ", placeText(seen), seen.place !== "outside" && isOutsideScissor(g, seen.triangle, at.x, rowInLayer(p, at.y)) ? ", but the scissor rectangle leaves this pixel out" : ""),
       table("", ["edge", "kind", "E, square pixels", "sign"], seen.edges.map(edgeRow), "compact edges"),
       el("p", {class: "quiet small"}, [t.isExact ? "" : "Snapped to the nearest subpixel position; the device may choose another. ",
         t.isClipped ? "It reaches out of the view volume; dashed is what clipping leaves. " : "", t.hasArea ? (t.isBackward ? "Counter-clockwise on screen." : "Clockwise on screen.") : ""].join(""))));

@@ -21,6 +21,7 @@ function setAddress(hash) {
   try { history.replaceState(null, "", hash || location.pathname); } catch (e) { location.hash = hash; }
 }
 function rememberOverview() {
+  byId("unknown").hidden = true;
   const parts = new URLSearchParams();
   if (listing.words) { parts.set("q", listing.words); }
   if (listing.group !== "family") { parts.set("group", listing.group); }
@@ -79,7 +80,9 @@ function openOverview() {
 
 // Shows what the address names.
 function follow() {
-  const parts = new URLSearchParams(location.hash.slice(1)), id = parts.get("case");
+  const hash = location.hash.slice(1);
+  // An id may hold "+", which stands for a space in a filter alone.
+  const parts = new URLSearchParams(/(^|&)case=/.test(hash) ? hash.replaceAll("+", "%2B") : hash), id = parts.get("case");
   if (id !== null && entryOf.has(id)) {
     if (VIEWS.some((v) => v[0] === parts.get("view"))) { viewing.view = parts.get("view"); }
     const zoom = Number(parts.get("zoom"));
@@ -98,6 +101,8 @@ function follow() {
   byId("sort").value = listing.sort;
   showList();
   if (page) { openOverview(); }
+  byId("unknown").hidden = id === null;
+  byId("unknown").textContent = id === null ? "" : "There is no case " + id + " in this report.";
 }
 
 function help(show) {

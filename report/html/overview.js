@@ -76,7 +76,8 @@ function statusBar(members) {
 function happened(record) {
   if (!record.lead) { return record.what; }
   const f = finding(record.lead);
-  return [record.counts + " \u00b7 ", el("span", {class: "id"}, f.rule), " \u00b7 ", levelTag(f.level)];
+  const flaky = record.status === "flake" ? "differs from run to run (" + record.attempts + " attempts) \u00b7 " : "";
+  return [flaky + record.counts + " \u00b7 ", el("span", {class: "id"}, f.rule), " \u00b7 ", levelTag(f.level)];
 }
 
 function caseRow(entry) {

@@ -5,7 +5,7 @@
 const MARKS = ["ok", "either", "missing", "extra", "double", "value", "order"];
 const LETTERS = ["", "", "M", "X", "D", "V", "O"];
 const MARK_TEXT = ["as expected", "free: the rules allow several answers", "missing: must be covered", "extra: must not be covered",
-  "double: hit too often", "value: covered, but with a wrong value", "order: written by the wrong triangle"];
+  "double: hit too often", "value: a wrong value was written", "order: written by the wrong triangle"];
 // Okabe and Ito's colours, each with a pattern and a letter of its own.
 const MARK_COLOR = ["", "#999999", "#D55E00", "#56B4E9", "#CC79A7", "#F0B429", "#009E73"];
 const SEVERAL = 255;  // Verdict::expected_hits: more than one number of hits is allowed

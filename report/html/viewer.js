@@ -32,15 +32,29 @@ function makeViewer(record, onSample, onChange) {
     return Math.max(least, Math.min(MAX_ZOOM, Math.floor(Math.min(width / (pictures.width + 2), height / (pictures.height + 2)))));
   }
 
+  // As large as the picture, with room for a scrollbar across if there is one down, and the other way round.
+  function fit(pane, width, height, widest) {
+    const highest = Math.max(262, window.innerHeight - 110), key = [width, height, widest, highest].join();
+    if (pane.fitted === key) { return; }
+    pane.fitted = key;
+    const {frame} = pane, borders = 2;
+    pane.canvas.style.width = pane.canvas.style.height = "0";  // as it was painted last it may stick out
+    const set = (name, size) => { frame.style[name] = size + "px"; };
+    set("width", Math.min(width + borders, widest));
+    set("height", Math.min(height + borders, highest));
+    const down = Math.max(0, frame.offsetWidth - frame.clientWidth - borders), across = Math.max(0, frame.offsetHeight - frame.clientHeight - borders);
+    set("width", Math.min(width + borders + down, widest));
+    set("height", Math.min(height + borders + across, highest));
+  }
+
   const kindOf = (pane) => pane.kind !== "blink" ? pane.kind : viewer.blinkOn ? "device" : "expected";
   function draw() {
     const zoom = zoomNow(), width = (pictures.width + 2) * zoom, height = (pictures.height + 2) * zoom;
-    const share = Math.floor(stage.clientWidth / (viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1)) - 14;
+    const share = Math.floor(stage.clientWidth / (viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1)) - 12;  // what fitZoom() leaves, and two borders
     for (const pane of panes) {
       pane.sizer.style.width = width + "px";
       pane.sizer.style.height = height + "px";
-      pane.frame.style.width = Math.min(width + 2, Math.max(120, share)) + "px";
-      pane.frame.style.height = Math.min(height + 2, Math.max(260, window.innerHeight - 110)) + "px";
+      fit(pane, width, height, Math.max(120, share));
       const shown = {width: Math.min(width, pane.frame.clientWidth), height: Math.min(height, pane.frame.clientHeight)};
       paint(pane.canvas, scene, {kind: kindOf(pane), zoom, left: pane.frame.scrollLeft, top: pane.frame.scrollTop, ...shown,
         cursor: viewer.cursor, options: {grid: viewing.grid, outlines: viewing.outlines, samples: viewing.samples,
@@ -101,7 +115,7 @@ function makeViewer(record, onSample, onChange) {
       el("button", {type: "button", "aria-label": "smaller", title: "key \u2212", onclick: () => viewer.zoomBy(-1)}, "\u2212"), zoomText,
       el("button", {type: "button", "aria-label": "larger", title: "key +", onclick: () => viewer.zoomBy(1)}, "+"),
       el("button", {type: "button", title: "key 0", onclick: () => viewer.setZoom(0)}, "Fit")),
-    el("div", {class: "checks"}, [["outlines", "Triangles"], ["samples", "Samples"], ["grid", "Grid"]].map(([name, title]) =>
+    el("div", {class: "checks"}, (isBlitScene(scene) ? [["outlines", "Region"], ["grid", "Grid"]] : [["outlines", "Triangles"], ["samples", "Samples"], ["grid", "Grid"]]).map(([name, title]) =>
       el("label", {}, el("input", {type: "checkbox", checked: viewing[name], "data-option": name, onchange: (event) => { viewing[name] = event.target.checked; draw(); }}), title))),
     pictures.colors || pictures.depths ? el("label", {}, "show ", el("select", {onchange: (event) => { viewing.show = event.target.value; draw(); }},
       [["hits", "hits"], pictures.colors && ["colour", "colour"], pictures.depths && ["depth", "depth"]].filter(Boolean).map(([value, title]) =>
@@ -184,7 +198,8 @@ function legendEntries(scene, view) {
     for (let x = 0; x < 320; ++x) { context.fillStyle = heatColor(Math.round(128 + 8 * HEAT_SPAN * (x / 160 - 1)), theme()); context.fillRect(x, 0, 1, 28); }
     list.push(el("li", {class: "scale"}, "\u2264 1/256", ramp, "\u2265 256 budgets; " + Math.round(MOST_BUDGETS) + " are accepted. Framed: not accepted"));
   } else {
-    list.push(entry("1 hit", box(palette.hits[1])), entry("2 hits", box(palette.hits[2])));
+    if (isBlitScene(scene)) { list.push(entry("written", box(palette.hits[1]))); }
+    else { list.push(entry("1 hit", box(palette.hits[1])), entry("2 hits", box(palette.hits[2]))); }
     if (present.has(1)) { list.push(entry("free", (c) => drawFree(c, palette, 0, 0, 18, 18))); }
   }
   if (view === "difference" || view === "side" || view === "error") {

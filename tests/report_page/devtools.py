@@ -35,7 +35,7 @@ class Refused(RuntimeError):
 
 
 class Browser:
-    def __init__(self, program):
+    def __init__(self, program, scrollbars=False):
         self.profile = tempfile.mkdtemp(prefix="edgecase-chromium-")
         commands_read, self.commands = self._pipe(keep=0)
         self.answers, answers_write = self._pipe(keep=1)
@@ -44,8 +44,8 @@ class Browser:
         self.process = subprocess.Popen(
             ["bash", "-c", script, program, "--headless=new", "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu",
              "--disable-dev-shm-usage", "--no-first-run", "--disable-extensions", "--disable-background-networking",
-             "--disable-component-update", "--disable-sync", "--hide-scrollbars", "--force-device-scale-factor=1",
-             f"--user-data-dir={self.profile}"],
+             "--disable-component-update", "--disable-sync", "--force-device-scale-factor=1",
+             *([] if scrollbars else ["--hide-scrollbars"]), f"--user-data-dir={self.profile}"],
             pass_fds=(commands_read, answers_write), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL)
         os.close(commands_read)

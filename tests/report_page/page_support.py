@@ -45,6 +45,7 @@ to = [1, 1, 7, 7]
 @unittest.skipIf(CHROMIUM is None, "there is no Chromium")
 class PageTest(unittest.TestCase):
     cases = CASES
+    scrollbars = False  # whether the browser shows them
     # One hit too many at the first covered sample from the middle of the target on.
     fault = "flip-pixel@family/wrong,flip-pixel@samples/four,flip-pixel@texels/blit"
 
@@ -59,7 +60,7 @@ class PageTest(unittest.TestCase):
         cls.out = cls.folder / "out"
         cls.make_run()
         cls.report = cls.out / "report.html"
-        cls.browser = devtools.Browser(CHROMIUM)
+        cls.browser = devtools.Browser(CHROMIUM, cls.scrollbars)
         cls.addClassCleanup(cls.browser.close)
 
     @classmethod

@@ -38,6 +38,20 @@ class ComparePage(PageTest):
         for part in ("pass", "fail", "1 double of 64 samples"):
             self.assertIn(part, row)
 
+    def test_nothing_is_told_twice(self):
+        page = self.open(file=self.page)
+        self.assertEqual(page.text("[data-kind=regression].tile").split(), ["2", "regressions"])
+        self.assertEqual(page.text("[data-kind=fix].tile").split(), ["1", "fix"])
+        self.assertEqual(page.text("tr[data-case='family/wrong']").count("1 double of 64 samples"), 1)
+        page.click_seen("tr[data-case='family/wrong'] button")
+        self.assertEqual(page.run("document.querySelector('.detail td').colSpan"), 3)
+
+    def test_results_stand_beside_the_first_line_of_a_long_id(self):
+        page = self.open(file=self.page, width=600)
+        page.run("(() => { const row = document.querySelector(\"tr[data-case='family/wrong']\"); row.querySelector('button').textContent = 'long/' + 'id '.repeat(90); })()")
+        tops = page.run("[...document.querySelector(\"tr[data-case='family/wrong']\").cells].map((c) => c.firstElementChild.getBoundingClientRect().top)")
+        self.assertLess(max(tops) - min(tops), 8)
+
     def test_tiles_and_words_filter(self):
         page = self.open(file=self.page)
         page.click_seen("[data-kind=regression].tile")

@@ -7,7 +7,7 @@ import random
 import re
 import unittest
 
-from page_support import PageTest
+from page_support import SQUARE, PageTest
 
 MOST_BYTES = 8 << 20  # of a page with 2,000 cases, 300 of them failing
 
@@ -40,6 +40,25 @@ class Overview(PageTest):
         page.run("[...document.querySelectorAll('#causes tr[data-cause]')].find((r) => r.innerText.includes('blit')).querySelector('button').click()")
         self.assertEqual(page.count("#list tr.case-row"), 1)
         self.assertIn("texels/blit", page.text("#list"))
+
+    def test_every_status_has_room_beside_the_case(self):
+        page = self.open()
+        gaps = page.run("Object.fromEntries(STATUSES.map((status) => { entries[0].record.status = status; showList();"
+                        "const [first, second] = document.querySelector('tr[data-case=\"' + entries[0].record.id + '\"]').cells;"
+                        "return [status, second.firstChild.getBoundingClientRect().left - first.firstChild.getBoundingClientRect().right]; }))")
+        self.assertEqual(len(gaps), 13)
+        self.assertGreaterEqual(min(gaps.values()), 12, gaps)
+
+    def test_causes_fit_a_narrow_window(self):
+        for width in (700, 1440):
+            page = self.open(width=width)
+            self.assertEqual(page.run("document.querySelector('#causes .scroll').scrollWidth - document.querySelector('#causes .scroll').clientWidth"), 0, width)
+            self.assertIn("family/wrong", page.text("#causes"))
+
+    def test_a_flake_is_told_as_one(self):
+        page = self.open()
+        page.run("(() => { const {record} = entryOf.get('family/wrong'); record.status = 'flake'; record.attempts = 3; showList(); })()")
+        self.assertIn("differs from run to run (3 attempts) \u00b7 1 double of 64 samples", page.text("tr[data-case='family/wrong']"))
 
     def test_groups_and_sorts(self):
         page = self.open()
@@ -266,11 +285,110 @@ class Samples(PageTest):
         self.assertIn("device colour", text)
         self.assertIn("Source coordinate (1/3, 1/3)", text)
 
+    def test_blits_are_written_not_covered(self):
+        page = self.open("#case=texels%2Fblit")
+        shown = page.text(".bench")
+        for text in ("Triangles", "Samples", "covered"):
+            self.assertNotIn(text, shown)
+        self.assertIn("written", page.text(".mark-line"))
+        page.key("ArrowRight")
+        self.assertIn("Texel (", page.text("#announcer"))
+        self.assertIn("must be written, device: written", page.text("#announcer"))
+
+    def test_a_value_tells_its_fraction_where_it_says_more(self):
+        page = self.open()
+        row = "valueRow(['depth', '%s', '%s', '1e-9', '0', '1', null], [], false, %s).textContent"
+        self.assertIn("depth\u22123[0, 1]not compared", page.run(row % ("-3", "-3", "true")))
+        self.assertIn("depth\u22125/2 = \u22122.5[0, 1]not drawn", page.run(row % ("-5/2", "-2.5", "false")))
+
+    def test_errors_fit_their_cells(self):
+        page = self.open()
+        texts = page.run("Array.from({length: 254}, (_, k) => errorNumber(k + 1))")
+        self.assertEqual((texts[0], texts[127], texts[244], texts[253]), ("0", "1", "2.5e4", "5.5e4"))
+        self.assertLessEqual(max(map(len, texts)), 6)
+
+    def test_an_address_names_any_id(self):
+        folder = self.folder / "plus"
+        folder.mkdir()
+        journal = (self.out / "journal.jsonl").read_text(encoding="utf-8")
+        (folder / "journal.jsonl").write_text(journal.replace("family/wrong", "family/wrong:of=color+depth,b=0"), encoding="utf-8")
+        self.edgecase("report", folder)
+        for written in ("family/wrong:of=color+depth,b=0", "family%2Fwrong%3Aof%3Dcolor%2Bdepth%2Cb%3D0"):
+            page = self.open(f"#case={written}&px=2,5", file=folder / "report.html")
+            self.assertEqual(page.text("#case-title"), "family/wrong:of=color+depth,b=0")
+            self.assertIn("Pixel (2, 5)", page.text("#sample-summary"))
+        page = self.open("#q=four+samples")
+        self.assertEqual(page.run("byId('filter').value"), "four samples")
+
+    def test_an_unknown_id_is_told(self):
+        page = self.open("#case=no/such:a=b+c")
+        self.assertEqual(page.text("#unknown"), "There is no case no/such:a=b+c in this report.")
+        page.click("#filter")
+        page.type("four")
+        self.assertEqual(page.count("#unknown"), 0)
+        page.run("location.hash = '#case=family%2Fgood'")
+        page.wait_for("document.getElementById('case-title') !== null")
+        page.run("location.hash = '#case=other'")
+        page.wait_for("!document.getElementById('unknown').hidden")
+        self.assertEqual(page.text("#unknown"), "There is no case other in this report.")
+
     def test_a_bad_address_is_harmless(self):
         page = self.open("#case=family%2Fwrong&px=99,-3,x&view=nothing&zoom=1e9")
         self.assertEqual(page.text("#case-title"), "family/wrong")
         page = self.open("#case=no%2Fsuch")
         self.assertEqual(page.count("#list tr.case-row"), 4)
+
+
+# The second draw is cut to the two columns on the left.
+CUT = SQUARE.format(more=" and one that its scissor cuts off", target="", draw="[[draw.attribute]]\nvalues = [0, 1, 2, 3, 4, 5]") + """[[draw]]
+vertices = [[1,1], [7,1], [1,7],  [7,1], [7,7], [1,7]]
+scissor = [0, 0, 2, 8]
+"""
+
+
+class Shapes(PageTest):
+    cases = {"shapes/cut": CUT, "shapes/flat": SQUARE.format(more=" in a flat target", target="", draw="").replace("[8, 8]", "[1024, 8]"),
+             "shapes/tall": SQUARE.format(more=" in a tall target", target="", draw="").replace("[8, 8]", "[8, 1024]")}
+    fault = "flip-pixel"
+    scrollbars = True
+
+    def test_the_scissor_is_told(self):
+        page = self.open("#case=shapes%2Fcut&px=4,4")
+        cut = page.run("[...document.querySelectorAll('.triangle summary')].filter((s) => s.innerText.includes('inside')).map((s) => s.innerText)")
+        self.assertEqual(len(cut), 2, cut)
+        self.assertEqual([("the scissor rectangle leaves this pixel out" in s, "draw 1" in s) for s in cut].count((True, True)), 1, cut)
+        self.assertEqual([("the scissor rectangle leaves this pixel out" in s, "draw 1" in s) for s in cut].count((False, False)), 1, cut)
+        page = self.open("#case=shapes%2Fcut&px=1,4")
+        self.assertNotIn("scissor", page.text(".triangles"))
+
+    def test_what_was_drawn_too_often_is_not_called_not_drawn(self):
+        page = self.open()
+        # As where no triangle that may be here wrote last.
+        page.run("entryOf.get('shapes/cut').record.evidence.forEach((e) => e.values.forEach((v) => { v[6] = null; }))")
+        page.run("openCase('shapes/cut')")
+        self.assertIn("not compared", page.text(".values"))
+        self.assertNotIn("not drawn", page.text(".values"))
+
+    def test_scrollbars_take_no_room_of_the_picture(self):
+        for case, scrolled in (("flat", "Width"), ("tall", "Height")):
+            for view in ("difference", "side"):
+                page = self.open(f"#case=shapes%2F{case}&view={view}&zoom=16")
+                for frame in page.run("[...document.querySelectorAll('.frame')].map((f) => ({Width: [f.scrollWidth, f.clientWidth],"
+                                      "Height: [f.scrollHeight, f.clientHeight], bars: f.offsetWidth - f.clientWidth + f.offsetHeight - f.clientHeight}))"):
+                    self.assertGreater(frame["bars"], 4, "there is no scrollbar to be seen")
+                    for side in ("Width", "Height"):
+                        self.assertEqual(frame[side][0] > frame[side][1], side == scrolled, (case, view, frame))
+
+    def test_a_picture_that_fits_needs_no_scrollbar(self):
+        page = self.open("#case=shapes%2Fcut")
+        frame = "document.querySelector('.frame')"
+        for view in ("difference", "side"):
+            for width in range(1400, 1440, 3):
+                page.send("Emulation.setDeviceMetricsOverride", {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False})
+                page.run(f"(() => {{ page.viewer.setView('{view}'); page.viewer.setZoom(64); page.viewer.setZoom(0); }})()")
+                sizes = page.run(f"[{frame}.offsetWidth - {frame}.scrollWidth, {frame}.offsetHeight - {frame}.scrollHeight,"
+                                 f"{frame}.offsetWidth - {frame}.firstChild.offsetWidth, {frame}.offsetHeight - {frame}.firstChild.offsetHeight]")
+                self.assertEqual(sizes, [2, 2, 2, 2], (width, view))
 
 
 class Size(PageTest):

@@ -387,6 +387,57 @@ TEST(Compare, ContradictingAttachmentsAreAFinding) {
     EXPECT_EQ(only(ghost.verdict()).rule, "write.consistent");
 }
 
+TEST(Compare, ContradictionsAreToldByPlane) {
+    const auto told = [](const auto& change) {
+        Checked k(pixel_case(8, 8, {{0, 0}, {4, 0}, {0, 4}}));
+        change(k);
+        return only(k.verdict()).got;
+    };
+    EXPECT_EQ(told([](Checked& k) { set_hits(k.capture, k.at(7, 7), 193, 0); }),
+              "hits 193 front, 0 back; writer: nothing drawn; FragCoord: nothing drawn");
+    EXPECT_EQ(told([](Checked& k) { k.capture.depth[k.at(7, 7)] = 0.5F; }),
+              "hits: nothing drawn; depth: 0.5");
+    EXPECT_EQ(told([](Checked& k) {
+                  k.capture.writers[k.at(7, 7)].draw = 3;
+                  k.capture.frag_coord[k.at(7, 7)] = {7.5F, 7.5F, 0.0F, 1.0F};
+              }),
+              "hits: nothing drawn; writer: draw 3, triangle none, provoking vertex none; "
+              "FragCoord: (7.5, 7.5, 0, 1)");
+    EXPECT_EQ(told([](Checked& k) { k.capture.hits[k.at(7, 7)].z += 1; }),
+              "hit counter (0, 0, 4097, 4096), which no fragments leave; writer: nothing drawn; "
+              "FragCoord: nothing drawn; depth: nothing drawn");
+}
+
+TEST(Compare, OneTriangleThatHitsTwiceIsNotSaidToBeElsewhere) {
+    Checked k(pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}}));
+    set_hits(k.capture, k.at(1, 1), 0, 2);
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(only(v).kind, FindingKind::double_hit);
+    EXPECT_EQ(only(v).rule, "cover.outside");
+    EXPECT_EQ(only(v).why, "triangle 0 of draw 0 alone may cover the sample, and only once");
+}
+
+TEST(Compare, WrongSamplesAreCountedOnceEach) {
+    Checked k(diagonal());
+    EXPECT_EQ(k.verdict().wrong_samples(), 0U);
+    k.capture.frag_coord[k.at(1, 1)].x += 1;
+    k.capture.frag_coord[k.at(1, 1)].y += 1;
+    clear_sample(k.capture, k.at(2, 2));
+    const diff::Verdict v = k.verdict();
+    EXPECT_EQ(v.findings.size(), 3U);
+    EXPECT_EQ(v.wrong_samples(), 2U);
+}
+
+TEST(Compare, AFractionIsToldWhereItSaysMore) {
+    Checked k(diagonal());
+    k.capture.frag_coord[k.at(1, 1)].w = 2;
+    EXPECT_TRUE(only(k.verdict()).expected.starts_with("1 within ")) << only(k.verdict()).expected;
+    Checked depth(diagonal());
+    depth.capture.depth[depth.at(1, 1)] += 0.25F;
+    EXPECT_NE(only(depth.verdict()).expected.find(" = 1/2 within "), std::string::npos)
+        << only(depth.verdict()).expected;
+}
+
 TEST(Compare, CaseWithoutControlIsAnError) {
     const Checked k(pixel_case(8, 8, {{0.6, 0.6}, {1.4, 0.6}, {1, 1.4}}));
     EXPECT_NE(k.verdict().error.find("no sample that must be covered"), std::string::npos);

@@ -188,8 +188,15 @@ TEST(Consistency, AllDifferentSamplesAreCountedAndTheFirstOnesKept) {
     EXPECT_EQ(found[0].different, 64U);
     EXPECT_EQ(found[0].differences.size(), kMaxDifferences);
     Verdict verdict;
+    verdict.marks.assign(64, SampleMark::ok);
     add_differences(scene.test, d, found, verdict);
     EXPECT_EQ(verdict.counts[static_cast<size_t>(FindingKind::value)], 64U);
+    EXPECT_EQ(verdict.wrong_samples(), 64U);
+    // Of those beyond what is kept it is not known whether they were wrong already.
+    std::vector<Consistency> more = found;
+    more[0].different = 65;
+    add_differences(scene.test, d, more, verdict);
+    EXPECT_EQ(verdict.wrong_samples(), std::nullopt);
 }
 
 TEST(Consistency, OtherShadersAreHeldToItFromPracticeOn) {

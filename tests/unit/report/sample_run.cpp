@@ -143,6 +143,7 @@ Run sample_run() {
     CaseRecord fail = make("shared-edge/diag:rot=90,flip=false", Status::fail);
     fail.level = Profile::vulkan;
     fail.counts = {1, 1, 1, 1, 1};
+    fail.wrong_samples = 5;
     fail.min_x = 1;
     fail.max_x = 6;
     fail.max_y = 6;
