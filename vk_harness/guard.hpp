@@ -13,9 +13,10 @@
 
 namespace vk_harness {
 
-// A row of 256 texels of the widest format, 64 rows of a tile of 4 of them: what is written beside
-// an image begins at its border or a row away, and what a submission reads back stays small.
-inline constexpr VkDeviceSize kGuardBytes = 4096;
+// A row of 64 texels of the widest format: what is written beside an image begins at its border or,
+// in targets as small as most of the suite, within a row of it. A submission reads back two guards
+// of each of its images, some hundred in all.
+inline constexpr VkDeviceSize kGuardBytes = 1024;
 // Neither a clear value nor diff::kPoison.
 inline constexpr uint32_t kGuardWord = 0xed9eca5eU;
 
