@@ -25,9 +25,9 @@ void add_stray_writes(const cases::Case& c, std::span<const StrayWrite> writes, 
             side, w.words, w.distance,
             w.is_before ? "before the first byte" : "after the last byte");
         if (w.renderings > 1) {
-            finding.why += fmt::format(
-                "; {} renderings were in the submission, and none of them did it alone",
-                w.renderings);
+            finding.why +=
+                fmt::format("; {} renderings were in the submission, and none of them did it alone",
+                            w.renderings);
         }
         verdict.add(std::move(finding), t);
     }
