@@ -202,6 +202,11 @@ constexpr std::array kRules = {
          "blending of "
          "exactly representable values is exact.",
          "invariance", "", "diff/capture.cpp"},
+    Rule{"write.outside", Profile::vulkan, "Nothing is written beside an attachment's memory",
+         "Drawing, clearing, resolving and blitting write to the attachments alone: buffers in the "
+         "same memory, directly before and after each of them, keep every word. What lies between "
+         "the picture and the end of an attachment's own memory is the driver's.",
+         "resources-association", "", "vk_harness/guard.cpp"},
     Rule{"depth.linear", Profile::vulkan, "Depth is linear in framebuffer space",
          "z_f is interpolated linearly at the sample; on a D32 target and for FragCoord.z within "
          "the "

@@ -137,9 +137,9 @@ constexpr Statement kStatements[] = {
      "Half-open, by sample.",
      {"scissor.half-open"}, ""},
     {38, "nothing outside the framebuffer", exact, exact,
-     "Tiny and odd targets with triangles far beyond them; memory outside an image cannot "
-     "be seen by a valid program.",
-     {"cover.outside"}, ""},
+     "Tiny and odd targets with triangles far beyond them; buffers before and after each "
+     "attachment, in its own memory, keep every word.",
+     {"cover.outside", "write.outside"}, ""},
     {39, "drawing outside the render area", not_spoken, not_spoken,
      "",
      {}, "The application must prevent it; there is nothing that a device could do wrong."},

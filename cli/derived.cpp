@@ -78,6 +78,8 @@ std::vector<RenderedCase> render_with_derived(
             result.consistency.clear();
             return;
         }
+        own.stray_writes.insert(own.stray_writes.end(), derived.stray_writes.begin(),
+                                derived.stray_writes.end());
         if (damage) {
             damage(origin.of, derived);
         }

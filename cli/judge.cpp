@@ -15,6 +15,7 @@
 #include "cli/evidence.hpp"
 #include "cli/frame.hpp"
 #include "diff/blit.hpp"
+#include "diff/stray_write.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation.hpp"
 
@@ -75,15 +76,16 @@ CaseRecord make_record(const cases::Case& c) {
 }
 
 void judge(CaseRecord& record, const cases::Case& c, const diff::CaptureView& capture,
-           std::span<const diff::Consistency> consistency, const ref::Limits& limits,
-           cases::Profile profile, KeepPictures pictures) {
+           const WorkerFindings& found, const ref::Limits& limits, cases::Profile profile,
+           KeepPictures pictures) {
     try {
         const ref::Expectation expectation =
             c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
         diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
                                        : diff::compare(c, expectation, capture);
         if (verdict.error.empty()) {
-            diff::add_differences(c, cases::derivations(c), consistency, verdict);
+            diff::add_differences(c, cases::derivations(c), found.consistency, verdict);
+            diff::add_stray_writes(c, found.stray_writes, verdict);
         }
         if (!capture.hits.empty()) {
             record.hit_bits = hex(checksum(FrameType::result, raw(capture.hits)));

@@ -28,11 +28,18 @@ enum class KeepPictures { none, failed, all };
 // The record of a case before it has run: what the file says of it.
 report::CaseRecord make_record(const cases::Case& c);
 
-// Judges a capture, and what comparing the case's derived renderings with it has found, into
-// `record`: pass, fail, or error if the case or the capture cannot be judged.
+// What a worker has found besides the capture: in comparing the case's derived renderings with it,
+// one result a derivation, and beside the attachments' memory.
+struct WorkerFindings {
+    std::span<const diff::Consistency> consistency;
+    std::span<const diff::StrayWrite> stray_writes;
+};
+
+// Judges a capture, and what the worker has found besides, into `record`: pass, fail, or error if
+// the case or the capture cannot be judged.
 void judge(report::CaseRecord& record, const cases::Case& c, const diff::CaptureView& capture,
-           std::span<const diff::Consistency> consistency, const ref::Limits& limits,
-           cases::Profile profile, KeepPictures pictures);
+           const WorkerFindings& found, const ref::Limits& limits, cases::Profile profile,
+           KeepPictures pictures);
 
 // The same of what another program delivered: at least one plane, sizes as the case's target.
 void judge_delivered(report::CaseRecord& record, const cases::Case& c,

@@ -194,6 +194,42 @@ bool get(ByteReader& in, std::vector<diff::Consistency>& consistency) {
     return true;
 }
 
+// Two sides of every attachment, in the case's rendering and in each derived one.
+constexpr size_t kMaxStrayWrites = 4096;
+
+void put(ByteWriter& out, const std::vector<diff::StrayWrite>& writes) {
+    out.value(uint64_t{writes.size()});
+    for (const diff::StrayWrite& w : writes) {
+        out.text(w.attachment);
+        out.value(uint8_t{w.is_before});
+        out.value(w.distance);
+        out.value(w.expected);
+        out.value(w.got);
+        out.value(w.words);
+        out.value(w.renderings);
+    }
+}
+
+bool get(ByteReader& in, std::vector<diff::StrayWrite>& writes) {
+    uint64_t count = 0;
+    if (!in.value(count) || count > kMaxStrayWrites) {
+        return false;
+    }
+    writes.resize(count);
+    for (diff::StrayWrite& w : writes) {
+        uint8_t is_before = 0;
+        in.text(w.attachment);
+        in.value(is_before);
+        in.value(w.distance);
+        in.value(w.expected);
+        in.value(w.got);
+        in.value(w.words);
+        in.value(w.renderings);
+        w.is_before = is_before != 0;
+    }
+    return true;
+}
+
 bool is_possible(const diff::Consistency& found, uint64_t samples) {
     return found.compared <= samples && found.different <= found.compared &&
            found.differences.size() == std::min<uint64_t>(found.different, diff::kMaxDifferences) &&
@@ -206,9 +242,10 @@ bool is_possible(const diff::Consistency& found, uint64_t samples) {
 
 }  // namespace
 
-std::string encode_consistency(const std::vector<diff::Consistency>& consistency) {
+std::string encode_findings(const CaseResult& result) {
     ByteWriter out;
-    put(out, consistency);
+    put(out, result.consistency);
+    put(out, result.rendered.stray_writes);
     return out.take();
 }
 
@@ -227,6 +264,7 @@ std::string encode_result(const CaseResult& result) {
     out.value(uint8_t{c.has_primitive});
     out.value(c.attribute_count);
     put(out, result.consistency);
+    put(out, r.stray_writes);
     out.value(uint8_t{result.is_shared});
     if (result.is_shared) {
         out.value(result.offset);
@@ -263,7 +301,7 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
     in.text(target);
     in.value(has_primitive);
     in.value(c.attribute_count);
-    if (!get(in, result.consistency)) {
+    if (!get(in, result.consistency) || !get(in, r.stray_writes)) {
         return std::nullopt;
     }
     in.value(is_shared);

@@ -65,8 +65,8 @@ struct CaseResult {
     diff::CaptureView view;
     std::shared_ptr<const void> keep;
 };
-// Of what was found alone: the same bytes for the same findings.
-std::string encode_consistency(const std::vector<diff::Consistency>& consistency);
+// Of what the worker found itself: the same bytes for the same findings.
+std::string encode_findings(const CaseResult& result);
 std::string encode_result(const CaseResult& result);
 std::optional<CaseResult> decode_result(std::string_view bytes);
 

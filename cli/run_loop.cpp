@@ -261,8 +261,7 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
         settle(k, std::move(record));
         return;
     }
-    const uint64_t bits =
-        result.bits ^ checksum(FrameType::result, encode_consistency(result.consistency));
+    const uint64_t bits = result.bits ^ checksum(FrameType::result, encode_findings(result));
     switch (schedule_.drawn(k, bits)) {
         case Schedule::Drawn::judge: {
             auto record = std::make_shared<CaseRecord>(fresh_record(k));
@@ -271,8 +270,9 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
             const uint64_t bytes = capture_bytes(cases_[k].data);
             judging_bytes_ += bytes;
             pool_.submit(
-                [this, k, view = result.view, consistency = std::move(result.consistency), record] {
-                    judge(*record, cases_[k].data, view, consistency, config_.limits,
+                [this, k, view = result.view, consistency = std::move(result.consistency),
+                 strays = std::move(rendered.stray_writes), record] {
+                    judge(*record, cases_[k].data, view, {consistency, strays}, config_.limits,
                           config_.profile, config_.pictures);
                 },
                 [this, k, bytes, record, keep = result.keep] {

@@ -80,6 +80,20 @@ inline constexpr uint32_t kNoPrimitive = 0xffffffefU;
 // and half bits, integers. Components that the format lacks are 0. kPoison in all four: not copied.
 using ColorCodes = std::array<uint32_t, 4>;
 
+// Memory beside an attachment's own that a rendering has changed, before or after it.
+struct StrayWrite {
+    std::string attachment;  // "depth", "attribute 1"
+    bool is_before = false;
+    // Of the nearest word that changed: bytes from it to the attachment's first byte, or from the
+    // end of the attachment's memory to it.
+    uint64_t distance = 0;
+    uint32_t expected = 0;  // that word
+    uint32_t got = 0;
+    uint64_t words = 0;       // that changed
+    uint32_t renderings = 1;  // in the submission, any of which may have done it
+    friend bool operator==(const StrayWrite&, const StrayWrite&) = default;
+};
+
 // Which planes a target has. Without instruments only `color` and `depth` are there.
 struct Capture {
     cases::Target target;

@@ -133,6 +133,44 @@ uint32_t color_count(const std::vector<Attachment>& attachments) {
                       [](const auto& a) { return a.role <= Role::color; }));
 }
 
+std::string attachment_name(const std::vector<Attachment>& attachments, size_t k) {
+    const auto attribute = [&] {
+        const auto before = std::count_if(
+            attachments.begin(), attachments.begin() + static_cast<ptrdiff_t>(k),
+            [role = attachments[k].role](const Attachment& a) { return a.role == role; });
+        return "attribute " + std::to_string(before);
+    };
+    switch (attachments[k].role) {
+        case Role::writer_and_hits:
+            return "writer and hits";
+        case Role::frag_coord:
+            return "frag_coord";
+        case Role::writer:
+            return "writer";
+        case Role::hits:
+            return "hits";
+        case Role::frag_xy:
+            return "frag_coord.xy";
+        case Role::frag_zw:
+            return "frag_coord.zw";
+        case Role::attribute:
+            return attribute();
+        case Role::attribute_zw:
+            return attribute() + ".zw";
+        case Role::color:
+            return "color";
+        case Role::depth:
+            return "depth";
+        case Role::stencil:
+            return "stencil";
+        case Role::resolved_color:
+            return "resolved color";
+        case Role::resolved_depth:
+            break;
+    }
+    return "resolved depth";
+}
+
 VkFormat to_vulkan(cases::ColorFormat format) {
     switch (format) {
         case cases::ColorFormat::rgba8_unorm:

@@ -5,6 +5,7 @@
 // by.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -66,6 +67,9 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
 
 // How many of them are colour attachments.
 uint32_t color_count(const std::vector<Attachment>& attachments);
+
+// What a report calls attachment `k`: "depth", "attribute 1".
+std::string attachment_name(const std::vector<Attachment>& attachments, size_t k);
 
 VkFormat to_vulkan(cases::ColorFormat format);
 // The unsigned format through which single samples of a colour format are read, so that no bit can

@@ -150,7 +150,7 @@ Result<BlitImages::PlainImage> BlitImages::make_image(const Device& device,
     }
     PlainImage made;
     made.image = Handle<VkImage>(device.get(), handle, device.vk().vkDestroyImage);
-    auto memory = bind_memory(device, handle);
+    auto memory = bind_guarded(device, handle);
     if (!memory) {
         return fail(memory.error());
     }

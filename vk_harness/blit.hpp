@@ -31,9 +31,11 @@ class BlitImages {
     void record(const Device& device, VkCommandBuffer commands, const cases::Case& c,
                 VkClearColorValue clear, VkBuffer readback, VkDeviceSize offset) const;
 
+    Guard* guard() const { return destination_.memory.guard.get(); }  // may be null
+
   private:
     struct PlainImage {
-        Handle<VkDeviceMemory> memory;  // freed after the image
+        ImageMemory memory;  // freed after the image
         Handle<VkImage> image;
     };
     static Result<PlainImage> make_image(const Device& device, cases::ColorFormat format,

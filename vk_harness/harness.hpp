@@ -61,6 +61,7 @@ struct Rendered {
     diff::Capture capture;              // if drawn
     std::span<std::byte> placed;        // if not empty: the capture's planes, which are not in it
     std::vector<std::string> messages;  // of the validation layer
+    std::vector<diff::StrayWrite> stray_writes;  // if drawn: one a side of an attachment at most
 };
 
 // Memory for the planes of case `slot` of the batch, diff::plane_bytes() long and aligned to 16;

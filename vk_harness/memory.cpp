@@ -33,9 +33,11 @@ std::optional<uint32_t> find_memory_type(const VkPhysicalDeviceMemoryProperties&
     return fallback;
 }
 
-Result<Handle<VkDeviceMemory>> allocate(const Device& device, VkDeviceSize size, uint32_t type) {
+Result<Handle<VkDeviceMemory>> allocate(const Device& device, VkDeviceSize size, uint32_t type,
+                                        const void* next = nullptr) {
     VkMemoryAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    info.pNext = next;
     info.allocationSize = size;
     info.memoryTypeIndex = type;
     VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -158,6 +160,67 @@ Result<void> Buffer::invalidate() const {
     return {};
 }
 
+Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {
+    VkImageMemoryRequirementsInfo2 asked{};
+    asked.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2;
+    asked.image = image;
+    VkMemoryDedicatedRequirements dedicated{};
+    dedicated.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS;
+    VkMemoryRequirements2 answer{};
+    answer.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2;
+    answer.pNext = &dedicated;
+    device.vk().vkGetImageMemoryRequirements2(device.get(), &asked, &answer);
+    const VkMemoryRequirements& needs = answer.memoryRequirements;
+    const auto find_type = [&device](uint32_t allowed) {
+        return find_memory_type(device.capabilities().memory, allowed, 0,
+                                VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    };
+
+    ImageMemory made;
+    GuardPlaces places{0, 0, 0, needs.size};
+    std::optional<uint32_t> type;
+    if (dedicated.requiresDedicatedAllocation == VK_FALSE) {
+        auto guard = Guard::create(device);
+        if (!guard) {
+            return fail(guard.error());
+        }
+        const VkMemoryRequirements side = (*guard)->needs();
+        type = find_type(needs.memoryTypeBits & side.memoryTypeBits);
+        if (type) {
+            made.guard = std::move(*guard);
+            places = place_guards(needs, side, device.capabilities().limits.bufferImageGranularity);
+        }
+    }
+    if (!type) {
+        type = find_type(needs.memoryTypeBits);
+    }
+    if (!type) {
+        return fail(no_memory_type("an image"));
+    }
+    VkMemoryDedicatedAllocateInfo alone{};
+    alone.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO;
+    alone.image = image;
+    auto allocation =
+        allocate(device, places.size, *type,
+                 dedicated.requiresDedicatedAllocation != VK_FALSE ? &alone : nullptr);
+    if (!allocation) {
+        return fail(allocation.error());
+    }
+    made.memory = std::move(*allocation);
+    made.size = places.size;
+    const VkResult result =
+        device.vk().vkBindImageMemory(device.get(), image, made.memory.get(), places.image);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
+    }
+    if (made.guard) {
+        if (auto bound = made.guard->bind(device, made.memory.get(), places, needs.size); !bound) {
+            return fail(bound.error());
+        }
+    }
+    return made;
+}
+
 VkImageUsageFlags color_usage(uint32_t samples) {
     return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
            (samples > 1 ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
@@ -194,7 +257,7 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
         info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     }
     VkImage handle = VK_NULL_HANDLE;
-    VkResult result = vk.vkCreateImage(device.get(), &info, nullptr, &handle);
+    const VkResult result = vk.vkCreateImage(device.get(), &info, nullptr, &handle);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::memory, result, "vkCreateImage"));
     }
@@ -205,24 +268,12 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
         image.aspect_ |= VK_IMAGE_ASPECT_STENCIL_BIT;
     }
 
-    VkMemoryRequirements needs{};
-    vk.vkGetImageMemoryRequirements(device.get(), handle, &needs);
-    const auto type = find_memory_type(device.capabilities().memory, needs.memoryTypeBits, 0,
-                                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    if (!type) {
-        return fail(no_memory_type("an attachment"));
+    auto memory = bind_guarded(device, handle);
+    if (!memory) {
+        return fail(memory.error());
     }
-    auto allocation = allocate(device, needs.size, *type);
-    if (!allocation) {
-        return fail(allocation.error());
-    }
-    image.memory_ = std::move(*allocation);
-    image.memory_size_ = needs.size;
+    image.memory_ = std::move(*memory);
     image.layers_ = layers;
-    result = vk.vkBindImageMemory(device.get(), handle, image.memory_.get(), 0);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkBindImageMemory"));
-    }
 
     VkImageUsageFlags view_usage = attachment;
     if (multisampled && depth) {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-#include "vk_harness/device.hpp"
+#include "vk_harness/guard.hpp"
 
 namespace vk_harness {
 
@@ -41,6 +41,16 @@ class Buffer {
 VkImageUsageFlags color_usage(uint32_t samples);
 VkImageCreateFlags color_flags(uint32_t samples);
 
+// Memory that an image is bound to, with guards on both sides where the device lets an image share
+// its memory; the guard is freed first.
+struct ImageMemory {
+    Handle<VkDeviceMemory> memory;
+    std::unique_ptr<Guard> guard;  // may be null
+    VkDeviceSize size = 0;         // of it all
+};
+// Memory of its own for an image that is written to, bound to it.
+Result<ImageMemory> bind_guarded(const Device& device, VkImage image);
+
 // A colour or depth attachment.
 class Image {
   public:
@@ -59,17 +69,17 @@ class Image {
     VkImageView stencil_view() const { return stencil_view_.get(); }
     VkImageAspectFlags aspect() const { return aspect_; }  // all that it has
     uint32_t layers() const { return layers_; }
-    VkDeviceSize memory_size() const { return memory_size_; }
+    VkDeviceSize memory_size() const { return memory_.size; }
+    Guard* guard() const { return memory_.guard.get(); }  // may be null
 
   private:
-    Handle<VkDeviceMemory> memory_;
+    ImageMemory memory_;
     Handle<VkImage> image_;
     Handle<VkImageView> view_;
     Handle<VkImageView> bits_view_;
     Handle<VkImageView> stencil_view_;
     VkImageAspectFlags aspect_ = VK_IMAGE_ASPECT_COLOR_BIT;
     uint32_t layers_ = 1;
-    VkDeviceSize memory_size_ = 0;
 };
 
 // Memory of its own for an image that needs no host access, bound to it.

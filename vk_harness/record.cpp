@@ -366,7 +366,9 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
     vk.vkCmdEndRendering(commands);
 
     if (for_copies) {
-        const Access& after = target.samples > 1 ? kSampled : kCopied;
+        // Samples are read by a shader; guards (guard.hpp) are copied whatever the target is.
+        Access after = target.samples > 1 ? kSampled : kCopied;
+        after.stage |= kCopied.stage;
         barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after, &kCopied);
     }
 }

@@ -33,6 +33,35 @@ void reject(Rendered& result, const Failure& failure) {
     result.reason = std::string(to_string(failure.stage)) + ": " + failure.message;
 }
 
+// Where a case's planes are guarded, and what the attachments are called.
+std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan) {
+    std::vector<std::pair<Guard*, std::string>> out;
+    if (plan.blit != nullptr) {
+        out.emplace_back(plan.blit->guard(), "color");
+    }
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        if (plan.attachments[k].role != Role::stencil) {  // goes with depth
+            out.emplace_back(plan.images[k]->guard(), attachment_name(plan.attachments, k));
+        }
+    }
+    return out;
+}
+
+// Of the damage, what lies beside the case's attachments.
+std::vector<diff::StrayWrite> stray_writes(const CasePlan& plan,
+                                           std::span<const GuardDamage> damage, size_t renderings) {
+    std::vector<diff::StrayWrite> out;
+    for (const auto& [guard, name] : guards_of(plan)) {
+        for (const GuardDamage& found : damage) {
+            if (found.guard == guard) {
+                out.push_back({name, found.is_before, found.distance, kGuardWord, found.got,
+                               found.words, static_cast<uint32_t>(renderings)});
+            }
+        }
+    }
+    return out;
+}
+
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
@@ -106,11 +135,12 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
     return true;
 }
 
-Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_back,
+Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back,
                                        std::vector<Rendered>& results,
                                        const std::function<void(std::string_view)>& step,
-                                       const PlaneStore& store) {
+                                       const PlaneStore& store, std::vector<GuardDamage>& damage) {
     step("record");
+    GuardCheck guards(*device_);
     VkDeviceSize vertex_bytes = 0;
     VkDeviceSize readback_bytes = 0;
     for (CasePlan& plan : plans) {
@@ -118,7 +148,11 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
         plan.readback =
             make_layout(plan.test->target, plan.attachments, readback_bytes, alignment());
         readback_bytes = plan.readback.end;
+        for (const auto& [guard, name] : guards_of(plan)) {
+            guards.add(guard);
+        }
     }
+    readback_bytes = guards.place(readback_bytes);
     auto vertices = submission_.vertices(vertex_bytes);
     if (!vertices) {
         return fail(vertices.error());
@@ -147,6 +181,7 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
         if (auto flushed = readback->flush(); !flushed) {
             return flushed;
         }
+        guards.record_fills(*commands);
     }
     for (const CasePlan& plan : plans) {
         if (plan.blit != nullptr) {
@@ -180,6 +215,10 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
         append(results[plan.slot].messages, instance_.messages().take());
     }
 
+    if (read_back) {
+        guards.record_copies(*commands, readback->get());
+    }
+
     step("submit");
     if (auto done = submission_.run(); !done) {
         return done;
@@ -189,6 +228,11 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
         if (auto visible = readback->invalidate(); !visible) {
             return visible;
         }
+        auto found = guards.read(readback->bytes());
+        if (!found) {
+            return fail(found.error());
+        }
+        damage = std::move(*found);
         for (const CasePlan& plan : plans) {
             const cases::Target& target = plan.test->target;
             const bool has_primitive = device_->capabilities().info.has_primitive_id;
@@ -216,6 +260,25 @@ Result<void> BatchRenderer::draw_chunk(std::vector<CasePlan>& plans, bool read_b
     return {};
 }
 
+Result<void> BatchRenderer::blame(std::span<CasePlan> plans, std::span<const GuardDamage> damage,
+                                  std::vector<Rendered>& results,
+                                  const std::function<void(std::string_view)>& step) {
+    bool is_found = false;
+    for (size_t k = 0; plans.size() > 1 && k < plans.size(); ++k) {
+        std::vector<Rendered> again(results.size());
+        std::vector<GuardDamage> alone;
+        if (auto done = draw_chunk(plans.subspan(k, 1), true, again, step, {}, alone); !done) {
+            return done;
+        }
+        results[plans[k].slot].stray_writes = stray_writes(plans[k], alone, 1);
+        is_found = is_found || !alone.empty();
+    }
+    for (size_t k = 0; !is_found && k < plans.size(); ++k) {
+        results[plans[k].slot].stray_writes = stray_writes(plans[k], damage, plans.size());
+    }
+    return {};
+}
+
 VkDeviceSize BatchRenderer::alignment() const {
     // Copies need a multiple of 16 (the texel) and gain from the optimal alignment; the shader that
     // reads single samples needs minStorageBufferOffsetAlignment. All are powers of two.
@@ -231,7 +294,11 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
     if (plans.empty()) {
         return;
     }
-    const auto done = draw_chunk(plans, read_back, results, step, store);
+    std::vector<GuardDamage> damage;
+    auto done = draw_chunk(plans, read_back, results, step, store, damage);
+    if (done && !damage.empty()) {
+        done = blame(plans, damage, results, step);
+    }
     const std::vector<std::string> messages = instance_.messages().take();
     for (const CasePlan& plan : plans) {
         if (!done) {

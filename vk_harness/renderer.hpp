@@ -63,10 +63,15 @@ class BatchRenderer {
     bool plan(CasePlan& plan, Rendered& result);
     void run_chunk(std::vector<CasePlan>& plans, bool read_back, std::vector<Rendered>& results,
                    const std::function<void(std::string_view)>& step, const PlaneStore& store);
-    Result<void> draw_chunk(std::vector<CasePlan>& plans, bool read_back,
+    // `damage`: what was written beside attachments, if they are read back.
+    Result<void> draw_chunk(std::span<CasePlan> plans, bool read_back,
                             std::vector<Rendered>& results,
                             const std::function<void(std::string_view)>& step,
-                            const PlaneStore& store);
+                            const PlaneStore& store, std::vector<GuardDamage>& damage);
+    // Finds out which of the plans, drawn in one submission, did the damage: each is drawn alone.
+    Result<void> blame(std::span<CasePlan> plans, std::span<const GuardDamage> damage,
+                       std::vector<Rendered>& results,
+                       const std::function<void(std::string_view)>& step);
 
     Instance instance_;
     std::unique_ptr<Device> device_;  // stable address: everything below points to it

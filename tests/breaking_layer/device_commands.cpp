@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "altering.hpp"
+#include "memory_map.hpp"
 #include "recording.hpp"
 
 namespace breaking {
@@ -54,6 +55,44 @@ VKAPI_ATTR VkResult VKAPI_CALL create_shader_module(VkDevice device,
     own.pCode = words.words().data();
     own.codeSize = words.words().size() * sizeof(uint32_t);
     return driver_of_handle(device).CreateShaderModule(device, &own, allocator, out);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCreateInfo* info,
+                                             const VkAllocationCallbacks* allocator,
+                                             VkBuffer* out) {
+    const VkResult result = driver_of_handle(device).CreateBuffer(device, info, allocator, out);
+    if (result == VK_SUCCESS) {
+        note_buffer(*out, info->size);
+    }
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_image_view(VkDevice device, const VkImageViewCreateInfo* info,
+                                                 const VkAllocationCallbacks* allocator,
+                                                 VkImageView* out) {
+    const VkResult result = driver_of_handle(device).CreateImageView(device, info, allocator, out);
+    if (result == VK_SUCCESS) {
+        note_view(*out, info->image);
+    }
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL bind_buffer_memory(VkDevice device, VkBuffer buffer,
+                                                  VkDeviceMemory memory, VkDeviceSize offset) {
+    note_binding(buffer, memory, offset);
+    return driver_of_handle(device).BindBufferMemory(device, buffer, memory, offset);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL bind_image_memory(VkDevice device, VkImage image,
+                                                 VkDeviceMemory memory, VkDeviceSize offset) {
+    note_binding(image, memory, offset);
+    return driver_of_handle(device).BindImageMemory(device, image, memory, offset);
+}
+
+VKAPI_ATTR void VKAPI_CALL free_memory(VkDevice device, VkDeviceMemory memory,
+                                       const VkAllocationCallbacks* allocator) {
+    forget_memory(memory);
+    driver_of_handle(device).FreeMemory(device, memory, allocator);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipelineCache cache,
@@ -152,13 +191,44 @@ VKAPI_ATTR void VKAPI_CALL begin_rendering(VkCommandBuffer commands, const VkRen
     own.info.pDepthAttachment = own.depth ? &*own.depth : nullptr;
     own.info.pStencilAttachment = own.stencil ? &*own.stencil : nullptr;
     recording_of(commands).begin_rendering(hooks().order != nullptr);
+    std::vector<VkImageView>& attachments = recording_of(commands).attachments;
+    attachments.clear();
+    for (const VkRenderingAttachmentInfo& color : own.colors) {
+        attachments.push_back(color.imageView);
+    }
+    if (own.depth) {
+        attachments.push_back(own.depth->imageView);
+    }
     driver_of_handle(commands).CmdBeginRendering(commands, &own.info);
 }
 
 VKAPI_ATTR void VKAPI_CALL end_rendering(VkCommandBuffer commands) {
     recording_of(commands).end_rendering(
         [](std::vector<uint32_t>& order) { alter(hooks().order, order); });
-    driver_of_handle(commands).CmdEndRendering(commands);
+    const Driver& driver = driver_of_handle(commands);
+    driver.CmdEndRendering(commands);
+    if (hooks().stray_write == nullptr) {
+        return;
+    }
+    for (const VkImageView view : recording_of(commands).attachments) {
+        Neighbours neighbours = neighbours_of(view);
+        neighbours.rendering = recording_of(commands).rendering;
+        if (alter(hooks().stray_write, neighbours)) {
+            const auto [buffer, offset] = *neighbours.written;
+            driver.CmdFillBuffer(commands, buffer, offset, sizeof(uint32_t), 0x57a7157aU);
+        }
+    }
+    // As what a draw writes, it is there before anything that comes later.
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &barrier;
+    driver.CmdPipelineBarrier2(commands, &info);
 }
 
 VKAPI_ATTR void VKAPI_CALL pipeline_barrier(VkCommandBuffer commands,
@@ -244,6 +314,11 @@ VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32
 
 const OwnCommand kCommands[] = {
     BREAKING_OWN(CreateShaderModule, create_shader_module),
+    BREAKING_OWN(CreateBuffer, create_buffer),
+    BREAKING_OWN(CreateImageView, create_image_view),
+    BREAKING_OWN(BindBufferMemory, bind_buffer_memory),
+    BREAKING_OWN(BindImageMemory, bind_image_memory),
+    BREAKING_OWN(FreeMemory, free_memory),
     BREAKING_OWN(CreateGraphicsPipelines, create_graphics_pipelines),
     BREAKING_OWN(QueueSubmit, queue_submit),
     BREAKING_OWN(WaitForFences, wait_for_fences),

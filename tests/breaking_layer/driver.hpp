@@ -12,6 +12,12 @@ namespace breaking {
 // clang-format off
 #define BREAKING_COMMANDS(X) \
     X(CreateShaderModule) \
+    X(CreateBuffer) \
+    X(CreateImageView) \
+    X(BindBufferMemory) \
+    X(BindImageMemory) \
+    X(FreeMemory) \
+    X(CmdFillBuffer) \
     X(CreateGraphicsPipelines) \
     X(QueueSubmit) \
     X(WaitForFences) \

@@ -39,6 +39,17 @@ struct DrawCall {
     uint32_t times = 1;      // how often the driver is asked
 };
 
+// Buffers that lie directly before and after an attachment's image in its memory.
+struct Neighbours {
+    struct Place {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        VkDeviceSize size = 0;
+    };
+    Place before, after;
+    uint64_t rendering = 0;                                    // in this process, from 1
+    std::optional<std::pair<VkBuffer, VkDeviceSize>> written;  // one word, from that byte on
+};
+
 // One call of vkCmdBeginRendering.
 struct Rendering {
     VkRenderingInfo info;
@@ -81,6 +92,9 @@ struct Hooks {
     bool (*buffer_to_image)(VkBufferImageCopy&) = nullptr;
     bool (*blit)(VkImageBlit&, VkFilter&) = nullptr;
     bool (*dispatch)(uint32_t& groups_x) = nullptr;
+    // At the end of a rendering, for each of its attachments: which of the buffers that share its
+    // memory gets a word of the driver's own, at which byte; sizes are known.
+    bool (*stray_write)(Neighbours&) = nullptr;
     Answer (*submit)(uint64_t number) = nullptr;  // in this process, from 1
     Answer (*wait)(uint64_t number) = nullptr;
     Answer (*make_pipeline)(uint64_t number) = nullptr;

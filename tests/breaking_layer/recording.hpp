@@ -24,8 +24,9 @@ class Recording {
     using StateKey = std::pair<std::string_view, uint32_t>;
 
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    uint32_t draws = 0;      // in this rendering
-    uint64_t rendering = 0;  // in this process, from 1
+    uint32_t draws = 0;                    // in this rendering
+    uint64_t rendering = 0;                // in this process, from 1
+    std::vector<VkImageView> attachments;  // of this rendering
 
     void begin_rendering(bool holds_back);
     // Does the command now, or keeps it. A later command of the same key takes its place.

@@ -77,6 +77,53 @@ def part(number, parts):
 Part0, Part1, Part2, Part3 = (part(number, 4) for number in range(4))
 
 
+class Memory(LayerTest):
+    """What is written beside an attachment's memory: told with its place, and charged to no innocent case."""
+
+    CASE = """format = 1
+description = "A triangle."
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[1,1], [7,1], [1,7]]
+"""
+
+    def run_memory(self, fault, *words):
+        suite = self.folder / "suite"
+        suite.mkdir()
+        for name in "abcd":
+            (suite / "fam").mkdir(exist_ok=True)
+            (suite / "fam" / (name + ".toml")).write_text(self.CASE)
+        run = broken.run(fault, [], self.folder, ["--suite", str(suite), "--retries", "0", "-j", "1", *words])
+        self.assertGreater(run.altered, 0)
+        self.assertEqual(run.code, 1, run.out + run.err)
+        return run
+
+    def assert_told(self, finding, side, distance):
+        self.assertEqual((finding["rule"], finding["level"]), ("write.outside", "vulkan"))
+        self.assertRegex(finding["quantity"], f"^memory {side} [a-z]")
+        self.assertEqual((finding["expected"], finding["got"]), ("0xed9eca5e", "0x57a7157a"))
+        self.assertIn(distance, finding["why"])
+
+    def test_before_and_after(self):
+        for fault, side, distance in (("write-before-attachment", "before", "4 bytes before the first byte"),
+                                      ("write-after-attachment", "after", "0 bytes after the last byte")):
+            with self.subTest(fault=fault):
+                shutil.rmtree(self.folder / "suite", ignore_errors=True)
+                run = self.run_memory(fault)
+                self.assertEqual(set(self.statuses(run).values()), {"fail"})
+                for case in run.results["cases"]:
+                    self.assertIn(f"memory {side} depth", [f["quantity"] for f in case["findings"]])
+                    for finding in case["findings"]:
+                        self.assert_told(finding, side, distance)
+
+    def test_the_next_case_is_not_blamed(self):
+        # Every second rendering: each case alone in its submission, all on the same attachments.
+        run = self.run_memory("write-after-attachment:2", "--batch", "1")
+        self.assertEqual(sorted(self.statuses(run).values()), ["fail", "fail", "pass", "pass"])
+
+
 class Device(LayerTest):
     """A device that dies: told as what it is, charged to no innocent case, and never a pass."""
 

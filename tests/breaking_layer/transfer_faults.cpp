@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clears, the rendered area, copies and blits.
+// Clears, the rendered area, memory beside attachments, copies and blits. N is the parameter of
+// EDGECASE_BREAK.
 #include <array>
 
 #include "fault.hpp"
@@ -71,6 +72,21 @@ bool copy_from_below(VkBufferImageCopy& region) {
 bool copy_fewer_rows(VkBufferImageCopy& region) {
     return region.imageExtent.height > 1 &&
            change(region.imageExtent.height, region.imageExtent.height - 1);
+}
+
+bool write_before(Neighbours& n) {
+    if (n.before.buffer == VK_NULL_HANDLE || n.rendering % parameter() != 0) {
+        return false;
+    }
+    n.written = {n.before.buffer, n.before.size - sizeof(uint32_t)};
+    return true;
+}
+bool write_after(Neighbours& n) {
+    if (n.after.buffer == VK_NULL_HANDLE || n.rendering % parameter() != 0) {
+        return false;
+    }
+    n.written = {n.after.buffer, 0};
+    return true;
 }
 
 bool swap_x(VkImageBlit& b, VkFilter& /*filter*/) {
@@ -156,6 +172,12 @@ constexpr std::array kFaults = {
     Fault{"read-back-short",
           "Copies to buffers leave out the last row.",
           {.image_to_buffer = copy_fewer_rows}},
+    Fault{"write-before-attachment",
+          "Every N-th rendering writes a word directly before each of its attachments.",
+          {.stray_write = write_before}},
+    Fault{"write-after-attachment",
+          "Every N-th rendering writes a word directly behind each of its attachments.",
+          {.stray_write = write_after}},
     Fault{"dispatch-short",
           "A dispatch leaves out its last column of groups.",
           {.dispatch = [](uint32_t& x) { return change(x, x - 1); }}},

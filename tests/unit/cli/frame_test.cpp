@@ -57,6 +57,7 @@ CaseResult small_result() {
     c.frag_coord.assign(2, glm::vec4(0.5F));
     c.depth = {0.25F, -0.0F};
     c.attributes[0].assign(2, glm::vec4(7));
+    result.rendered.stray_writes = {{"depth", true, 12, 1, 2, 3, 4}, {"color", false, 0, 5, 6, 7}};
     return result;
 }
 
@@ -66,6 +67,15 @@ TEST(Message, ResultComesBackBitForBit) {
     ASSERT_TRUE(back);
     EXPECT_EQ(encode_result(*back), bytes);
     EXPECT_EQ(back->rendered.capture.writers[1].provoking_vertex, 3U);
+    EXPECT_EQ(back->rendered.stray_writes, small_result().rendered.stray_writes);
+}
+
+TEST(Message, FindingsOfTheWorkerAreTheirBytes) {
+    const CaseResult result = small_result();
+    CaseResult other = result;
+    EXPECT_EQ(encode_findings(other), encode_findings(result));
+    other.rendered.stray_writes[1].got = 9;
+    EXPECT_NE(encode_findings(other), encode_findings(result));
 }
 
 TEST(Message, TruncatedResultsAreRefused) {

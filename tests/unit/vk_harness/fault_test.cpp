@@ -5,6 +5,8 @@
 // replaced.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "hand_case.hpp"
 #include "vk_harness/renderer.hpp"
 
@@ -113,6 +115,126 @@ TEST(Fault, WhatIsNotDrawnIsClear) {
     ASSERT_EQ(faulty.render(half()).status, Rendered::Status::drawn);
     faulty.vk().vkCmdDraw = [](VkCommandBuffer, uint32_t, uint32_t, uint32_t, uint32_t) {};
     EXPECT_EQ(count(faulty.render(half()).capture).clear, 32U * 32U);
+}
+
+// A device that writes a word of its own beside an attachment at the end of a rendering. The guards
+// are what the harness fills: two buffers an attachment, before and after it.
+struct StrayDevice {
+    static inline PFN_vkCmdFillBuffer fill = nullptr;
+    static inline PFN_vkCmdEndRendering end = nullptr;
+    static inline std::vector<VkBuffer> guards;
+    static inline size_t damaged = 0;  // number of the guard
+    static inline VkDeviceSize offset = 0;
+    static inline int renderings_until = 0;  // the damage is done; below 0: never
+
+    explicit StrayDevice(Faulty& faulty) {
+        guards.clear();
+        renderings_until = -1;
+        fill = faulty.vk().vkCmdFillBuffer;
+        end = faulty.vk().vkCmdEndRendering;
+        faulty.vk().vkCmdFillBuffer = [](VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize at,
+                                         VkDeviceSize size, uint32_t word) {
+            if (std::find(guards.begin(), guards.end(), buffer) == guards.end()) {
+                guards.push_back(buffer);
+            }
+            fill(commands, buffer, at, size, word);
+        };
+        faulty.vk().vkCmdEndRendering = [](VkCommandBuffer commands) {
+            end(commands);
+            if (renderings_until >= 0 && renderings_until-- == 0) {
+                fill(commands, guards.at(damaged), offset, 4, 0x12345678U);
+            }
+        };
+    }
+    static void damage(size_t guard, VkDeviceSize at, int after_renderings = 0) {
+        damaged = guard;
+        offset = at;
+        renderings_until = after_renderings;
+    }
+};
+
+TEST(Fault, WhatIsWrittenBesideAnAttachmentIsSeen) {
+    Faulty faulty;
+    StrayDevice device(faulty);
+    const Rendered clean = faulty.render(half());
+    ASSERT_EQ(clean.status, Rendered::Status::drawn);
+    EXPECT_TRUE(clean.stray_writes.empty());
+    ASSERT_GE(device.guards.size(), 4U);
+    EXPECT_EQ(device.guards.size() % 2, 0U);
+
+    const size_t last = device.guards.size() - 1;
+    StrayDevice::damage(last, 8);
+    const Rendered after = faulty.render(half());
+    EXPECT_EQ(after.status, Rendered::Status::drawn);
+    ASSERT_EQ(after.stray_writes.size(), 1U);
+    EXPECT_EQ(after.stray_writes[0],
+              (diff::StrayWrite{"depth", false, 8, kGuardWord, 0x12345678U, 1, 1}));
+
+    StrayDevice::damage(0, kGuardBytes - 12);
+    const Rendered before = faulty.render(half());
+    ASSERT_EQ(before.stray_writes.size(), 1U);
+    EXPECT_EQ(before.stray_writes[0],
+              (diff::StrayWrite{"writer", true, 12, kGuardWord, 0x12345678U, 1, 1}));
+
+    EXPECT_TRUE(faulty.render(half()).stray_writes.empty());  // the pattern is there again
+    EXPECT_EQ(device.guards.size(), last + 1);
+}
+
+TEST(Fault, BesideAnAttachmentTheRenderingThatDidItIsFound) {
+    Faulty faulty;
+    StrayDevice device(faulty);
+    const std::vector<cases::Case> batch = {half(), make_case({16, 16, 1}, half_square()),
+                                            make_case({32, 32, 1}, half_square())};
+    const auto render = [&] { return faulty.body->render(batch, true, [](std::string_view) {}); };
+    for (const Rendered& r : render()) {
+        EXPECT_EQ(r.status, Rendered::Status::drawn);
+        EXPECT_TRUE(r.stray_writes.empty());
+    }
+    // Once only: drawn alone none of them does it, so those that use the attachment are told.
+    StrayDevice::damage(1, 0, 2);
+    const std::vector<Rendered> once = render();
+    ASSERT_EQ(once[0].stray_writes.size(), 1U);
+    EXPECT_EQ(once[0].stray_writes[0].renderings, 3U);
+    EXPECT_TRUE(once[1].stray_writes.empty());
+    EXPECT_EQ(once[2].stray_writes, once[0].stray_writes);
+    for (const Rendered& r : render()) {
+        EXPECT_TRUE(r.stray_writes.empty());
+    }
+    // Every submission's only or third rendering: the second case's attachments, by whoever.
+    faulty.vk().vkCmdEndRendering = [](VkCommandBuffer commands) {
+        StrayDevice::end(commands);
+        StrayDevice::fill(commands, StrayDevice::guards[1], 0, 4, 0x12345678U);
+    };
+    const std::vector<Rendered> each = render();
+    ASSERT_EQ(each[0].stray_writes.size(), 1U);
+    EXPECT_EQ(each[0].stray_writes[0].renderings, 1U);
+    EXPECT_TRUE(each[1].stray_writes.empty());  // alone it is not its attachment
+    EXPECT_EQ(each[2].stray_writes.size(), 1U);
+}
+
+TEST(Fault, GuardsThatAreNotCopiedAreAnError) {
+    Faulty faulty;
+    faulty.vk().vkCmdCopyBuffer = [](VkCommandBuffer, VkBuffer, VkBuffer, uint32_t,
+                                     const VkBufferCopy*) {};
+    const Rendered rendered = faulty.render(half());
+    EXPECT_EQ(rendered.status, Rendered::Status::error);
+    EXPECT_THAT(rendered.reason,
+                ::testing::StartsWith("readback: the memory beside an attachment was not copied"));
+}
+
+TEST(Guard, PlacesAreCloseAndAligned) {
+    const VkMemoryRequirements image{1000, 64, 1};
+    const VkMemoryRequirements buffer{kGuardBytes, 16, 1};
+    const GuardPlaces close = place_guards(image, buffer, 1);
+    EXPECT_EQ(close.before, 0U);
+    EXPECT_EQ(close.image, kGuardBytes);
+    EXPECT_EQ(close.after, kGuardBytes + 1008);
+    EXPECT_EQ(close.size, close.after + kGuardBytes);
+    // Linear and optimal resources never share a page of bufferImageGranularity.
+    const GuardPlaces far = place_guards({1000, 65536, 1}, buffer, 16384);
+    EXPECT_EQ(far.image, 65536U);
+    EXPECT_EQ(far.before, 65536U - kGuardBytes);
+    EXPECT_EQ(far.after, 65536U + 16384U);
 }
 
 }  // namespace

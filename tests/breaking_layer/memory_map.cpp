@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "memory_map.hpp"
+
+#include <iterator>
+#include <map>
+#include <mutex>
+
+namespace breaking {
+
+namespace {
+
+// Handles may be used again: what is noted last counts.
+struct Map {
+    struct Contents {
+        std::map<VkDeviceSize, VkBuffer> buffers;
+        std::map<VkImage, VkDeviceSize> images;
+    };
+    std::mutex mutex;
+    std::map<VkBuffer, VkDeviceSize> sizes;
+    std::map<VkImageView, VkImage> images;
+    std::map<VkDeviceMemory, Contents> memories;
+    std::map<VkImage, VkDeviceMemory> memory_of;
+};
+
+Map& map() {
+    static Map the_map;
+    return the_map;
+}
+
+}  // namespace
+
+void note_buffer(VkBuffer buffer, VkDeviceSize size) {
+    const std::lock_guard lock(map().mutex);
+    map().sizes[buffer] = size;
+}
+
+void note_view(VkImageView view, VkImage image) {
+    const std::lock_guard lock(map().mutex);
+    map().images[view] = image;
+}
+
+void note_binding(VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset) {
+    const std::lock_guard lock(map().mutex);
+    map().memories[memory].buffers[offset] = buffer;
+}
+
+void note_binding(VkImage image, VkDeviceMemory memory, VkDeviceSize offset) {
+    const std::lock_guard lock(map().mutex);
+    map().memories[memory].images[image] = offset;
+    map().memory_of[image] = memory;
+}
+
+void forget_memory(VkDeviceMemory memory) {
+    const std::lock_guard lock(map().mutex);
+    map().memories.erase(memory);
+}
+
+Neighbours neighbours_of(VkImageView view) {
+    const std::lock_guard lock(map().mutex);
+    const VkImage image = map().images[view];
+    const Map::Contents& contents = map().memories[map().memory_of[image]];
+    const auto place = contents.images.find(image);
+    if (place == contents.images.end()) {
+        return {};
+    }
+    Neighbours out;
+    const auto after = contents.buffers.upper_bound(place->second);
+    if (after != contents.buffers.end()) {
+        out.after = {after->second, map().sizes[after->second]};
+    }
+    if (after != contents.buffers.begin()) {
+        const VkBuffer before = std::prev(after)->second;
+        out.before = {before, map().sizes[before]};
+    }
+    return out;
+}
+
+}  // namespace breaking

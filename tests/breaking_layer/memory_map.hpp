@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include "fault.hpp"
+
+namespace breaking {
+
+// What lies where in the application's memory, as far as it is bound.
+void note_buffer(VkBuffer buffer, VkDeviceSize size);
+void note_view(VkImageView view, VkImage image);
+void note_binding(VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset);
+void note_binding(VkImage image, VkDeviceMemory memory, VkDeviceSize offset);
+void forget_memory(VkDeviceMemory memory);
+
+// The buffers next to the image of a view.
+Neighbours neighbours_of(VkImageView view);
+
+}  // namespace breaking
