@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <utility>
 
 namespace vk_harness {
@@ -111,9 +112,11 @@ Result<Instance> Instance::create(const Options& options) {
     if (result != VK_SUCCESS) {
         Failure failure = call_failure(Stage::instance, result, "vkCreateInstance");
         if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
-            failure.message += std::getenv("VK_DRIVER_FILES") != nullptr ||
-                                       std::getenv("VK_ICD_FILENAMES") != nullptr
-                                   ? ": the loader could not use the driver that was chosen"
+            const char* chosen = std::getenv("VK_DRIVER_FILES");
+            chosen = chosen != nullptr ? chosen : std::getenv("VK_ICD_FILENAMES");
+            failure.message += chosen != nullptr
+                                   ? ": the loader could not use the driver that was chosen, '" +
+                                         std::string(chosen) + "'"
                                    : ": the loader found no Vulkan driver; install one (Debian: "
                                      "mesa-vulkan-drivers) or name its JSON file";
         }
