@@ -181,4 +181,19 @@ Device::~Device() {
     }
 }
 
+Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
+                                     VkBufferUsageFlags usage) {
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = size;
+    info.usage = usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    const VkResult result = device.vk().vkCreateBuffer(device.get(), &info, nullptr, &buffer);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkCreateBuffer"));
+    }
+    return Handle<VkBuffer>(device.get(), buffer, device.vk().vkDestroyBuffer);
+}
+
 }  // namespace vk_harness

@@ -42,4 +42,8 @@ class Device {
     std::unique_ptr<Capabilities> capabilities_;
 };
 
+// A buffer of the device, not bound to memory yet.
+Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
+                                     VkBufferUsageFlags usage);
+
 }  // namespace vk_harness

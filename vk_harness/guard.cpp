@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "diff/capture.hpp"
+#include "vk_harness/barrier.hpp"
 
 namespace vk_harness {
 
@@ -17,20 +18,6 @@ constexpr size_t kGuardWords = kGuardBytes / sizeof(uint32_t);
 // All are powers of two.
 VkDeviceSize round_up(VkDeviceSize offset, VkDeviceSize alignment) {
     return (offset + alignment - 1) & ~(alignment - 1);
-}
-
-Result<Handle<VkBuffer>> make_buffer(const Device& device) {
-    VkBufferCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-    info.size = kGuardBytes;
-    info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    VkBuffer buffer = VK_NULL_HANDLE;
-    const VkResult result = device.vk().vkCreateBuffer(device.get(), &info, nullptr, &buffer);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkCreateBuffer"));
-    }
-    return Handle<VkBuffer>(device.get(), buffer, device.vk().vkDestroyBuffer);
 }
 
 // What is wrong with one side, `words` in the order of memory.
@@ -68,7 +55,9 @@ GuardPlaces place_guards(const VkMemoryRequirements& image, const VkMemoryRequir
 Result<std::unique_ptr<Guard>> Guard::create(const Device& device) {
     auto guard = std::make_unique<Guard>();
     for (Handle<VkBuffer>* side : {&guard->before_, &guard->after_}) {
-        auto buffer = make_buffer(device);
+        auto buffer =
+            make_buffer(device, kGuardBytes,
+                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         if (!buffer) {
             return fail(buffer.error());
         }
@@ -119,17 +108,10 @@ void GuardCheck::record_fills(VkCommandBuffer commands) const {
         return;
     }
     // Before anything is drawn: what a draw writes there is not to be filled again.
-    VkMemoryBarrier2 filled{};
-    filled.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    filled.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    filled.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    filled.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    filled.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.memoryBarrierCount = 1;
-    info.pMemoryBarriers = &filled;
-    vk.vkCmdPipelineBarrier2(commands, &info);
+    memory_barrier(*device_, commands,
+                   {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                   {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                    VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
 }
 
 void GuardCheck::record_copies(VkCommandBuffer commands, VkBuffer readback) const {

@@ -86,23 +86,17 @@ Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreat
 Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
                               HostAccess access) {
     const VolkDeviceTable& vk = device.vk();
-    VkBufferCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-    info.size = size;
-    info.usage = usage;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    VkBuffer handle = VK_NULL_HANDLE;
-    VkResult result = vk.vkCreateBuffer(device.get(), &info, nullptr, &handle);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkCreateBuffer"));
+    auto handle = make_buffer(device, size, usage);
+    if (!handle) {
+        return fail(handle.error());
     }
     Buffer buffer;
     buffer.device_ = &device;
-    buffer.buffer_ = Handle<VkBuffer>(device.get(), handle, vk.vkDestroyBuffer);
+    buffer.buffer_ = std::move(*handle);
     buffer.size_ = size;
 
     VkMemoryRequirements needs{};
-    vk.vkGetBufferMemoryRequirements(device.get(), handle, &needs);
+    vk.vkGetBufferMemoryRequirements(device.get(), buffer.get(), &needs);
     const VkPhysicalDeviceMemoryProperties& memory = device.capabilities().memory;
     const auto type =
         find_memory_type(memory, needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT,
@@ -118,7 +112,7 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferU
         return fail(allocation.error());
     }
     buffer.memory_ = std::move(*allocation);
-    result = vk.vkBindBufferMemory(device.get(), handle, buffer.memory_.get(), 0);
+    VkResult result = vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::memory, result, "vkBindBufferMemory"));
     }

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "vk_harness/barrier.hpp"
 #include "vk_harness/case_check.hpp"
 #include "vk_harness/resolve.hpp"
 #include "vk_harness/sample_locations.hpp"
@@ -186,17 +187,8 @@ void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePl
     rendering.pDepthAttachment = depth ? &*depth : nullptr;
     vk.vkCmdBeginRendering(commands, &rendering);
     vk.vkCmdEndRendering(commands);
-    VkMemoryBarrier2 cleared{};
-    cleared.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    cleared.srcStageMask = kDepthDrawn.stage;
-    cleared.srcAccessMask = kDepthDrawn.access;
-    cleared.dstStageMask = kDepthDrawn.stage;
-    cleared.dstAccessMask = kDepthDrawn.access;
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.memoryBarrierCount = 1;
-    info.pMemoryBarriers = &cleared;
-    vk.vkCmdPipelineBarrier2(commands, &info);
+    const MemoryUse cleared{kDepthDrawn.stage, kDepthDrawn.access};
+    memory_barrier(device, commands, cleared, cleared);
 }
 
 void record_draw(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,

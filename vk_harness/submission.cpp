@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "vk_harness/barrier.hpp"
 #include "vk_harness/renderer.hpp"
 
 namespace vk_harness {
@@ -100,17 +101,10 @@ Result<VkCommandBuffer> Submission::begin() {
 
 Result<void> Submission::run() {
     const VolkDeviceTable& vk = device_->vk();
-    VkMemoryBarrier2 to_host{};
-    to_host.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    to_host.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    to_host.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    to_host.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-    to_host.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-    VkDependencyInfo dependency{};
-    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &to_host;
-    vk.vkCmdPipelineBarrier2(commands_, &dependency);
+    memory_barrier(*device_, commands_,
+                   {VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                    VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+                   {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
     VkResult result = vk.vkEndCommandBuffer(commands_);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::submit, result, "vkEndCommandBuffer"));

@@ -324,34 +324,6 @@ TEST(Compare, TheLargestErrorHasItsValueAndSample) {
     EXPECT_EQ(v.worst_quantity, "frag_coord.w at pixel (5, 3), sample 1");
 }
 
-// The first finding at a sample gives its mark; the box and the level are those of all.
-TEST(Compare, FindingsAreCountedWhereTheyAre) {
-    cases::Target target;
-    target.width = 4;
-    target.height = 4;
-    target.layers = 2;
-    diff::Verdict v;
-    v.level = Profile::direct3d;
-    v.marks.assign(32, diff::SampleMark::ok);
-    v.marks[5] = diff::SampleMark::either;
-    const auto add = [&](FindingKind kind, ref::SampleId id, Profile level) {
-        diff::Finding finding = diff::finding_at(kind, target, id);
-        finding.level = level;
-        v.add(std::move(finding), target);
-    };
-    add(FindingKind::order, {1, 1, 0}, Profile::direct3d);
-    EXPECT_EQ(v.level, Profile::direct3d);
-    add(FindingKind::value, {1, 1, 0}, Profile::vulkan);
-    add(FindingKind::extra, {3, 2, 0, 1}, Profile::practice);
-    EXPECT_EQ(v.marks[5], diff::SampleMark::order);
-    EXPECT_EQ(v.marks[16 + 8 + 3], diff::SampleMark::extra);
-    EXPECT_EQ(v.level, Profile::vulkan);
-    EXPECT_EQ((std::array{v.min_x, v.min_y, v.max_x, v.max_y}), (std::array{1U, 1U, 3U, 6U}));
-    EXPECT_EQ(v.counts, (std::array<uint64_t, diff::kFindingKinds>{0, 1, 0, 1, 1}));
-    EXPECT_EQ(v.findings.size(), 3U);
-    EXPECT_FALSE(v.ok());
-}
-
 TEST(Compare, NanIsWrongUnderEveryProfile) {
     cases::Case c = diagonal();
     add_attribute(c, cases::Interpolation::smooth, {0, 1, 0, 1, 1, 0});
@@ -478,27 +450,6 @@ TEST(Compare, ValuesBeyondTheCapAreCounted) {
                             [](diff::SampleMark m) { return m == diff::SampleMark::value; }));
     EXPECT_TRUE(std::all_of(v.error_ratios.begin(), v.error_ratios.end(),
                             [](float ratio) { return ratio > 2; }));
-}
-
-TEST(ExpectedHits, AgreesOrNamesTheFirstPixel) {
-    cases::Case c = pixel_case(4, 4, {{0, 0}, {4, 0}, {0, 4}});
-    EXPECT_EQ(diff::check_expected_hits(c), "");
-    c.expected_hits = cases::ExpectedHits{{"111.", "11..", "1...", "...."}, {}};
-    EXPECT_EQ(diff::check_expected_hits(c), "");
-    c.expected_hits->rows[1] = "111.";
-    EXPECT_EQ(diff::check_expected_hits(c),
-              "the picture has '1' at pixel (2, 1), the reference says 0 hit(s)");
-}
-
-TEST(ExpectedHits, OnePictureASample) {
-    // Sample 0 of two lies at (3/4, 3/4), sample 1 at (1/4, 1/4).
-    cases::Case c = pixel_case(2, 2, {{0, 0}, {1, 0}, {0, 1}});
-    c.target.samples = 2;
-    c.expected_hits = cases::ExpectedHits{{"..", "..", "1.", ".."}, {}};
-    EXPECT_EQ(diff::check_expected_hits(c), "");
-    c.expected_hits = cases::ExpectedHits{{"1.", "..", "..", ".."}, {}};
-    EXPECT_EQ(diff::check_expected_hits(c),
-              "the picture has '1' at pixel (0, 0), sample 0, the reference says 0 hit(s)");
 }
 
 }  // namespace
