@@ -49,9 +49,7 @@ std::optional<Finding> ColorComparison::judge(size_t index, ref::SampleId id,
     if (!case_.target.has_instruments && case_.target.has_depth &&
         !reference(expectation_.profile)
              .explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
-        Finding finding;
-        finding.kind = FindingKind::value;
-        place(finding, case_.target, id);
+        Finding finding = finding_at(FindingKind::value, case_.target, id);
         finding.rule = "depth.linear";
         finding.quantity = "depth";
         finding.level = loosest_wrong([&](ref::ColorReference& at) {

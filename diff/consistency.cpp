@@ -274,11 +274,10 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
             continue;
         }
         for (const Difference& difference : found[k].differences) {
-            Finding finding;
-            finding.kind = FindingKind::value;
+            Finding finding = finding_at(FindingKind::value, c.target,
+                                         ref::sample_at(c.target, difference.sample));
             finding.rule = rule->id;
             finding.level = rule->profile;
-            place(finding, c.target, ref::sample_at(c.target, difference.sample));
             finding.quantity = fmt::format("{}, {}", plane_name(difference.plane, difference.word),
                                            derivations[k].name);
             finding.expected = show_bits(difference.plane, difference.expected);

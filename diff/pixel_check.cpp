@@ -64,13 +64,11 @@ std::vector<Fragment> fragments_of(const ref::Expectation& e, const CaptureView&
     return out;
 }
 
-Finding finding_at(const cases::Target& target, ref::SampleId pixel, uint32_t s,
+Finding finding_of(const cases::Target& target, ref::SampleId pixel, uint32_t s,
                    const ref::Triangle& t) {
-    Finding finding;
-    finding.kind = FindingKind::value;
-    finding.level = cases::Profile::vulkan;
     pixel.sample = s;
-    place(finding, target, pixel);
+    Finding finding = finding_at(FindingKind::value, target, pixel);
+    finding.level = cases::Profile::vulkan;
     finding.why = fmt::format("triangle {} of draw {}: ", t.primitive, t.draw);
     return finding;
 }
@@ -100,7 +98,7 @@ std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureV
     if (places.size() >= least) {
         return std::nullopt;
     }
-    Finding finding = finding_at(capture.target, pixel, f.samples.front(), *f.triangle);
+    Finding finding = finding_of(capture.target, pixel, f.samples.front(), *f.triangle);
     finding.rule = "sample.shading";
     finding.quantity = "invocations";
     finding.expected = fmt::format("at least {} places of FragCoord.xy in the pixel", least);
@@ -127,7 +125,7 @@ std::optional<Finding> check_masks(const cases::Draw& draw, const CaptureView& c
         if (before >= s || mask == other || (!is_one && (mask & other) == 0)) {
             continue;
         }
-        Finding finding = finding_at(capture.target, pixel, s, *f.triangle);
+        Finding finding = finding_of(capture.target, pixel, s, *f.triangle);
         finding.rule = "sample.mask-in";
         finding.quantity = fmt::format("attribute {}.x", attribute);
         finding.expected = fmt::format("{:#b} as at sample {}{}", other, before,

@@ -139,7 +139,8 @@ TEST(ValueHand, ExactValuesRoundedOncePass) {
     }
 }
 
-// Values are moved one by one, by half a budget more than one and far beyond what is accepted.
+// Values are moved one by one, within a budget, by half a
+// budget more and far beyond what is accepted.
 TEST(ValueHand, TheLargestErrorIsThatOfTheValueThatWasMoved) {
     const cases::Case c = brown_case();
     const ref::SampleId id{3, 0, 0};
@@ -152,7 +153,7 @@ TEST(ValueHand, TheLargestErrorIsThatOfTheValueThatWasMoved) {
             continue;
         }
         ++moved;
-        for (const double budgets : {1.5, 40.0}) {
+        for (const double budgets : {0.9, 1.5, 40.0}) {
             std::vector<ref::ExpectedValue> other = all;
             other[k].nearest += budgets * all[k].budget;
             const ref::FragmentValues device = rounded(other);

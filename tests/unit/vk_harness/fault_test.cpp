@@ -125,6 +125,7 @@ struct StrayDevice {
     static inline std::vector<VkBuffer> guards;
     static inline size_t damaged = 0;  // number of the guard
     static inline VkDeviceSize offset = 0;
+    static inline VkDeviceSize bytes = 4;
     static inline int renderings_until = 0;  // the damage is done; below 0: never
 
     explicit StrayDevice(Faulty& faulty) {
@@ -142,13 +143,15 @@ struct StrayDevice {
         faulty.vk().vkCmdEndRendering = [](VkCommandBuffer commands) {
             end(commands);
             if (renderings_until >= 0 && renderings_until-- == 0) {
-                fill(commands, guards.at(damaged), offset, 4, 0x12345678U);
+                fill(commands, guards.at(damaged), offset, bytes, 0x12345678U);
             }
         };
     }
-    static void damage(size_t guard, VkDeviceSize at, int after_renderings = 0) {
+    static void damage(size_t guard, VkDeviceSize at, int after_renderings = 0,
+                       VkDeviceSize size = 4) {
         damaged = guard;
         offset = at;
+        bytes = size;
         renderings_until = after_renderings;
     }
 };
@@ -178,6 +181,23 @@ TEST(Fault, WhatIsWrittenBesideAnAttachmentIsSeen) {
 
     EXPECT_TRUE(faulty.render(half()).stray_writes.empty());  // the pattern is there again
     EXPECT_EQ(device.guards.size(), last + 1);
+}
+
+// Of several words the one next to the attachment is told, and how many there are.
+TEST(Fault, OfSeveralWordsTheNearestIsTold) {
+    Faulty faulty;
+    StrayDevice device(faulty);
+    ASSERT_EQ(faulty.render(half()).status, Rendered::Status::drawn);
+    StrayDevice::damage(device.guards.size() - 1, 20, 0, 12);
+    const Rendered after = faulty.render(half());
+    ASSERT_EQ(after.stray_writes.size(), 1U);
+    EXPECT_EQ(after.stray_writes[0].distance, 20U);
+    EXPECT_EQ(after.stray_writes[0].words, 3U);
+    StrayDevice::damage(0, kGuardBytes - 20, 0, 12);
+    const Rendered before = faulty.render(half());
+    ASSERT_EQ(before.stray_writes.size(), 1U);
+    EXPECT_EQ(before.stray_writes[0].distance, 12U);
+    EXPECT_EQ(before.stray_writes[0].words, 3U);
 }
 
 TEST(Fault, BesideAnAttachmentTheRenderingThatDidItIsFound) {
@@ -235,6 +255,10 @@ TEST(Guard, PlacesAreCloseAndAligned) {
     EXPECT_EQ(far.image, 65536U);
     EXPECT_EQ(far.before, 65536U - kGuardBytes);
     EXPECT_EQ(far.after, 65536U + 16384U);
+    const GuardPlaces paged = place_guards(image, buffer, 16384);
+    EXPECT_EQ(paged.image, 16384U);
+    EXPECT_EQ(paged.before, 16384U - kGuardBytes);
+    EXPECT_EQ(paged.after, 32768U);
 }
 
 }  // namespace
