@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The option table of every command. Only this and command_line.cpp know CLI11.
+// The option table of every command. Only this, shared_options and command_line.cpp know CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>

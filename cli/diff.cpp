@@ -36,10 +36,6 @@ constexpr size_t kPrinted = 100;  // unexpected results in full
 constexpr std::string_view kFurther =
     "further unexpected results stand in the reports only (or use -v)\n";
 
-Stop stop_with(int exit_code, const std::string& line) {
-    return {exit_code, {line}};
-}
-
 double seconds_since(Time::time_point begin) {
     return std::chrono::duration<double>(Time::now() - begin).count();
 }

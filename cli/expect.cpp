@@ -22,10 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Stop stop_with(int exit_code, const std::string& line) {
-    return {exit_code, {line}};
-}
-
 Stop invalid(const cases::Errors& errors) {
     Stop stop{report::kExitInvalidFile, {}};
     for (const cases::Error& error : errors) {

@@ -24,6 +24,10 @@ struct Stop {
 template <class T>
 using OrStop = tl::expected<T, Stop>;
 
+inline Stop stop_with(int exit_code, const std::string& line) {
+    return {exit_code, {line}};
+}
+
 // Prints the lines, each after "edgecase: ", and returns the exit code.
 int report_stop(const Stop& stop);
 
