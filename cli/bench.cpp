@@ -19,10 +19,10 @@
 #include <optional>
 #include <sstream>
 
-#include "cli/backend.hpp"
 #include "cli/commands.hpp"
-#include "cli/suite.hpp"
+#include "cli/prepare/suite.hpp"
 #include "diff/verdict.hpp"
+#include "run/worker/backend.hpp"
 #include "vk_harness/harness.hpp"
 
 extern char** environ;

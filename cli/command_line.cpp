@@ -12,12 +12,12 @@
 #include <regex>
 #include <variant>
 
-#include "cases/selector.hpp"
-#include "cli/command_options.hpp"
+#include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
-#include "cli/outputs.hpp"
-#include "cli/worker.hpp"
-#include "report/run.hpp"
+#include "cli/options/command_options.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "report/record/run.hpp"
+#include "run/worker/worker.hpp"
 
 namespace cli {
 

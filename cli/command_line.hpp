@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.hpp"
-#include "cli/suite.hpp"
+#include "cli/options/options.hpp"
+#include "cli/prepare/suite.hpp"
 
 namespace cli {
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One function a command; each returns an exit code of report/run.hpp.
+// One function a command; each returns an exit code of report/record/run.hpp.
 #pragma once
 
-#include "cli/options.hpp"
-#include "cli/program.hpp"
+#include "cli/options/options.hpp"
+#include "cli/options/program.hpp"
 
 namespace cli {
 

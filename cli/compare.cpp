@@ -10,11 +10,11 @@
 #include <system_error>
 
 #include "cli/commands.hpp"
-#include "cli/outputs.hpp"
-#include "cli/suite.hpp"
-#include "report/comparison.hpp"
-#include "report/journal.hpp"
-#include "report/sentences.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
+#include "report/compare/comparison.hpp"
+#include "report/journal/journal.hpp"
+#include "report/text/sentences.hpp"
 
 namespace cli {
 

@@ -12,15 +12,15 @@
 #include <set>
 #include <thread>
 
-#include "cases/selector.hpp"
+#include "capture/exchange/plane_files.hpp"
+#include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
-#include "cli/judge.hpp"
-#include "cli/outputs.hpp"
-#include "cli/plane_files.hpp"
-#include "cli/run_plan.hpp"
-#include "cli/signal_fd.hpp"
-#include "report/journal.hpp"
-#include "report/sentences.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/run_plan.hpp"
+#include "report/journal/journal.hpp"
+#include "report/text/sentences.hpp"
+#include "run/judge.hpp"
+#include "run/process/signal_fd.hpp"
 
 namespace cli {
 

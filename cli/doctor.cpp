@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "cli/commands.hpp"
-#include "cli/device_answer.hpp"
-#include "cli/manifest.hpp"
-#include "cli/run_plan.hpp"
-#include "cli/suite.hpp"
-#include "report/reports.hpp"
+#include "cli/prepare/device_answer.hpp"
+#include "cli/prepare/run_plan.hpp"
+#include "cli/prepare/suite.hpp"
+#include "report/text/reports.hpp"
+#include "run/process/manifest.hpp"
 
 namespace cli {
 

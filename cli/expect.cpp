@@ -11,10 +11,10 @@
 #include <sstream>
 
 #include "cli/commands.hpp"
-#include "cli/expectation_update.hpp"
-#include "cli/outputs.hpp"
-#include "cli/suite.hpp"
-#include "report/journal.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
+#include "report/journal/journal.hpp"
+#include "run/expected/expectation_update.hpp"
 
 namespace cli {
 

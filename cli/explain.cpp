@@ -6,12 +6,12 @@
 
 #include <algorithm>
 
-#include "cases/rule.hpp"
+#include "cases/model/rule.hpp"
 #include "diff/verdict.hpp"
-#include "ref/blit.hpp"
-#include "ref/expectation.hpp"
-#include "ref/explain.hpp"
-#include "report/wrap.hpp"
+#include "ref/blit/blit.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/expectation/explain.hpp"
+#include "report/text/wrap.hpp"
 
 namespace cli {
 

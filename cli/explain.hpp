@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "cases/profile.hpp"
-#include "cases/rule.hpp"
-#include "ref/limits.hpp"
-#include "ref/value.hpp"
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "cases/model/rule.hpp"
+#include "ref/position/limits.hpp"
+#include "ref/value/value.hpp"
 
 namespace cli {
 

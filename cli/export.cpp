@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "capture/exchange/export_case.hpp"
+#include "capture/exchange/plane_files.hpp"
 #include "cli/commands.hpp"
-#include "cli/export_case.hpp"
-#include "cli/outputs.hpp"
-#include "cli/plane_files.hpp"
-#include "cli/suite.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
 
 namespace cli {
 

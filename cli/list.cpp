@@ -8,16 +8,16 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cases/loader.hpp"
-#include "cases/rule.hpp"
-#include "cases/selector.hpp"
+#include "cases/load/loader.hpp"
+#include "cases/model/rule.hpp"
+#include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
-#include "cli/expectation_file.hpp"
 #include "cli/explain.hpp"
-#include "cli/judge.hpp"
-#include "cli/suite.hpp"
-#include "ref/expectation.hpp"
-#include "report/run.hpp"
+#include "cli/prepare/suite.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "report/record/run.hpp"
+#include "run/expected/expectation_file.hpp"
+#include "run/judge.hpp"
 
 namespace cli {
 

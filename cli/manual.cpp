@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <sstream>
 
-#include "cli/command_table.hpp"
+#include "cli/options/command_table.hpp"
 
 namespace cli {
 

@@ -8,14 +8,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "capture/image/image.hpp"
 #include "cli/commands.hpp"
-#include "cli/drawing.hpp"
-#include "cli/outputs.hpp"
-#include "cli/suite.hpp"
-#include "ref/expectation.hpp"
-#include "ref/value.hpp"
-#include "report/image.hpp"
-#include "report/run.hpp"
+#include "cli/prepare/drawing.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/value/value.hpp"
+#include "report/record/run.hpp"
 
 namespace cli {
 

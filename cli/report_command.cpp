@@ -5,14 +5,14 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cli/ci.hpp"
-#include "cli/command_table.hpp"
 #include "cli/commands.hpp"
-#include "cli/outputs.hpp"
-#include "cli/suite.hpp"
-#include "report/journal.hpp"
-#include "report/merge.hpp"
-#include "report/sentences.hpp"
+#include "cli/options/command_table.hpp"
+#include "cli/prepare/ci.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
+#include "report/journal/journal.hpp"
+#include "report/journal/merge.hpp"
+#include "report/text/sentences.hpp"
 
 namespace cli {
 

@@ -6,15 +6,15 @@
 #include <regex>
 #include <variant>
 
-#include "cli/ci.hpp"
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
-#include "cli/device_answer.hpp"
-#include "cli/manifest.hpp"
-#include "cli/outputs.hpp"
-#include "cli/prepare_run.hpp"
-#include "report/journal.hpp"
-#include "report/sentences.hpp"
+#include "cli/prepare/ci.hpp"
+#include "cli/prepare/device_answer.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/prepare_run.hpp"
+#include "report/journal/journal.hpp"
+#include "report/text/sentences.hpp"
+#include "run/process/manifest.hpp"
 
 namespace cli {
 

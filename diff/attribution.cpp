@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "ref/explain.hpp"
+#include "ref/expectation/explain.hpp"
 
 namespace diff {
 

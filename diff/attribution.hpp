@@ -10,10 +10,10 @@
 #include <optional>
 #include <string>
 
-#include "cases/case.hpp"
-#include "cases/profile.hpp"
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
-#include "ref/expectation.hpp"
+#include "ref/expectation/expectation.hpp"
 
 namespace diff {
 

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "cases/color.hpp"
-#include "ref/blit.hpp"
+#include "cases/load/color.hpp"
+#include "ref/blit/blit.hpp"
 
 namespace diff {
 

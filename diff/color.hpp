@@ -8,10 +8,10 @@
 #include <memory>
 #include <optional>
 
+#include "capture/capture.hpp"
 #include "diff/attribution.hpp"
-#include "diff/capture.hpp"
 #include "diff/verdict.hpp"
-#include "ref/color.hpp"
+#include "ref/color/color.hpp"
 
 namespace diff {
 

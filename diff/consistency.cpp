@@ -9,7 +9,7 @@
 #include <bit>
 #include <cstring>
 
-#include "cases/rule.hpp"
+#include "cases/model/rule.hpp"
 
 namespace diff {
 

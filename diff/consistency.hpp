@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "cases/derive.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/derive.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {

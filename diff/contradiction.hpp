@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string>
 
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
 
 namespace diff {
 

@@ -8,11 +8,11 @@
 #include <bit>
 #include <optional>
 
-#include "cases/derive.hpp"
-#include "diff/blank_capture.hpp"
+#include "capture/blank_capture.hpp"
+#include "cases/model/derive.hpp"
 #include "diff/last_fragment.hpp"
 #include "diff/pixel_check.hpp"
-#include "ref/color.hpp"
+#include "ref/color/color.hpp"
 
 namespace diff {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {

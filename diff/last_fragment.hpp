@@ -11,13 +11,13 @@
 #include <string_view>
 #include <vector>
 
-#include "cases/case.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
 #include "diff/attribution.hpp"
-#include "diff/capture.hpp"
 #include "diff/verdict.hpp"
-#include "ref/expectation.hpp"
-#include "ref/sample.hpp"
-#include "ref/value.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/number/sample.hpp"
+#include "ref/value/value.hpp"
 
 namespace diff {
 

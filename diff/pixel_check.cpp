@@ -10,9 +10,9 @@
 #include <set>
 #include <utility>
 
-#include "ref/sample.hpp"
-#include "ref/value_places.hpp"
-#include "ref/value_setup.hpp"
+#include "ref/number/sample.hpp"
+#include "ref/value/fragment/quantities.hpp"
+#include "ref/value/places.hpp"
 
 namespace diff {
 

@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
 #include "diff/verdict.hpp"
-#include "ref/expectation.hpp"
+#include "ref/expectation/expectation.hpp"
 
 namespace diff {
 

@@ -10,7 +10,7 @@
 #include <glm/gtc/packing.hpp>
 #include <optional>
 
-#include "cases/color.hpp"
+#include "cases/load/color.hpp"
 
 namespace diff {
 

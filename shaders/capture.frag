@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes what a capture holds (diff/capture.hpp). No store, no atomic: additional invocations for the
+// Writes what a capture holds (capture/capture.hpp). No store, no atomic: additional invocations for the
 // same fragment, which Vulkan allows, must not be seen.
 //
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
@@ -10,7 +10,7 @@
 // INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
 // each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
-// added to the compiled module (vk_harness/spirv_variant.hpp), where the input at location 7 may also
+// added to the compiled module (vk_harness/pipeline/spirv_variant.hpp), where the input at location 7 may also
 // become gl_PrimitiveID.
 #version 450
 #if BARYCENTRICS
@@ -59,7 +59,7 @@ layout(set = 0, binding = 0) uniform sampler2D lod_texture;
 #if INSTRUMENTS
 // Who wrote, replaced, and how often, added. Ids as binary32, exact below 2^24: integer attachments
 // need not support more than one sample (framebufferIntegerColorSampleCounts), and small integers as
-// float bits would be denormals. Hits and the two layouts as vk_harness/attachments.hpp says.
+// float bits would be denormals. Hits and the two layouts as vk_harness/target/attachments.hpp says.
 #if SPLIT
 layout(location = 0) out vec2 out_writer;  // draw and primitive, vertex
 layout(location = 1) out vec2 out_hits;    // by front and by back faces
@@ -172,7 +172,7 @@ void main() {
 #if INSTRUMENTS
     // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
 #if SPLIT
-    // packed_id of vk_harness/readback.hpp: without gl_PrimitiveID the sum wraps to 0.
+    // packed_id of vk_harness/target/readback.hpp: without gl_PrimitiveID the sum wraps to 0.
     uint draws = draw.index >> 16;
     out_writer = vec2(float((in_primitive + 2u) * draws + (draw.index & 0xffffu)), float(in_vertex));
     out_hits = gl_FrontFacing ? vec2(1.0, 0.0) : vec2(0.0, 1.0);

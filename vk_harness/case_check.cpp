@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/color.hpp"
-#include "vk_harness/blit.hpp"
-#include "vk_harness/pipeline_key.hpp"
-#include "vk_harness/resolve.hpp"
-#include "vk_harness/target.hpp"
-#include "vk_harness/viewports.hpp"
+#include "cases/load/color.hpp"
+#include "vk_harness/commands/blit.hpp"
+#include "vk_harness/commands/viewports.hpp"
+#include "vk_harness/pipeline/pipeline_key.hpp"
+#include "vk_harness/target/resolve.hpp"
+#include "vk_harness/target/target.hpp"
 
 namespace vk_harness {
 

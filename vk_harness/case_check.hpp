@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "vk_harness/device.hpp"
+#include "vk_harness/device/device.hpp"
 
 namespace vk_harness {
 

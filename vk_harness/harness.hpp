@@ -13,8 +13,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
 
 namespace vk_harness {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cases/color.hpp"
+#include "cases/load/color.hpp"
 #include "vk_harness/case_check.hpp"
 
 namespace vk_harness {

@@ -4,8 +4,8 @@
 // The body of Renderer: plans a batch, records it, submits it once, reads it back.
 #pragma once
 
-#include "vk_harness/lod_texture.hpp"
-#include "vk_harness/record.hpp"
+#include "vk_harness/commands/lod_texture.hpp"
+#include "vk_harness/commands/record.hpp"
 
 namespace vk_harness {
 

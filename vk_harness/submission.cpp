@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "vk_harness/barrier.hpp"
+#include "vk_harness/memory/barrier.hpp"
 #include "vk_harness/renderer.hpp"
 
 namespace vk_harness {

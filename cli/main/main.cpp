@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "cli/commands.hpp"
-#include "report/run.hpp"
+#include "report/record/run.hpp"
 
 int main(int argc, char** argv) {
     try {

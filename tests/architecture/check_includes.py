@@ -15,7 +15,7 @@ MAY_KNOW = {
     "cases": {"cases"},
     "ref": {"ref", "cases"},
     "diff": {"diff", "cases", "ref"},
-    "vk_harness": {"vk_harness", "cases", "diff/capture.hpp"},
+    "vk_harness": {"vk_harness", "cases", "capture/capture.hpp"},
     "report": {"report", "diff", "cases"},
     "cli": {"cli", "cases", "ref", "diff", "vk_harness", "report"},
 }
@@ -56,7 +56,7 @@ def self_test() -> int:
             (root / room).mkdir()
         (root / "ref/a.cpp").write_text('#include "vk_harness/harness.hpp"\n#include <gmpxx.h>\n')
         (root / "diff/b.hpp").write_text("#include <vulkan/vulkan.h>\n")
-        (root / "vk_harness/c.cpp").write_text('#include "diff/capture.hpp"\n#include "diff/verdict.hpp"\n#include <volk.h>\n')
+        (root / "vk_harness/c.cpp").write_text('#include "capture/capture.hpp"\n#include "diff/verdict.hpp"\n#include <volk.h>\n')
         found = sorted(problems(root))
     expected = ["diff/b.hpp:1", "ref/a.cpp:1", "vk_harness/c.cpp:2"]
     if [f.split(": error")[0] for f in found] != expected:

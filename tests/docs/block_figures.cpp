@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "tests/docs/algorithm_figures.hpp"
-#include "tests/unit/algorithms/exact_numbers.hpp"
-#include "tests/unit/algorithms/random_triangles.hpp"
+#include "tests/unit/rasterizers/exact_numbers.hpp"
+#include "tests/unit/rasterizers/random_triangles.hpp"
 
 namespace figures {
 

@@ -10,9 +10,9 @@
 #include <map>
 #include <set>
 
-#include "cases/loader.hpp"
-#include "cases/rule.hpp"
-#include "cases/statement.hpp"
+#include "cases/load/loader.hpp"
+#include "cases/model/rule.hpp"
+#include "cases/model/statement.hpp"
 
 namespace {
 
@@ -112,7 +112,8 @@ int main(int argc, char** argv) {
     }
     fmt::print(
         "# The rules\n\n"
-        "Generated from `cases/rule.cpp` and the suite by `scripts/generate-docs`; do not edit.\n\n"
+        "Generated from `cases/model/rule.cpp` and the suite by `scripts/generate-docs`; do not "
+        "edit.\n\n"
         "The profile is the loosest one at which breaking the rule is a finding: `vulkan` is what "
         "the Vulkan "
         "text forbids, `practice` adds floor/ceil snapping and binary32-like arithmetic, "

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "ref/coverage_exact.hpp"
+#include "ref/coverage/exact.hpp"
 #include "tests/docs/algorithm_figures.hpp"
-#include "tests/unit/algorithms/float_loss.hpp"
-#include "tests/unit/algorithms/random_triangles.hpp"
+#include "tests/unit/rasterizers/float_loss.hpp"
+#include "tests/unit/rasterizers/random_triangles.hpp"
 
 namespace figures {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cases/case.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/fault.hpp"
 
 namespace mutants {

@@ -10,8 +10,8 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/device.hpp"
 #include "mutants/store.hpp"
 

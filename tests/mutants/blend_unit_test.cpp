@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "cases/profile.hpp"
-#include "ref/blend.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/color/blend.hpp"
 
 namespace mutants {
 namespace {

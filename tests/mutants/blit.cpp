@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "cases/blit.hpp"
+#include "cases/load/blit.hpp"
 #include "mutants/store.hpp"
 
 namespace mutants {

@@ -4,8 +4,8 @@
 // vkCmdBlitImage as drivers do it: coordinates and filter in binary32, weights of 8 bits.
 #pragma once
 
-#include "cases/case.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/device.hpp"
 
 namespace mutants {

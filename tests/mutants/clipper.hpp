@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "cases/case.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/device.hpp"
 
 namespace mutants {

@@ -4,7 +4,7 @@
 // Depth bias, depth clamp, the depth test and the store of the software devices, in binary32.
 #pragma once
 
-#include "cases/case.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/device.hpp"
 
 namespace mutants {

@@ -9,8 +9,8 @@
 
 #include <cstdint>
 
-#include "cases/case.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/fault.hpp"
 
 namespace mutants {

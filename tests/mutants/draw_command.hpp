@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/assembly.hpp"
 #include "mutants/blend_unit.hpp"
 #include "mutants/clipper.hpp"

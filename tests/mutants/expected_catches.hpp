@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cases/profile.hpp"
+#include "cases/model/profile.hpp"
 #include "mutants/fault.hpp"
 
 namespace mutants {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/derive.hpp"
+#include "cases/model/derive.hpp"
 #include "diff/consistency.hpp"
 #include "mutants/judge.hpp"
 #include "mutants/matrix.hpp"

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "diff/blit.hpp"
-#include "diff/color_planes.hpp"
-#include "ref/expectation.hpp"
+#include "rasterizers/color_planes.hpp"
+#include "ref/expectation/expectation.hpp"
 
 namespace mutants {
 

@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "cases/loader.hpp"
-#include "cases/profile.hpp"
+#include "cases/load/loader.hpp"
+#include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
 #include "mutants/device.hpp"
-#include "ref/expectation.hpp"
+#include "ref/expectation/expectation.hpp"
 
 namespace mutants {
 

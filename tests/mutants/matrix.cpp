@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "mutants/judge.hpp"
-#include "ref/expectation.hpp"
+#include "ref/expectation/expectation.hpp"
 
 namespace mutants {
 

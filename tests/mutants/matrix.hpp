@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "cases/profile.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
 #include "mutants/fault.hpp"
 
 namespace mutants {

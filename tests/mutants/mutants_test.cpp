@@ -15,12 +15,12 @@
 #include <sstream>
 #include <string>
 
-#include "cases/rule.hpp"
+#include "cases/model/rule.hpp"
 #include "mutants/expected_catches.hpp"
 #include "mutants/judge.hpp"
 #include "mutants/matrix.hpp"
 #include "mutants/recorded.hpp"
-#include "report/sentences.hpp"
+#include "report/text/sentences.hpp"
 #include "share.hpp"
 
 namespace mutants {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 
-#include "cases/case.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/clipper.hpp"
 #include "mutants/device.hpp"
 

@@ -34,8 +34,8 @@
 #include "mutants/judge.hpp"
 #include "mutants/matrix.hpp"
 #include "mutants/recorded.hpp"
-#include "ref/expectation.hpp"
-#include "report/sentences.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "report/text/sentences.hpp"
 
 namespace {
 

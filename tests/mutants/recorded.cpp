@@ -13,7 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "report/causes.hpp"
+#include "report/text/causes.hpp"
 
 namespace mutants {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cases/profile.hpp"
+#include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
 #include "mutants/fault.hpp"
 
@@ -66,7 +66,7 @@ std::vector<Kill> kills_of(const Matrix& matrix, Fault fault);
 // The loosest level of any of them.
 cases::Profile loosest(const std::vector<Kill>& kills);
 
-// The rule of the first cause that a report of the fault's failures tells (report/causes.hpp).
+// The rule of the first cause that a report of the fault's failures tells (report/text/causes.hpp).
 std::string top_rule(const std::vector<Kill>& kills);
 // True if the fault breaks it (FaultInfo::rules).
 bool is_broken(const FaultInfo& info, std::string_view rule);

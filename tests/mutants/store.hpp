@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 
-#include "cases/case.hpp"
+#include "cases/model/case.hpp"
 #include "mutants/device.hpp"
 
 namespace mutants {

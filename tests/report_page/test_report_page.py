@@ -450,7 +450,7 @@ class Size(PageTest):
 
     @staticmethod
     def picture(values):
-        """As report/picture_codec.hpp, a run a byte."""
+        """As report/journal/picture_codec.hpp, a run a byte."""
         return base64.b64encode(bytes(b for value in values for b in (0, value))).decode()
 
 

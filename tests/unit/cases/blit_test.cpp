@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The table [blit], what a source holds, and clipping at the destination.
-#include "cases/blit.hpp"
+#include "cases/load/blit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "cases/color.hpp"
-#include "cases/loader.hpp"
+#include "cases/load/color.hpp"
+#include "cases/load/loader.hpp"
 
 namespace cases {
 namespace {

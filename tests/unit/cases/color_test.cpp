@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The keys of colour: what they mean, and every sentence about a mistake, word for word.
-#include "cases/color.hpp"
+#include "cases/load/color.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "cases/loader.hpp"
+#include "cases/load/loader.hpp"
 
 namespace cases {
 namespace {

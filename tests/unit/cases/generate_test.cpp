@@ -3,16 +3,16 @@
 //
 // Generated meshes are closed, generated triangles have their class's property, and both are
 // functions of their keys.
-#include "cases/generate.hpp"
+#include "cases/generate/generate.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <set>
 
-#include "cases/delaunay.hpp"
-#include "cases/generator_keys.hpp"
-#include "cases/toml_reader.hpp"
+#include "cases/generate/delaunay.hpp"
+#include "cases/generate/generator_keys.hpp"
+#include "cases/toml/toml_reader.hpp"
 
 namespace cases {
 

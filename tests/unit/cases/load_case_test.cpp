@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <set>
 
-#include "cases/loader.hpp"
+#include "cases/load/loader.hpp"
 
 namespace cases {
 

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "cases/loader.hpp"
+#include "cases/load/loader.hpp"
 
 namespace cases {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "cases/loader.hpp"
+#include "cases/load/loader.hpp"
 
 namespace cases {
 

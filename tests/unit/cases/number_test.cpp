@@ -10,8 +10,8 @@
 #include <limits>
 #include <random>
 
-#include "cases/binary32.hpp"
-#include "cases/expression.hpp"
+#include "cases/toml/binary32.hpp"
+#include "cases/toml/expression.hpp"
 
 namespace cases {
 

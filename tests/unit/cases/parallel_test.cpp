@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/parallel.hpp"
+#include "cases/base/parallel.hpp"
 
 #include <gtest/gtest.h>
 

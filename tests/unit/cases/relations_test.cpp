@@ -4,9 +4,9 @@
 // The key `relations`: what is read, and every sentence said of it.
 #include <gtest/gtest.h>
 
-#include "cases/derive.hpp"
-#include "cases/loader.hpp"
-#include "cases/rule.hpp"
+#include "cases/load/loader.hpp"
+#include "cases/model/derive.hpp"
+#include "cases/model/rule.hpp"
 
 namespace cases {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/selector.hpp"
+#include "cases/model/selector.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "cases/loader.hpp"
+#include "cases/load/loader.hpp"
 
 namespace cases {
 

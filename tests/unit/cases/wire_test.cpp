@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/wire.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
+
+#include "cases/wire/case_bytes.hpp"
 
 namespace cases {
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "cli/command_table.hpp"
-#include "cli/expectation_update.hpp"
-#include "cli/outputs.hpp"
+#include "cli/options/command_table.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "run/expected/expectation_update.hpp"
 
 namespace cli {
 namespace {

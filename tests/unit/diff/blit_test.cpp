@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ref/blit.hpp"
+#include "ref/blit/blit.hpp"
 
 namespace diff {
 namespace {

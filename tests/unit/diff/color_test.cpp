@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Right and wrong colour planes: what is accepted, what is told, at which level.
-#include "ref/color.hpp"
+#include "ref/color/color.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,9 +4,9 @@
 // Captures made from the reference itself, to plant faults in.
 #pragma once
 
-#include "diff/capture.hpp"
-#include "ref/expectation.hpp"
-#include "ref/value.hpp"
+#include "capture/capture.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/value/value.hpp"
 
 // A case of one draw, list topology, vertices in pixels of a power-of-two target, w = 1, z = 1/2.
 inline cases::Case pixel_case(uint32_t width, uint32_t height,

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The intervals of ref/blend.hpp hold what every legal blend unit computes (an integer unit of the
-// destination's width, binary32, binary64), by hand and by property; and little more.
-#include "ref/blend.hpp"
+// The intervals of ref/color/blend.hpp hold what every legal blend unit computes (an integer unit
+// of the destination's width, binary32, binary64), by hand and by property; and little more.
+#include "ref/color/blend.hpp"
 
 #include <gmock/gmock.h>
 #include <rapidcheck.h>

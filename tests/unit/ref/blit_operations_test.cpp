@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/blit_operations.hpp"
+#include "ref/blit/blit_operations.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // The blit reference: coordinates by hand, what is exact and what is free, the filter before the
 // rationals against the rationals.
-#include "ref/blit.hpp"
+#include "ref/blit/blit.hpp"
 
 #include <gtest/gtest.h>
 

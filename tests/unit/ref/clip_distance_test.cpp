@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-#include "ref/complement.hpp"
+#include "ref/expectation/complement.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "ref/clip.hpp"
+#include "ref/position/clip.hpp"
 
 namespace ref::test {
 

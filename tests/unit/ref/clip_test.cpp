@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/clip.hpp"
+#include "ref/position/clip.hpp"
 
 #include <gtest/gtest.h>
 

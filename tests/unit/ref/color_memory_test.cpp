@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "ref/color.hpp"
+#include "ref/color/color.hpp"
 #include "value_case.hpp"
 
 namespace ref::color {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "ref/expectation.hpp"
+#include "cases/model/case.hpp"
+#include "ref/expectation/expectation.hpp"
 
 namespace ref::test {
 

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <map>
 
-#include "ref/coverage_fast.hpp"
-#include "ref/position.hpp"
+#include "ref/coverage/fast/fast.hpp"
+#include "ref/position/position.hpp"
 #include "tests/unit/ref/clip_float.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 

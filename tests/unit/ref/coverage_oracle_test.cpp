@@ -6,9 +6,9 @@
 
 #include <limits>
 
-#include "ref/coverage_exact.hpp"
-#include "ref/coverage_fast.hpp"
-#include "ref/coverage_setup.hpp"
+#include "ref/coverage/exact.hpp"
+#include "ref/coverage/fast/fast.hpp"
+#include "ref/coverage/setup.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ref/coverage_exact.hpp"
-#include "ref/coverage_fast.hpp"
-#include "ref/coverage_setup.hpp"
-#include "ref/facing.hpp"
-#include "ref/wide.hpp"
+#include "ref/coverage/exact.hpp"
+#include "ref/coverage/facing.hpp"
+#include "ref/coverage/fast/fast.hpp"
+#include "ref/coverage/setup.hpp"
+#include "ref/number/edge_function.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {

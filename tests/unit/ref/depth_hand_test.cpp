@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "ref/expectation.hpp"
-#include "ref/explain.hpp"
-#include "ref/value.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/expectation/explain.hpp"
+#include "ref/value/value.hpp"
 #include "tests/unit/ref/value_case.hpp"
 
 namespace ref::test {

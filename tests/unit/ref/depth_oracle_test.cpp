@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "ref/expectation.hpp"
-#include "ref/value.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/value/value.hpp"
 #include "tests/unit/ref/value_case.hpp"
 
 namespace ref::test {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "ref/position.hpp"
-#include "ref/value_setup.hpp"
+#include "ref/position/position.hpp"
+#include "ref/value/fragment/quantities.hpp"
 
 namespace ref {
 namespace {

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "coverage_fixture.hpp"
-#include "ref/explain.hpp"
-#include "ref/sample.hpp"
+#include "ref/expectation/explain.hpp"
+#include "ref/number/sample.hpp"
 
 namespace ref::test {
 namespace {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <map>
 
-#include "ref/coverage_snapped.hpp"
-#include "ref/triangle_setups.hpp"
-#include "ref/vertex_numbers.hpp"
+#include "ref/coverage/fast/snapped.hpp"
+#include "ref/coverage/triangle_setups.hpp"
+#include "ref/expectation/vertex_numbers.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref {

@@ -9,9 +9,9 @@
 
 #include <string>
 
-#include "ref/sample.hpp"
-#include "ref/value.hpp"
-#include "ref/value_places.hpp"
+#include "ref/number/sample.hpp"
+#include "ref/value/places.hpp"
+#include "ref/value/value.hpp"
 #include "tests/unit/ref/coverage_fixture.hpp"
 
 namespace ref::test {

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "ref/expectation.hpp"
-#include "ref/fragment_coverage.hpp"
-#include "ref/one_point.hpp"
-#include "ref/sample.hpp"
-#include "ref/value.hpp"
-#include "ref/value_places.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/number/sample.hpp"
+#include "ref/value/accept/one_point.hpp"
+#include "ref/value/fragment/fragment_coverage.hpp"
+#include "ref/value/places.hpp"
+#include "ref/value/value.hpp"
 #include "tests/unit/ref/multisample_fixture.hpp"
 
 namespace ref::test {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Brown's analytic derivatives against the exact quotient.
-#include "ref/partials.hpp"
+#include "ref/value/fragment/partials.hpp"
 
 #include <gtest/gtest.h>
 

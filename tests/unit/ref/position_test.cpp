@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/position.hpp"
+#include "ref/position/position.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "ref/position_detail.hpp"
-#include "ref/position_filter.hpp"
+#include "ref/position/position_detail.hpp"
+#include "ref/position/position_filter.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {

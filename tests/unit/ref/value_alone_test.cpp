@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "ref/value_places.hpp"
-#include "ref/value_probe.hpp"
+#include "ref/value/accept/probe.hpp"
+#include "ref/value/places.hpp"
 #include "value_case.hpp"
 
 namespace {

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <random>
 
-#include "cases/case.hpp"
-#include "ref/value.hpp"
+#include "cases/model/case.hpp"
+#include "ref/value/value.hpp"
 
 namespace value_test {
 

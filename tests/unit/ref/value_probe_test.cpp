@@ -3,8 +3,6 @@
 //
 // interpolateAt*, derivatives, levels of detail and barycentric order: what is accepted and what is
 // not, by hand, and the filtered answer against the oracle.
-#include "ref/value_probe.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "ref/value/accept/probe.hpp"
 #include "value_case.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/ci.hpp"
+#include "report/files/ci.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <set>
 #include <sstream>
 
-#include "report/causes.hpp"
-#include "report/merge.hpp"
-#include "report/utf8.hpp"
+#include "report/journal/merge.hpp"
+#include "report/text/causes.hpp"
+#include "report/text/utf8.hpp"
 #include "sample_run.hpp"
 
 namespace report {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/comparison.hpp"
+#include "report/compare/comparison.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "report/utf8.hpp"
-#include "report/wrap.hpp"
+#include "report/text/utf8.hpp"
+#include "report/text/wrap.hpp"
 #include "sample_run.hpp"
 
 namespace report {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/journal.hpp"
+#include "report/journal/journal.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -16,8 +16,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "report/picture_codec.hpp"
-#include "report/record_codec.hpp"
+#include "report/journal/picture_codec.hpp"
+#include "report/journal/record_codec.hpp"
 #include "sample_run.hpp"
 
 namespace report {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/reports.hpp"
+#include "report/text/reports.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "report/sentences.hpp"
-#include "report/utf8.hpp"
+#include "report/text/sentences.hpp"
+#include "report/text/utf8.hpp"
 #include "sample_run.hpp"
 
 namespace report {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/run.hpp"
+#include "report/record/run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "report/run.hpp"
+#include "report/record/run.hpp"
 
 namespace report::test {
 

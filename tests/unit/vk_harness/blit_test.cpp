@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Source texels as bytes: what is uploaded has the codes that the reference counts with.
-#include "vk_harness/blit.hpp"
+#include "vk_harness/commands/blit.hpp"
 
 #include <gtest/gtest.h>
 
-#include "cases/blit.hpp"
-#include "cases/color.hpp"
-#include "vk_harness/readback.hpp"
+#include "cases/load/blit.hpp"
+#include "cases/load/color.hpp"
+#include "vk_harness/target/readback.hpp"
 
 namespace vk_harness {
 

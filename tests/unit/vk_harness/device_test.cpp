@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "vk_harness/device.hpp"
+#include "vk_harness/device/device.hpp"
 
 #include <gmock/gmock.h>
 

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "diff/capture.hpp"
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
 #include "vk_harness/harness.hpp"
 
 namespace vk_harness::testing {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "vk_harness/readback.hpp"
+#include "vk_harness/target/readback.hpp"
 
 #include <gmock/gmock.h>
 #include <rapidcheck.h>
@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "vk_harness/case_check.hpp"
-#include "vk_harness/target.hpp"
+#include "vk_harness/target/target.hpp"
 
 namespace vk_harness {
 namespace {

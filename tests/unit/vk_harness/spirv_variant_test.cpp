@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "vk_harness/spirv_variant.hpp"
+#include "vk_harness/pipeline/spirv_variant.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -12,8 +12,8 @@
 #include <string>
 
 #include "shaders/shaders.hpp"
-#include "vk_harness/pipeline_key.hpp"
-#include "vk_harness/shader_stage.hpp"
+#include "vk_harness/pipeline/pipeline_key.hpp"
+#include "vk_harness/pipeline/shader_stage.hpp"
 
 namespace vk_harness {
 namespace {

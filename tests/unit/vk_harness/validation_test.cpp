@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "hand_case.hpp"
-#include "vk_harness/device.hpp"
+#include "vk_harness/device/device.hpp"
 
 namespace vk_harness::testing {
 namespace {

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "capture/capture.hpp"
+
+namespace diff {
+
+// The instruments' planes of a case in which nothing was drawn: no hits, no writers, clear values.
+// Colour, stencil and resolved planes are empty.
+Capture blank_capture(const cases::Case& c);
+
+}  // namespace diff

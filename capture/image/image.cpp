@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/image/image.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <system_error>
+
+#include "capture/image/image_io/image_io.hpp"
+#include "report/text/reports.hpp"
+
+namespace report {
+
+namespace {
+
+constexpr const char* kModule = "edgecase-image-io.so";
+constexpr const char* kVariable = "EDGECASE_IMAGE_IO";
+
+tl::unexpected<cases::Error> failure(std::string message) {
+    return tl::unexpected(cases::Error{{}, std::move(message)});
+}
+
+struct Module {
+    decltype(&edgecase_write_image) write = nullptr;
+    decltype(&edgecase_read_image) read = nullptr;
+};
+
+// The module of EDGECASE_IMAGE_IO, if set; else the first there is next to the program.
+cases::Expected<std::filesystem::path> find_module() {
+    if (const char* named = std::getenv(kVariable); named != nullptr && *named != '\0') {
+        return std::filesystem::path(named);
+    }
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto dir = program.parent_path();
+    for (const auto& candidate : {dir.parent_path() / "lib" / kModule, dir / kModule}) {
+        if (!error && std::filesystem::exists(candidate, error)) {
+            return candidate;
+        }
+    }
+    return failure(
+        fmt::format("image files need the module {}, which is neither in {} nor in {}; "
+                    "build the target edgecase_image_io or set {} to its path",
+                    kModule, (dir.parent_path() / "lib").string(), dir.string(), kVariable));
+}
+
+cases::Expected<Module> open_module() {
+    const auto path = find_module();
+    if (!path) {
+        return tl::unexpected(path.error());
+    }
+    // Never closed: OpenImageIO keeps threads and thread-local objects of its own.
+    void* handle = ::dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) {
+        return failure(fmt::format("cannot load {}: {}", path->string(), ::dlerror()));
+    }
+    const auto version = reinterpret_cast<decltype(&edgecase_image_io_version)>(
+        ::dlsym(handle, "edgecase_image_io_version"));
+    Module module;
+    module.write =
+        reinterpret_cast<decltype(&edgecase_write_image)>(::dlsym(handle, "edgecase_write_image"));
+    module.read =
+        reinterpret_cast<decltype(&edgecase_read_image)>(::dlsym(handle, "edgecase_read_image"));
+    if (version == nullptr || module.write == nullptr || module.read == nullptr ||
+        version() != kImageIoVersion) {
+        return failure(fmt::format(
+            "{} is not the image module of this edgecase; build both together", path->string()));
+    }
+    return module;
+}
+
+cases::Expected<void> check_format(const std::filesystem::path& file, size_t channels) {
+    const std::string extension = file.extension().string();
+    if (extension != ".exr" && extension != ".png" && extension != ".tif") {
+        return failure(
+            fmt::format("cannot tell the format of {} by its ending; use .exr, .png or .tif",
+                        printable(file.string())));
+    }
+    if (extension == ".png" && channels > 4) {
+        return failure(
+            fmt::format("{} would need {} channels, and a PNG file holds at most 4; use .exr",
+                        printable(file.string()), channels));
+    }
+    return {};
+}
+
+void keep(void* context, const EdgecaseImage* from) {
+    Image& to = *static_cast<Image*>(context);
+    to.width = from->width;
+    to.height = from->height;
+    to.channels.assign(from->names, from->names + from->channels);
+    const size_t count = size_t{from->width} * from->height * from->channels;
+    to.pixels.assign(from->pixels, from->pixels + count);
+    to.bits = from->bits;
+    to.is_float = from->is_float != 0;
+}
+
+}  // namespace
+
+cases::Expected<void> write_image(const std::filesystem::path& file, const Image& image) {
+    if (auto known = check_format(file, image.channels.size()); !known) {
+        return known;
+    }
+    constexpr uint32_t kMaxSide = 1U << 16;
+    const size_t count = size_t{image.width} * image.height * image.channels.size();
+    if (count == 0 || image.pixels.size() != count || image.width > kMaxSide ||
+        image.height > kMaxSide) {
+        return failure(
+            fmt::format("an image of {} x {} pixels and {} channels cannot have {} values",
+                        image.width, image.height, image.channels.size(), image.pixels.size()));
+    }
+    const auto module = open_module();
+    if (!module) {
+        return tl::unexpected(module.error());
+    }
+    std::vector<const char*> names;
+    for (const std::string& name : image.channels) {
+        names.push_back(name.c_str());
+    }
+    const EdgecaseImage plain{image.width,
+                              image.height,
+                              static_cast<uint32_t>(names.size()),
+                              names.data(),
+                              image.pixels.data(),
+                              32,
+                              1};
+    std::array<char, 1024> error{};
+    if (module->write(file.c_str(), &plain, error.data(), error.size()) != 0) {
+        return failure(
+            fmt::format("cannot write {}: {}", printable(file.string()), printable(error.data())));
+    }
+    return {};
+}
+
+cases::Expected<Image> read_image(const std::filesystem::path& file) {
+    if (auto known = check_format(file, 1); !known) {
+        return tl::unexpected(known.error());
+    }
+    const auto module = open_module();
+    if (!module) {
+        return tl::unexpected(module.error());
+    }
+    Image image;
+    std::array<char, 1024> error{};
+    if (module->read(file.c_str(), keep, &image, error.data(), error.size()) != 0) {
+        return failure(
+            fmt::format("cannot read {}: {}", printable(file.string()), printable(error.data())));
+    }
+    return image;
+}
+
+}  // namespace report

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/generate/generate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "cases/generate/generator_keys.hpp"
+
+namespace cases {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kKinds = {"grid", "fan",       "strip",
+                                                    "mesh", "triangles", "surface"};
+
+}  // namespace
+
+void GeneratorKeys::error(const char* key, std::string message) {
+    const TomlValue* value = table_.find(key);
+    context_.error(value != nullptr ? value->where : table_.where, std::move(message));
+}
+
+int64_t GeneratorKeys::integer(const char* key, int64_t low, int64_t high,
+                               std::optional<int64_t> otherwise) {
+    const TomlValue* value = table_.find(key);
+    if (value == nullptr) {
+        if (!otherwise) {
+            error(key, fmt::format("generate has no {}; write an integer", key));
+        }
+        return otherwise.value_or(low);
+    }
+    return context_.integer(*value, key, low, high).value_or(low);
+}
+
+mpq_class GeneratorKeys::length(const char* key, std::optional<mpq_class> otherwise) {
+    const TomlValue* value = table_.find(key);
+    if (value == nullptr) {
+        if (!otherwise) {
+            error(key, fmt::format("generate has no {}; write a number of pixels", key));
+        }
+        return otherwise.value_or(mpq_class(0));
+    }
+    const std::optional<Number> n = context_.number(*value, key);
+    if (n && n->value < 0) {
+        error(key, fmt::format("{} is negative", key));
+    }
+    return n ? n->value : mpq_class(0);
+}
+
+Point GeneratorKeys::point(const char* key, std::optional<Point> otherwise) {
+    const TomlValue* value = table_.find(key);
+    if (value == nullptr) {
+        if (!otherwise) {
+            error(key, fmt::format("generate has no {}; write [x, y]", key));
+        }
+        return otherwise.value_or(Point{});
+    }
+    const std::optional<std::vector<Number>> numbers = context_.numbers(*value, key, 2);
+    if (!numbers) {
+        return {};
+    }
+    for (const Number& n : *numbers) {
+        if (abs(n.value) > 16777216) {
+            error(key, fmt::format("{} is more than 2^24 pixels away", key));
+        }
+    }
+    return {(*numbers)[0].value, (*numbers)[1].value};
+}
+
+bool GeneratorKeys::boolean(const char* key) {
+    const TomlValue* value = table_.find(key);
+    return value != nullptr && context_.boolean(*value, key).value_or(false);
+}
+
+size_t GeneratorKeys::word(const char* key, std::span<const std::string_view> words,
+                           size_t otherwise) {
+    const TomlValue* value = table_.find(key);
+    return value == nullptr ? otherwise : context_.word(*value, key, words).value_or(otherwise);
+}
+
+GeneratorKeys::Rectangle GeneratorKeys::rectangle() {
+    Rectangle r{point("from", Point{0, 0}), point("to", Point{target_.width, target_.height})};
+    if (good() && (r.from.x >= r.to.x || r.from.y >= r.to.y)) {
+        error("to", "to is not right of and below from");
+    }
+    return r;
+}
+
+std::optional<GeneratorKeys::WRange> GeneratorKeys::w_range() {
+    const TomlValue* value = table_.find("w");
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    const std::optional<std::vector<Number>> numbers = context_.numbers(*value, "w", 2);
+    if (!numbers) {
+        return std::nullopt;
+    }
+    const mpq_class low = (*numbers)[0].value * 256;
+    const mpq_class high = (*numbers)[1].value * 256;
+    if (low.get_den() != 1 || high.get_den() != 1 || low < 1 || high < low || high > 256 * 65536) {
+        error("w", "w is not [low, high] in multiples of 1/256 with 1/256 <= low <= high <= 65536");
+        return std::nullopt;
+    }
+    return WRange{low.get_num().get_si(), high.get_num().get_si()};
+}
+
+mpq_class on_grid(const mpq_class& value, int64_t grid) {
+    if (grid == 0) {
+        return value;
+    }
+    const mpq_class scaled = value * mpq_class(grid) + mpq_class(1, 2);
+    mpz_class unit;
+    mpz_fdiv_q(unit.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+    mpq_class result(unit, mpz_class(grid));
+    result.canonicalize();
+    return result;
+}
+
+Point on_grid(const Point& p, int64_t grid) {
+    return {on_grid(p.x, grid), on_grid(p.y, grid)};
+}
+
+mpq_class twice_area(const Point& a, const Point& b, const Point& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+void draw_w(std::vector<ExactVertex>& vertices, const std::optional<GeneratorKeys::WRange>& range,
+            Random& random) {
+    if (!range) {
+        return;
+    }
+    for (ExactVertex& v : vertices) {
+        mpq_class w(random.between(range->low, range->high), 256);
+        w.canonicalize();
+        v.xyzw[3].value = w;
+    }
+}
+
+void shuffle_triangles(std::vector<uint32_t>& indices, Random& random) {
+    const auto count = static_cast<int64_t>(indices.size() / 3);
+    for (int64_t t = count - 1; t >= 0; --t) {
+        const int64_t other = random.between(0, t);
+        const int64_t turn = random.between(0, 2);
+        if (other != t) {
+            std::swap_ranges(indices.begin() + 3 * t, indices.begin() + 3 * t + 3,
+                             indices.begin() + 3 * other);
+        }
+        std::rotate(indices.begin() + 3 * t, indices.begin() + 3 * t + turn,
+                    indices.begin() + 3 * t + 3);
+    }
+}
+
+std::optional<Generated> generate(LeafContext& context, const TomlValue& table,
+                                  const Target& target) {
+    if (!context.table(table, "generate")) {
+        return std::nullopt;
+    }
+    const TomlValue* kind = table.find("kind");
+    if (kind == nullptr) {
+        context.error(table.where, "generate has no kind; write " + alternatives(kKinds));
+        return std::nullopt;
+    }
+    const std::optional<size_t> which = context.word(*kind, "kind", kKinds);
+    if (!which) {
+        return std::nullopt;
+    }
+    GeneratorKeys keys(context, table, target);
+    switch (*which) {
+        case 0:
+            context.known_keys(table, "the generator \"grid\"",
+                               {"kind", "seed", "columns", "rows", "from", "to", "jitter", "grid",
+                                "diagonal", "w", "shuffle"});
+            return generate_grid(keys);
+        case 1:
+            context.known_keys(table, "the generator \"fan\"",
+                               {"kind", "seed", "center", "radius", "count", "grid", "w"});
+            return generate_fan(keys);
+        case 2:
+            context.known_keys(table, "the generator \"strip\"",
+                               {"kind", "seed", "from", "to", "count", "grid", "jitter", "w"});
+            return generate_strip(keys);
+        case 3:
+            context.known_keys(table, "the generator \"mesh\"",
+                               {"kind", "seed", "points", "from", "to", "grid", "w", "shuffle"});
+            return generate_mesh(keys);
+        case 5:
+            context.known_keys(table, "the generator \"surface\"",
+                               {"kind", "seed", "shape", "columns", "rows", "center", "radius"});
+            return generate_surface(keys);
+        default:
+            context.known_keys(table, "the generator \"triangles\"",
+                               {"kind", "seed", "count", "class", "from", "to", "grid", "w"});
+            return generate_triangles(keys);
+    }
+}
+
+}  // namespace cases

@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/load/color.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cases {
+
+namespace {
+
+using Kind = TomlValue::Kind;
+
+constexpr std::array<std::string_view, 8> kPresets = {
+    "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
+
+Blend preset(size_t index) {
+    using F = BlendFactor;
+    const auto both = [](F source, F destination, BlendOp op) {
+        return Blend{{source, destination, op}, {source, destination, op}};
+    };
+    switch (index) {
+        case 1:
+            return {{F::src_alpha, F::one_minus_src_alpha, BlendOp::add},
+                    {F::one, F::one_minus_src_alpha, BlendOp::add}};
+        case 2:
+            return both(F::one, F::one_minus_src_alpha, BlendOp::add);
+        case 3:
+            return both(F::one, F::one, BlendOp::add);
+        case 4:
+            return both(F::dst_color, F::zero, BlendOp::add);
+        case 5:
+            return both(F::one, F::one, BlendOp::reverse_subtract);
+        case 6:
+            return both(F::one, F::one, BlendOp::min);
+        default:
+            return both(F::one, F::one, BlendOp::max);
+    }
+}
+
+// Four numbers, and for integer formats whole ones that the format holds.
+std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value,
+                                    const std::string& what, ColorFormat format) {
+    const std::optional<std::vector<Number>> numbers = context.numbers(value, what, 4);
+    if (!numbers) {
+        return std::nullopt;
+    }
+    glm::vec4 color{};
+    for (size_t k = 0; k < 4; ++k) {
+        const SourceLocation& where = value.array[k].where;
+        const std::optional<float> number = context.binary32((*numbers)[k], where, what);
+        if (!number) {
+            return std::nullopt;
+        }
+        // binary32 holds whole numbers up to 2^24.
+        const float largest = format == ColorFormat::rgba8_uint ? 255.0F : 0x1p24F;
+        if (is_integer(format) &&
+            (!(*number >= 0.0F) || *number > largest || std::floor(*number) < *number)) {
+            context.error(where, fmt::format("{} is not a whole number from 0 to {}, as the format "
+                                             "{} needs it",
+                                             what, largest, name_of(format)));
+            return std::nullopt;
+        }
+        color[static_cast<int>(k)] = *number;
+    }
+    return color;
+}
+
+BlendEquation read_equation(LeafContext& context, const TomlValue& table) {
+    BlendEquation out;
+    const auto factor = [&](const char* key, BlendFactor otherwise) {
+        const TomlValue* value = table.find(key);
+        return value == nullptr
+                   ? otherwise
+                   : context.enumerator<BlendFactor>(*value, std::string("the blend factor ") + key)
+                         .value_or(BlendFactor::zero);
+    };
+    out.source = factor("source", BlendFactor::one);
+    out.destination = factor("destination", BlendFactor::zero);
+    if (const TomlValue* op = table.find("op")) {
+        out.op = context.enumerator<BlendOp>(*op, "the blend op").value_or(BlendOp::add);
+    }
+    return out;
+}
+
+std::optional<Blend> read_blend(LeafContext& context, const TomlValue& value,
+                                const ColorTarget& target) {
+    std::optional<Blend> out;
+    if (value.is(Kind::table)) {
+        context.known_keys(value, "blend", {"source", "destination", "op", "alpha"});
+        out.emplace();
+        out->color = read_equation(context, value);
+        out->alpha = out->color;
+        if (const TomlValue* alpha = value.find("alpha");
+            alpha != nullptr && context.table(*alpha, "alpha")) {
+            context.known_keys(*alpha, "blend.alpha", {"source", "destination", "op"});
+            out->alpha = read_equation(context, *alpha);
+        }
+    } else if (const auto word = context.word(value, "blend", kPresets); word && *word > 0) {
+        out = preset(*word);
+    }
+    if (out && is_integer(target.format)) {
+        context.error(value.where, fmt::format("a target of integers ({}) is not blended; leave "
+                                               "blend out",
+                                               name_of(target.format)));
+    }
+    return out;
+}
+
+uint8_t read_write_mask(LeafContext& context, const TomlValue& value) {
+    std::optional<std::string> text = context.text(value, "write_mask");
+    if (text) {
+        if (const TomlValue* named = context.parameter(*text);
+            named != nullptr && named->is(Kind::string)) {
+            text = named->string;
+        }
+    }
+    uint8_t mask = 0;
+    for (const char letter : text.value_or("")) {
+        const size_t k = std::string_view("rgba").find(letter);
+        if (k == std::string_view::npos || (static_cast<unsigned>(mask) >> k & 1U) != 0) {
+            context.error(value.where, fmt::format("write_mask is \"{}\"; write each of the "
+                                                   "letters r, g, b and a at most once",
+                                                   *text));
+            return mask;
+        }
+        mask = static_cast<uint8_t>(mask | 1U << k);
+    }
+    return mask;
+}
+
+int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const ColorTarget& target,
+                            const std::vector<Attribute>& attributes) {
+    const std::optional<std::string> name = context.text(value, "the colour's attribute");
+    if (!name) {
+        return -1;
+    }
+    const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                    [&](const Attribute& a) { return a.name == *name; });
+    if (found == attributes.end()) {
+        context.error(value.where,
+                      fmt::format("the draw has no attribute \"{}\" for its colour", *name));
+        return -1;
+    }
+    if (found->source != Source::vertex || found->probe != Probe::value) {
+        context.error(
+            value.where,
+            fmt::format("the colour cannot be the attribute \"{}\", which is not a value from "
+                        "the vertices alone",
+                        *name));
+        return -1;
+    }
+    if (is_integer(target.format)) {
+        const bool whole =
+            std::all_of(found->values.begin(), found->values.end(), [](const glm::vec4& v) {
+                for (int k = 0; k < 4; ++k) {
+                    if (!(v[k] >= 0.0F) || v[k] > 0x1p24F || std::floor(v[k]) < v[k]) {
+                        return false;
+                    }
+                }
+                return true;
+            });
+        if (found->interpolation != Interpolation::flat || !whole) {
+            context.error(value.where, fmt::format("the colour of a target of integers ({}) needs "
+                                                   "a flat attribute of whole numbers",
+                                                   name_of(target.format)));
+        }
+    }
+    return static_cast<int32_t>(found - attributes.begin());
+}
+
+}  // namespace
+
+std::string_view name_of(ColorFormat format) {
+    return word_of(format);
+}
+
+ComponentFormat component_of(ColorFormat format, uint32_t k) {
+    switch (format) {
+        case ColorFormat::rgba8_unorm:
+        case ColorFormat::bgra8_unorm:
+            return {ComponentKind::unorm, 8};
+        case ColorFormat::rgba8_srgb:  // alpha is linear
+            return {k == 3 ? ComponentKind::unorm : ComponentKind::srgb, 8};
+        case ColorFormat::rgb10a2_unorm:
+            return {ComponentKind::unorm, k == 3 ? 2U : 10U};
+        case ColorFormat::r5g6b5_unorm:
+            return {ComponentKind::unorm, k == 3 ? 0U : k == 1 ? 6U : 5U};
+        case ColorFormat::rgba16_unorm:
+            return {ComponentKind::unorm, 16};
+        case ColorFormat::rgba16_float:
+            return {ComponentKind::half, 16};
+        case ColorFormat::rgba32_float:
+            return {ComponentKind::binary32, 32};
+        case ColorFormat::r32_float:
+            return {ComponentKind::binary32, k == 0 ? 32U : 0U};
+        case ColorFormat::r32_uint:
+            return {ComponentKind::uint, k == 0 ? 32U : 0U};
+        case ColorFormat::rgba8_uint:
+            break;
+    }
+    return {ComponentKind::uint, 8};
+}
+
+bool is_integer(ColorFormat format) {
+    return component_of(format, 0).kind == ComponentKind::uint;
+}
+
+std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlValue& value) {
+    if (!context.table(value, "color")) {
+        return std::nullopt;
+    }
+    context.known_keys(value, "[target.color]", {"format", "clear"});
+    ColorTarget out;
+    const TomlValue* format = value.find("format");
+    if (format == nullptr) {
+        context.error(value.where, fmt::format("[target.color] has no format; write {}",
+                                               alternatives(kWords<ColorFormat>)));
+        return std::nullopt;
+    }
+    out.format = read_format(context, *format).value_or(ColorFormat::rgba8_unorm);
+    if (const TomlValue* clear = value.find("clear")) {
+        out.clear = read_color(context, *clear, "clear", out.format).value_or(glm::vec4(0));
+    }
+    return out;
+}
+
+std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& value) {
+    return context.enumerator<ColorFormat>(value, "the colour format");
+}
+
+ColorOutput read_color_output(LeafContext& context, const TomlValue& value,
+                              const ColorTarget& target, const std::vector<Attribute>& attributes) {
+    ColorOutput out;
+    if (!context.table(value, "color")) {
+        return out;
+    }
+    context.known_keys(value, "color", {"value", "attribute", "blend", "constants", "write_mask"});
+    const TomlValue* constant = value.find("value");
+    const TomlValue* attribute = value.find("attribute");
+    if ((constant != nullptr) == (attribute != nullptr)) {
+        context.error(value.where, constant != nullptr
+                                       ? "color has both value and attribute; keep one"
+                                       : "color has no value; write value = [r, g, b, a] or "
+                                         "attribute = \"its name\"");
+        return out;
+    }
+    if (constant != nullptr) {
+        out.value = read_color(context, *constant, "value", target.format).value_or(glm::vec4(0));
+    } else {
+        out.attribute = read_attribute_name(context, *attribute, target, attributes);
+    }
+    if (const TomlValue* blend = value.find("blend")) {
+        out.blend = read_blend(context, *blend, target);
+    }
+    if (const TomlValue* constants = value.find("constants")) {
+        if (!out.blend) {
+            context.error(constants->where, "constants without blend mean nothing; leave them out");
+        } else {
+            out.blend->constants =
+                read_color(context, *constants, "constants", target.format).value_or(glm::vec4(0));
+        }
+    }
+    if (const TomlValue* mask = value.find("write_mask")) {
+        out.write_mask = read_write_mask(context, *mask);
+    }
+    return out;
+}
+
+}  // namespace cases

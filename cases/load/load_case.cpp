@@ -1,0 +1,420 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The top of a case file: claims, matrix, target, draws, expectation.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cases/load/blit.hpp"
+#include "cases/load/load_draw.hpp"
+#include "cases/load/load_relations.hpp"
+#include "cases/load/load_target.hpp"
+#include "cases/load/loader.hpp"
+#include "cases/load/matrix.hpp"
+#include "cases/model/rule.hpp"
+#include "cases/model/selector.hpp"
+#include "cases/toml/field_reader.hpp"
+#include "cases/toml/toml_reader.hpp"
+
+namespace cases {
+
+namespace {
+
+using Kind = TomlValue::Kind;
+
+constexpr size_t kMaxDraws = 256;
+
+class CaseLoader {
+  public:
+    CaseLoader(const TomlValue& root, LeafContext& context) : root_(root), context_(context) {}
+
+    Case load() {
+        c_.where = {root_.where.file, 1, 1};
+        context_.known_keys(root_, "a case file",
+                            {"format", "description", "catches", "rules", "links", "leaves",
+                             "matrix", "target", "draw", "blit", "expect", "relations"});
+        if (const TomlValue* format = required("format", "write format = 1")) {
+            const std::optional<Number> n = context_.number(*format, "format");
+            if (n && n->value != 1) {
+                context_.error(format->where, "format is not 1, the only one that is read");
+            }
+        }
+        if (const TomlValue* value =
+                required("description", "say in one sentence what is claimed")) {
+            c_.description = sentence(*value, "description");
+        }
+        if (const TomlValue* value = root_.find("catches")) {
+            c_.catches = sentence(*value, "catches");
+        }
+        if (const TomlValue* value = required("rules", "name at least one rule of docs/rules.md")) {
+            read_rules(*value);
+        }
+        if (const TomlValue* value = root_.find("links")) {
+            read_links(*value);
+        }
+        read_target();
+        if (const TomlValue* value = root_.find("blit")) {
+            read_blit(*value);
+        } else {
+            read_draws();
+        }
+        if (const TomlValue* value = root_.find("relations")) {
+            c_.relations = load_relations(context_, *value, c_);
+        }
+        return std::move(c_);
+    }
+
+  private:
+    const TomlValue* required(const char* key, const char* advice) {
+        const TomlValue* value = root_.find(key);
+        if (value == nullptr) {
+            context_.error({root_.where.file, 1, 1},
+                           fmt::format("the key {} is missing; {}", key, advice));
+        }
+        return value;
+    }
+
+    std::string sentence(const TomlValue& value, const char* key) {
+        const std::optional<std::string> text = context_.text(value, key);
+        if (text && text->find_first_not_of(" \t\r\n") == std::string::npos) {
+            context_.error(value.where, fmt::format("{} is empty; write a sentence", key));
+        }
+        return text.value_or("");
+    }
+
+    void read_rules(const TomlValue& value) {
+        if (!context_.array(value, "rules")) {
+            return;
+        }
+        if (value.array.empty()) {
+            context_.error(value.where,
+                           "rules is empty, so the case claims nothing; name at least one rule of "
+                           "docs/rules.md");
+        }
+        for (const TomlValue& element : value.array) {
+            const std::optional<std::string> id = context_.text(element, "a rule");
+            if (!id) {
+                continue;
+            }
+            if (find_rule(*id) == nullptr) {
+                std::vector<std::string> known;
+                for (const Rule& rule : all_rules()) {
+                    known.emplace_back(rule.id);
+                }
+                const std::string nearest = nearest_name(*id, known);
+                context_.error(element.where,
+                               nearest.empty()
+                                   ? fmt::format("no rule is called \"{}\"; docs/rules.md lists "
+                                                 "all",
+                                                 *id)
+                                   : fmt::format("no rule is called \"{}\"; did you mean \"{}\"?",
+                                                 *id, nearest));
+            } else if (std::find(c_.rules.begin(), c_.rules.end(), *id) != c_.rules.end()) {
+                context_.error(element.where, fmt::format("the rule \"{}\" stands twice", *id));
+            } else {
+                c_.rules.push_back(*id);
+            }
+        }
+    }
+
+    void read_links(const TomlValue& value) {
+        if (!context_.array(value, "links")) {
+            return;
+        }
+        for (const TomlValue& element : value.array) {
+            const std::optional<std::string> link = context_.text(element, "a link");
+            if (!link) {
+                continue;
+            }
+            if (link->rfind("https://", 0) != 0 && link->rfind("http://", 0) != 0) {
+                context_.error(element.where,
+                               fmt::format("the link \"{}\" does not start with https://", *link));
+            }
+            c_.links.push_back(*link);
+        }
+    }
+
+    void read_target() {
+        const TomlValue* target = required("target", "write [target] with size = [width, height]");
+        if (target == nullptr || !context_.table(*target, "target")) {
+            return;
+        }
+        c_.target = load_target(context_, *target);
+    }
+
+    void read_blit(const TomlValue& value) {
+        if (!context_.table(value, "blit")) {
+            return;
+        }
+        for (const char* key : {"draw", "expect"}) {
+            if (const TomlValue* other = root_.find(key)) {
+                context_.error(other->where,
+                               fmt::format("a case with [blit] has no {}; leave it out", key));
+            }
+        }
+        if (c_.target.samples != 1 || c_.target.layers != 1) {
+            context_.error(value.where, "a blit writes to one sample a pixel and to one layer");
+        }
+        c_.target.has_instruments = false;
+        c_.target.has_depth = false;
+        if (c_.target.width != 0 && c_.target.height != 0) {
+            c_.blit = load_blit(context_, value, c_.target);
+        }
+    }
+
+    void read_draws() {
+        const TomlValue* draws = required("draw", "write [[draw]] with vertices");
+        if (draws == nullptr || c_.target.width == 0 || c_.target.height == 0) {
+            return;
+        }
+        if (!draws->is(Kind::array)) {
+            context_.error(draws->where, "draw is not an array of tables; write [[draw]]");
+            return;
+        }
+        if (draws->array.empty() || draws->array.size() > kMaxDraws) {
+            context_.error(draws->where, fmt::format("a case has 1 to {} draws, not {}", kMaxDraws,
+                                                     draws->array.size()));
+            return;
+        }
+        for (const TomlValue& table : draws->array) {
+            if (!context_.table(table, "draw")) {
+                continue;
+            }
+            c_.draws.push_back(
+                load_draw(context_, table, c_.target, c_.draws.size() + 1, c_.notes));
+        }
+        check_layers(*draws);
+    }
+
+    // The shaders that write gl_Layer have no clip and cull distances.
+    void check_layers(const TomlValue& draws) {
+        const bool is_named = std::any_of(c_.draws.begin(), c_.draws.end(),
+                                          [](const Draw& draw) { return draw.layer > 0; });
+        for (const TomlValue& table : draws.array) {
+            for (const char* key : {"clip_distance", "cull_distance"}) {
+                if (const TomlValue* value = is_named ? table.find(key) : nullptr) {
+                    context_.error(value->where,
+                                   fmt::format("{} does not go with draws to several layers; leave "
+                                               "out layer",
+                                               key));
+                }
+            }
+        }
+    }
+
+    const TomlValue& root_;
+    LeafContext& context_;
+    Case c_;
+};
+
+// One picture of the target; appends its rows. False: told what is wrong with it.
+bool read_picture(LeafContext& context, const TomlValue& value, const std::string& name,
+                  const Target& target, std::vector<std::string>& rows) {
+    const std::optional<std::string> text = context.text(value, name);
+    if (!text) {
+        return false;
+    }
+    const size_t first = rows.size();
+    for (size_t start = 0; start < text->size();) {
+        const size_t end = std::min(text->find('\n', start), text->size());
+        std::string row = text->substr(start, end - start);
+        if (!row.empty() && row.back() == '\r') {
+            row.pop_back();
+        }
+        rows.push_back(std::move(row));
+        start = end + 1;
+    }
+    const size_t count = rows.size() - first;
+    if (count != target.height) {
+        context.error(value.where, fmt::format("{} has {} rows, but the target is {} pixels high",
+                                               name, count, target.height));
+        return false;
+    }
+    for (size_t j = 0; j < count; ++j) {
+        const std::string& row = rows[first + j];
+        if (row.size() != target.width) {
+            context.error(value.where,
+                          fmt::format("row {} of {} has {} characters, but the target is {} "
+                                      "pixels wide",
+                                      j, name, row.size(), target.width));
+            return false;
+        }
+        const size_t odd = row.find_first_not_of(".123456789?");
+        if (odd != std::string::npos) {
+            context.error(value.where, fmt::format("column {} of row {} of {} is not ., 1 to 9 "
+                                                   "or ?",
+                                                   odd, j, name));
+            return false;
+        }
+    }
+    return true;
+}
+
+std::optional<ExpectedHits> read_hits(LeafContext& context, const TomlValue& table,
+                                      const std::string& what, const Target& target) {
+    context.known_keys(table, what, {"hits"});
+    const TomlValue* hits = table.find("hits");
+    if (hits == nullptr) {
+        context.error(table.where, what + " has no hits; draw one row a pixel row");
+        return std::nullopt;
+    }
+    ExpectedHits expected{{}, hits->where};
+    const uint32_t pictures = target.samples * target.layers;
+    if (pictures == 1) {
+        return read_picture(context, *hits, "hits", target, expected.rows)
+                   ? std::optional(std::move(expected))
+                   : std::nullopt;
+    }
+    if (!hits->is(Kind::array) || hits->array.size() != pictures) {
+        context.error(
+            hits->where,
+            target.layers == 1
+                ? fmt::format("the target has {} samples a pixel, so hits is an array of {} "
+                              "pictures, sample 0 first",
+                              target.samples, pictures)
+            : target.samples == 1
+                ? fmt::format("the target has {} layers, so hits is an array of {} pictures, layer "
+                              "0 first",
+                              target.layers, pictures)
+                : fmt::format("the target has {} layers of {} samples a pixel, so hits is an array "
+                              "of {} pictures, all samples of layer 0 first",
+                              target.layers, target.samples, pictures));
+        return std::nullopt;
+    }
+    for (size_t s = 0; s < hits->array.size(); ++s) {
+        if (!read_picture(context, hits->array[s], fmt::format("picture {} of hits", s), target,
+                          expected.rows)) {
+            return std::nullopt;
+        }
+    }
+    return expected;
+}
+
+// The expectation of one leaf, if the file has one for it.
+void read_expectation(LeafContext& context, const TomlValue& root, const std::string& leaf,
+                      Case& c) {
+    const TomlValue* expect = root.find("expect");
+    if (expect == nullptr || !context.table(*expect, "expect")) {
+        return;
+    }
+    if (leaf.empty()) {
+        c.expected_hits = read_hits(context, *expect, "[expect]", c.target);
+        return;
+    }
+    if (const TomlValue* table = expect->find(leaf); table != nullptr && table->is(Kind::table)) {
+        c.expected_hits =
+            read_hits(context, *table, fmt::format("[expect.\"{}\"]", leaf), c.target);
+    }
+}
+
+// In a file with a matrix every key of [expect] names a leaf, not a combination that is left out.
+void check_expectation_keys(const TomlValue& root, const Matrix& matrix, Errors& errors) {
+    const TomlValue* expect = root.find("expect");
+    if (expect == nullptr || !expect->is(Kind::table) || matrix.axes.empty()) {
+        return;
+    }
+    std::vector<std::string> leaves, left_out;
+    for (size_t combination = 0; combination < matrix.size(); ++combination) {
+        const bool is_leaf =
+            std::binary_search(matrix.leaves.begin(), matrix.leaves.end(), combination);
+        (is_leaf ? leaves : left_out).push_back(matrix.text(combination));
+    }
+    for (const TomlEntry& entry : expect->table) {
+        if (std::find(leaves.begin(), leaves.end(), entry.key) != leaves.end()) {
+            if (!entry.value.is(Kind::table)) {
+                errors.push_back(
+                    {entry.value.where, fmt::format("the expectation of {} is {}; write a table",
+                                                    entry.key, describe(entry.value))});
+            }
+            continue;
+        }
+        if (std::find(left_out.begin(), left_out.end(), entry.key) != left_out.end()) {
+            const std::string nearest = nearest_name(entry.key, leaves);
+            errors.push_back(
+                {entry.where, fmt::format("the combination \"{}\" is left out by leaves; write "
+                                          "[expect.\"{}\"] or another",
+                                          entry.key, nearest.empty() ? leaves.front() : nearest)});
+            continue;
+        }
+        errors.push_back({entry.where, no_leaf(entry.key, leaves,
+                                               fmt::format("[expect.\"{}\"]", leaves.front()))});
+    }
+}
+
+void check_used(const Matrix& matrix, const std::set<std::string>& used, Errors& errors) {
+    for (const Matrix::Axis& axis : matrix.axes) {
+        if (used.count(axis.key) == 0) {
+            errors.push_back(
+                {axis.where,
+                 fmt::format("the matrix key {} is used nowhere; use it or leave it out",
+                             axis.key)});
+        }
+    }
+}
+
+}  // namespace
+
+ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::string& file_name,
+                                         const std::string& id_base, Contents contents) {
+    const Expected<TomlValue> root = read_toml(toml, file_name);
+    if (!root) {
+        return tl::unexpected(Errors{root.error()});
+    }
+    const ExpectedAll<Matrix> matrix = read_matrix(root->find("matrix"), root->find("leaves"));
+    if (!matrix) {
+        return tl::unexpected(matrix.error());
+    }
+    Errors errors;
+    check_expectation_keys(*root, *matrix, errors);
+    std::vector<Case> cases;
+    std::set<std::string> used;
+    for (const size_t leaf : matrix->leaves) {
+        std::vector<LeafContext::Parameter> parameters;
+        std::vector<std::pair<std::string, std::string>> texts;
+        const std::vector<size_t> choice = matrix->choice(leaf);
+        for (size_t i = 0; i < choice.size(); ++i) {
+            const Matrix::Axis& axis = matrix->axes[i];
+            parameters.emplace_back(axis.key, axis.values[choice[i]]);
+            texts.emplace_back(axis.key, axis.texts[choice[i]]);
+        }
+        const std::string leaf_text = matrix->text(leaf);
+        const std::string id = leaf_text.empty() ? id_base : id_base + ":" + leaf_text;
+        if (contents == Contents::ids) {
+            Case& c = cases.emplace_back();
+            c.id = id;
+            c.where = {root->where.file, 1, 1};
+            c.parameters = std::move(texts);
+            continue;
+        }
+        LeafContext context(std::move(parameters));
+        Case c = CaseLoader(*root, context).load();
+        if (context.errors().empty()) {
+            read_expectation(context, *root, leaf_text, c);
+        }
+        if (!context.errors().empty()) {
+            for (Error error : context.errors()) {
+                if (leaf > 0) {
+                    // The first leaf is free of it, so the matrix plays a part.
+                    error.message += fmt::format(" (in the leaf {})", leaf_text);
+                }
+                errors.push_back(std::move(error));
+            }
+            break;
+        }
+        used.insert(context.used().begin(), context.used().end());
+        c.id = id;
+        c.parameters = std::move(texts);
+        cases.push_back(std::move(c));
+    }
+    if (errors.empty() && contents == Contents::all) {
+        check_used(*matrix, used, errors);
+    }
+    if (!errors.empty()) {
+        return tl::unexpected(errors);
+    }
+    return cases;
+}
+
+}  // namespace cases

@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/load/load_draw.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "cases/generate/generate.hpp"
+#include "cases/generate/vertices.hpp"
+#include "cases/load/attributes.hpp"
+#include "cases/load/color.hpp"
+#include "cases/load/load_clip.hpp"
+#include "cases/load/load_depth.hpp"
+#include "cases/load/load_target.hpp"
+#include "cases/load/transform.hpp"
+
+namespace cases {
+
+namespace {
+
+using Kind = TomlValue::Kind;
+
+constexpr std::array<std::string_view, 3> kSpace = {"pixels", "ndc", "clip"};
+constexpr float kViewportLow = -32768;     // pixels; what common devices take
+constexpr int64_t kMaxViewportIndex = 15;  // maxViewports is at least 16 with multiViewport
+constexpr float kViewportHigh = 32767;
+
+class DrawLoader {
+  public:
+    DrawLoader(LeafContext& context, const TomlValue& table, const Target& target)
+        : context_(context), table_(table), target_(target) {}
+
+    // Once: what is loaded is moved out.
+    Draw load(const std::string& name, std::vector<std::string>& notes) {
+        context_.known_keys(table_, "[[draw]]",
+                            {"topology",      "space",          "vertices",
+                             "generate",      "indices",        "viewport",
+                             "scissor",       "viewport_index", "layer",
+                             "cull",          "front_face",     "provoking",
+                             "depth",         "depth_volume",   "clip_distance",
+                             "cull_distance", "attribute",      "mirror",
+                             "rotate",        "offset",         "winding",
+                             "first",         "order",          "color",
+                             "sample_mask",   "shader_mask",    "min_sample_shading"});
+        draw_.where = table_.where;
+        draw_.topology = enumerated("topology", Topology::triangle_list);
+        draw_.cull = enumerated("cull", CullMode::none);
+        draw_.front_face = enumerated("front_face", FrontFace::counter_clockwise);
+        space_ = worded("space", kSpace, Space::pixels);
+        draw_.multisample = load_multisample(context_, table_);
+        read_viewport();
+        read_scissor();
+        if (const TomlValue* value = table_.find("viewport_index")) {
+            draw_.viewport_index = static_cast<uint32_t>(
+                context_.integer(*value, "viewport_index", 0, kMaxViewportIndex).value_or(0));
+        }
+        read_layer();
+        if (const TomlValue* depth = table_.find("depth")) {
+            draw_.depth = read_depth_state(context_, *depth);
+        }
+        if (!context_.errors().empty() || !read_shape()) {
+            return std::move(draw_);
+        }
+        check_count(name, notes);
+        if (!draw_.positions.empty()) {
+            refuse_with_surface();
+            return std::move(draw_);
+        }
+        move_vertices(context_, table_, space_, target_, vertices_);
+        const std::optional<std::vector<uint32_t>> order = vertex_order(
+            context_, table_, draw_.topology, draw_.indices.has_value(), vertices_.size());
+        const AttributeSource source{
+            vertices_,      space_, draw_.viewport, draw_.topology, draw_.indices.has_value(),
+            target_.samples};
+        if (const TomlValue* value = table_.find("attribute")) {
+            draw_.attributes = read_attributes(context_, *value, source);
+        }
+        read_color();
+        if (!context_.errors().empty()) {
+            return std::move(draw_);
+        }
+        std::optional<std::vector<glm::vec4>> positions =
+            to_clip(context_, vertices_, space_, draw_.viewport, table_.where, name, notes);
+        if (!positions || !order) {
+            return std::move(draw_);
+        }
+        read_clipping(source, *positions, *order);
+        draw_.positions = ordered(std::move(*positions), *order);
+        for (Attribute& attribute : draw_.attributes) {
+            if (attribute.source == Source::vertex) {
+                attribute.values = ordered(std::move(attribute.values), *order);
+            }
+        }
+        return std::move(draw_);
+    }
+
+  private:
+    template <class Enum>
+    Enum enumerated(const char* key, Enum otherwise) {
+        return worded(key, kWords<Enum>, otherwise);
+    }
+
+    template <class Enum>
+    Enum worded(const char* key, std::span<const std::string_view> words, Enum otherwise) {
+        const TomlValue* value = table_.find(key);
+        if (value == nullptr) {
+            return otherwise;
+        }
+        const std::optional<size_t> word = context_.word(*value, key, words);
+        return word ? static_cast<Enum>(*word) : otherwise;
+    }
+
+    static std::vector<glm::vec4> ordered(std::vector<glm::vec4> values,
+                                          const std::vector<uint32_t>& order) {
+        if (std::is_sorted(order.begin(), order.end())) {
+            return values;  // a permutation, so the identity
+        }
+        std::vector<glm::vec4> result;
+        result.reserve(order.size());
+        for (const uint32_t i : order) {
+            result.push_back(values[i]);
+        }
+        return result;
+    }
+
+    void read_color() {
+        const TomlValue* value = table_.find("color");
+        if (value != nullptr && target_.color) {
+            draw_.color = read_color_output(context_, *value, *target_.color, draw_.attributes);
+        } else if (value != nullptr) {
+            context_.error(value->where, "the target has no colour; write [target.color]");
+        } else if (target_.color) {
+            context_.error(table_.where,
+                           "[[draw]] has no color, but the target has; write color = { value = "
+                           "[r, g, b, a] }");
+        }
+    }
+
+    // What a draw says of clipping and of its provoking vertices.
+    void read_clipping(const AttributeSource& source, const std::vector<glm::vec4>& positions,
+                       const std::vector<uint32_t>& order) {
+        draw_.provoking = enumerated("provoking", ProvokingVertex::first);
+        draw_.depth.negative_one_to_one = worded("depth_volume", kVolumeWords, size_t{0}) != 0;
+        draw_.distances = read_distances(context_, table_, source, positions);
+        if (!draw_.distances.clip.empty()) {
+            draw_.distances.clip = ordered(std::move(draw_.distances.clip), order);
+        }
+        if (!draw_.distances.cull.empty()) {
+            draw_.distances.cull = ordered(std::move(draw_.distances.cull), order);
+        }
+    }
+
+    void read_viewport() {
+        draw_.viewport = {
+            0, 0, static_cast<float>(target_.width), static_cast<float>(target_.height), 0, 1};
+        const TomlValue* value = table_.find("viewport");
+        if (value == nullptr) {
+            return;
+        }
+        const TomlValue* rect = value;
+        if (value->is(Kind::table)) {
+            context_.known_keys(*value, "viewport", {"rect", "depth"});
+            rect = value->find("rect");
+            if (const TomlValue* depth = value->find("depth")) {
+                read_depth(*depth);
+            }
+            if (rect == nullptr) {
+                return;
+            }
+        }
+        const std::optional<std::vector<Number>> numbers = context_.numbers(*rect, "viewport", 4);
+        if (!numbers) {
+            return;
+        }
+        const std::array<float*, 4> members = {&draw_.viewport.x, &draw_.viewport.y,
+                                               &draw_.viewport.width, &draw_.viewport.height};
+        for (size_t i = 0; i < 4; ++i) {
+            *members.at(i) =
+                context_.binary32((*numbers)[i], rect->array[i].where, "viewport").value_or(1.0F);
+        }
+        check_viewport(*rect);
+    }
+
+    // "If the Layer value is ... greater than or equal to the number of layers in the framebuffer,
+    // then ... the framebuffer values for all layers are undefined" (Vulkan specification,
+    // "Built-In Variables", Layer).
+    void read_layer() {
+        const TomlValue* value = table_.find("layer");
+        if (value == nullptr) {
+            return;
+        }
+        const std::optional<int64_t> layer = context_.integer(*value, "layer", 0, kMaxLayers - 1);
+        if (layer && *layer >= target_.layers) {
+            context_.error(value->where,
+                           target_.layers == 1
+                               ? std::string("the target has one layer; write layers = N in "
+                                             "[target]")
+                               : fmt::format("the target has {} layers, 0 to {}", target_.layers,
+                                             target_.layers - 1));
+            return;
+        }
+        draw_.layer = static_cast<uint32_t>(layer.value_or(0));
+    }
+
+    void read_depth(const TomlValue& depth) {
+        const std::optional<std::vector<Number>> numbers = context_.numbers(depth, "depth", 2);
+        if (!numbers) {
+            return;
+        }
+        for (const size_t i : {0U, 1U}) {
+            if ((*numbers)[i].value < 0 || (*numbers)[i].value > 1) {
+                context_.error(depth.array[i].where,
+                               "depth is outside 0..1, which Vulkan does not allow");
+                return;
+            }
+        }
+        draw_.viewport.min_depth = round_to_binary32((*numbers)[0]).value;
+        draw_.viewport.max_depth = round_to_binary32((*numbers)[1]).value;
+    }
+
+    void check_viewport(const TomlValue& rect) {
+        const Viewport& v = draw_.viewport;
+        constexpr auto kMaxSize = static_cast<float>(kMaxTargetSize);
+        if (!(v.width > 0)) {
+            context_.error(rect.array[2].where, "the viewport's width is not larger than 0");
+        } else if (v.width > kMaxSize || std::fabs(v.height) > kMaxSize) {
+            context_.error(rect.where,
+                           fmt::format("the viewport is larger than {} pixels", kMaxTargetSize));
+        } else if (std::fpclassify(v.height) == FP_ZERO) {
+            context_.error(rect.array[3].where,
+                           "the viewport's height is 0; write another, negative ones flip");
+        } else if (std::min({v.x, v.y, v.y + v.height}) < kViewportLow ||
+                   std::max({v.x + v.width, v.y, v.y + v.height}) > kViewportHigh) {
+            context_.error(rect.where, "the viewport reaches beyond -32768..32767 pixels");
+        }
+    }
+
+    void read_scissor() {
+        draw_.scissor = {0, 0, target_.width, target_.height};
+        const TomlValue* value = table_.find("scissor");
+        if (value == nullptr) {
+            return;
+        }
+        if (!context_.numbers(*value, "scissor", 4)) {
+            return;
+        }
+        std::array<int64_t, 4> n{};
+        for (size_t i = 0; i < 4; ++i) {
+            const std::optional<int64_t> number =
+                context_.integer(value->array[i], "scissor", 0, INT32_MAX);
+            if (!number) {
+                return;
+            }
+            n.at(i) = *number;
+        }
+        if (n[0] + n[2] > INT32_MAX || n[1] + n[3] > INT32_MAX) {
+            context_.error(value->where, "the scissor rectangle reaches beyond 2^31 - 1 pixels");
+            return;
+        }
+        draw_.scissor = {static_cast<int32_t>(n[0]), static_cast<int32_t>(n[1]),
+                         static_cast<uint32_t>(n[2]), static_cast<uint32_t>(n[3])};
+    }
+
+    // vertices or generate, and indices.
+    bool read_shape() {
+        const TomlValue* listed = table_.find("vertices");
+        const TomlValue* rule = table_.find("generate");
+        const TomlValue* indices = table_.find("indices");
+        if ((listed != nullptr) == (rule != nullptr)) {
+            context_.error(table_.where,
+                           listed != nullptr
+                               ? "[[draw]] has both vertices and generate; keep one"
+                               : "[[draw]] has no vertices; write vertices or generate");
+            return false;
+        }
+        if (rule != nullptr) {
+            return read_generated(*rule, indices);
+        }
+        std::optional<std::vector<ExactVertex>> vertices = read_vertices(context_, *listed, space_);
+        if (!vertices) {
+            return false;
+        }
+        vertices_ = std::move(*vertices);
+        return indices == nullptr || read_indices(*indices);
+    }
+
+    bool read_generated(const TomlValue& rule, const TomlValue* indices) {
+        if (indices != nullptr) {
+            context_.error(indices->where, "indices do not go with generate; leave them out");
+            return false;
+        }
+        if (space_ != Space::pixels) {
+            context_.error(table_.find("space")->where,
+                           "generate works in pixels; leave space out");
+            return false;
+        }
+        std::optional<Generated> generated = generate(context_, rule, target_);
+        if (!generated) {
+            return false;
+        }
+        if (table_.find("topology") != nullptr && draw_.topology != generated->topology) {
+            context_.error(table_.find("topology")->where,
+                           fmt::format("this generator makes a \"{}\"; leave topology out",
+                                       word_of(generated->topology)));
+            return false;
+        }
+        draw_.topology = generated->topology;
+        draw_.indices = std::move(generated->indices);
+        vertices_ = std::move(generated->vertices);
+        draw_.positions = std::move(generated->clip);
+        return true;
+    }
+
+    // A surface has its positions already, and nothing that exact vertices are needed for.
+    void refuse_with_surface() {
+        for (const char* key :
+             {"attribute", "mirror", "rotate", "offset", "winding", "first", "order"}) {
+            if (const TomlValue* value = table_.find(key)) {
+                context_.error(
+                    value->where,
+                    fmt::format("{} does not go with the generator \"surface\"; leave it "
+                                "out",
+                                key));
+            }
+        }
+    }
+
+    bool read_indices(const TomlValue& value) {
+        if (!context_.array(value, "indices")) {
+            return false;
+        }
+        if (value.array.size() > kMaxIndices) {
+            context_.error(value.where,
+                           fmt::format("{} indices are too many; a draw has at most {}",
+                                       value.array.size(), kMaxIndices));
+            return false;
+        }
+        std::vector<uint32_t> indices;
+        for (const TomlValue& element : value.array) {
+            if (element.is(Kind::string) && element.string == "restart") {
+                if (draw_.topology == Topology::triangle_list) {
+                    context_.error(element.where,
+                                   "\"restart\" needs a strip or a fan; a list has no restart");
+                    return false;
+                }
+                draw_.primitive_restart = true;
+                indices.push_back(kRestartIndex);
+                continue;
+            }
+            const std::optional<int64_t> index = context_.integer(
+                element, "an index", 0, std::max<int64_t>(std::ssize(vertices_) - 1, 0));
+            if (!index) {
+                return false;
+            }
+            indices.push_back(static_cast<uint32_t>(*index));
+        }
+        draw_.indices = std::move(indices);
+        return true;
+    }
+
+    // Enough for a triangle; leftovers, which Vulkan discards, are noted.
+    void check_count(const std::string& name, std::vector<std::string>& notes) {
+        std::vector<size_t> pieces = {0};
+        if (draw_.indices) {
+            for (const uint32_t index : *draw_.indices) {
+                if (draw_.primitive_restart && index == kRestartIndex) {
+                    pieces.push_back(0);
+                } else {
+                    ++pieces.back();
+                }
+            }
+        } else {
+            pieces[0] = vertices_.size();
+        }
+        const TomlValue* where = table_.find("indices");
+        where = where != nullptr ? where : table_.find("vertices");
+        if (*std::max_element(pieces.begin(), pieces.end()) < 3) {
+            context_.error(where != nullptr ? where->where : table_.where,
+                           fmt::format("{} {} make no triangle; write at least 3",
+                                       *std::max_element(pieces.begin(), pieces.end()),
+                                       draw_.indices ? "indices" : "vertices"));
+        } else if (draw_.topology == Topology::triangle_list && pieces[0] % 3 != 0) {
+            notes.push_back(fmt::format("{}: the last {} of {} {} make no triangle", name,
+                                        pieces[0] % 3, pieces[0],
+                                        draw_.indices ? "indices" : "vertices"));
+        }
+    }
+
+    LeafContext& context_;
+    const TomlValue& table_;
+    const Target& target_;
+    Draw draw_;
+    Space space_ = Space::pixels;
+    std::vector<ExactVertex> vertices_;
+};
+
+}  // namespace
+
+Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t number,
+               std::vector<std::string>& notes) {
+    DrawLoader loader(context, table, target);
+    return loader.load(fmt::format("draw {}", number), notes);
+}
+
+}  // namespace cases

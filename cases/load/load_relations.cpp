@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/load/load_relations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/model/derive.hpp"
+#include "cases/model/words.hpp"
+
+namespace cases {
+
+namespace {
+
+constexpr uint64_t kMaxTiles = 4096;
+
+// What is written as a word; scissor tiles are a table.
+constexpr std::array<RelationKind, 5> kPlainKinds = {
+    RelationKind::same_twice, RelationKind::other_clears, RelationKind::write_masks,
+    RelationKind::fewer_attributes, RelationKind::more_attributes};
+constexpr WordList<kPlainKinds.size()> kPlainWords = [] {
+    WordList<kPlainKinds.size()> words{};
+    for (size_t k = 0; k < words.size(); ++k) {
+        words[k] = word_of(kPlainKinds[k]);
+    }
+    return words;
+}();
+
+bool shades_samples(const Draw& draw) {
+    return draw.multisample.min_sample_shading.has_value() ||
+           std::any_of(draw.attributes.begin(), draw.attributes.end(), [](const Attribute& a) {
+               return a.auxiliary == Auxiliary::sample || a.source == Source::sample_id ||
+                      a.source == Source::sample_position;
+           });
+}
+
+// Why the relation says nothing about this case; empty if it does.
+std::string objection(const Relation& relation, const Case& c) {
+    const auto any_draw = [&](auto&& has) {
+        return std::any_of(c.draws.begin(), c.draws.end(), has);
+    };
+    const uint32_t attributes = attributes_of(c);
+    switch (relation.kind) {
+        case RelationKind::same_twice:
+            return {};
+        case RelationKind::scissor_tiles:
+            if (const uint64_t tiles = tile_count(c.target, relation); tiles > kMaxTiles) {
+                return fmt::format("has {} tiles, at most {} are drawn; make them larger", tiles,
+                                   kMaxTiles);
+            }
+            return {};
+        case RelationKind::other_clears:
+        case RelationKind::write_masks:
+            return c.target.has_instruments
+                       ? std::string()
+                       : "needs the attachments that count hits; leave out attachments = ...";
+        case RelationKind::fewer_attributes:
+            if (attributes == 0) {
+                return "has no attribute to leave out; add a [[draw.attribute]]";
+            }
+            if (any_draw(shades_samples)) {
+                return "would turn sample shading off; leave it out";
+            }
+            break;
+        case RelationKind::more_attributes:
+            if (attributes == 0 || attributes == kMaxAttributes) {
+                return fmt::format("needs 1 to {} attributes to copy, not {}", kMaxAttributes - 1,
+                                   attributes);
+            }
+            if (any_draw([&](const Draw& d) { return d.attributes.size() != attributes; })) {
+                return "needs the same number of attributes in every draw";
+            }
+            break;
+    }
+    if (!c.target.has_instruments) {
+        return "needs the attachments that attributes are written to; leave out attachments = ...";
+    }
+    if (any_draw([](const Draw& draw) { return draw.color.attribute >= 0; })) {
+        return "does not go with a colour that is an attribute; leave it out";
+    }
+    return {};
+}
+
+}  // namespace
+
+std::vector<Relation> load_relations(LeafContext& context, const TomlValue& value, const Case& c) {
+    std::vector<Relation> relations;
+    if (!context.array(value, "relations")) {
+        return relations;
+    }
+    for (const TomlValue& element : value.array) {
+        Relation relation;
+        if (element.is(TomlValue::Kind::table)) {
+            context.known_keys(element, "a relation", {"scissor-tiles"});
+            const TomlValue* tile = element.find("scissor-tiles");
+            if (tile == nullptr || !context.array(*tile, "scissor-tiles")) {
+                continue;
+            }
+            if (tile->array.size() != 2) {
+                context.error(tile->where,
+                              fmt::format("scissor-tiles has {} numbers; write [width, height]",
+                                          tile->array.size()));
+                continue;
+            }
+            relation.kind = RelationKind::scissor_tiles;
+            for (size_t k = 0; k < 2; ++k) {
+                relation.tile[k] = static_cast<uint32_t>(
+                    context.integer(tile->array[k], "a tile's side", 1, kMaxTargetSize)
+                        .value_or(1));
+            }
+        } else {
+            const std::optional<size_t> word = context.word(element, "a relation", kPlainWords);
+            if (!word) {
+                continue;
+            }
+            relation.kind = kPlainKinds[*word];
+        }
+        if (!context.errors().empty()) {
+            continue;
+        }
+        if (std::find(relations.begin(), relations.end(), relation) != relations.end()) {
+            context.error(element.where,
+                          fmt::format("the relation {} stands twice", to_string(relation.kind)));
+        } else if (const std::string why = objection(relation, c); !why.empty()) {
+            context.error(element.where,
+                          fmt::format("the relation {} {}", to_string(relation.kind), why));
+        } else {
+            relations.push_back(relation);
+        }
+    }
+    return relations;
+}
+
+}  // namespace cases

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Case files: strict TOML (docs/cases.md). Every mistake is an Error with file, line and column,
+// one sentence and the nearest valid name; a file with any error yields no case.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/model/case.hpp"
+
+namespace cases {
+
+// How much of a case is read.
+enum class Contents : uint8_t {
+    all,
+    ids  // id, where and parameters; the file has to be TOML with a right matrix, no more
+};
+
+// All matrix leaves of one case file, in file order. `id_base` is the id without the matrix part
+// ("coverage/half-square"); `file_name` is what error locations say.
+ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::string& file_name,
+                                         const std::string& id_base,
+                                         Contents contents = Contents::all);
+
+// As load_text, from disk. The id is the path below `suite_root` without ".toml"; a file outside
+// the root has its stem as id.
+ExpectedAll<std::vector<Case>> load_file(const std::filesystem::path& file,
+                                         const std::filesystem::path& suite_root);
+
+struct Suite {
+    std::vector<Case> cases;  // sorted by file path, leaves in file order
+    Errors errors;            // of all files; ids are unique over the suite
+};
+// Every *.toml below root (except dotfiles). A missing or empty root is an error.
+Suite load_suite(const std::filesystem::path& root, Contents contents = Contents::all);
+
+}  // namespace cases

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/model/derive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/model/words.hpp"
+
+namespace cases {
+
+namespace {
+
+std::string_view rule_of(RelationKind kind) {
+    switch (kind) {
+        case RelationKind::same_twice:
+            return "repeat.same";
+        case RelationKind::scissor_tiles:
+            return "repeat.scissor";
+        case RelationKind::other_clears:
+            return "repeat.clears";
+        case RelationKind::write_masks:
+            return "repeat.write-masks";
+        case RelationKind::fewer_attributes:
+        case RelationKind::more_attributes:
+            break;
+    }
+    return "repeat.attachments";
+}
+
+// Depth writes of the case decide nothing else, so they may be left out; and depth is cleared as
+// usual, in a format that holds the other clear value.
+bool depth_is_only_written(const Case& c) {
+    const bool is_usual = c.target.depth_format == DepthFormat::d32_float &&
+                          c.target.depth_clear >= kDepthClear &&
+                          c.target.depth_clear <= kDepthClear;
+    return is_usual && std::all_of(c.draws.begin(), c.draws.end(), [](const Draw& draw) {
+               return draw.depth.compare == CompareOp::always;
+           });
+}
+
+void drop_attributes(Case& c) {
+    for (Draw& draw : c.draws) {
+        draw.attributes.clear();
+    }
+}
+
+void copy_attributes(Case& c) {
+    for (Draw& draw : c.draws) {
+        const size_t count = draw.attributes.size();
+        for (size_t k = 0; k < count && draw.attributes.size() < kMaxAttributes; ++k) {
+            Attribute copy = draw.attributes[k];
+            copy.name += " again";
+            draw.attributes.push_back(std::move(copy));
+        }
+    }
+}
+
+}  // namespace
+
+std::string_view to_string(RelationKind kind) {
+    return word_of(kind);
+}
+
+uint64_t tile_count(const Target& target, const Relation& relation) {
+    const auto along = [](uint64_t size, uint64_t tile) {
+        return tile == 0 ? 1 : (size + tile - 1) / tile;
+    };
+    return along(target.width, relation.tile[0]) * along(target.height, relation.tile[1]);
+}
+
+uint32_t attributes_of(const Case& c) {
+    size_t count = 0;
+    for (const Draw& draw : c.draws) {
+        count = std::max(count, draw.attributes.size());
+    }
+    return static_cast<uint32_t>(count);
+}
+
+std::vector<Derivation> derivations(const Case& c) {
+    std::vector<Derivation> result;
+    for (const Relation& relation : c.relations) {
+        Derivation d;
+        d.name = to_string(relation.kind);
+        d.rule = rule_of(relation.kind);
+        d.kind = relation.kind;
+        switch (relation.kind) {
+            case RelationKind::same_twice:
+                result.push_back(d);
+                d.name += ", later";
+                d.variation.later = true;
+                break;
+            case RelationKind::scissor_tiles:
+                d.name += fmt::format(" {}x{}", relation.tile[0], relation.tile[1]);
+                d.variation.tile = relation.tile;
+                break;
+            case RelationKind::other_clears:
+                d.variation.other_clears = true;
+                d.variation.other_depth_clear = depth_is_only_written(c);
+                break;
+            case RelationKind::write_masks:
+                // Every attachment is written in one of the two.
+                d.variation.masked = 0x55;
+                d.name = "write-masks, every other attachment";
+                result.push_back(d);
+                d.variation.masked = 0xaa;
+                d.variation.masks_depth = depth_is_only_written(c);
+                d.name = "write-masks, the others";
+                break;
+            case RelationKind::fewer_attributes:
+            case RelationKind::more_attributes:
+                break;
+        }
+        result.push_back(std::move(d));
+    }
+    return result;
+}
+
+Case derive(const Case& c, const Derivation& derivation) {
+    Case derived = c;
+    derived.relations.clear();
+    derived.expected_hits.reset();
+    derived.variation = derivation.variation;
+    if (derivation.kind == RelationKind::fewer_attributes) {
+        drop_attributes(derived);
+    } else if (derivation.kind == RelationKind::more_attributes) {
+        copy_attributes(derived);
+    }
+    return derived;
+}
+
+}  // namespace cases

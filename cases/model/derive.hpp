@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The other renderings that the relations of a case speak of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/model/case.hpp"
+
+namespace cases {
+
+// One rendering that must agree with the case bit for bit, except where its variation says
+// otherwise.
+struct Derivation {
+    std::string name;  // as a report shows it: "scissor-tiles 7x3"
+    std::string_view rule;
+    RelationKind kind = RelationKind::same_twice;
+    Variation variation;
+};
+
+// The renderings of all relations of a case, in their order; same-twice and write-masks have two.
+std::vector<Derivation> derivations(const Case& c);
+
+// What is drawn for one of them: the case with the variation, without relations.
+Case derive(const Case& c, const Derivation& derivation);
+
+// The largest number of attributes among the draws.
+uint32_t attributes_of(const Case& c);
+
+// The word of a relation in a case file.
+std::string_view to_string(RelationKind kind);
+
+// Tiles of a scissor-tiles relation, for any draw.
+uint64_t tile_count(const Target& target, const Relation& relation);
+
+}  // namespace cases

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/model/selector.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "cases/model/rule.hpp"
+
+namespace cases {
+
+namespace {
+
+// Greedy matching with backtracking over "*" and "**"; the pattern's other characters stand for
+// themselves. "**" followed by "/" also matches nothing ("a/**/b" matches "a/b").
+bool match(std::string_view pattern, std::string_view text) {
+    // Most patterns differ from most ids before their first star.
+    const size_t plain = std::min(pattern.find('*'), pattern.size());
+    if (!text.starts_with(pattern.substr(0, plain))) {
+        return false;
+    }
+    pattern.remove_prefix(plain);
+    text.remove_prefix(plain);
+    // reachable[i]: the pattern so far can match the first i characters.
+    std::vector<bool> reachable(text.size() + 1, false);
+    reachable[0] = true;
+    for (size_t p = 0; p < pattern.size();) {
+        std::vector<bool> next(text.size() + 1, false);
+        const bool deep = pattern.substr(p, 2) == "**";
+        const bool deep_slash = pattern.substr(p, 3) == "**/";
+        const bool star = pattern[p] == '*';
+        for (size_t i = 0; i <= text.size(); ++i) {
+            if (!reachable[i]) {
+                continue;
+            }
+            if (star) {
+                next[i] = true;
+                for (size_t k = i; k < text.size(); ++k) {
+                    if (!deep && (text[k] == '/' || text[k] == ':')) {
+                        break;
+                    }
+                    next[k + 1] = next[k + 1] || !deep_slash || text[k] == '/';
+                }
+            } else if (i < text.size() && pattern[p] == text[i]) {
+                next[i + 1] = true;
+            }
+        }
+        reachable = std::move(next);
+        p += deep_slash ? 3 : deep ? 2 : 1;
+    }
+    return reachable[text.size()];
+}
+
+size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<size_t> before(b.size() + 1);
+    std::vector<size_t> row(b.size() + 1);
+    std::vector<size_t> next(b.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 1; i <= a.size(); ++i) {
+        next[0] = i;
+        for (size_t j = 1; j <= b.size(); ++j) {
+            next[j] = std::min(
+                {row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                next[j] = std::min(next[j], before[j - 2] + 1);  // two letters exchanged
+            }
+        }
+        std::swap(before, row);
+        std::swap(row, next);
+    }
+    return row[b.size()];
+}
+
+std::string with_hint(std::string message, const std::string& nearest) {
+    return nearest.empty() ? message : message + "; did you mean " + nearest + "?";
+}
+
+std::string part_before_leaf(const std::string& id) {
+    return id.substr(0, id.find(':'));
+}
+
+struct Matcher {
+    const std::vector<Case>& all;
+
+    Expected<std::vector<bool>> by_rule(const std::string& pattern) const {
+        std::vector<bool> chosen(all.size(), false);
+        std::vector<std::string> names;
+        for (const Rule& rule : all_rules()) {
+            names.emplace_back(rule.id);
+        }
+        if (std::none_of(names.begin(), names.end(),
+                         [&](const std::string& n) { return match(pattern, n); })) {
+            return tl::unexpected(
+                Error{{}, with_hint("no rule is called " + pattern, nearest_name(pattern, names))});
+        }
+        for (size_t i = 0; i < all.size(); ++i) {
+            const std::vector<std::string>& rules = all[i].rules;
+            chosen[i] = std::any_of(rules.begin(), rules.end(),
+                                    [&](const std::string& r) { return match(pattern, r); });
+        }
+        if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
+            return tl::unexpected(Error{{}, "no case checks the rule " + pattern});
+        }
+        return chosen;
+    }
+
+    // A path to a case file or folder; nothing if no case came from there.
+    std::vector<bool> by_path(const std::string& word) const {
+        namespace fs = std::filesystem;
+        std::vector<bool> chosen(all.size(), false);
+        std::error_code ignored;
+        const fs::path path = fs::weakly_canonical(word, ignored);
+        if (ignored || !fs::exists(path, ignored)) {
+            return chosen;
+        }
+        for (size_t i = 0; i < all.size(); ++i) {
+            const fs::path file = fs::weakly_canonical(all[i].where.file, ignored);
+            const auto [rest, in_file] =
+                std::mismatch(path.begin(), path.end(), file.begin(), file.end());
+            chosen[i] = rest == path.end();
+        }
+        return chosen;
+    }
+
+    Expected<std::vector<bool>> one(const std::string& word) const {
+        if (word.rfind("@rule:", 0) == 0) {
+            return by_rule(word.substr(6));
+        }
+        if (word.rfind('@', 0) == 0) {
+            return tl::unexpected(Error{
+                {}, "the selector " + word + " is unknown; write @rule:PATTERN or a case id"});
+        }
+        std::vector<bool> chosen(all.size(), false);
+        for (size_t i = 0; i < all.size(); ++i) {
+            chosen[i] = glob_matches(word, all[i].id);
+        }
+        if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
+            chosen = by_path(word);
+        }
+        if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
+            return tl::unexpected(Error{{}, nothing_matches(word)});
+        }
+        return chosen;
+    }
+
+    // "coverage/size has 2 leaves, the first is coverage/size:k=1,o=64"; empty if there is no such
+    // case.
+    std::string leaves_of(const std::string& file) const {
+        size_t count = 0;
+        std::string first;
+        for (const Case& c : all) {
+            if (c.id == file) {
+                return file + " has no leaves";
+            }
+            if (c.id.starts_with(file + ":")) {
+                first = count == 0 ? c.id : first;
+                ++count;
+            }
+        }
+        return count == 0 ? ""
+                          : fmt::format("{} has {} {}, the first is {}", file, count,
+                                        count == 1 ? "leaf" : "leaves", first);
+    }
+
+    // Why no case matches, and what may have been meant: a family, a case, a file.
+    std::string nothing_matches(const std::string& word) const {
+        if (word.ends_with(".toml")) {
+            return "there is no case file " + word;
+        }
+        std::string bare = word;
+        for (const std::string_view ending : {"/**", "/*", "/"}) {
+            bare = bare.ends_with(ending) ? bare.substr(0, bare.size() - ending.size()) : bare;
+        }
+        std::vector<std::string> ids, folders;
+        for (const Case& c : all) {
+            ids.push_back(word.find(':') == std::string::npos ? part_before_leaf(c.id) : c.id);
+            for (size_t at = c.id.find('/'); at != std::string::npos; at = c.id.find('/', at + 1)) {
+                folders.push_back(c.id.substr(0, at));
+            }
+        }
+        const bool is_folder = std::find(folders.begin(), folders.end(), bare) != folders.end();
+        std::error_code ignored;
+        if (!is_folder && std::filesystem::is_directory(word, ignored)) {
+            return word + " is a folder outside the suite; write --suite " + word;
+        }
+        if (!is_folder && std::filesystem::is_regular_file(word, ignored)) {
+            return word + " is no case file (*.toml)";
+        }
+        const std::string id = is_folder ? "" : nearest_name(word, ids);
+        const std::string folder = is_folder ? bare : id.empty() ? nearest_name(bare, folders) : "";
+        if (id.empty() && folder.empty() && word.find(':') != std::string::npos) {
+            if (const std::string leaves = leaves_of(part_before_leaf(word)); !leaves.empty()) {
+                return "no case matches " + word + "; " + leaves;
+            }
+        }
+        return with_hint("no case matches " + word, folder.empty() ? id : folder + "/**");
+    }
+};
+
+std::string trimmed(const std::string& line) {
+    const size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') {
+        return "";
+    }
+    return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace
+
+bool glob_matches(std::string_view pattern, std::string_view id) {
+    return pattern == id || match(pattern, id) || match(pattern, id.substr(0, id.find(':')));
+}
+
+Expected<std::vector<size_t>> select(const std::vector<Case>& all,
+                                     const std::vector<std::string>& selectors,
+                                     std::istream& input) {
+    std::vector<std::string> words;
+    for (const std::string& selector : selectors) {
+        if (selector != "-") {
+            words.push_back(selector);
+            continue;
+        }
+        const size_t before = words.size();
+        for (std::string line; std::getline(input, line);) {
+            if (std::string word = trimmed(line); !word.empty()) {
+                words.push_back(std::move(word));
+            }
+        }
+        if (words.size() == before) {
+            return tl::unexpected(
+                Error{{}, "standard input names no case; write one selector a line"});
+        }
+    }
+    const bool only_exclusions = std::all_of(
+        words.begin(), words.end(), [](const std::string& w) { return w.rfind('!', 0) == 0; });
+    std::vector<bool> chosen(all.size(), only_exclusions);
+    std::vector<bool> excluded(all.size(), false);
+    const Matcher matcher{all};
+    for (const std::string& word : words) {
+        const bool exclude = word.rfind('!', 0) == 0;
+        const std::string rest = exclude ? word.substr(1) : word;
+        if (rest.empty()) {
+            return tl::unexpected(Error{{}, "a selector is empty; write a case id or a pattern"});
+        }
+        const Expected<std::vector<bool>> matched = matcher.one(rest);
+        if (!matched) {
+            return tl::unexpected(matched.error());
+        }
+        for (size_t i = 0; i < all.size(); ++i) {
+            if ((*matched)[i]) {
+                (exclude ? excluded : chosen)[i] = true;
+            }
+        }
+    }
+    std::vector<size_t> result;
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (chosen[i] && !excluded[i]) {
+            result.push_back(i);
+        }
+    }
+    return result;
+}
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates) {
+    // Near: at most a third of the longer word's letters differ.
+    std::string best;
+    size_t best_distance = SIZE_MAX;
+    for (const std::string& candidate : candidates) {
+        const size_t longest = std::max(word.size(), candidate.size());
+        const size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance && distance * 3 <= longest + 1) {
+            best = candidate;
+            best_distance = distance;
+        }
+    }
+    return best;
+}
+
+}  // namespace cases

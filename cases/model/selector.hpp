@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which cases a command works on: globs on ids ("coverage/**", "*" stays inside one path part and
+// never crosses ':', "**" crosses '/'; an id without its matrix part means all its leaves),
+// "@rule:PATTERN", a path to a case file or folder, "-" for ids on standard input, "!" in front
+// excludes.
+#pragma once
+
+#include <istream>
+#include <string>
+#include <vector>
+
+#include "cases/model/case.hpp"
+
+namespace cases {
+
+// True if the glob matches the whole id, or the id's part before ':' (all leaves).
+bool glob_matches(std::string_view pattern, std::string_view id);
+
+// Indices into `all` that the selectors choose, in suite order; no selector chooses all.
+// Only-exclusions start from all. A selector that matches nothing is an error that names the
+// nearest id or rule. `input` is read for "-".
+Expected<std::vector<size_t>> select(const std::vector<Case>& all,
+                                     const std::vector<std::string>& selectors,
+                                     std::istream& input);
+
+// The candidate with the smallest edit distance to `word`, or "" if none is near. Used by every
+// "did you mean" in the program.
+std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace cases

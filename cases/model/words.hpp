@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The words that case files and exports have for the enumerations of a case, each table in the
+// order of its enumeration.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "cases/model/case.hpp"
+
+namespace cases {
+
+template <size_t N>
+using WordList = std::array<std::string_view, N>;
+
+// Of every enumeration below; nothing of others.
+template <class Enum>
+inline constexpr WordList<0> kWords = {};
+
+template <>
+inline constexpr WordList<3> kWords<Topology> = {"triangle-list", "triangle-strip", "triangle-fan"};
+template <>
+inline constexpr WordList<4> kWords<CullMode> = {"none", "front", "back", "front-and-back"};
+template <>
+inline constexpr WordList<2> kWords<FrontFace> = {"counter-clockwise", "clockwise"};
+template <>
+inline constexpr WordList<3> kWords<Interpolation> = {"smooth", "noperspective", "flat"};
+template <>
+inline constexpr WordList<3> kWords<Auxiliary> = {"none", "centroid", "sample"};
+template <>
+inline constexpr WordList<2> kWords<ProvokingVertex> = {"first", "last"};
+template <>
+inline constexpr WordList<8> kWords<CompareOp> = {
+    "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
+    "always"};
+template <>
+inline constexpr WordList<3> kWords<DepthFormat> = {"d32-float", "d24-unorm", "d16-unorm"};
+template <>
+inline constexpr WordList<3> kWords<DepthBiasRepresentation> = {"format", "force-unorm", "float"};
+template <>
+inline constexpr WordList<5> kWords<Source> = {"vertex", "barycentric", "sample-mask-in",
+                                               "sample-id", "sample-position"};
+template <>
+inline constexpr WordList<14> kWords<Probe> = {
+    "value",  "at-centroid", "at-sample",     "at-offset",   "dfdx",
+    "dfdy",   "dfdx-fine",   "dfdy-fine",     "dfdx-coarse", "dfdy-coarse",
+    "fwidth", "fwidth-fine", "fwidth-coarse", "query-lod"};
+template <>
+inline constexpr WordList<15> kWords<BlendFactor> = {"zero",
+                                                     "one",
+                                                     "src-color",
+                                                     "one-minus-src-color",
+                                                     "dst-color",
+                                                     "one-minus-dst-color",
+                                                     "src-alpha",
+                                                     "one-minus-src-alpha",
+                                                     "dst-alpha",
+                                                     "one-minus-dst-alpha",
+                                                     "constant-color",
+                                                     "one-minus-constant-color",
+                                                     "constant-alpha",
+                                                     "one-minus-constant-alpha",
+                                                     "src-alpha-saturate"};
+template <>
+inline constexpr WordList<5> kWords<BlendOp> = {"add", "subtract", "reverse-subtract", "min",
+                                                "max"};
+template <>
+inline constexpr WordList<11> kWords<ColorFormat> = {
+    "rgba8-unorm",  "bgra8-unorm",  "rgba8-srgb", "rgb10a2-unorm", "r5g6b5-unorm", "rgba16-unorm",
+    "rgba16-float", "rgba32-float", "r32-float",  "r32-uint",      "rgba8-uint"};
+template <>
+inline constexpr WordList<5> kWords<Resolve> = {"none", "sample-zero", "average", "min", "max"};
+template <>
+inline constexpr WordList<2> kWords<BlitFilter> = {"nearest", "linear"};
+template <>
+inline constexpr WordList<2> kWords<BlitPattern> = {"unique", "ramp"};
+template <>
+inline constexpr WordList<6> kWords<RelationKind> = {"same-twice",       "scissor-tiles",
+                                                     "other-clears",     "write-masks",
+                                                     "fewer-attributes", "more-attributes"};
+// DepthState::negative_one_to_one.
+inline constexpr WordList<2> kVolumeWords = {"zero-to-one", "negative-one-to-one"};
+
+namespace detail {
+template <class Enum>
+constexpr bool ends_with(Enum last) {
+    return kWords<Enum>.size() == static_cast<size_t>(last) + 1;
+}
+}  // namespace detail
+static_assert(detail::ends_with(Topology::triangle_fan) &&
+              detail::ends_with(CullMode::front_and_back) &&
+              detail::ends_with(FrontFace::clockwise) && detail::ends_with(Interpolation::flat) &&
+              detail::ends_with(Auxiliary::sample) && detail::ends_with(ProvokingVertex::last) &&
+              detail::ends_with(CompareOp::always) && detail::ends_with(DepthFormat::d16_unorm) &&
+              detail::ends_with(DepthBiasRepresentation::floating) &&
+              detail::ends_with(Source::sample_position) && detail::ends_with(Probe::lod) &&
+              detail::ends_with(BlendFactor::src_alpha_saturate) &&
+              detail::ends_with(BlendOp::max) && detail::ends_with(kLastColorFormat) &&
+              detail::ends_with(Resolve::max) && detail::ends_with(BlitFilter::linear) &&
+              detail::ends_with(BlitPattern::ramp) && detail::ends_with(kLastRelationKind));
+
+// The word of a value. LeafContext::enumerator() goes the other way.
+template <class Enum>
+constexpr std::string_view word_of(Enum value) {
+    return kWords<Enum>.at(static_cast<size_t>(value));
+}
+
+}  // namespace cases

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/toml/field_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "cases/model/selector.hpp"
+
+namespace cases {
+
+namespace {
+
+using Kind = TomlValue::Kind;
+
+Number from_double(double value) {
+    return {exact(value), std::fpclassify(value) == FP_ZERO && std::signbit(value)};
+}
+
+}  // namespace
+
+std::string alternatives(std::span<const std::string_view> words) {
+    std::string text;
+    for (size_t i = 0; i < words.size(); ++i) {
+        text += i == 0 ? "" : i + 1 == words.size() ? " or " : ", ";
+        text += fmt::format("\"{}\"", words[i]);
+    }
+    return text;
+}
+
+LeafContext::LeafContext(std::vector<Parameter> parameters) : parameters_(std::move(parameters)) {}
+
+const TomlValue* LeafContext::parameter(std::string_view key) {
+    for (const auto& [name, value] : parameters_) {
+        if (name == key) {
+            used_.insert(name);
+            return value;
+        }
+    }
+    return nullptr;
+}
+
+Names LeafContext::names(const std::vector<std::pair<std::string, Number>>& more) {
+    Names names;
+    for (const auto& [name, value] : more) {
+        names.known.push_back(name);
+    }
+    for (const auto& [name, value] : parameters_) {
+        names.known.push_back(name);
+    }
+    names.find = [this, more](std::string_view word) -> std::optional<Number> {
+        for (const auto& [name, value] : more) {
+            if (name == word) {
+                return value;
+            }
+        }
+        const TomlValue* value = parameter(word);
+        if (value == nullptr) {
+            return std::nullopt;
+        }
+        if (value->is(Kind::integer)) {
+            return Number{mpq_class(mpz_class(static_cast<long>(value->integer))), false};
+        }
+        if (value->is(Kind::floating) && std::isfinite(value->floating)) {
+            return from_double(value->floating);
+        }
+        if (value->is(Kind::string)) {
+            if (tl::expected<Number, std::string> n = evaluate(value->string, Names{})) {
+                return *n;
+            }
+        }
+        return std::nullopt;
+    };
+    return names;
+}
+
+void LeafContext::error(const SourceLocation& where, std::string message) {
+    errors_.push_back({where, std::move(message)});
+}
+
+std::optional<Number> LeafContext::number(const TomlValue& value, const std::string& what) {
+    // Only expressions have names.
+    return number(value, what, value.is(Kind::string) ? names() : Names{});
+}
+
+std::optional<Number> LeafContext::number(const TomlValue& value, const std::string& what,
+                                          const Names& names) {
+    if (value.is(Kind::integer)) {
+        return Number{mpq_class(mpz_class(static_cast<long>(value.integer))), false};
+    }
+    if (value.is(Kind::floating)) {
+        if (!std::isfinite(value.floating)) {
+            error(value.where,
+                  fmt::format(
+                      "{} is not a finite number; inf and nan may stand in positions of space "
+                      "\"clip\" and in attributes only",
+                      what));
+            return std::nullopt;
+        }
+        return from_double(value.floating);
+    }
+    if (value.is(Kind::string)) {
+        tl::expected<Number, std::string> n = evaluate(value.string, names);
+        if (!n) {
+            error(value.where, fmt::format("{}: {}", what, n.error()));
+            return std::nullopt;
+        }
+        return *n;
+    }
+    error(value.where, fmt::format("{} is {}; write a number or an expression in quotes", what,
+                                   describe(value)));
+    return std::nullopt;
+}
+
+std::optional<Number> LeafContext::any_binary32(const TomlValue& value, const std::string& what) {
+    if (value.is(Kind::floating) && !std::isfinite(value.floating)) {
+        return number_of_bits(std::bit_cast<uint32_t>(static_cast<float>(value.floating)));
+    }
+    if (!value.is(Kind::string)) {
+        return number(value, what);
+    }
+    std::string text = value.string;
+    const TomlValue* named = parameter(text);
+    if (named != nullptr && named->is(Kind::string)) {
+        text = named->string;
+    }
+    if (std::optional<Number> special = read_special_number(text)) {
+        return special;
+    }
+    if (text.rfind("bits(", 0) == 0) {
+        error(
+            value.where,
+            fmt::format("{}: \"{}\" is not the bits of a binary32; write eight hexadecimal digits "
+                        "as in \"bits(0x7fc00001)\"",
+                        what, text));
+        return std::nullopt;
+    }
+    return number(value, what);
+}
+
+std::optional<int64_t> LeafContext::integer(const TomlValue& value, const std::string& what,
+                                            int64_t low, int64_t high) {
+    const std::optional<Number> n = number(value, what);
+    if (!n) {
+        return std::nullopt;
+    }
+    if (n->value.get_den() != 1 || n->value < mpz_class(static_cast<long>(low)) ||
+        n->value > mpz_class(static_cast<long>(high))) {
+        error(value.where, fmt::format("{} is not an integer from {} to {}", what, low, high));
+        return std::nullopt;
+    }
+    return n->value.get_num().get_si();
+}
+
+std::optional<bool> LeafContext::boolean(const TomlValue& value, const std::string& what) {
+    const TomlValue* source = &value;
+    if (value.is(Kind::string)) {
+        if (const TomlValue* named = parameter(value.string)) {
+            source = named;
+        }
+    }
+    if (!source->is(Kind::boolean)) {
+        error(value.where, fmt::format("{} is {}; write true or false", what, describe(*source)));
+        return std::nullopt;
+    }
+    return source->boolean;
+}
+
+std::optional<std::string> LeafContext::text(const TomlValue& value, const std::string& what) {
+    if (!value.is(Kind::string)) {
+        error(value.where, fmt::format("{} is {}; write a string", what, describe(value)));
+        return std::nullopt;
+    }
+    return value.string;
+}
+
+std::optional<size_t> LeafContext::word(const TomlValue& value, const std::string& what,
+                                        std::span<const std::string_view> words) {
+    const std::optional<std::string> given = text(value, what);
+    if (!given) {
+        return std::nullopt;
+    }
+    const auto find = [&](std::string_view w) { return std::find(words.begin(), words.end(), w); };
+    auto it = find(*given);
+    std::string shown = *given;
+    if (it == words.end()) {
+        const TomlValue* named = parameter(*given);
+        if (named != nullptr && named->is(Kind::string)) {
+            shown = named->string;
+            it = find(shown);
+        }
+    }
+    if (it != words.end()) {
+        return static_cast<size_t>(it - words.begin());
+    }
+    const std::string nearest =
+        nearest_name(shown, std::vector<std::string>(words.begin(), words.end()));
+    error(value.where,
+          nearest.empty()
+              ? fmt::format("{} is \"{}\"; write {}", what, shown, alternatives(words))
+              : fmt::format("{} is \"{}\"; did you mean \"{}\"?", what, shown, nearest));
+    return std::nullopt;
+}
+
+std::optional<std::vector<Number>> LeafContext::numbers(const TomlValue& value,
+                                                        const std::string& what, size_t count) {
+    if (!value.is(Kind::array) || value.array.size() != count) {
+        error(value.where,
+              value.is(Kind::array)
+                  ? fmt::format("{} has {} numbers instead of {}", what, value.array.size(), count)
+                  : fmt::format("{} is {}; write an array of {} numbers", what, describe(value),
+                                count));
+        return std::nullopt;
+    }
+    std::vector<Number> result;
+    for (const TomlValue& element : value.array) {
+        std::optional<Number> n = number(element, what);
+        if (!n) {
+            return std::nullopt;
+        }
+        result.push_back(std::move(*n));
+    }
+    return result;
+}
+
+std::optional<float> LeafContext::binary32(const TomlValue& value, const std::string& what) {
+    const std::optional<Number> n = number(value, what);
+    return n ? binary32(*n, value.where, what) : std::nullopt;
+}
+
+std::optional<float> LeafContext::binary32(const Number& n, const SourceLocation& where,
+                                           const std::string& what) {
+    const float rounded = round_to_binary32(n).value;
+    if (std::isinf(rounded)) {
+        error(where, fmt::format("{} is larger than the largest binary32", what));
+        return std::nullopt;
+    }
+    return rounded;
+}
+
+bool LeafContext::table(const TomlValue& value, const std::string& what) {
+    if (!value.is(Kind::table)) {
+        error(value.where, fmt::format("{} is {}; write a table", what, describe(value)));
+        return false;
+    }
+    return true;
+}
+
+bool LeafContext::array(const TomlValue& value, const std::string& what) {
+    if (!value.is(Kind::array)) {
+        error(value.where, fmt::format("{} is {}; write an array", what, describe(value)));
+        return false;
+    }
+    return true;
+}
+
+void LeafContext::known_keys(const TomlValue& table, const std::string& what,
+                             std::initializer_list<std::string_view> keys) {
+    for (const TomlEntry& entry : table.table) {
+        if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) {
+            continue;
+        }
+        const std::string nearest =
+            nearest_name(entry.key, std::vector<std::string>(keys.begin(), keys.end()));
+        error(entry.where, nearest.empty()
+                               ? fmt::format("{} has no key \"{}\"; its keys are {}", what,
+                                             entry.key, fmt::join(keys, ", "))
+                               : fmt::format("{} has no key \"{}\"; did you mean \"{}\"?", what,
+                                             entry.key, nearest));
+    }
+}
+
+}  // namespace cases

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A case as bytes, for the pipe between the parent process and its workers (same machine, same
+// program, so no versioning beyond a magic number).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "cases/model/case.hpp"
+
+namespace cases {
+
+// What a renderer needs of a case: id, target and draws, float bits as they are.
+std::string to_bytes(const Case& c);
+Expected<Case> from_bytes(std::span<const char> bytes);
+
+// A target alone; the same form as inside a case.
+std::string target_to_bytes(const Target& target);
+Expected<Target> target_from_bytes(std::span<const char> bytes);
+
+}  // namespace cases

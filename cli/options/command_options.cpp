@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/command_options.hpp"
+
+#include <map>
+
+#include "cli/options/command_examples.hpp"
+#include "cli/options/shared_options.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  edgecase run                                   the whole suite on the first device\n"
+    "  edgecase run 'coverage/**' -o out/mine         one family, reports in out/mine\n"
+    "  edgecase run my-case.toml --device llvmpipe    a file of your own on a chosen device\n"
+    "  edgecase explain ties/apex-up --pixel 3,4      why a sample must be covered\n"
+    "  edgecase doctor                                what is installed, what is missing\n"
+    "\n"
+    "Selectors: globs on ids ('*' within a part, '**' across), '@rule:PATTERN', a case file or "
+    "folder,\n"
+    "  '-' for ids on standard input, '!' in front excludes. Without any, the whole suite.\n"
+    "\n"
+    "Exit codes:\n"
+    "    0  every selected case ended as expected\n"
+    "    1  an unexpected result: fail, crash, timeout, device lost, flake, xpass, improved\n"
+    "    2  wrong use of the command line\n"
+    "    3  an invalid case, suite, expectation file or journal\n"
+    "    4  no case is selected\n"
+    "    5  no device, or not the demanded one\n"
+    "    6  everything was skipped or unsupported\n"
+    "    7  internal error, or cases were not run or could not be judged, or a report could not be "
+    "written\n"
+    "  130  interrupted; the reports hold what was done\n";
+
+const std::map<std::string, std::string>& shell_names() {
+    static const std::map<std::string, std::string> kNames = {
+        {"bash", "bash"}, {"fish", "fish"}, {"zsh", "zsh"}};
+    return kNames;
+}
+
+const std::map<std::string, ProgressStyle> kProgressNames = {{"auto", ProgressStyle::automatic},
+                                                             {"plain", ProgressStyle::plain},
+                                                             {"none", ProgressStyle::none}};
+const std::map<std::string, KeepPictures> kCaptureNames = {
+    {"failed", KeepPictures::failed}, {"all", KeepPictures::all}, {"none", KeepPictures::none}};
+
+// What 'render' takes: no driver.
+const std::map<std::string, std::string>& drawing_names() {
+    static const std::map<std::string, std::string> kNames = [] {
+        std::map<std::string, std::string> names = renderer_names();
+        names.erase("vulkan");
+        names.emplace("allowed", "");
+        return names;
+    }();
+    return kNames;
+}
+
+void define_run(CLI::App& app, RunOptions& o) {
+    CLI::App* run =
+        app.add_subcommand("run", "draw cases on a device and compare with the exact reference");
+    run->footer(kFooter);
+    add_suite(run, o.suite);
+    run->add_flag("--quick", o.quick, "the first and the last leaf of each case file alone")
+        ->group("Selection");
+    run->add_option("--failed-in", o.failed_in,
+                    "only the cases that ended unexpectedly in an earlier run")
+        ->type_name("DIR")
+        ->group("Selection");
+    run->add_option(
+           "--shard",
+           [&o](const CLI::results_t& results) {
+               Shard& s = o.shard;
+               return parse_pair(results.back(), '/', s.index, s.count) && s.index >= 1 &&
+                      s.index <= s.count;
+           },
+           "the I-th of N parts, by a hash of the id; 1 <= I <= N")
+        ->type_name("I/N")
+        ->group("Selection");
+    run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
+        ->group("Selection");
+    run->add_option("--seed", o.seed, "seed of --shuffle [1]")
+        ->type_name("N")
+        ->check(in_range<uint64_t>(0, UINT64_MAX))
+        ->group("Selection");
+    run->add_option("--repeat", o.repeat, "draw each case N times; other bits make a flake [1]")
+        ->type_name("N")
+        ->check(in_range(1U, 1000000U))
+        ->group("Selection");
+    add_device(run, o.device);
+    run->add_option("--require-device", o.require_device,
+                    "stop unless the device's name and driver match this regular expression")
+        ->type_name("REGEX")
+        ->group("Device");
+    run->add_flag("--validation", o.device.validation, "with the Khronos validation layer")
+        ->group("Device");
+    add_profile(run, o.profile);
+    run->add_option("--expect", o.expect, "an expectation file, instead of those beside the suite")
+        ->type_name("FILE")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group("Judging");
+    run->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
+    run->add_option("-j,--jobs", o.jobs, "workers, 1 to 256 [one a core, at most 4]")
+        ->type_name("N")
+        ->envname("EDGECASE_JOBS")
+        ->check(in_range(1U, 256U))
+        ->group("Isolation");
+    run->add_option("--batch", o.batch, "cases in one submission, at most; 1 to 1024 [16]")
+        ->type_name("N")
+        ->check(in_range(1U, 1024U))
+        ->group("Isolation");
+    run->add_option("--retries", o.retries,
+                    "how often an unexpected failure is drawn again, alone [1]")
+        ->type_name("N")
+        ->check(in_range(0U, 1000U))
+        ->group("Isolation");
+    run->add_option("--resume", o.resume, "go on with an interrupted run")
+        ->type_name("DIR")
+        ->group("Isolation");
+    run->add_option("-o,--output", o.output, "where the reports go [out/<time>-<device>]")
+        ->type_name("DIR")
+        ->group("Output");
+    add_report_files(run, o.json, o.junit, o.html);
+    add_choice(run, "--capture", o.capture, kCaptureNames,
+               "of which cases the reports keep pictures")
+        ->group("Output");
+    add_terminal(run, o.quiet, o.verbose, o.color);
+    add_ci(run, o.ci);
+    add_choice(run, "--progress", o.progress, kProgressNames, "how progress is shown")
+        ->group("Output");
+}
+
+// Rendering by others: what they get, and how it is judged.
+void define_images(CLI::App& app, AllOptions& all) {
+    CLI::App* out = app.add_subcommand("export", "write cases as JSON that any program can draw");
+    add_suite(out, all.export_cases.suite);
+    out->add_option("-o,--output", all.export_cases.output, "where the files go")
+        ->type_name("DIR")
+        ->required();
+
+    CLI::App* in = app.add_subcommand("diff", "judge what another program drew of exported cases");
+    RunOptions& o = all.diff.run;
+    add_suite(in, o.suite);
+    in->add_option("--captures", all.diff.captures, "the folder with what was drawn")
+        ->type_name("DIR")
+        ->required()
+        ->group("Selection");
+    in->add_option("--name", all.diff.name, "of the renderer, for the reports")
+        ->type_name("NAME")
+        ->group("Output");
+    add_profile(in, o.profile);
+    add_subpixel_bits(in, all.diff.subpixel_bits);
+    in->add_option("--expect", o.expect, "an expectation file, instead of those beside the suite")
+        ->type_name("FILE")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group("Judging");
+    in->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
+    in->add_option("-o,--output", o.output, "where the reports go [out/<time>-captures]")
+        ->type_name("DIR")
+        ->group("Output");
+    add_report_files(in, o.json, o.junit, o.html);
+    add_choice(in, "--capture", o.capture, kCaptureNames,
+               "of which cases the reports keep pictures")
+        ->group("Output");
+    add_terminal(in, o.quiet, o.verbose, o.color);
+    add_choice(in, "--progress", o.progress, kProgressNames, "how progress is shown")
+        ->group("Output");
+}
+
+void define_others(CLI::App& app, AllOptions& all) {
+    CLI::App* list = app.add_subcommand("list", "list case ids");
+    add_suite(list, all.list.suite);
+    list->add_flag("--long", all.list.long_form, "with file, rules, description and notes");
+    list->add_flag("--ids", all.list.ids, "ids only, one a line");
+    list->add_flag("--json", all.list.json, "as JSON");
+
+    CLI::App* lint =
+        app.add_subcommand("lint", "check case and expectation files; needs no Vulkan");
+    add_suite(lint, all.lint.suite);
+    lint->add_flag("-q,--quiet", all.lint.quiet, "print errors only");
+
+    CLI::App* explain =
+        app.add_subcommand("explain", "why a sample must, must not or may be covered");
+    add_case(explain, all.explain.suite);
+    explain
+        ->add_option(
+            "--pixel",
+            [&all](const CLI::results_t& results) {
+                all.explain.has_pixel = true;
+                return parse_pair(results.back(), ',', all.explain.x, all.explain.y);
+            },
+            "the pixel")
+        ->type_name("X,Y");
+    explain->add_option("--rule", all.explain.rule, "explain a rule instead")->type_name("ID");
+    explain->add_option("--sample", all.explain.sample, "the sample in it [0]")->type_name("S");
+    explain->add_option("--layer", all.explain.layer, "the layer of the target [0]")
+        ->type_name("L");
+    add_profile(explain, all.explain.profile);
+    add_subpixel_bits(explain, all.explain.subpixel_bits);
+
+    CLI::App* render =
+        app.add_subcommand("render", "write the reference picture of a case; needs no Vulkan");
+    add_case(render, all.render.suite);
+    render
+        ->add_option("-o,--output", all.render.output,
+                     "*.exr (values), *.png (to look at) or *.json")
+        ->type_name("FILE")
+        ->required();
+    add_profile(render, all.render.profile);
+    add_subpixel_bits(render, all.render.subpixel_bits);
+    add_choice(render, "--renderer", all.render.renderer, drawing_names(),
+               "what draws: an algorithm of docs/algorithms.md or the reference; allowed: no "
+               "drawing, but what the reference allows");
+    define_images(app, all);
+
+    CLI::App* doctor =
+        app.add_subcommand("doctor", "what is installed, which devices there are, what is missing");
+    add_device(doctor, all.doctor.device);
+    doctor->add_flag("--json", all.doctor.json, "as JSON");
+
+    CLI::App* report =
+        app.add_subcommand("report", "rebuild the reports of a run from its journal");
+    report->add_option("DIR", all.report.directories, "the folder of the run")
+        ->required()
+        ->type_name("");
+    report->add_flag("--merge", all.report.merge,
+                     "several folders, the shards of one run, become one");
+    report
+        ->add_option("-o,--output", all.report.output,
+                     "where the reports go [DIR, with --merge out/merged]")
+        ->type_name("DIR")
+        ->group("Output");
+    add_ci(report, all.report.ci);
+    add_report_files(report, all.report.json, all.report.junit, all.report.html);
+    add_terminal(report, all.report.quiet, all.report.verbose, all.report.color);
+
+    CLI::App* expect =
+        app.add_subcommand("expect", "check an expectation file, or bring it up to date");
+    expect->add_option("FILE", all.expect.file, "the expectation file")->required()->type_name("");
+    expect->add_option("--update", all.expect.update, "write what a run has seen into the file")
+        ->type_name("DIR");
+    expect->add_option("--bug", all.expect.bug, "reference to a bug, for new lines")
+        ->type_name("WORD");
+    expect->add_option("--reason", all.expect.reason, "reason of new lines [what the run says]")
+        ->type_name("TEXT");
+    expect
+        ->add_option("--until", all.expect.until,
+                     "last day of new lines and of lines that ended and are still true")
+        ->type_name("DATE");
+    expect->add_flag("--dry-run", all.expect.dry_run, "show what would change, write nothing");
+    expect
+        ->add_option("--suite", all.expect.suite.suite, "the folder of the suite [that of the run]")
+        ->type_name("DIR");
+
+    CLI::App* compare = app.add_subcommand("compare", "set runs side by side");
+    compare
+        ->add_option("DIR", all.compare.directories, "the folders of runs, the first is the base")
+        ->required()
+        ->type_name("");
+    compare
+        ->add_option("--json", all.compare.json,
+                     "write the comparison to FILE ('-': standard output)")
+        ->type_name("FILE");
+    compare
+        ->add_option("--html", all.compare.html,
+                     "write a page with both sides of each case to FILE")
+        ->type_name("FILE");
+    compare->add_flag("-v,--verbose", all.compare.verbose,
+                      "list every difference, draw where kept pictures differ");
+    add_choice(compare, "--color", all.compare.color, when_names(), "colours");
+
+    CLI::App* bench = app.add_subcommand("bench", "what checking costs beside drawing");
+    add_suite(bench, all.bench.suite);
+    add_device(bench, all.bench.device);
+    bench->add_option("--runs", all.bench.runs, "pairs of processes that are timed [3]")
+        ->type_name("N")
+        ->check(in_range(1U, 1000U));
+    bench->add_flag("--json", all.bench.json, "as JSON");
+    bench->add_flag("--bare", all.bench.bare, "")->group("");
+
+    CLI::App* completion =
+        app.add_subcommand("completion", "print the completion script of a shell");
+    add_choice(completion, "SHELL", all.shell, shell_names(), "the shell")->required();
+    app.add_subcommand("man", "print the manual page");
+    app.add_subcommand("version", "print the version");
+}
+
+}  // namespace
+
+void define(CLI::App& app, AllOptions& all) {
+    app.footer(kFooter);
+    app.set_help_flag("-h,--help", "this help");
+    app.add_flag("--version", all.version, "print the version");
+    app.require_subcommand(0, 1);
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    define_run(app, all.run);
+    define_others(app, all);
+    for (CLI::App* command : app.get_subcommands({})) {
+        command->set_help_flag("-h,--help", "this help");
+        for (const Examples& e : kExamples) {
+            if (command->get_name() == e.command) {
+                command->footer(std::string("Examples:\n") + e.text);
+            }
+        }
+        command->group("The program");
+        for (const Group& g : kGroups) {
+            if (command->get_name() == g.command) {
+                command->group(g.name);
+            }
+        }
+        command->allow_extras();  // so that unknown options get our own words
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command line says. The option table itself, its help and its errors are
+// command_line.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cases/model/profile.hpp"
+#include "run/judge.hpp"
+
+namespace cli {
+
+enum class When { automatic, always, never };
+enum class ProgressStyle { automatic, plain, none };
+enum class Ci { automatic, github, gitlab, none };
+
+// What commands that look at cases have in common.
+struct SuiteOptions {
+    std::string suite;  // empty: found by find_suite_root
+    std::vector<std::string> selectors;
+};
+
+struct DeviceOptions {
+    std::string device;
+    std::string icd;
+    std::string icd_from = "--icd";  // or the variable that holds it
+    bool validation = false;
+    std::string renderer;  // "": a driver; "reference"; a device of rasterizers/algorithms
+    double timeout = 30;   // seconds without a sign of life
+};
+
+struct Shard {
+    uint32_t index = 1, count = 1;
+};
+
+struct RunOptions {
+    SuiteOptions suite;
+    DeviceOptions device;
+    std::string failed_in, resume;
+    bool quick = false;
+    Shard shard;
+    bool shuffle = false;
+    uint64_t seed = 1;
+    uint32_t repeat = 1;
+    std::string require_device;
+    std::vector<std::string> expect;
+    bool no_expect = false;
+    cases::Profile profile = cases::Profile::direct3d;
+    uint32_t jobs = std::clamp(std::thread::hardware_concurrency(), 1U, 4U);
+    uint32_t batch = 16;
+    uint32_t retries = 1;
+    std::string output;
+    std::string json, junit, html;
+    KeepPictures capture = KeepPictures::failed;
+    bool quiet = false, verbose = false;
+    When color = When::automatic;
+    ProgressStyle progress = ProgressStyle::automatic;
+    Ci ci = Ci::automatic;
+};
+
+struct ListOptions {
+    SuiteOptions suite;
+    bool long_form = false, ids = false, json = false;
+};
+
+struct LintOptions {
+    SuiteOptions suite;
+    bool quiet = false;
+};
+
+struct ExplainOptions {
+    SuiteOptions suite;  // exactly one selector, one case
+    std::string rule;    // or a rule, and no case
+    bool has_pixel = false;
+    uint32_t x = 0, y = 0, sample = 0, layer = 0;
+    cases::Profile profile = cases::Profile::direct3d;
+    uint32_t subpixel_bits = 8;
+};
+
+struct ExpectOptions {
+    SuiteOptions suite;
+    std::string file;
+    std::string update;  // the folder of a run
+    std::string bug, reason, until;
+    bool dry_run = false;
+};
+
+struct CompareOptions {
+    std::vector<std::string> directories;
+    std::string json, html;
+    bool verbose = false;
+    When color = When::automatic;
+};
+
+struct RenderOptions {
+    SuiteOptions suite;  // exactly one selector, one case
+    std::string output;
+    std::string renderer;  // "": what the reference allows; else what this one draws
+    cases::Profile profile = cases::Profile::direct3d;
+    uint32_t subpixel_bits = 8;
+};
+
+struct ExportOptions {
+    SuiteOptions suite;
+    std::string output;  // folder
+};
+
+struct DiffOptions {
+    RunOptions run;        // what judging and reporting have in common
+    std::string captures;  // folder
+    std::string name;      // of the renderer, for the reports
+    uint32_t subpixel_bits = 8;
+};
+
+struct DoctorOptions {
+    DeviceOptions device;
+    bool json = false;
+};
+
+struct BenchOptions {
+    SuiteOptions suite;
+    DeviceOptions device;
+    uint32_t runs = 3;  // counted pairs of whole processes
+    bool json = false;
+    bool bare = false;  // hidden: --bare, the child that draws without reading back or judging
+};
+
+struct ReportOptions {
+    std::vector<std::string> directories;  // one, several with --merge
+    bool merge = false;
+    std::string output;
+    Ci ci = Ci::automatic;
+    std::string json, junit, html;
+    bool quiet = false, verbose = false;
+    When color = When::automatic;
+};
+
+}  // namespace cli

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/shared_options.hpp"
+
+#include "rasterizers/algorithms/device.hpp"
+
+namespace cli {
+
+namespace {
+
+const std::map<std::string, cases::Profile> kProfileNames = {
+    {"vulkan", cases::Profile::vulkan},
+    {"practice", cases::Profile::practice},
+    {"direct3d", cases::Profile::direct3d}};
+const std::map<std::string, Ci> kCiNames = {
+    {"auto", Ci::automatic}, {"github", Ci::github}, {"gitlab", Ci::gitlab}, {"none", Ci::none}};
+
+bool parse_number(std::string_view text, uint32_t& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+}  // namespace
+
+const std::map<std::string, When>& when_names() {
+    static const std::map<std::string, When> kNames = {
+        {"auto", When::automatic}, {"always", When::always}, {"never", When::never}};
+    return kNames;
+}
+
+const std::map<std::string, std::string>& renderer_names() {
+    static const std::map<std::string, std::string> kNames = [] {
+        std::map<std::string, std::string> names = {{"vulkan", ""}, {"reference", "reference"}};
+        for (const ref::algorithms::Device& device : ref::algorithms::all_devices()) {
+            names.emplace(device.name, device.name);
+        }
+        return names;
+    }();
+    return kNames;
+}
+
+bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& b) {
+    const size_t at = text.find(separator);
+    return at != std::string::npos && parse_number(std::string_view(text).substr(0, at), a) &&
+           parse_number(std::string_view(text).substr(at + 1), b);
+}
+
+void add_suite_folder(CLI::App* app, SuiteOptions& o) {
+    app->add_option("--suite", o.suite, "the folder of the suite (EDGECASE_SUITE)")
+        ->type_name("DIR")
+        ->group("Selection");
+}
+
+void add_suite(CLI::App* app, SuiteOptions& o) {
+    app->add_option("SELECTOR", o.selectors, "which cases; all without one")->type_name("");
+    add_suite_folder(app, o);
+}
+
+void add_case(CLI::App* app, SuiteOptions& o) {
+    app->add_option("CASE", o.selectors, "the id or the file of one case")
+        ->multi_option_policy(CLI::MultiOptionPolicy::Throw)  // not the last one of several
+        ->expected(0, 1)
+        ->type_name("");
+    add_suite_folder(app, o);
+}
+
+void add_profile(CLI::App* app, cases::Profile& profile) {
+    add_choice(app, "--profile", profile, kProfileNames, "what the device is held to")
+        ->envname("EDGECASE_PROFILE")
+        ->group("Judging");
+}
+
+void add_subpixel_bits(CLI::App* app, uint32_t& bits) {
+    app->add_option("--subpixel-bits", bits, "subpixel precision bits of the device, 4 to 16 [8]")
+        ->type_name("N")
+        ->check(in_range(4U, 16U))
+        ->group("Judging");
+}
+
+void add_device(CLI::App* app, DeviceOptions& o) {
+    app->add_option("--device", o.device, "a part of its name, its index or its UUID")
+        ->type_name("DEVICE")
+        ->envname("EDGECASE_DEVICE")
+        ->group("Device");
+    app->add_option("--icd", o.icd, "the driver's manifest file, and no other driver")
+        ->type_name("FILE")
+        ->envname("EDGECASE_ICD")
+        ->group("Device");
+    app->add_option("--timeout", o.timeout, "seconds without a sign of life that end a worker [30]")
+        ->type_name("SECONDS")
+        ->envname("EDGECASE_TIMEOUT")
+        ->check(in_range(0.01, 86400.0))
+        ->group("Isolation");
+    add_choice(app, "--renderer", o.renderer, renderer_names(),
+               "what draws: a driver, or an algorithm of docs/algorithms.md")
+        ->group("Device");
+}
+
+void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color) {
+    app->add_flag("-q,--quiet", quiet, "only unexpected results")->group("Output");
+    app->add_flag("-v,--verbose", verbose, "add a picture of each unexpected case")
+        ->group("Output");
+    add_choice(app, "--color", color, when_names(), "colours")->group("Output");
+}
+
+void add_report_files(CLI::App* app, std::string& json, std::string& junit, std::string& html) {
+    for (const auto& [name, target] :
+         {std::pair{"--json", &json}, std::pair{"--junit", &junit}, std::pair{"--html", &html}}) {
+        app->add_option(name, *target, "write this report also to FILE ('-': standard output)")
+            ->type_name("FILE")
+            ->group("Output");
+    }
+}
+
+void add_ci(CLI::App* app, Ci& ci) {
+    add_choice(app, "--ci", ci, kCiNames, "what continuous integration is told")->group("Output");
+}
+
+}  // namespace cli

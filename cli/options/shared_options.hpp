@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Options that several commands share, and checks of their values.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <map>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "cases/model/selector.hpp"
+#include "cli/options/command_options.hpp"
+
+namespace cli {
+
+// An option whose value is one of a few words.
+template <class T>
+CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
+                        const std::map<std::string, T>& names, const std::string& what) {
+    std::vector<std::string> words;
+    for (const auto& [word, value] : names) {
+        words.push_back(word);
+    }
+    const auto parse = [&target, &names, words, name](const CLI::results_t& results) {
+        const auto found = names.find(results.back());
+        if (found == names.end()) {
+            const std::string nearest = cases::nearest_name(results.back(), words);
+            std::string all;
+            for (const std::string& word : words) {
+                all += (all.empty() ? "" : ", ") + word;
+            }
+            throw CLI::ValidationError(
+                name, "'" + results.back() + "' is none of " + all +
+                          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+        }
+        target = found->second;
+        return true;
+    };
+    std::string shown;
+    std::string initial;
+    for (const auto& [word, value] : names) {
+        shown += (shown.empty() ? "" : "|") + word;
+        if (value == target) {
+            initial = word;
+        }
+    }
+    return app->add_option(name, parse, initial.empty() ? what : what + " [" + initial + "]")
+        ->type_name(shown);
+}
+
+// Refuses what is no number of the range, in our own words.
+template <class T>
+CLI::Validator in_range(T least, T most) {
+    return {[least, most](const std::string& text) {
+                T value{};
+                const auto [end, error] =
+                    std::from_chars(text.data(), text.data() + text.size(), value);
+                const bool is_number = error == std::errc() && end == text.data() + text.size();
+                if (is_number && value >= least && value <= most) {
+                    return std::string();
+                }
+                return fmt::format("'{}' is no {} from {} to {}", text,
+                                   std::is_integral_v<T> ? "whole number" : "number", least, most);
+            },
+            ""};
+}
+
+// "A<separator>B"
+bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& b);
+
+// What --color takes.
+const std::map<std::string, When>& when_names();
+// What --renderer takes; the options keep a reference to it.
+const std::map<std::string, std::string>& renderer_names();
+
+void add_suite_folder(CLI::App* app, SuiteOptions& o);
+void add_suite(CLI::App* app, SuiteOptions& o);
+// For commands that work on one case.
+void add_case(CLI::App* app, SuiteOptions& o);
+void add_profile(CLI::App* app, cases::Profile& profile);
+void add_subpixel_bits(CLI::App* app, uint32_t& bits);
+void add_device(CLI::App* app, DeviceOptions& o);
+void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color);
+void add_report_files(CLI::App* app, std::string& json, std::string& junit, std::string& html);
+void add_ci(CLI::App* app, Ci& ci);
+
+}  // namespace cli

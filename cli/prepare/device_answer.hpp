@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The first worker's answer: a device, or sentences that say what is missing and what to do.
+#pragma once
+
+#include <vector>
+
+#include "cli/options/options.hpp"
+#include "cli/prepare/suite.hpp"
+#include "run/run_loop.hpp"
+
+namespace cli {
+
+WorkerOptions worker_options(const DeviceOptions& options);
+
+struct ReadyWorker {
+    WorkerClient client;
+    vk_harness::DeviceInfo device;
+};
+// Starts the first worker, which then gets its device ready while the parent does something else.
+OrStop<WorkerClient> start_first_worker(const LoopConfig& config);
+// Waits until it is ready. Errors: no or wrong device (5), interrupted (130).
+OrStop<ReadyWorker> await_first_worker(WorkerClient client, SignalFd& signals);
+
+// What a failed start looks like to the user.
+Stop explain_failure(const vk_harness::Failure& failure);
+Stop explain_death(const Death& death);
+
+}  // namespace cli

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cases/load/color.hpp"
+#include "cases/model/derive.hpp"
+#include "ref/blit/blit.hpp"
+#include "ref/color/texel.hpp"
+#include "ref/number/sample.hpp"
+#include "report/record/run.hpp"
+#include "run/worker/backend.hpp"
+
+namespace cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+
+std::string dump(const Json& json) {
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// A binary32 with its bits; JSON has no NaN and no infinity.
+Json number(float v) {
+    const Json value = std::isfinite(v) ? Json(static_cast<double>(v))
+                       : std::isnan(v)  ? Json("nan")
+                                        : Json(v > 0 ? "inf" : "-inf");
+    return {{"value", value}, {"bits", fmt::format("{:08x}", std::bit_cast<uint32_t>(v))}};
+}
+
+// A value of a sample with its name.
+struct Value {
+    std::string name;
+    float value = 0;
+};
+
+std::vector<Value> values_at(const cases::Case& c, const diff::Capture& capture, size_t index) {
+    static constexpr std::string_view kNames = "xyzw";
+    std::vector<Value> out;
+    const auto add = [&out](const std::string& name, const glm::vec4& v, uint32_t components) {
+        for (uint32_t k = 0; k < components; ++k) {
+            out.push_back(
+                {fmt::format("{}.{}", name, kNames[k]), v[static_cast<glm::vec4::length_type>(k)]});
+        }
+    };
+    add("frag_coord", capture.frag_coord[index], 4);
+    out.push_back({"depth", capture.depth[index]});
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        uint32_t components = 0;
+        for (const cases::Draw& draw : c.draws) {
+            if (a < draw.attributes.size()) {
+                components = std::max(components, draw.attributes[a].components);
+            }
+        }
+        add(fmt::format("attribute{}", a), capture.attributes.at(a)[index], components);
+    }
+    return out;
+}
+
+bool is_hit(const diff::Capture& capture, size_t index) {
+    return capture.hits[index].x + capture.hits[index].y > 0;
+}
+
+std::string drawing_json(const cases::Case& c, const diff::Capture& capture,
+                         const std::string& renderer) {
+    Json samples = Json::array();
+    for (size_t index = 0; index < capture.sample_count(); ++index) {
+        if (!is_hit(capture, index)) {
+            continue;
+        }
+        const ref::SampleId at = ref::sample_at(c.target, index);
+        Json values = Json::object();
+        for (const Value& v : values_at(c, capture, index)) {
+            values[v.name] = number(v.value);
+        }
+        Json sample = {{"x", at.x}, {"y", at.y}, {"sample", at.sample}};
+        if (c.target.layers > 1) {
+            sample["layer"] = at.layer;
+        }
+        sample["front"] = static_cast<uint32_t>(capture.hits[index].x);
+        sample["back"] = static_cast<uint32_t>(capture.hits[index].y);
+        sample["draw"] = capture.writers[index].draw;
+        sample["primitive"] = capture.writers[index].primitive;
+        sample["values"] = std::move(values);
+        samples.push_back(std::move(sample));
+    }
+    return dump({{"schema", "edgecase-drawing-1"},
+                 {"id", c.id},
+                 {"renderer", renderer},
+                 {"width", c.target.width},
+                 {"height", c.target.height},
+                 {"layers", c.target.layers},
+                 {"samples_per_pixel", c.target.samples},
+                 {"note", "samples that were not hit are left out"},
+                 {"samples", std::move(samples)}});
+}
+
+report::Image drawing_values(const cases::Case& c, const diff::Capture& capture) {
+    report::Image image{c.target.width, c.target.rows(), {}, {}};  // layers stacked
+    for (uint32_t s = 0; s < c.target.samples; ++s) {
+        const std::string prefix = c.target.samples > 1 ? fmt::format("sample{}.", s) : "";
+        for (const char* name : {"front", "back", "draw", "primitive"}) {
+            image.channels.push_back(prefix + name);
+        }
+        for (const Value& v : values_at(c, capture, 0)) {
+            image.channels.push_back(prefix + v.name);
+        }
+    }
+    for (size_t index = 0; index < capture.sample_count(); ++index) {
+        const bool hit = is_hit(capture, index);
+        const diff::Writer& writer = capture.writers[index];
+        image.pixels.push_back(capture.hits[index].x);
+        image.pixels.push_back(capture.hits[index].y);
+        image.pixels.push_back(hit ? static_cast<float>(writer.draw) : kNothing);
+        image.pixels.push_back(hit ? static_cast<float>(writer.primitive) : kNothing);
+        for (const Value& v : values_at(c, capture, index)) {
+            image.pixels.push_back(hit ? v.value : kNothing);
+        }
+    }
+    return image;
+}
+
+// White where all samples of a pixel were hit, black where none was.
+report::Image drawing_picture(const cases::Case& c, const diff::Capture& capture) {
+    report::Image image{c.target.width, c.target.rows(), {"R", "G", "B"}, {}};
+    for (size_t first = 0; first < capture.sample_count(); first += c.target.samples) {
+        float sum = 0;
+        for (uint32_t s = 0; s < c.target.samples; ++s) {
+            sum += is_hit(capture, first + s) ? 1.0F : 0.0F;
+        }
+        image.pixels.insert(image.pixels.end(), 3, sum / static_cast<float>(c.target.samples));
+    }
+    return image;
+}
+
+// The middle of what a stored code stands for; NaN and infinity of floats as they are.
+double number_of(uint32_t code, const cases::ComponentFormat& format) {
+    if (format.bits == 0 || !ref::is_number(code, format)) {
+        return format.bits == 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+    }
+    const ref::RationalInterval interval = ref::number_of(code, format);
+    return mpq_class((interval.lo + interval.hi) / 2).get_d();
+}
+
+}  // namespace
+
+OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) {
+    cases::Case whole = c;
+    whole.target.has_instruments = true;
+    whole.target.has_depth = true;
+    const ref::algorithms::Device* algorithm = ref::algorithms::find_device(renderer);
+    if (algorithm != nullptr) {
+        if (const std::string reason = ref::algorithms::unsupported_reason(c); !reason.empty()) {
+            return tl::unexpected(
+                Stop{report::kExitUsage, {"'" + renderer + "' cannot draw the case: " + reason}});
+        }
+    }
+    const diff::Capture capture =
+        algorithm != nullptr ? draw_by_algorithm(whole, *algorithm) : draw_by_reference(whole);
+    return Drawing{drawing_json(c, capture, renderer), drawing_values(c, capture),
+                   drawing_picture(c, capture)};
+}
+
+Drawing blit_picture(const cases::Case& c, cases::Profile profile) {
+    const ref::BlitReference reference(c);
+    const cases::ColorFormat format = c.target.color->format;
+    Drawing out;
+    out.values = {c.target.width, c.target.height, {"R", "G", "B", "A"}, {}};
+    out.picture = {c.target.width, c.target.height, {"R", "G", "B"}, {}};
+    Json texels = Json::array();
+    for (uint32_t y = 0; y < c.target.height; ++y) {
+        for (uint32_t x = 0; x < c.target.width; ++x) {
+            const cases::TexelCodes codes = reference.nominal(x, y);
+            for (uint32_t k = 0; k < 4; ++k) {
+                const cases::ComponentFormat component = cases::component_of(format, k);
+                const double v = number_of(codes.at(k), component);
+                out.values.pixels.push_back(static_cast<float>(v));
+                if (k < 3) {
+                    const double largest = std::ldexp(1.0, static_cast<int>(component.bits)) - 1;
+                    const bool is_whole = component.kind == cases::ComponentKind::uint;
+                    out.picture.pixels.push_back(static_cast<float>(is_whole ? v / largest : v));
+                }
+            }
+            if (reference.is_inside(x, y)) {
+                texels.push_back({{"x", x},
+                                  {"y", y},
+                                  {"codes", codes},
+                                  {"others_allowed", reference.has_freedom(x, y, profile)}});
+            }
+        }
+    }
+    out.json = dump({{"schema", "edgecase-blit-1"},
+                     {"id", c.id},
+                     {"profile", std::string(cases::to_string(profile))},
+                     {"format", cases::name_of(format)},
+                     {"width", c.target.width},
+                     {"height", c.target.height},
+                     {"clear_codes", reference.clear_codes()},
+                     {"note", "texels outside the destination region keep the clear codes"},
+                     {"texels", std::move(texels)}});
+    return out;
+}
+
+}  // namespace cli

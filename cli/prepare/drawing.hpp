@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures of what was drawn, or blitted, without any device: for the command "render".
+#pragma once
+
+#include <string>
+
+#include "capture/capture.hpp"
+#include "capture/image/image.hpp"
+#include "cases/model/case.hpp"
+#include "cli/prepare/suite.hpp"
+
+namespace cli {
+
+// One picture in the three forms that "render" writes.
+struct Drawing {
+    std::string json;
+    report::Image values;   // as many channels as there are values
+    report::Image picture;  // to look at: R, G, B in 0..1
+};
+
+// What `renderer` draws of a case with draws: "reference", or an algorithm. Planes that the case
+// does not attach are drawn too. Error: why that renderer cannot draw it.
+OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer);
+
+// What the destination of a blit must hold, texel by texel.
+Drawing blit_picture(const cases::Case& c, cases::Profile profile);
+
+}  // namespace cli

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/outputs.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <future>
+
+#include "cli/prepare/ci.hpp"
+#include "run/process/frame.hpp"
+#include "run/process/process.hpp"
+
+namespace cli {
+
+namespace {
+
+double steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+cases::Error system_error(const std::string& file) {
+    return {{}, "'" + file + "' cannot be written: " + std::strerror(errno)};
+}
+
+}  // namespace
+
+cases::Expected<void> write_text(const std::string& file, const std::string& text) {
+    if (file == "-") {
+        std::fflush(stdout);
+        if (!write_all(STDOUT_FILENO, text)) {
+            return tl::unexpected(system_error("standard output"));
+        }
+        return {};
+    }
+    Fd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!fd.is_open() || !write_all(fd.get(), text)) {
+        return tl::unexpected(system_error(file));
+    }
+    if (::close(fd.release()) != 0) {  // some file systems tell of a full disk only now
+        return tl::unexpected(system_error(file));
+    }
+    return {};
+}
+
+namespace {
+
+// FILE of part k of the report, from 2 on: FILE-k.html beside FILE.html.
+std::string part_file(const std::string& file, size_t part) {
+    const std::filesystem::path path(file);
+    return (path.parent_path() /
+            (path.stem().string() + "-" + std::to_string(part) + path.extension().string()))
+        .string();
+}
+
+void write_pages(const report::Run& run, const ReportFiles& files, cases::Errors& errors) {
+    if (files.folder.empty() && files.html.empty()) {
+        return;
+    }
+    const std::vector<std::string> pages = report::to_html_parts(run);
+    const std::string in_folder =
+        files.folder.empty() ? std::string() : (files.folder / "report.html").string();
+    for (const std::string& file : {in_folder, files.html}) {
+        for (size_t k = 0; k < pages.size() && !file.empty(); ++k) {
+            if (k > 0 && file == "-") {
+                break;
+            }
+            if (cases::Expected<void> written =
+                    write_text(k == 0 ? file : part_file(file, k + 1), pages[k]);
+                !written) {
+                errors.push_back(written.error());
+            }
+        }
+    }
+}
+
+}  // namespace
+
+cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
+    cases::Errors errors;
+    const auto write = [&](const std::string& in_folder, const std::string& extra,
+                           std::string (*make)(const report::Run&)) {
+        const bool has_folder = !files.folder.empty();
+        if (!has_folder && extra.empty()) {
+            return;
+        }
+        const std::string text = make(run);
+        for (const std::string& file :
+             {has_folder ? (files.folder / in_folder).string() : std::string(), extra}) {
+            if (file.empty()) {
+                continue;
+            }
+            if (cases::Expected<void> written = write_text(file, text); !written) {
+                errors.push_back(written.error());
+            }
+        }
+    };
+    cases::Errors of_pages;
+    // On standard output one comes after the other.
+    const std::launch when = files.html == "-" ? std::launch::deferred : std::launch::async;
+    std::future<void> pages = std::async(when, [&] { write_pages(run, files, of_pages); });
+    write("results.json", files.json, report::to_json);
+    write("junit.xml", files.junit, report::to_junit);
+    pages.get();
+    errors.insert(errors.end(), of_pages.begin(), of_pages.end());
+    return errors;
+}
+
+std::string written_page(const ReportFiles& files, const cases::Errors& errors) {
+    const std::string page = (files.folder / "report.html").string();
+    const bool is_missing = std::any_of(
+        errors.begin(), errors.end(),
+        [&](const cases::Error& error) { return error.message.starts_with("'" + page + "'"); });
+    return is_missing ? std::string() : page;
+}
+
+int finish_output(int code) {
+    const bool flushed = std::fflush(stdout) == 0;
+    const int reason = flushed ? 0 : errno;
+    if (flushed && std::ferror(stdout) == 0) {
+        return code;
+    }
+    pollfd out{STDOUT_FILENO, POLLOUT, 0};
+    if (reason == EPIPE || (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0)) {
+        return code;
+    }
+    std::fprintf(stderr, "edgecase: standard output cannot be written%s%s\n",
+                 reason == 0 ? "" : ": ", reason == 0 ? "" : std::strerror(reason));
+    return code == report::kExitInterrupted ? code : report::kExitInternal;
+}
+
+report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose) {
+    report::ConsoleStyle style;
+    style.verbose = verbose;
+    const bool terminal = ::isatty(::fileno(stream)) == 1;
+    const char* no_color = std::getenv("NO_COLOR");
+    const bool plain = no_color != nullptr && *no_color != '\0';
+    style.color = when == When::always || (when == When::automatic && terminal && !plain);
+    winsize size{};
+    if (terminal && ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col >= 20) {
+        style.width = size.ws_col;
+        style.wrap = true;
+    }
+    return style;
+}
+
+std::string progress_line(size_t done, size_t total, size_t unexpected, double seconds,
+                          size_t width) {
+    const size_t percent = total == 0 ? 100 : done * 100 / total;
+    std::string text = "[" + std::to_string(done) + "/" + std::to_string(total) + "] " +
+                       std::to_string(percent) + "%  " + std::to_string(unexpected) + " unexpected";
+    if (done > 0 && seconds > 0) {
+        const double rate = static_cast<double>(done) / seconds;
+        const auto left = static_cast<uint64_t>(static_cast<double>(total - done) / rate) + 1;
+        const std::string time =
+            left >= 120 ? std::to_string((left + 59) / 60) + " min" : std::to_string(left) + " s";
+        std::array<char, 32> number{};
+        std::snprintf(number.data(), number.size(), rate < 10 ? "%.1f/s" : "%.0f/s", rate);
+        text += "  " + std::string(number.data()) + "  " + time + " left";
+    }
+    return text.substr(0, width);
+}
+
+Progress::Progress(ProgressStyle style, size_t total)
+    : total_(total), begin_(steady_seconds()), last_(begin_) {
+    if (style == ProgressStyle::automatic && is_ci()) {
+        kind_ = Kind::none;
+    } else if (style == ProgressStyle::automatic) {
+        const char* terminal = std::getenv("TERM");
+        const bool dumb = terminal != nullptr && std::strcmp(terminal, "dumb") == 0;
+        kind_ = ::isatty(STDERR_FILENO) == 1 && !dumb ? Kind::line : Kind::plain;
+    } else if (style == ProgressStyle::plain) {
+        kind_ = Kind::plain;
+    }
+}
+
+void Progress::show(size_t done, size_t unexpected) {
+    const double now = steady_seconds();
+    const double interval = kind_ == Kind::line ? 0.2 : 10.0;
+    if (kind_ == Kind::none || now - last_ < interval) {
+        return;
+    }
+    last_ = now;
+    if (kind_ == Kind::line) {
+        winsize size{};
+        const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+        const std::string text =
+            progress_line(done, total_, unexpected, now - begin_, known ? size.ws_col - 1U : 79U);
+        std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
+        std::fflush(stderr);
+        shown_ = true;
+    } else {
+        const size_t percent = total_ == 0 ? 100 : done * 100 / total_;
+        std::fprintf(stderr, "%zu of %zu cases (%zu%%), %zu unexpected\n", done, total_, percent,
+                     unexpected);
+    }
+}
+
+void Progress::clear() {
+    if (shown_) {
+        std::fputs("\r\x1b[K", stderr);
+        std::fflush(stderr);
+        shown_ = false;
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writing reports and talking to the terminal.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cases/base/error.hpp"
+#include "cli/options/options.hpp"
+#include "report/record/run.hpp"
+#include "report/text/reports.hpp"
+
+namespace cli {
+
+// Where the reports go besides a folder; "-" is standard output, "" is none.
+struct ReportFiles {
+    std::filesystem::path folder;  // results.json, junit.xml, report.html
+    std::string json, junit, html;
+};
+
+// Writes text to a file or "-". Error: one sentence with the file and errno's reason, also for a
+// full disk.
+cases::Expected<void> write_text(const std::string& file, const std::string& text);
+
+// Writes all reports of a run and returns what could not be written.
+cases::Errors write_reports(const report::Run& run, const ReportFiles& files);
+// report.html in the folder, as the summary names it; empty if it could not be written.
+std::string written_page(const ReportFiles& files, const cases::Errors& errors);
+
+// The exit code of a command that ends with `code`: what standard output did not take (a full disk)
+// is told and makes it kExitInternal; a reader that has read enough is no error.
+int finish_output(int code);
+
+// Console style for a stream: colour by `when`, NO_COLOR and whether it is a terminal.
+report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose);
+
+// Progress as one line: "[120/3538] 3%  2 unexpected  410/s  8 s left", cut to `width` columns.
+// `seconds` is how long the run has lasted.
+std::string progress_line(size_t done, size_t total, size_t unexpected, double seconds,
+                          size_t width);
+
+// One line on a terminal at most five times a second, or one line every ten seconds elsewhere;
+// nothing in continuous integration.
+class Progress {
+  public:
+    Progress(ProgressStyle style, size_t total);
+    void show(size_t done, size_t unexpected);
+    // Removes the line, so that something else can be printed.
+    void clear();
+
+  private:
+    enum class Kind { none, line, plain } kind_ = Kind::none;
+    size_t total_ = 0;
+    double begin_ = 0, last_ = 0;  // seconds of the steady clock
+    bool shown_ = false;
+};
+
+}  // namespace cli

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/prepare_run.hpp"
+
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "cases/model/selector.hpp"
+#include "cli/command_line.hpp"
+#include "cli/prepare/device_answer.hpp"
+#include "report/journal/journal.hpp"
+#include "report/text/sentences.hpp"
+#include "run/worker/fault.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+using report::CaseRecord;
+using report::Run;
+
+namespace {
+
+std::string host_name() {
+    utsname name{};
+    ::uname(&name);
+    return std::string(name.sysname) + " " + name.release + " " + name.machine;
+}
+
+// A fault that no case can show looks like a runner that does not see it.
+void warn_of_idle_faults(const std::vector<std::string>& ids) {
+    const char* list = std::getenv("EDGECASE_FAULT");
+    const auto faults = parse_faults(list != nullptr ? list : "");
+    if (!faults) {
+        return;  // the worker says so
+    }
+    for (const Fault& fault : *faults) {
+        if (fault.glob != "**" && std::none_of(ids.begin(), ids.end(), [&](const std::string& id) {
+                return cases::glob_matches(fault.glob, id);
+            })) {
+            std::fprintf(stderr, "edgecase: warning: EDGECASE_FAULT: '%s' matches no case\n",
+                         fault.glob.c_str());
+        }
+    }
+}
+
+}  // namespace
+
+OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
+    Prepared p;
+    std::vector<std::string> in_flight;
+    std::error_code ignored;
+    p.folder = fs::absolute(now.resume, ignored);
+    const cases::Expected<Run> earlier = report::load_journal(p.folder, &in_flight);
+    if (!earlier) {
+        return tl::unexpected(
+            stop_with(report::kExitInvalidFile, "--resume: " + cases::to_string(earlier.error())));
+    }
+    for (const auto& [name, value] : earlier->environment) {
+        if (name == "PWD") {  // paths of the first command line count from there
+            fs::current_path(value, ignored);
+        }
+    }
+    // What the first part took from variables, it takes again.
+    for (const char* variable :
+         {"EDGECASE_PROFILE", "EDGECASE_DEVICE", "EDGECASE_ICD", "EDGECASE_TIMEOUT"}) {
+        ::unsetenv(variable);
+        for (const auto& [name, value] : earlier->environment) {
+            if (name == variable) {
+                ::setenv(variable, value.c_str(), 1);
+            }
+        }
+    }
+    OrStop<RunOptions> options = parse_run_arguments(earlier->arguments);
+    if (!options) {
+        return tl::unexpected(options.error());
+    }
+    p.options = std::move(*options);
+    p.options.jobs = now.jobs;
+    p.options.quiet = now.quiet;
+    p.options.verbose = now.verbose;
+    p.options.color = now.color;
+    p.options.progress = now.progress;
+    SuiteOptions suite = p.options.suite;
+    suite.suite = earlier->suite_root;
+    std::erase_if(suite.selectors, [](const std::string& s) { return !s.ends_with(".toml"); });
+    OrStop<LoadedSuite> loaded = load_and_select(program, suite);
+    if (!loaded) {
+        return tl::unexpected(loaded.error());
+    }
+    p.header = *earlier;
+    p.selection.root = loaded->root;
+    std::map<std::string, const cases::Case*> by_id;
+    for (const cases::Case& c : loaded->cases) {
+        p.selection.suite_ids.push_back(c.id);
+        by_id.emplace(c.id, &c);
+    }
+    p.selection.whole_suite = earlier->cases.size() == loaded->cases.size();
+    const std::set<std::string> cut_off(in_flight.begin(), in_flight.end());
+    for (const CaseRecord& record : earlier->cases) {
+        if (record.status != report::Status::not_run) {
+            continue;
+        }
+        const auto found = by_id.find(record.id);
+        if (found == by_id.end()) {
+            return tl::unexpected(stop_with(report::kExitInvalidFile,
+                                            "the run cannot go on: its case '" + record.id +
+                                                "' is no longer in the suite; start a new run"));
+        }
+        PlannedCase planned;
+        planned.data = *found->second;
+        planned.alone = cut_off.contains(record.id);
+        p.plan.push_back(std::move(planned));
+    }
+    return p;
+}
+
+OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
+    OrStop<Selection> selection = select_cases(program, options);
+    if (!selection) {
+        return tl::unexpected(selection.error());
+    }
+    Prepared p;
+    p.options = options;
+    p.selection = std::move(*selection);
+    warn_of_idle_faults(p.selection.suite_ids);
+    Run& header = p.header;
+    header.tool_version = kVersion;
+    header.arguments = program.arguments;
+    header.environment = recorded_environment();
+    header.started = utc_now(false);
+    header.host = host_name();
+    header.profile = options.profile;
+    header.seed = options.seed;
+    std::error_code ignored;
+    header.suite_root = fs::absolute(p.selection.root, ignored).lexically_normal().string();
+    header.suite_hash = hex(suite_hash(p.selection.root));
+    header.shard = options.shard.index;
+    header.shards = options.shard.count;
+    header.jobs = options.jobs;
+    for (cases::Case& c : p.selection.cases) {
+        header.cases.push_back(make_record(c));
+        header.cases.back().rerun = rerun_line(program, options, c.id);
+        PlannedCase planned;
+        planned.data = std::move(c);
+        p.plan.push_back(std::move(planned));
+    }
+    p.selection.cases.clear();
+    p.folder = options.output;
+    return p;
+}
+
+OrStop<std::monostate> apply_expectations(Prepared& p) {
+    const OrStop<std::vector<ExpectationFile>> files =
+        find_expectations(p.options, p.selection.root, p.header.device);
+    if (!files) {
+        return tl::unexpected(files.error());
+    }
+    std::vector<std::string> ids = p.selection.suite_ids;
+    const auto expected = resolve_expectations(*files, ids, p.selection.whole_suite);
+    if (!expected) {
+        Stop stop{report::kExitInvalidFile, {}};
+        for (const cases::Error& error : expected.error()) {
+            stop.lines.push_back(cases::to_string(error));
+        }
+        return tl::unexpected(stop);
+    }
+    for (PlannedCase& c : p.plan) {
+        if (const auto found = expected->find(c.data.id); found != expected->end()) {
+            c.expected = found->second;
+        }
+    }
+    p.header.expectation_file.clear();
+    for (const ExpectationFile& file : *files) {
+        p.header.expectation_file +=
+            (p.header.expectation_file.empty() ? "" : ", ") + file.path.string();
+    }
+    return std::monostate{};
+}
+
+}  // namespace cli

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What "run" knows before it asks the device: the cases, what is expected of them, and what an
+// interrupted run has left.
+#pragma once
+
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/prepare/run_plan.hpp"
+#include "report/record/run.hpp"
+#include "run/run_loop.hpp"
+
+namespace cli {
+
+// Everything that is known when drawing begins.
+struct Prepared {
+    RunOptions options;
+    Selection selection;
+    std::vector<PlannedCase> plan;  // the cases still to be run
+    std::filesystem::path folder;
+    report::Run header;
+};
+
+OrStop<Prepared> prepare(const Program& program, const RunOptions& options);
+// A run that goes on from its journal.
+OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now);
+
+// Finds the expectation files for the device of the header and what they say of the planned cases.
+OrStop<std::monostate> apply_expectations(Prepared& p);
+
+}  // namespace cli

@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/run_plan.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <set>
+
+#include "report/journal/journal.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+uint32_t shard_of(const std::string& id, uint32_t count) {
+    return static_cast<uint32_t>(stable_hash(id, 0) % count) + 1;
+}
+
+void shuffle(std::vector<cases::Case>& cases, uint64_t seed) {
+    const auto key = [seed](const cases::Case& c) {
+        return std::pair(stable_hash(c.id, seed + 1), c.id);
+    };
+    std::sort(cases.begin(), cases.end(),
+              [&](const cases::Case& a, const cases::Case& b) { return key(a) < key(b); });
+}
+
+std::vector<size_t> first_and_last(const std::vector<cases::Case>& cases,
+                                   const std::vector<size_t>& selected) {
+    std::vector<size_t> out;
+    for (size_t n = 0; n < selected.size(); ++n) {
+        const auto is_other_file = [&](size_t m) {
+            return cases[selected[m]].where.file != cases[selected[n]].where.file;
+        };
+        if (n == 0 || n + 1 == selected.size() || is_other_file(n - 1) || is_other_file(n + 1)) {
+            out.push_back(selected[n]);
+        }
+    }
+    return out;
+}
+
+OrStop<Selection> select_cases(const Program& program, const RunOptions& options) {
+    OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    if (!suite) {
+        return tl::unexpected(suite.error());
+    }
+    std::set<std::string> failed;
+    if (!options.failed_in.empty()) {
+        const cases::Expected<report::Run> earlier = report::load_journal(options.failed_in);
+        if (!earlier) {
+            return tl::unexpected(Stop{report::kExitInvalidFile,
+                                       {"--failed-in: " + cases::to_string(earlier.error())}});
+        }
+        for (const report::CaseRecord& record : earlier->cases) {
+            if (!report::is_expected(record.status)) {
+                failed.insert(record.id);
+            }
+        }
+    }
+    Selection selection;
+    selection.root = suite->root;
+    for (const cases::Case& c : suite->cases) {
+        selection.suite_ids.push_back(c.id);
+    }
+    for (const size_t k :
+         options.quick ? first_and_last(suite->cases, suite->selected) : suite->selected) {
+        cases::Case& c = suite->cases[k];
+        if ((options.failed_in.empty() || failed.contains(c.id)) &&
+            shard_of(c.id, options.shard.count) == options.shard.index) {
+            selection.cases.push_back(std::move(c));
+        }
+    }
+    selection.whole_suite = selection.cases.size() == selection.suite_ids.size();
+    if (selection.cases.empty()) {
+        std::string why = "no case is selected";
+        if (suite->cases.empty()) {
+            why = "the suite '" + suite->root.string() + "' holds no case";
+        } else if (!options.failed_in.empty()) {
+            why += "; no case of this selection failed in '" + options.failed_in + "'";
+        } else if (options.shard.count > 1) {
+            why += "; the selection has none in shard " + std::to_string(options.shard.index) +
+                   "/" + std::to_string(options.shard.count);
+        }
+        return tl::unexpected(Stop{report::kExitNothingSelected, {why}});
+    }
+    if (options.shuffle) {
+        shuffle(selection.cases, options.seed);
+    }
+    return selection;
+}
+
+OrStop<std::vector<ExpectationFile>> find_expectations(const RunOptions& options,
+                                                       const fs::path& suite_root,
+                                                       const report::Device& device) {
+    std::vector<ExpectationFile> found;
+    if (options.no_expect) {
+        return found;
+    }
+    std::vector<fs::path> paths(options.expect.begin(), options.expect.end());
+    const bool is_explicit = !paths.empty();
+    if (!is_explicit) {
+        std::error_code none;
+        for (const fs::directory_entry& entry : fs::directory_iterator(
+                 fs::absolute(suite_root).lexically_normal().parent_path() / "expectations",
+                 none)) {
+            if (entry.path().extension() == ".txt") {
+                paths.push_back(entry.path());
+            }
+        }
+        std::sort(paths.begin(), paths.end());
+    }
+    for (const fs::path& path : paths) {
+        cases::ExpectedAll<ExpectationFile> file = load_expectations(path);
+        if (!file) {
+            Stop stop{report::kExitInvalidFile, {}};
+            for (const cases::Error& error : file.error()) {
+                stop.lines.push_back(cases::to_string(error));
+            }
+            return tl::unexpected(stop);
+        }
+        const std::string why_not = mismatch(*file, device, options.profile);
+        if (why_not.empty()) {
+            found.push_back(std::move(*file));
+        } else if (is_explicit) {
+            return tl::unexpected(
+                Stop{report::kExitDevice,
+                     {"the expectation file '" + path.string() + "' does not fit: " + why_not +
+                      "; choose another --device or --expect"}});
+        }
+    }
+    return found;
+}
+
+namespace {
+
+std::string join(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) {
+        line += (line.empty() ? "" : " ") + shell_quote(word);
+    }
+    return line;
+}
+
+void add_suite_and_profile(std::vector<std::string>& words, const RunOptions& options) {
+    if (!options.suite.suite.empty()) {
+        words.insert(words.end(), {"--suite", options.suite.suite});
+    }
+    if (options.profile != cases::Profile::direct3d) {
+        words.insert(words.end(), {"--profile", std::string(cases::to_string(options.profile))});
+    }
+}
+
+void add_expectations(std::vector<std::string>& words, const RunOptions& options) {
+    if (options.no_expect) {
+        words.emplace_back("--no-expect");
+    }
+    for (const std::string& file : options.expect) {
+        words.insert(words.end(), {"--expect", file});
+    }
+}
+
+// A case outside the suite is named by its file.
+std::string selector_of(const RunOptions& options, const std::string& id) {
+    const std::string base = id.substr(0, id.find(':'));
+    for (const std::string& selector : options.suite.selectors) {
+        if (selector.ends_with(".toml") && fs::path(selector).stem() == base) {
+            return selector;
+        }
+    }
+    return id;
+}
+
+// The settings that choose or change a driver, to be put before a command: "VK_DRIVER_FILES=a.json
+// ".
+std::string driver_settings() {
+    constexpr std::array<std::string_view, 6> kPrefixes = {
+        "VK_", "EDGECASE_SELF_PREFIX", "LP_", "LVP_", "MESA_", "GALLIUM_"};
+    std::string text;
+    for (const auto& [name, value] : recorded_environment()) {
+        if (std::any_of(
+                kPrefixes.begin(), kPrefixes.end(),
+                [&, &n = name](std::string_view prefix) { return n.starts_with(prefix); })) {
+            text += name + "=" + shell_quote(value) + " ";
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id) {
+    std::vector<std::string> words = {program.arguments.front(), "run", selector_of(options, id)};
+    add_suite_and_profile(words, options);
+    if (!options.device.device.empty()) {
+        words.insert(words.end(), {"--device", options.device.device});
+    }
+    if (!options.device.icd.empty()) {
+        words.insert(words.end(), {"--icd", options.device.icd});
+    }
+    if (options.device.validation) {
+        words.emplace_back("--validation");
+    }
+    if (!options.device.renderer.empty()) {
+        words.insert(words.end(), {"--renderer", options.device.renderer});
+    }
+    if (options.repeat > 1) {
+        words.insert(words.end(), {"--repeat", std::to_string(options.repeat)});
+    }
+    if (std::abs(options.device.timeout - DeviceOptions().timeout) > 0) {
+        words.insert(words.end(), {"--timeout", fmt::format("{}", options.device.timeout)});
+    }
+    add_expectations(words, options);
+    return driver_settings() + join(words);
+}
+
+std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id) {
+    std::vector<std::string> words = {program.arguments.front(), "diff",
+                                      selector_of(options.run, id), "--captures", options.captures};
+    add_suite_and_profile(words, options.run);
+    if (options.subpixel_bits != 8) {
+        words.insert(words.end(), {"--subpixel-bits", std::to_string(options.subpixel_bits)});
+    }
+    if (!options.name.empty()) {
+        words.insert(words.end(), {"--name", options.name});
+    }
+    add_expectations(words, options.run);
+    return join(words);
+}
+
+std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
+                         uint32_t subpixel_bits) {
+    std::vector<std::string> words = {program.arguments.front(), "explain",
+                                      selector_of(options, id)};
+    add_suite_and_profile(words, options);
+    if (subpixel_bits != 8) {
+        words.insert(words.end(), {"--subpixel-bits", std::to_string(subpixel_bits)});
+    }
+    return join(words);
+}
+
+std::vector<std::pair<std::string, std::string>> recorded_environment() {
+    constexpr std::array<std::string_view, 14> kPrefixes = {
+        "VK_",         "EDGECASE_",  "LP_",          "LVP_",         "MESA_",
+        "GALLIUM_",    "LIBGL_",     "ENABLE_",      "DISABLE_",     "NODEVICE_",
+        "LD_LIBRARY_", "LD_PRELOAD", "SWIFTSHADER_", "XDG_DATA_DIRS"};
+    std::vector<std::pair<std::string, std::string>> recorded;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        const std::string_view text = *variable;
+        const size_t equals = text.find('=');
+        const bool wanted =
+            std::any_of(kPrefixes.begin(), kPrefixes.end(),
+                        [&](std::string_view prefix) { return text.starts_with(prefix); });
+        if (wanted && equals != std::string_view::npos) {
+            recorded.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+        }
+    }
+    std::error_code ignored;
+    recorded.emplace_back("PWD", fs::current_path(ignored).string());
+    std::sort(recorded.begin(), recorded.end());
+    return recorded;
+}
+
+report::Device to_report(const vk_harness::DeviceInfo& device) {
+    report::Device d;
+    d.name = device.name;
+    d.driver_name = device.driver_name;
+    d.driver_info = device.driver_info;
+    d.uuid = device.uuid;
+    d.type = device.device_type;
+    // VK_API_VERSION_*: variant 31..29, major 28..22, minor 21..12, patch 11..0
+    d.api_version = std::to_string((device.api_version >> 22) & 0x7fU) + "." +
+                    std::to_string((device.api_version >> 12) & 0x3ffU) + "." +
+                    std::to_string(device.api_version & 0xfffU);
+    d.vendor_id = device.vendor_id;
+    d.device_id = device.device_id;
+    d.driver_version = device.driver_version;
+    d.driver_id = device.driver_id;
+    d.subpixel_bits = device.subpixel_bits;
+    d.viewport_subpixel_bits = device.viewport_subpixel_bits;
+    d.has_primitive_id = device.has_primitive_id;
+    return d;
+}
+
+std::string utc_now(bool compact) {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), compact ? "%Y%m%dT%H%M%SZ" : "%Y-%m-%dT%H:%M:%SZ",
+                  &utc);
+    return text.data();
+}
+
+}  // namespace cli

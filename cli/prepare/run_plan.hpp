@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a run is made of before any worker draws: which cases, in which order, with which
+// expectations.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/options/options.hpp"
+#include "cli/prepare/suite.hpp"
+#include "run/expected/expectation_file.hpp"
+#include "run/run_loop.hpp"
+
+namespace cli {
+
+// Which shard (1..count) an id belongs to; does not change when cases are added.
+uint32_t shard_of(const std::string& id, uint32_t count);
+// Sorts into an order that depends on each id and the seed alone, so that a subset keeps its order.
+void shuffle(std::vector<cases::Case>& cases, uint64_t seed);
+
+// Of the selected cases the first and the last leaf of each file, for --quick.
+std::vector<size_t> first_and_last(const std::vector<cases::Case>& cases,
+                                   const std::vector<size_t>& selected);
+
+struct Selection {
+    std::filesystem::path root;
+    std::vector<cases::Case> cases;      // in the order of the run
+    std::vector<std::string> suite_ids;  // of the whole suite
+    bool whole_suite = false;
+};
+// Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop.
+OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
+
+// The expectation files of --expect, or those beside the suite that fit the device.
+OrStop<std::vector<ExpectationFile>> find_expectations(const RunOptions& options,
+                                                       const std::filesystem::path& suite_root,
+                                                       const report::Device& device);
+
+// The words of a command on one case that repeat how this run was set up, quoted for a shell.
+std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id);
+std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id);
+std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
+                         uint32_t subpixel_bits);
+
+// What was set of the variables that choose or change drivers, and PWD.
+std::vector<std::pair<std::string, std::string>> recorded_environment();
+
+report::Device to_report(const vk_harness::DeviceInfo& device);
+
+// "2026-11-21T05:00:00Z", and for file names "20261121T050000Z".
+std::string utc_now(bool compact);
+
+}  // namespace cli

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/suite.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "cases/load/loader.hpp"
+#include "cases/model/selector.hpp"
+#include "report/record/run.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+fs::path source_tree_suite() {
+#ifdef EDGECASE_SUITE_DIR
+    return EDGECASE_SUITE_DIR;
+#else
+    return fs::path(__FILE__).parent_path().parent_path() / "cases" / "suite";
+#endif
+}
+
+bool is_below(const fs::path& file, const fs::path& root) {
+    std::error_code ignored;
+    const fs::path relative = fs::relative(file, root, ignored);
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+Stop invalid_files(const cases::Errors& errors) {
+    Stop stop{report::kExitInvalidFile, {}};
+    for (const cases::Error& error : errors) {
+        stop.lines.push_back(cases::to_string(error));
+    }
+    return stop;
+}
+
+// Loads the case files outside the suite that selectors name, and puts their ids in the selectors'
+// place.
+OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
+                                                    LoadedSuite& suite) {
+    std::vector<std::string> selectors;
+    for (const std::string& selector : options.selectors) {
+        std::error_code ignored;
+        if (!selector.ends_with(".toml") || !fs::is_regular_file(selector, ignored) ||
+            is_below(selector, suite.root)) {
+            selectors.push_back(selector);
+            continue;
+        }
+        cases::ExpectedAll<std::vector<cases::Case>> loaded =
+            cases::load_file(selector, suite.root);
+        if (!loaded) {
+            return tl::unexpected(invalid_files(loaded.error()));
+        }
+        for (cases::Case& c : *loaded) {
+            for (const cases::Case& known : suite.cases) {
+                if (known.id == c.id) {
+                    return tl::unexpected(
+                        Stop{report::kExitInvalidFile,
+                             {selector + ": error: its id '" + c.id + "' is already that of " +
+                              known.where.file + "; rename the file"}});
+                }
+            }
+            selectors.push_back(c.id);
+            suite.cases.push_back(std::move(c));
+        }
+    }
+    return selectors;
+}
+
+}  // namespace
+
+int report_stop(const Stop& stop) {
+    for (const std::string& line : stop.lines) {
+        std::fprintf(stderr, "edgecase: %s\n", line.c_str());
+    }
+    return stop.exit_code;
+}
+
+OrStop<fs::path> find_suite_root(const Program& program, const std::string& option) {
+    if (!option.empty()) {
+        if (is_folder(option)) {
+            return fs::path(option);
+        }
+        return tl::unexpected(Stop{report::kExitInvalidFile,
+                                   {"no suite in '" + option + "' (--suite): it is not a folder"}});
+    }
+    if (const char* value = std::getenv("EDGECASE_SUITE"); value != nullptr && *value != '\0') {
+        if (is_folder(value)) {
+            return fs::path(value);
+        }
+        return tl::unexpected(Stop{
+            report::kExitInvalidFile,
+            {"no suite in '" + std::string(value) + "' (EDGECASE_SUITE): it is not a folder"}});
+    }
+    std::string looked;
+    fs::path folder = fs::path(program.path).parent_path();
+    for (int up = 0; up < 5 && folder.has_relative_path(); ++up, folder = folder.parent_path()) {
+        const fs::path candidate = folder / "cases" / "suite";
+        if (is_folder(candidate)) {
+            return candidate;
+        }
+        looked += "'" + candidate.string() + "', ";
+    }
+    if (is_folder(source_tree_suite())) {
+        return source_tree_suite();
+    }
+    return tl::unexpected(Stop{report::kExitInvalidFile,
+                               {"no suite found; looked for " + looked + "'" +
+                                source_tree_suite().string() + "'; name it with --suite DIR"}});
+}
+
+OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,
+                                    cases::Contents contents) {
+    const OrStop<fs::path> root = find_suite_root(program, options.suite);
+    if (!root) {
+        return tl::unexpected(root.error());
+    }
+    cases::Suite loaded = cases::load_suite(*root, contents);
+    if (!loaded.errors.empty()) {
+        return tl::unexpected(invalid_files(loaded.errors));
+    }
+    LoadedSuite suite{*root, std::move(loaded.cases), {}};
+    const OrStop<std::vector<std::string>> selectors = load_outside_files(options, suite);
+    if (!selectors) {
+        return tl::unexpected(selectors.error());
+    }
+    cases::Expected<std::vector<size_t>> selected =
+        cases::select(suite.cases, *selectors, std::cin);
+    if (!selected) {
+        return tl::unexpected(
+            Stop{report::kExitNothingSelected, {cases::to_string(selected.error())}});
+    }
+    suite.selected = std::move(*selected);
+    return suite;
+}
+
+OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options) {
+    OrStop<LoadedSuite> suite = load_and_select(program, options);
+    if (!suite) {
+        return tl::unexpected(suite.error());
+    }
+    if (suite->selected.empty()) {
+        return tl::unexpected(Stop{report::kExitNothingSelected, {"the selection is empty"}});
+    }
+    if (suite->selected.size() != 1) {
+        std::string some;
+        for (size_t k = 0; k < suite->selected.size() && k < 3; ++k) {
+            some += (k == 0 ? "'" : ", '") + suite->cases[suite->selected[k]].id + "'";
+        }
+        return tl::unexpected(
+            Stop{report::kExitUsage,
+                 {"this command works on one case, and " + std::to_string(suite->selected.size()) +
+                  " are selected: " + some + (suite->selected.size() > 3 ? ", ..." : "") +
+                  "; give the id of one"}});
+    }
+    return std::move(suite->cases[suite->selected.front()]);
+}
+
+uint64_t suite_hash(const std::filesystem::path& root) {
+    std::error_code none;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none)) {
+        if (entry.path().extension() == ".toml") {
+            files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    uint64_t hash = 0;
+    for (const std::filesystem::path& file : files) {
+        std::ifstream in(file, std::ios::binary);
+        std::ostringstream text;
+        text << in.rdbuf();
+        hash = stable_hash(file.lexically_relative(root).string(), hash);
+        hash = stable_hash(text.str(), hash);
+    }
+    return hash;
+}
+
+}  // namespace cli

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finding, loading and selecting the suite, with the exit codes that its failures have.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "cases/load/loader.hpp"
+#include "cases/model/case.hpp"
+#include "cli/options/options.hpp"
+#include "cli/options/program.hpp"
+
+namespace cli {
+
+// Why a command cannot go on: lines for stderr and its exit code.
+struct Stop {
+    int exit_code = 0;
+    std::vector<std::string> lines;
+};
+template <class T>
+using OrStop = tl::expected<T, Stop>;
+
+inline Stop stop_with(int exit_code, const std::string& line) {
+    return {exit_code, {line}};
+}
+
+// Prints the lines, each after "edgecase: ", and returns the exit code.
+int report_stop(const Stop& stop);
+
+// --suite, else EDGECASE_SUITE, else "cases/suite" in a folder above the program, else the source
+// tree that the program was built from.
+OrStop<std::filesystem::path> find_suite_root(const Program& program, const std::string& option);
+
+// A hash of the paths and bytes of all case files below the folder: whether two runs had the same
+// suite.
+uint64_t suite_hash(const std::filesystem::path& root);
+
+struct LoadedSuite {
+    std::filesystem::path root;
+    std::vector<cases::Case> cases;  // the suite's, then those of files outside that selectors name
+    std::vector<size_t> selected;    // indices into cases, in suite order
+};
+// Loads all and selects. Errors: invalid files (3), a selector that matches nothing (4).
+OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,
+                                    cases::Contents contents = cases::Contents::all);
+
+// As load_and_select, for commands on a single case.
+OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options);
+
+}  // namespace cli

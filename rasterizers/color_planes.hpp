@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The colour plane of captures that no device drew: of the reference, of an algorithm, of a
+// software device in the tests.
+#pragma once
+
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
+#include "ref/expectation/expectation.hpp"
+
+namespace diff {
+
+// Fills the colour plane, if the case has a colour target, from the hits, writers and attributes of
+// a capture drawn with instruments: the fragments that they tell of, blended as ref/color/blend.hpp
+// says. What was not hit, or not by an allowed set of fragments, keeps the clear colour.
+// `expectation` is that of the case.
+void add_color_plane(Capture& capture, const cases::Case& c, const ref::Expectation& expectation);
+
+// Takes away the planes that the case does not attach: instruments and depth.
+void drop_unattached(Capture& capture, const cases::Case& c);
+
+}  // namespace diff

@@ -1,0 +1,354 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/blit/blit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "cases/model/words.hpp"
+
+namespace ref {
+
+using cases::BlitFilter;
+using cases::ComponentFormat;
+using cases::ComponentKind;
+using cases::Profile;
+using cases::TexelCodes;
+
+namespace {
+
+// What one operation loses: half an ULP in binary32 (counted in 2^-24), or the only bound that
+// Vulkan names (1 part in 10^5).
+mpq_class unit_of(Profile profile) {
+    return profile == Profile::vulkan ? mpq_class(1, 100000) : mpq_class(1, 1U << 24U);
+}
+
+int64_t floor_div(const mpq_class& v) {
+    mpz_class result;
+    mpz_fdiv_q(result.get_mpz_t(), v.get_num_mpz_t(), v.get_den_mpz_t());
+    return result.get_si();
+}
+
+mpq_class rational(const BlitCoordinate& u) {
+    mpq_class v(u.numerator, static_cast<unsigned long>(u.denominator));
+    v.canonicalize();
+    return v;
+}
+
+RationalInterval widen(const RationalInterval& v, const mpq_class& by) {
+    return {v.lo - by, v.hi + by};
+}
+
+mpq_class magnitude(const RationalInterval& v) {
+    return std::max(mpq_class(abs(v.lo)), mpq_class(abs(v.hi)));
+}
+
+}  // namespace
+
+BlitCoordinate blit_coordinate(int32_t i, int32_t s0, int32_t s1, int32_t d0, int32_t d1) {
+    // (2 (i - d0) + 1) (s1 - s0) / (2 (d1 - d0)) + s0, with the denominator made positive.
+    const int64_t sign = d1 > d0 ? 1 : -1;
+    const int64_t denominator = 2 * sign * (int64_t{d1} - d0);
+    const int64_t numerator = sign * (2 * (int64_t{i} - d0) + 1) * (int64_t{s1} - s0);
+    return {numerator + s0 * denominator, denominator};
+}
+
+mpq_class coordinate_error(const mpq_class& unit, uint32_t source_size, uint32_t target_width,
+                           uint32_t target_height, uint32_t region_width, uint32_t region_height) {
+    const mpq_class extrapolation =
+        mpq_class(target_width) / region_width + mpq_class(target_height) / region_height;
+    return unit * source_size * (9 + 2 * (1 + 8 * extrapolation));
+}
+
+BlitReference::BlitReference(const cases::Case& c)
+    : blit_(*c.blit),
+      format_(c.target.color->format),
+      width_(c.target.width),
+      height_(c.target.height),
+      across_{blit_.source.x0, blit_.source.x1, blit_.destination.x0, blit_.destination.x1,
+              blit_.source_width},
+      down_{blit_.source.y0, blit_.source.y1, blit_.destination.y0, blit_.destination.y1,
+            blit_.source_height},
+      texels_(cases::blit_source(blit_)) {
+    if (blit_.filter == BlitFilter::linear) {
+        for (const TexelCodes& codes : texels_) {
+            std::array<double, 4> numbers{};
+            for (uint32_t k = 0; k < 4; ++k) {
+                const ComponentFormat component = cases::component_of(blit_.source_format, k);
+                numbers[k] = component.bits == 0 ? 0 : number_of(codes[k], component).lo.get_d();
+            }
+            numbers_.push_back(numbers);
+        }
+    }
+    for (const Profile profile : cases::kProfiles) {
+        columns_[static_cast<size_t>(profile)] =
+            spans_of(across_, width_, error_of(across_, profile));
+        rows_[static_cast<size_t>(profile)] = spans_of(down_, height_, error_of(down_, profile));
+    }
+    for (uint32_t k = 0; k < 4; ++k) {
+        const ComponentFormat component = cases::component_of(format_, k);
+        if (component.bits != 0) {
+            clear_[k] = nearest_code(
+                mpq_class(static_cast<double>(c.target.color->clear[static_cast<int>(k)])),
+                component);
+        }
+    }
+}
+
+std::vector<BlitReference::Span> BlitReference::spans_of(const Axis& axis, uint32_t size,
+                                                         const mpq_class& error) const {
+    std::vector<Span> spans;
+    for (uint32_t i = 0; i < size; ++i) {
+        const mpq_class u =
+            rational(blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
+        spans.push_back({floor_div(u - error), floor_div(u + error)});
+    }
+    return spans;
+}
+
+bool BlitReference::is_inside(uint32_t x, uint32_t y) const {
+    const auto within = [](const Axis& axis, uint32_t i) {
+        const auto at = static_cast<int32_t>(i);
+        return at >= std::min(axis.d0, axis.d1) && at < std::max(axis.d0, axis.d1);
+    };
+    return within(across_, x) && within(down_, y);
+}
+
+mpq_class BlitReference::error_of(const Axis& axis, Profile profile) const {
+    const auto side = [](const Axis& a) { return static_cast<uint32_t>(std::abs(a.d1 - a.d0)); };
+    return coordinate_error(unit_of(profile), axis.size, width_, height_, side(across_),
+                            side(down_));
+}
+
+// Where the device may read: the coordinates u - error .. u + error of both axes.
+struct BlitReference::Window {
+    RationalInterval across, down;
+};
+
+BlitReference::Window BlitReference::window(uint32_t x, uint32_t y, Profile profile) const {
+    const auto around = [&](const Axis& axis, uint32_t i) {
+        const mpq_class u =
+            rational(blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
+        const mpq_class error = error_of(axis, profile);
+        return RationalInterval{u - error, u + error};
+    };
+    return {around(across_, x), around(down_, y)};
+}
+
+const TexelCodes& BlitReference::texel(int64_t x, int64_t y, bool by_region) const {
+    const auto clamped = [&](int64_t i, const Axis& axis) {
+        const int64_t low = by_region ? std::min(axis.s0, axis.s1) : 0;
+        const int64_t high = by_region ? std::max(axis.s0, axis.s1) : int64_t{axis.size};
+        return static_cast<size_t>(std::clamp(i, low, high - 1));
+    };
+    return texels_[clamped(y, down_) * blit_.source_width + clamped(x, across_)];
+}
+
+// True if a texel may be stored as these codes. From format to format a number passes two
+// conversions, each of which loses at most two units of it (1 ULP).
+bool BlitReference::converts(const TexelCodes& source, const TexelCodes& got,
+                             Profile profile) const {
+    if (format_ == blit_.source_format && profile != Profile::vulkan) {
+        return got == source;  // nothing is converted: bit for bit
+    }
+    for (uint32_t k = 0; k < 4; ++k) {
+        const ComponentFormat to = cases::component_of(format_, k);
+        if (to.bits == 0) {
+            continue;
+        }
+        const ComponentFormat from = cases::component_of(blit_.source_format, k);
+        if (to.kind == ComponentKind::uint && from.bits == to.bits) {
+            if (got[k] != source[k]) {
+                return false;
+            }
+            continue;
+        }
+        // Components that the source lacks are 0, alpha 1.
+        const RationalInterval number = from.bits == 0
+                                            ? RationalInterval{k == 3 ? 1 : 0, k == 3 ? 1 : 0}
+                                            : number_of(source[k], from);
+        const mpq_class slack = from.bits == 0 || to.kind == ComponentKind::uint
+                                    ? mpq_class(0)
+                                    : mpq_class(4 * unit_of(profile) * magnitude(number));
+        if (!may_store(got[k], widen(number, slack), to)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool BlitReference::allows_nearest(uint32_t x, uint32_t y, const TexelCodes& got,
+                                   Profile profile) const {
+    const Span& columns = columns_[static_cast<size_t>(profile)][x];
+    const Span& rows = rows_[static_cast<size_t>(profile)][y];
+    for (int64_t j = rows.first; j <= rows.last; ++j) {
+        for (int64_t i = columns.first; i <= columns.last; ++i) {
+            if (converts(texel(i, j, false), got, profile) ||
+                converts(texel(i, j, true), got, profile)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+namespace {
+
+// The points at which a function that is linear between whole numbers takes its extremes on an
+// interval: its ends and the whole numbers inside.
+std::vector<mpq_class> corners_of(const mpq_class& lo, const mpq_class& hi) {
+    std::vector<mpq_class> points = {lo};
+    for (int64_t i = floor_div(lo) + 1; mpq_class(i) < hi; ++i) {
+        points.emplace_back(i);
+    }
+    points.push_back(hi);
+    return points;
+}
+
+}  // namespace
+
+// The filtered value is bilinear between texel centres, so over a box of coordinates its extremes
+// lie at corners of the box cut by the whole numbers. The weights have subTexelPrecisionBits bits,
+// 4 or more: a coordinate moves by less than one step of them. The filter itself may keep the
+// source's precision: each lerp of UNORM texels loses less than one code, and the second averages
+// the loss of the first, so less than 2 codes; in floating point a lerp a + (b - a) t loses at most
+// 10 units of the largest texel (three operations of 2 units each; |b - a| <= 2 max), both 20.
+bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got, Profile profile,
+                                  bool by_region) const {
+    Window w = window(x, y, profile);
+    const mpq_class step(1, 1U << kSubTexelBits);
+    const mpq_class half(1, 2);
+    const auto columns = corners_of(w.across.lo - half - step, w.across.hi - half + step);
+    const auto rows = corners_of(w.down.lo - half - step, w.down.hi - half + step);
+    for (uint32_t k = 0; k < 4; ++k) {
+        const ComponentFormat to = cases::component_of(format_, k);
+        const ComponentFormat from = cases::component_of(blit_.source_format, k);
+        if (to.bits == 0) {
+            continue;
+        }
+        RationalInterval number{k == 3 ? 1 : 0, k == 3 ? 1 : 0};
+        if (from.bits != 0) {
+            bool first = true;
+            mpq_class largest;
+            for (const mpq_class& row : rows) {
+                const int64_t j = floor_div(row);
+                const mpq_class beta = row - j;
+                for (const mpq_class& column : columns) {
+                    const int64_t i = floor_div(column);
+                    const mpq_class alpha = column - i;
+                    mpq_class lo;
+                    mpq_class hi;
+                    for (int corner = 0; corner < 4; ++corner) {
+                        const mpq_class weight =
+                            ((corner & 1) != 0 ? alpha : mpq_class(1 - alpha)) *
+                            ((corner & 2) != 0 ? beta : mpq_class(1 - beta));
+                        const RationalInterval v = number_of(
+                            texel(i + (corner & 1), j + (corner >> 1), by_region)[k], from);
+                        lo += weight * v.lo;
+                        hi += weight * v.hi;
+                        largest = std::max(largest, magnitude(v));
+                    }
+                    number.lo = first ? lo : std::min(number.lo, lo);
+                    number.hi = first ? hi : std::max(number.hi, hi);
+                    first = false;
+                }
+            }
+            // 20 units of the filter and 4 of the conversions, as for nearest.
+            number = widen(number, 2 * code_step(from) + 24 * unit_of(profile) * largest);
+        }
+        if (!may_store(got[k], number, to)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool BlitReference::allows_exact(uint32_t x, uint32_t y, const TexelCodes& got,
+                                 Profile profile) const {
+    if (!is_inside(x, y)) {
+        return got == clear_;
+    }
+    if (blit_.filter == BlitFilter::nearest) {
+        return allows_nearest(x, y, got, profile);
+    }
+    return allows_linear(x, y, got, profile, false) || allows_linear(x, y, got, profile, true);
+}
+
+bool BlitReference::allows(uint32_t x, uint32_t y, const TexelCodes& got, Profile profile) const {
+    if (is_inside(x, y) && blit_.filter == BlitFilter::linear && surely_linear(x, y, got)) {
+        return true;
+    }
+    return allows_exact(x, y, got, profile);
+}
+
+bool BlitReference::has_freedom(uint32_t x, uint32_t y, Profile profile) const {
+    if (!is_inside(x, y)) {
+        return false;
+    }
+    if (blit_.filter == BlitFilter::linear || format_ != blit_.source_format ||
+        profile == Profile::vulkan) {
+        return true;
+    }
+    const Span& column = columns_[static_cast<size_t>(profile)][x];
+    const Span& row = rows_[static_cast<size_t>(profile)][y];
+    return column.first != column.last || row.first != row.last;
+}
+
+TexelCodes BlitReference::nominal(uint32_t x, uint32_t y) const {
+    if (!is_inside(x, y)) {
+        return clear_;
+    }
+    const auto at = [](const Axis& axis, uint32_t i) {
+        return rational(
+            blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
+    };
+    const bool linear = blit_.filter == BlitFilter::linear;
+    const mpq_class shift(linear ? 1 : 0, 2);
+    const mpq_class column = at(across_, x) - shift;
+    const mpq_class row = at(down_, y) - shift;
+    const int64_t i = floor_div(column);
+    const int64_t j = floor_div(row);
+    const TexelCodes& source = texel(i, j, false);
+    if (!linear && format_ == blit_.source_format) {
+        return source;
+    }
+    TexelCodes codes{};
+    for (uint32_t k = 0; k < 4; ++k) {
+        const ComponentFormat to = cases::component_of(format_, k);
+        const ComponentFormat from = cases::component_of(blit_.source_format, k);
+        if (to.bits == 0) {
+            continue;
+        }
+        mpq_class number(k == 3 ? 1 : 0);
+        if (from.bits != 0) {
+            number = 0;
+            for (int corner = 0; corner < (linear ? 4 : 1); ++corner) {
+                const mpq_class alpha = linear ? mpq_class(column - i) : mpq_class(0);
+                const mpq_class beta = linear ? mpq_class(row - j) : mpq_class(0);
+                const RationalInterval v =
+                    number_of(texel(i + (corner & 1), j + (corner >> 1), false)[k], from);
+                number += ((corner & 1) != 0 ? alpha : mpq_class(1 - alpha)) *
+                          ((corner & 2) != 0 ? beta : mpq_class(1 - beta)) * (v.lo + v.hi) / 2;
+            }
+        }
+        codes[k] = nearest_code(number, to);
+    }
+    return codes;
+}
+
+std::string BlitReference::explain(uint32_t x, uint32_t y) const {
+    if (!is_inside(x, y)) {
+        return "the texel lies outside the destination region, so it keeps the clear value";
+    }
+    const BlitCoordinate u =
+        blit_coordinate(static_cast<int32_t>(x), across_.s0, across_.s1, across_.d0, across_.d1);
+    const BlitCoordinate v =
+        blit_coordinate(static_cast<int32_t>(y), down_.s0, down_.s1, down_.d0, down_.d1);
+    return fmt::format("u = {}/{} = {}, v = {}/{} = {} in texels of the source, filter {}",
+                       u.numerator, u.denominator, rational(u).get_d(), v.numerator, v.denominator,
+                       rational(v).get_d(), cases::word_of(blit_.filter));
+}
+
+}  // namespace ref

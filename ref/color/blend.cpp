@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/color/blend.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ref::color {
+
+namespace {
+
+using cases::BlendFactor;
+using cases::BlendOp;
+using cases::ComponentKind;
+
+Interval complement(const Interval& v) {
+    return {1 - v.high, 1 - v.low};
+}
+
+Interval product(const Interval& a, const Interval& b) {
+    const std::array<mpq_class, 4> ends = {a.low * b.low, a.low * b.high, a.high * b.low,
+                                           a.high * b.high};
+    return {*std::min_element(ends.begin(), ends.end()),
+            *std::max_element(ends.begin(), ends.end())};
+}
+
+Interval smaller(const Interval& a, const Interval& b) {
+    return {std::min(a.low, b.low), std::min(a.high, b.high)};
+}
+
+Interval larger(const Interval& a, const Interval& b) {
+    return {std::max(a.low, b.low), std::max(a.high, b.high)};
+}
+
+// Table "Blend Factors". `k`: the component, 3 alpha.
+Interval factor_of(BlendFactor factor, size_t k, const Color& source, const Color& destination,
+                   const Color& constants) {
+    switch (factor) {
+        case BlendFactor::zero:
+            return point(0);
+        case BlendFactor::one:
+            return point(1);
+        case BlendFactor::src_color:
+            return source[k];
+        case BlendFactor::one_minus_src_color:
+            return complement(source[k]);
+        case BlendFactor::dst_color:
+            return destination[k];
+        case BlendFactor::one_minus_dst_color:
+            return complement(destination[k]);
+        case BlendFactor::src_alpha:
+            return source[3];
+        case BlendFactor::one_minus_src_alpha:
+            return complement(source[3]);
+        case BlendFactor::dst_alpha:
+            return destination[3];
+        case BlendFactor::one_minus_dst_alpha:
+            return complement(destination[3]);
+        case BlendFactor::constant_color:
+            return constants[k];
+        case BlendFactor::one_minus_constant_color:
+            return complement(constants[k]);
+        case BlendFactor::constant_alpha:
+            return constants[3];
+        case BlendFactor::one_minus_constant_alpha:
+            return complement(constants[3]);
+        case BlendFactor::src_alpha_saturate:
+            break;
+    }
+    return k == 3 ? point(1) : smaller(source[3], complement(destination[3]));
+}
+
+}  // namespace
+
+Color Unit::cleared(const cases::ColorTarget& target) const {
+    Color out;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        out[k] =
+            component.exists()
+                ? component.stored(point(static_cast<double>(target.clear[static_cast<int>(k)])),
+                                   profile, false)
+                : point(k == 3 ? 1 : 0);
+    }
+    return out;
+}
+
+Color Unit::write(const cases::ColorOutput& output, const Color& source,
+                  const Color& before) const {
+    Color out = before;
+    if (!output.blend) {
+        for (uint32_t k = 0; k < 4; ++k) {
+            const Component component(cases::component_of(format, k));
+            if (component.exists() && (output.write_mask >> k & 1U) != 0) {
+                out[k] = component.stored(source[k], profile, false);
+            }
+        }
+        return out;
+    }
+    // Alpha of the source takes part even where the target has none; then it is not rounded.
+    const Component first(cases::component_of(format, 0));
+    Color s = source;
+    Color constants;
+    for (uint32_t k = 0; k < 4; ++k) {
+        constants[k] = point(static_cast<double>(output.blend->constants[static_cast<int>(k)]));
+        const Component component(cases::component_of(format, k));
+        const Component& grid = component.exists() ? component : first;
+        if (first.is_fixed_point()) {
+            s[k] = clamped(s[k]);
+            constants[k] = clamped(constants[k]);
+        }
+        s[k] = grid.either(s[k]);
+        constants[k] = grid.either(constants[k]);
+    }
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        if (!component.exists() || (output.write_mask >> k & 1U) == 0) {
+            continue;
+        }
+        const cases::BlendEquation& equation = k == 3 ? output.blend->alpha : output.blend->color;
+        Interval result;
+        if (equation.op == BlendOp::min) {  // factors are ignored
+            result = smaller(s[k], before[k]);
+        } else if (equation.op == BlendOp::max) {
+            result = larger(s[k], before[k]);
+        } else {
+            const auto scaled = [&](const Interval& value, BlendFactor factor) {
+                return component.either(
+                    product(value, component.either(factor_of(factor, k, s, before, constants))));
+            };
+            const Interval a = scaled(s[k], equation.source);
+            const Interval b = scaled(before[k], equation.destination);
+            switch (equation.op) {
+                case BlendOp::subtract:
+                    result = {a.low - b.high, a.high - b.low};
+                    break;
+                case BlendOp::reverse_subtract:
+                    result = {b.low - a.high, b.high - a.low};
+                    break;
+                default:
+                    result = {a.low + b.low, a.high + b.high};
+                    break;
+            }
+        }
+        out[k] = component.stored(result, profile, true);
+    }
+    return out;
+}
+
+std::array<uint32_t, 4> Unit::codes_of(const Color& color) const {
+    std::array<uint32_t, 4> out{};
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        if (component.exists()) {
+            out[k] = component.code_of((color[k].low + color[k].high) / 2);
+        }
+    }
+    return out;
+}
+
+bool Unit::allows(const Color& color, const std::array<uint32_t, 4>& codes) const {
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        if (!component.exists()) {
+            continue;
+        }
+        if (component.is_overflow(codes[k], color[k])) {
+            continue;
+        }
+        mpq_class value;
+        if (!component.value_of(codes[k], value) || value < color[k].low || value > color[k].high) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::string Unit::text_of(const Color& color) const {
+    std::string out;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const Component component(cases::component_of(format, k));
+        if (component.exists()) {
+            out += fmt::format("{}{} {}", out.empty() ? "" : ", ", "rgba"[k],
+                               component.text_of(color[k]));
+        }
+    }
+    return out;
+}
+
+std::string Unit::text_of(const std::array<uint32_t, 4>& codes) const {
+    std::string out;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const cases::ComponentFormat c = cases::component_of(format, k);
+        if (c.bits == 0) {
+            continue;
+        }
+        out += fmt::format("{}{} ", out.empty() ? "" : ", ", "rgba"[k]);
+        mpq_class value;
+        if (c.kind != ComponentKind::half && c.kind != ComponentKind::binary32) {
+            out += std::to_string(codes[k]);
+        } else if (Component(c).value_of(codes[k], value)) {
+            out += fmt::format("{:.9g} (0x{:0{}x})", value.get_d(), codes[k], c.bits / 4);
+        } else {
+            out += fmt::format("no number (0x{:0{}x})", codes[k], c.bits / 4);
+        }
+    }
+    return out;
+}
+
+}  // namespace ref::color

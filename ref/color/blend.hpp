@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a colour target may hold after a fragment: what the shader wrote, converted
+// (ref/color/component.hpp) and blended with what was there.
+//
+// Blending ("Blending"): "as if carried out in floating-point", "with a precision and dynamic range
+// no lower than that used to represent destination components". So every intermediate (source,
+// factor, product, sum) may be rounded to either neighbour in the destination's format, or not at
+// all; what the format holds exactly stays exact, which covers factors 0 and 1 and sums that are
+// representable. With fixed-point targets source, destination, constants, factors and the result
+// are clamped to [0, 1].
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "cases/model/case.hpp"
+#include "ref/color/component.hpp"
+
+namespace ref::color {
+
+using Color = std::array<Interval, 4>;  // red, green, blue, alpha
+
+// The target's colour after one fragment. Integer formats: no blending.
+struct Unit {
+    cases::ColorFormat format;
+    cases::Profile profile;
+    // `source`: what the shader wrote; `before`: what the target held.
+    Color write(const cases::ColorOutput& output, const Color& source, const Color& before) const;
+    // After a clear.
+    Color cleared(const cases::ColorTarget& target) const;
+    // Codes in the middle of what is allowed.
+    std::array<uint32_t, 4> codes_of(const Color& color) const;
+    bool allows(const Color& color, const std::array<uint32_t, 4>& codes) const;
+    // "r 127 or 128, g 0, b 0, a 255"
+    std::string text_of(const Color& color) const;
+    std::string text_of(const std::array<uint32_t, 4>& codes) const;
+};
+
+}  // namespace ref::color

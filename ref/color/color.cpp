@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/color/color.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace ref {
+
+namespace {
+
+color::Source point_source(const glm::vec4& value) {
+    color::Source out;
+    for (size_t k = 0; k < 4; ++k) {
+        out.low[k] = out.high[k] = static_cast<double>(value[static_cast<int>(k)]);
+    }
+    return out;
+}
+
+std::string_view store_rule(cases::ComponentKind kind) {
+    switch (kind) {
+        case cases::ComponentKind::unorm:
+            return "store.unorm";
+        case cases::ComponentKind::srgb:
+            return "store.srgb";
+        case cases::ComponentKind::half:
+            return "store.half";
+        case cases::ComponentKind::binary32:
+            return "store.float";
+        case cases::ComponentKind::uint:
+            break;
+    }
+    return "store.integer";
+}
+
+}  // namespace
+
+ColorReference::ColorReference(const cases::Case& c, const Expectation& expectation)
+    : case_(c),
+      expectation_(expectation),
+      unit_{c.target.color->format, expectation.profile},
+      cleared_(unit_.cleared(*c.target.color)),
+      values_(c, expectation.limits, expectation.profile),
+      memory_(cleared_, kRemembered) {
+    for (const cases::Draw& draw : c.draws) {
+        constants_.push_back(point_source(draw.color.value));
+    }
+    is_constant_ = std::all_of(c.draws.begin(), c.draws.end(),
+                               [](const auto& draw) { return draw.color.attribute < 0; });
+}
+
+std::span<const PossibleHit> ColorReference::hits_at(size_t index) const {
+    const auto begin = expectation_.fragments_begin[index];
+    return std::span(expectation_.fragments)
+        .subspan(begin, expectation_.fragments_begin[index + 1] - begin);
+}
+
+// Every set of fragments that the hit bounds allow; the empty list of sets if there are too many
+// open ones.
+std::vector<ColorReference::Sequence> ColorReference::allowed(
+    size_t index, const std::optional<ColorWitness>& witness) const {
+    const std::span<const PossibleHit> hits = hits_at(index);
+    const HitBounds& bounds = expectation_.samples[index].hits;
+    std::vector<size_t> open;
+    for (size_t k = 0; k < hits.size(); ++k) {
+        if (!hits[k].is_certain) {
+            open.push_back(k);
+        }
+    }
+    std::vector<Sequence> out;
+    if (open.size() > kMaxOpen) {
+        return out;
+    }
+    for (uint32_t choice = 0; choice < 1U << open.size(); ++choice) {
+        Sequence sequence;
+        size_t nth = 0;
+        for (const PossibleHit& hit : hits) {
+            if (hit.is_certain || (choice >> nth++ & 1U) != 0) {
+                sequence.push_back(hit.triangle);
+            }
+        }
+        const bool fits =
+            witness ? sequence.size() == witness->hits &&
+                          (sequence.empty() || sequence.back() == witness->writer)
+                    : sequence.size() >= bounds.total_min && sequence.size() <= bounds.total_max;
+        if (fits) {
+            out.push_back(std::move(sequence));
+        }
+    }
+    return out;
+}
+
+const color::Source& ColorReference::source_of(uint32_t triangle, SampleId id) {
+    const uint32_t draw = expectation_.triangles[triangle].draw;
+    const int32_t attribute = case_.draws[draw].color.attribute;
+    if (attribute < 0) {
+        return constants_[draw];
+    }
+    if (!(at_ == id)) {
+        sources_.clear();
+        at_ = id;
+    }
+    const auto [found, is_new] = sources_.try_emplace(triangle);
+    if (is_new) {
+        const std::array<ValueRange, 4> ranges = values_.ranges(triangle, id, attribute);
+        for (size_t k = 0; k < 4; ++k) {
+            // Nothing is promised of the value: any finite one.
+            const double most = 0x1.fffffep127;
+            found->second.low[k] = ranges[k].is_promised ? ranges[k].low : -most;
+            found->second.high[k] = ranges[k].is_promised ? ranges[k].high : most;
+        }
+    }
+    return found->second;
+}
+
+const cases::ColorOutput& ColorReference::output_of(uint32_t triangle) const {
+    return case_.draws[expectation_.triangles[triangle].draw].color;
+}
+
+bool ColorReference::replaces(uint32_t triangle, bool masked) const {
+    const cases::ColorOutput& output = output_of(triangle);
+    return !output.blend && (!masked || output.write_mask == 0xf);
+}
+
+color::Source ColorReference::source_of(uint32_t triangle, SampleId id, const glm::vec4* written) {
+    const bool is_captured = written != nullptr && output_of(triangle).attribute >= 0 &&
+                             !glm::any(glm::isnan(*written)) && !glm::any(glm::isinf(*written));
+    return is_captured ? point_source(*written) : source_of(triangle, id);
+}
+
+bool ColorReference::is_flat(uint32_t triangle) const {
+    const cases::Draw& draw = case_.draws[expectation_.triangles[triangle].draw];
+    const int32_t attribute = draw.color.attribute;
+    return attribute < 0 || draw.attributes[static_cast<size_t>(attribute)].interpolation ==
+                                cases::Interpolation::flat;
+}
+
+color::ColorMemory::Node& ColorReference::left_by(const Sequence& sequence, SampleId id,
+                                                  const glm::vec4* last, bool masked) {
+    // Nothing is left of what a fragment replaces.
+    size_t first = sequence.size();
+    while (first > 0 && !replaces(sequence[--first], masked)) {
+    }
+    // Interpolated colours are each sample's own: only flat ones come again. What is laid over a
+    // colour that is not remembered is not, either.
+    color::ColorMemory::Node* node = &memory_.root();
+    for (size_t k = first; k < sequence.size(); ++k) {
+        const uint32_t triangle = sequence[k];
+        const color::Source source =
+            source_of(triangle, id, k + 1 == sequence.size() ? last : nullptr);
+        const auto write = [&] {
+            cases::ColorOutput output = output_of(triangle);
+            output.write_mask = masked ? output.write_mask : 0xf;
+            return unit_.write(output, color::color_of(source), node->color);
+        };
+        color::ColorMemory::Node* next = nullptr;
+        if (node != &beyond_ && is_flat(triangle)) {
+            const uint32_t draw = expectation_.triangles[triangle].draw;
+            if (const std::optional<uint32_t> name = memory_.name_of(draw, masked, source)) {
+                next = memory_.after(*node, *name, write);
+            }
+        }
+        if (next == nullptr) {
+            beyond_.color = write();
+            beyond_.accepted.reset();
+            next = &beyond_;
+        }
+        node = next;
+    }
+    return *node;
+}
+
+std::optional<bool> ColorReference::may_write(uint32_t triangle, SampleId id,
+                                              const glm::vec4* written,
+                                              const std::array<uint32_t, 4>& codes) {
+    const color::Source source = source_of(triangle, id, written);
+    bool is_known = true;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const color::Component component(cases::component_of(unit_.format, k));
+        if (!component.exists()) {
+            continue;
+        }
+        const std::optional<bool> may =
+            component.may_store(source.low[k], source.high[k], codes[k], unit_.profile);
+        if (may && !*may) {
+            return false;
+        }
+        is_known = is_known && may;
+    }
+    return is_known ? std::optional(true) : std::nullopt;
+}
+
+bool ColorReference::leaves(const Sequence& sequence, SampleId id, const glm::vec4* last,
+                            const std::array<uint32_t, 4>& codes) {
+    if (!sequence.empty() && replaces(sequence.back(), true)) {
+        if (const std::optional<bool> may = may_write(sequence.back(), id, last, codes)) {
+            return *may;
+        }
+    }
+    color::ColorMemory::Node& node = left_by(sequence, id, last);
+    if (node.accepted == codes) {
+        return true;
+    }
+    const bool is_allowed = unit_.allows(node.color, codes);
+    if (is_allowed) {
+        node.accepted = codes;
+    }
+    return is_allowed;
+}
+
+std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmasked) const {
+    const bool blends = std::any_of(sequence.begin(), sequence.end(),
+                                    [&](uint32_t t) { return output_of(t).blend.has_value(); });
+    const bool masks = std::any_of(sequence.begin(), sequence.end(),
+                                   [&](uint32_t t) { return output_of(t).write_mask != 0xf; });
+    return std::string(masks && is_as_unmasked ? "blend.write-mask"
+                       : blends                ? "blend.equation"
+                       : masks                 ? "blend.write-mask"
+                               : store_rule(cases::component_of(unit_.format, 0).kind));
+}
+
+bool ColorReference::explains(size_t index, SampleId id, const std::array<uint32_t, 4>& codes,
+                              const std::optional<ColorWitness>& witness) {
+    return explains(allowed(index, witness), id, codes, witness);
+}
+
+bool ColorReference::explains(const std::vector<Sequence>& sets, SampleId id,
+                              const std::array<uint32_t, 4>& codes,
+                              const std::optional<ColorWitness>& witness) {
+    const glm::vec4* last = witness ? witness->written : nullptr;
+    // A device whose hits are wrong already has a finding of its own.
+    return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
+               return leaves(sequence, id, last, codes);
+           });
+}
+
+bool ColorReference::is_as_before(const Accepted& accepted, size_t index,
+                                  const std::array<uint32_t, 4>& codes,
+                                  const std::optional<ColorWitness>& witness) const {
+    const HitBounds& bounds = expectation_.samples[index].hits;
+    const std::span<const PossibleHit> hits = hits_at(index);
+    return accepted.is_set && accepted.codes == codes && accepted.total_min == bounds.total_min &&
+           accepted.total_max == bounds.total_max &&
+           (!witness ||
+            (accepted.witnessed == witness->hits && accepted.writer == witness->writer)) &&
+           std::equal(hits.begin(), hits.end(), accepted.hits.begin(), accepted.hits.end());
+}
+
+ColorVerdict ColorReference::judge(size_t index, SampleId id, const std::array<uint32_t, 4>& codes,
+                                   const std::optional<ColorWitness>& witness) {
+    ColorVerdict verdict;
+    Accepted& accepted = accepted_[hits_at(index).empty() ? 0 : 1];
+    if (is_constant_ && is_as_before(accepted, index, codes, witness)) {
+        return verdict;
+    }
+    const std::vector<Sequence> sets = allowed(index, witness);
+    if (sets.empty()) {
+        verdict.kind = ColorVerdict::Kind::open;
+        return verdict;
+    }
+    if (explains(sets, id, codes, witness)) {
+        if (is_constant_) {
+            const HitBounds& bounds = expectation_.samples[index].hits;
+            const std::span<const PossibleHit> hits = hits_at(index);
+            accepted = {true,
+                        {hits.begin(), hits.end()},
+                        bounds.total_min,
+                        bounds.total_max,
+                        codes,
+                        witness ? witness->hits : 0,
+                        witness ? witness->writer : 0};
+        }
+        return verdict;
+    }
+    const glm::vec4* last = witness ? witness->written : nullptr;
+    for (size_t k = 0; k < std::min<size_t>(sets.size(), 3); ++k) {
+        verdict.expected += (k == 0 ? "" : "; or ") + unit_.text_of(color_of(sets[k], id, last));
+    }
+    verdict.expected += sets.size() > 3 ? "; or others" : "";
+    verdict.kind = ColorVerdict::Kind::value;
+    const Sequence& most = *std::max_element(
+        sets.begin(), sets.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    verdict.rule = rule_of(most, unit_.allows(color_of(most, id, last, false), codes));
+    const auto tells = [&](const Sequence& sequence) {
+        return leaves(sequence, id, nullptr, codes);
+    };
+    if (witness) {
+        Sequence turned(most.rbegin(), most.rend());
+        if (most.size() > 1 && tells(turned)) {
+            verdict.kind = ColorVerdict::Kind::order;
+        }
+        return verdict;
+    }
+    // Without instruments the colour tells what is wrong with the coverage, if anything does.
+    for (size_t k = 0; k < most.size(); ++k) {
+        Sequence less = most;
+        less.erase(less.begin() + static_cast<std::ptrdiff_t>(k));
+        if (tells(less)) {
+            verdict.kind = ColorVerdict::Kind::missing;
+            verdict.hits = static_cast<uint32_t>(less.size());
+            return verdict;
+        }
+    }
+    if (!most.empty() && tells({})) {
+        verdict.kind = ColorVerdict::Kind::missing;
+        return verdict;
+    }
+    Sequence turned(most.rbegin(), most.rend());
+    if (most.size() > 1 && tells(turned)) {
+        verdict.kind = ColorVerdict::Kind::order;
+        return verdict;
+    }
+    for (size_t k = 0; k < most.size(); ++k) {
+        Sequence more = most;
+        more.insert(more.begin() + static_cast<std::ptrdiff_t>(k), most[k]);
+        if (tells(more)) {
+            verdict.kind = ColorVerdict::Kind::twice;
+            verdict.hits = static_cast<uint32_t>(more.size());
+            return verdict;
+        }
+    }
+    if (most.empty()) {
+        verdict.kind = ColorVerdict::Kind::extra;
+        verdict.hits = 1;
+    }
+    return verdict;
+}
+
+std::array<uint32_t, 4> ColorReference::codes(size_t index, SampleId id,
+                                              const std::optional<ColorWitness>& witness) {
+    const std::vector<Sequence> sets = allowed(index, witness);
+    const glm::vec4* last = witness ? witness->written : nullptr;
+    return unit_.codes_of(sets.empty() ? cleared_ : color_of(sets.front(), id, last));
+}
+
+// Equal z and w = 1 at all vertices, in a viewport of depths 0 to 1: the depth is z itself.
+bool ColorReference::is_constant_depth(uint32_t triangle, float depth) const {
+    const Triangle& t = expectation_.triangles[triangle];
+    const cases::Draw& draw = case_.draws[t.draw];
+    const auto same = [](float a, float b) {
+        return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+    };
+    return same(draw.viewport.min_depth, 0.0F) && same(draw.viewport.max_depth, 1.0F) &&
+           !draw.depth.negative_one_to_one &&
+           std::all_of(t.vertex.begin(), t.vertex.end(), [&](uint32_t v) {
+               return same(draw.positions[v].z, depth) && same(draw.positions[v].w, 1.0F);
+           });
+}
+
+bool ColorReference::explains_depth(size_t index, SampleId id, float depth, float clear) {
+    // Only the plain write is judged here; depth tests, bias and clamping need the instruments.
+    const bool is_plain = std::all_of(case_.draws.begin(), case_.draws.end(),
+                                      [](const auto& d) { return d.depth == cases::DepthState{}; });
+    if (!is_plain || case_.target.depth_format != cases::DepthFormat::d32_float) {
+        return true;
+    }
+    const std::vector<Sequence> sets = allowed(index, std::nullopt);
+    return sets.empty() || std::any_of(sets.begin(), sets.end(), [&](const Sequence& sequence) {
+               if (sequence.empty()) {
+                   return std::bit_cast<uint32_t>(depth) == std::bit_cast<uint32_t>(clear);
+               }
+               if (is_constant_depth(sequence.back(), depth)) {
+                   return true;
+               }
+               const ValueRange range = values_.range(sequence.back(), id, kDepthAttribute, 0);
+               const auto value = static_cast<double>(depth);
+               return std::isfinite(depth) &&
+                      (!range.is_promised || (value >= range.low && value <= range.high));
+           });
+}
+
+}  // namespace ref

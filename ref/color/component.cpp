@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/color/component.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "ref/number/integer.hpp"
+
+namespace ref::color {
+
+namespace {
+
+using cases::ComponentKind;
+using ref::ceil_of;
+using ref::floor_of;
+
+// Of x times a whole number; without a quotient that has to be reduced.
+mpz_class floor_of(const mpq_class& x, const mpz_class& times) {
+    mpz_class out = x.get_num() * times;
+    mpz_fdiv_q(out.get_mpz_t(), out.get_mpz_t(), x.get_den_mpz_t());
+    return out;
+}
+
+mpz_class ceil_of(const mpq_class& x, const mpz_class& times) {
+    mpz_class out = x.get_num() * times;
+    mpz_cdiv_q(out.get_mpz_t(), out.get_mpz_t(), x.get_den_mpz_t());
+    return out;
+}
+
+mpq_class quotient(const mpz_class& a, const mpz_class& b) {
+    mpq_class out(a, b);
+    out.canonicalize();
+    return out;
+}
+
+mpq_class power_of_two(long exponent) {
+    mpq_class out(1);
+    if (exponent >= 0) {
+        mpq_mul_2exp(out.get_mpq_t(), out.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+    } else {
+        mpq_div_2exp(out.get_mpq_t(), out.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+    }
+    return out;
+}
+
+// A binary floating-point format: `fraction` stored bits, exponents from `least` (of the smallest
+// normal number) to `most`.
+struct Floating {
+    long fraction, least, most;
+};
+constexpr Floating kHalf = {10, -14, 15};
+constexpr Floating kBinary32 = {23, -126, 127};
+
+// The spacing of the format's numbers around x != 0.
+mpq_class spacing(const Floating& format, const mpq_class& x) {
+    const mpq_class size = abs(x);
+    // 2^e <= size < 2^(e+1); the difference of the lengths is e or e + 1.
+    long e = static_cast<long>(mpz_sizeinbase(size.get_num_mpz_t(), 2)) -
+             static_cast<long>(mpz_sizeinbase(size.get_den_mpz_t(), 2));
+    if (power_of_two(e) > size) {
+        --e;
+    }
+    return power_of_two(std::max(e, format.least) - format.fraction);
+}
+
+const mpq_class& largest_of(const Floating& format) {
+    static const auto make = [](const Floating& f) {
+        return mpq_class(power_of_two(f.most + 1) - power_of_two(f.most - f.fraction));
+    };
+    static const mpq_class half = make(kHalf);
+    static const mpq_class binary32 = make(kBinary32);
+    return format.fraction == kHalf.fraction ? half : binary32;
+}
+
+mpq_class round_to(const Floating& format, const mpq_class& x, bool upwards) {
+    const mpq_class& largest = largest_of(format);
+    if (abs(x) > largest) {  // towards zero the largest number, away from it the overflow itself
+        return upwards == (sgn(x) > 0) ? x : sgn(x) > 0 ? largest : mpq_class(-largest);
+    }
+    if (sgn(x) == 0) {
+        return x;
+    }
+    const mpq_class step = spacing(format, x);
+    const mpq_class count = x / step;
+    return (upwards ? mpq_class(ceil_of(count)) : mpq_class(floor_of(count))) * step;
+}
+
+// The Khronos Data Format Specification, "sRGB transfer functions": code / 255 to linear.
+double linear_of(uint32_t code) {
+    const double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+const std::vector<mpq_class>& srgb_values() {
+    static const std::vector<mpq_class> values = [] {
+        std::vector<mpq_class> out;
+        for (uint32_t code = 0; code < 256; ++code) {
+            out.emplace_back(linear_of(code));
+        }
+        return out;
+    }();
+    return values;
+}
+
+mpq_class value_of_floating(const Floating& format, uint32_t code, bool& is_number) {
+    const uint32_t fraction_bits = static_cast<uint32_t>(format.fraction);
+    const uint32_t exponent_bits = fraction_bits == 10 ? 5 : 8;
+    const uint32_t fraction = code & ((1U << fraction_bits) - 1);
+    const uint32_t exponent = code >> fraction_bits & ((1U << exponent_bits) - 1);
+    const bool is_negative = (code >> (fraction_bits + exponent_bits) & 1U) != 0;
+    is_number = exponent != (1U << exponent_bits) - 1;
+    const uint32_t whole = exponent == 0 ? fraction : fraction | 1U << fraction_bits;
+    const long scale =
+        (exponent == 0 ? format.least : format.least + static_cast<long>(exponent) - 1) -
+        format.fraction;
+    const mpq_class size = mpq_class(whole) * power_of_two(scale);
+    return is_negative ? mpq_class(-size) : size;
+}
+
+}  // namespace
+
+Interval point(const mpq_class& value) {
+    return {value, value};
+}
+
+Interval clamped(const Interval& v) {
+    const auto clamp = [](const mpq_class& x) -> mpq_class {
+        return x < 0 ? mpq_class(0) : x > 1 ? mpq_class(1) : x;
+    };
+    return {clamp(v.low), clamp(v.high)};
+}
+
+const mpz_class& Component::units() const {
+    static const std::vector<mpz_class> all = [] {
+        std::vector<mpz_class> out;
+        for (mp_bitcnt_t bits = 0; bits <= 32; ++bits) {
+            out.emplace_back((mpz_class(1) << bits) - 1);
+        }
+        return out;
+    }();
+    return all.at(format_.bits);
+}
+
+bool Component::is_fixed_point() const {
+    return format_.kind == ComponentKind::unorm || format_.kind == ComponentKind::srgb;
+}
+
+mpq_class Component::down(const mpq_class& x) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return quotient(floor_of(x, units()), units());
+        case ComponentKind::srgb: {
+            // A value within kSrgbError of a code's is that code.
+            const auto& values = srgb_values();
+            const auto above =
+                std::upper_bound(values.begin(), values.end(), mpq_class(x + kSrgbError));
+            return above == values.begin() ? x : *(above - 1);
+        }
+        case ComponentKind::half:
+            return round_to(kHalf, x, false);
+        case ComponentKind::binary32:
+            return round_to(kBinary32, x, false);
+        case ComponentKind::uint:
+            break;
+    }
+    return x;
+}
+
+mpq_class Component::up(const mpq_class& x) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return quotient(ceil_of(x, units()), units());
+        case ComponentKind::srgb: {
+            const auto& values = srgb_values();
+            const auto at =
+                std::lower_bound(values.begin(), values.end(), mpq_class(x - kSrgbError));
+            return at == values.end() ? x : *at;
+        }
+        case ComponentKind::half:
+            return round_to(kHalf, x, true);
+        case ComponentKind::binary32:
+            return round_to(kBinary32, x, true);
+        case ComponentKind::uint:
+            break;
+    }
+    return x;
+}
+
+Interval Component::stored(const Interval& v, cases::Profile profile, bool is_blended) const {
+    if (!is_fixed_point()) {
+        return either(v);
+    }
+    const Interval in = clamped(v);
+    if (format_.kind == ComponentKind::unorm && profile == cases::Profile::direct3d &&
+        !is_blended) {
+        const mpq_class slack(3, 5);  // of a unit on the integer side
+        const mpq_class low = quotient(ceil_of(in.low * units() - slack), units());
+        const mpq_class high = quotient(floor_of(in.high * units() + slack), units());
+        return clamped({low, high});
+    }
+    return either(in);
+}
+
+bool Component::value_of(uint32_t code, mpq_class& value) const {
+    bool is_number = true;
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            value = quotient(code, units());
+            break;
+        case ComponentKind::srgb:
+            is_number = code < 256;
+            value = srgb_values()[is_number ? code : 0];
+            break;
+        case ComponentKind::half:
+            value = value_of_floating(kHalf, code, is_number);
+            break;
+        case ComponentKind::binary32:
+            value = value_of_floating(kBinary32, code, is_number);
+            break;
+        case ComponentKind::uint:
+            value = code;
+            break;
+    }
+    return is_number;
+}
+
+bool Component::is_overflow(uint32_t code, const Interval& v) const {
+    const bool is_half = format_.kind == ComponentKind::half;
+    if (!is_half && format_.kind != ComponentKind::binary32) {
+        return false;
+    }
+    const mpq_class& largest = largest_of(is_half ? kHalf : kBinary32);
+    return code == (is_half ? 0x7c00U : 0x7f800000U)   ? v.high > largest
+           : code == (is_half ? 0xfc00U : 0xff800000U) ? v.low < -largest
+                                                       : false;
+}
+
+uint32_t Component::code_of(const mpq_class& value) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return static_cast<uint32_t>(floor_of(value * units() + mpq_class(1, 2)).get_ui());
+        case ComponentKind::srgb: {
+            const auto& values = srgb_values();
+            const auto at = std::lower_bound(values.begin(), values.end(), value);
+            return static_cast<uint32_t>(std::min<std::ptrdiff_t>(at - values.begin(), 255));
+        }
+        case ComponentKind::half: {
+            const mpq_class grid = down(value);
+            const mpq_class size = abs(grid);
+            const uint32_t sign = grid < 0 ? 0x8000U : 0U;
+            if (size < power_of_two(kHalf.least)) {
+                return sign | static_cast<uint32_t>(mpz_class(size / power_of_two(-24)).get_ui());
+            }
+            const mpq_class step = spacing(kHalf, size);
+            uint32_t exponent = 1;
+            while (power_of_two(kHalf.least - kHalf.fraction + static_cast<long>(exponent) - 1) <
+                   step) {
+                ++exponent;
+            }
+            const auto whole = static_cast<uint32_t>(mpz_class(size / step).get_ui());
+            return sign | exponent << 10 | (whole & 0x3ffU);
+        }
+        case ComponentKind::binary32:  // of the grid: exact
+            return std::bit_cast<uint32_t>(static_cast<float>(down(value).get_d()));
+        case ComponentKind::uint:
+            break;
+    }
+    return static_cast<uint32_t>(floor_of(value).get_ui());
+}
+
+std::string Component::text_of(const Interval& v) const {
+    const auto text = [&](const mpq_class& x) -> std::string {
+        switch (format_.kind) {
+            case ComponentKind::unorm:
+                return mpz_class(floor_of(x * units())).get_str();
+            case ComponentKind::srgb: {
+                const auto& values = srgb_values();
+                return std::to_string(std::lower_bound(values.begin(), values.end(), x) -
+                                      values.begin());
+            }
+            default:
+                return fmt::format("{:.9g}", x.get_d());
+        }
+    };
+    const std::string low = text(v.low);
+    const std::string high = text(v.high);
+    return low == high ? low : fmt::format("{} to {}", low, high);
+}
+
+}  // namespace ref::color

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One component of a colour format: the grid of its values, and what may be stored of a value that
+// the shader wrote, as intervals of exact rationals.
+//
+// Conversion (Vulkan specification, "Conversion from Floating-Point to Normalized Fixed-Point";
+// docs/rules.md): the value is clamped to [0, 1], r = f (2^b - 1), and one of the two integers
+// nearest to r is stored; a whole r is stored as it is. Trap: k/255 rounded to binary32 is not
+// k/255, so its r is no integer and k + 1 may be stored. Direct3D ("FLOAT -> UNORM") allows 0.6 of
+// a unit. Halves: either neighbour, and beyond the largest one that one or infinity
+// ("Floating-Point Format Conversions": finite values of a larger magnitude "may be rounded either
+// to the closest representable finite value or to the appropriately signed infinity"). binary32 and
+// integers: the value itself.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cases/load/color.hpp"
+#include "cases/model/profile.hpp"
+
+namespace ref::color {
+
+// Closed interval of values.
+struct Interval {
+    mpq_class low, high;
+    friend bool operator==(const Interval&, const Interval&) = default;
+};
+Interval point(const mpq_class& value);
+// [0, 1] cut out of it; a point if it lies outside.
+Interval clamped(const Interval& v);
+
+// One component of a format: its grid of values.
+class Component {
+  public:
+    Component(cases::ComponentFormat format) : format_(format) {}
+    bool exists() const { return format_.bits != 0; }
+    cases::ComponentKind kind() const { return format_.kind; }
+    bool is_fixed_point() const;
+
+    // The neighbours in the format: the largest value that is <= x, the smallest that is >= x.
+    // Beyond the largest finite one, that one and x itself, which stands for infinity.
+    mpq_class down(const mpq_class& x) const;
+    mpq_class up(const mpq_class& x) const;
+    // Either neighbour of every value.
+    Interval either(const Interval& v) const { return {down(v.low), up(v.high)}; }
+
+    // What may be stored of a value. `is_blended`: it comes out of the blend unit, which rounds by
+    // itself.
+    Interval stored(const Interval& v, cases::Profile profile, bool is_blended) const;
+    // Whether the code may be stored of a value of [low, high] that the shader wrote: by binary64
+    // alone, nothing where only rationals tell (component_filter.cpp).
+    std::optional<bool> may_store(double low, double high, uint32_t code,
+                                  cases::Profile profile) const;
+    // The value that a stored code means; nothing if the code is no number (NaN, infinity).
+    // sRGB: rounded to binary64, see kSrgbError.
+    bool value_of(uint32_t code, mpq_class& value) const;
+    // The code is an infinity and a value of v may be stored as one: its size is larger than the
+    // largest finite number's.
+    bool is_overflow(uint32_t code, const Interval& v) const;
+    // The code of a value of the format's grid; the nearest one of other values.
+    uint32_t code_of(const mpq_class& value) const;
+    // A range of codes as text: "127", "127 or 128", "0x3f800000 (1)".
+    std::string text_of(const Interval& v) const;
+
+  private:
+    const mpz_class& units() const;  // 2^bits - 1
+    cases::ComponentFormat format_;
+};
+
+// Decoded sRGB codes are irrational: they are kept in binary64, off by less than this.
+inline constexpr double kSrgbError = 0x1p-48;
+
+}  // namespace ref::color

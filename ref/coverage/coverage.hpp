@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Three-valued coverage of one triangle, twice: ref::exact (rationals, the oracle) and ref::fast
+// (64/128-bit fixed point). Same signature, same answers; property tests hold them together.
+//
+// Sign and ties: y points down. The edge function is E_ab(p) = (b-a) x (p-a) = (b_x-a_x)(p_y-a_y) -
+// (b_y-a_y)(p_x-a_x) (Pineda 1988; Giesen, "The barycentric conspiracy"). Vertices are taken in the
+// order that makes the area positive (clockwise on screen), so inside means E > 0 for all three
+// edges. A sample on an edge is `either`; only profile direct3d decides it, by the top-left rule:
+// an edge a->b of a positive triangle is a top edge if b_y = a_y and b_x > a_x, a left edge if b_y
+// < a_y.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/position/limits.hpp"
+#include "ref/position/position.hpp"
+#include "ref/position/triangle.hpp"
+
+namespace ref {
+
+enum class Coverage : uint8_t { must_not, either, must };
+
+// Which way a triangle faces for every position the device may use, or that it depends on them.
+enum class Facing : uint8_t { front, back, depends };
+
+// Everything about a triangle that does not depend on the sample: boxes, clipped polygon, facing.
+// Opaque to others; setup.hpp has the definition.
+struct TriangleSetup;
+
+// Which way it was settled; reports turn it into a rule (diff/attribution).
+struct Classification {
+    Coverage coverage = Coverage::must_not;
+    bool on_edge = false;  // the sample lies exactly on an edge of a point-box triangle (a tie)
+};
+
+}  // namespace ref

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/coverage/exact.hpp"
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace ref::exact {
+
+namespace {
+
+struct Vector {
+    mpz_class x, y;
+};
+
+Vector between(const FixedPoint& from, const FixedPoint& to) {
+    return {mpz_class(to.x) - mpz_class(from.x), mpz_class(to.y) - mpz_class(from.y)};
+}
+
+mpz_class cross(const Vector& a, const Vector& b) {
+    return a.x * b.y - a.y * b.x;
+}
+mpz_class dot(const Vector& a, const Vector& b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+// E_ab(p) = (b-a) x (p-a)
+mpz_class edge(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
+    return cross(between(a, b), between(a, p));
+}
+
+std::vector<FixedPoint> corners(std::span<const Box> boxes) {
+    std::vector<FixedPoint> out;
+    for (const Box& b : boxes) {
+        out.insert(out.end(), {{b.x0, b.y0}, {b.x1, b.y0}, {b.x0, b.y1}, {b.x1, b.y1}});
+    }
+    return out;
+}
+
+bool is_outside_bounds(std::span<const Box> boxes, const FixedPoint& p) {
+    Box all = boxes[0];
+    for (const Box& b : boxes) {
+        all = {std::min(all.x0, b.x0), std::min(all.y0, b.y0), std::max(all.x1, b.x1),
+               std::max(all.y1, b.y1)};
+    }
+    return p.x < all.x0 || p.x > all.x1 || p.y < all.y0 || p.y > all.y1;
+}
+
+// Whether p lies on the inner side of edge a->b of a triangle that runs clockwise on screen.
+bool is_inside_edge(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
+    const int e = sgn(edge(a, b, p));
+    const bool is_top = a.y == b.y && a.x < b.x;
+    const bool is_left = b.y < a.y;
+    return e > 0 || (e == 0 && (is_top || is_left));
+}
+
+bool is_inside_tie(const Box& from, const Box& to, const FixedPoint& p, int sign) {
+    const FixedPoint a{from.x0, from.y0};
+    const FixedPoint b{to.x0, to.y0};
+    return sign > 0 ? is_inside_edge(a, b, p) : is_inside_edge(b, a, p);
+}
+
+// Inside one edge as its test asks (setup.cpp says why the tests suffice).
+bool is_inside(const Box& from, const Box& to, EdgeTest test, const FixedPoint& p, int sign) {
+    if (test == EdgeTest::top_left) {
+        return is_inside_tie(from, to, p, sign);
+    }
+    if (test == EdgeTest::parallel) {
+        const Vector along = between(middle_of(from), middle_of(to));
+        const std::array<Box, 2> both{from, to};
+        const auto is_farther = [&](const FixedPoint& q) {
+            return sgn(cross(along, between(q, p))) == sign;
+        };
+        const std::vector<FixedPoint> points = corners(both);
+        return std::all_of(points.begin(), points.end(), is_farther);
+    }
+    for (const FixedPoint& a : corners({&from, 1})) {
+        for (const FixedPoint& b : corners({&to, 1})) {
+            if (sgn(edge(a, b, p)) != sign) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// Inside all edges, in one of the two directions.
+bool is_inside_all(const Outline& o, const FixedPoint& p, int sign) {
+    const std::span<const Box> boxes = o.must_vertices();
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        const Box& next = boxes[(i + 1) % boxes.size()];
+        if (!is_inside(boxes[i], next, o.must_test[i], p, sign)) {
+            return false;
+        }
+    }
+    return boxes.size() >= 3;
+}
+
+// What all and some of the snapped polygons say.
+Coverage by_snapping(const Outline& o, int64_t step, const FixedPoint& p) {
+    bool is_in_all = true;
+    bool is_in_some = false;
+    const auto add = [&](bool is_covered) {
+        is_in_all = is_in_all && is_covered;
+        is_in_some = is_in_some || is_covered;
+    };
+    if (is_outside_bounds(o.vertices(), p)) {
+        return Coverage::must_not;
+    }
+    if (o.count == 3) {
+        for (const FixedPoint& a : grid_points(o.boxes[0], step)) {
+            for (const FixedPoint& b : grid_points(o.boxes[1], step)) {
+                for (const FixedPoint& c : grid_points(o.boxes[2], step)) {
+                    add(covers(a, b, c, p));
+                }
+            }
+        }
+    } else {
+        std::vector<FixedPoint> polygon;
+        for (const Box& b : o.vertices()) {
+            polygon.push_back({b.x0, b.y0});
+        }
+        add(winding(polygon, p) != 0);
+    }
+    return is_in_all ? Coverage::must : (is_in_some ? Coverage::either : Coverage::must_not);
+}
+
+Coverage by_boxes(const Outline& o, const FixedPoint& p) {
+    if (!is_in_hull(o.vertices(), p)) {
+        return Coverage::must_not;
+    }
+    const std::span<const Box> boxes = o.must_vertices();
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        if (o.must_test[i] == EdgeTest::top_left &&
+            !is_inside_tie(boxes[i], boxes[(i + 1) % boxes.size()], p, o.tie_side[i])) {
+            return Coverage::must_not;
+        }
+    }
+    return is_inside_all(o, p, 1) || is_inside_all(o, p, -1) ? Coverage::must : Coverage::either;
+}
+
+mpz_class to_mpz(Int128 v) {
+    const bool is_negative = v < 0;
+    const Int128 size = is_negative ? -v : v;
+    mpz_class out = static_cast<int64_t>(size >> 62);
+    out = (out << 62) + static_cast<int64_t>(size & ((Int128{1} << 62) - 1));
+    return is_negative ? mpz_class(-out) : out;
+}
+
+bool is_inside(const HalfPlane& h, const FixedPoint& p) {
+    return to_mpz(h.a) * p.x + to_mpz(h.b) * p.y + to_mpz(h.c) >= 0;
+}
+
+// What the clip distances that are tested at the sample leave of the outline's coverage.
+Coverage after_cuts(Coverage c, const Outline& o, const FixedPoint& p) {
+    for (const DistanceCut& cut : o.cuts) {
+        if (!is_inside(cut.may, p)) {
+            return Coverage::must_not;
+        }
+        if (c == Coverage::must && !is_inside(cut.must, p)) {
+            c = Coverage::either;
+        }
+    }
+    return c;
+}
+
+bool is_on_segment(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
+    return edge(a, b, p) == 0 && dot(between(p, a), between(p, b)) <= 0;
+}
+
+}  // namespace
+
+bool covers(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c, const FixedPoint& p) {
+    const int area = sgn(edge(a, b, c));
+    if (area == 0) {
+        return false;
+    }
+    const FixedPoint& second = area > 0 ? b : c;
+    const FixedPoint& third = area > 0 ? c : b;
+    return is_inside_edge(a, second, p) && is_inside_edge(second, third, p) &&
+           is_inside_edge(third, a, p);
+}
+
+bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p) {
+    if (boxes.empty() || is_outside_bounds(boxes, p)) {
+        return false;
+    }
+    const std::vector<FixedPoint> points = corners(boxes);
+    if (std::find(points.begin(), points.end(), p) != points.end()) {
+        return true;
+    }
+    // If p is outside, some q comes first as seen from p: all others lie to one side of the ray
+    // through q or on it, none behind p.
+    return std::none_of(points.begin(), points.end(), [&](const FixedPoint& q) {
+        const Vector to_q = between(p, q);
+        return std::all_of(points.begin(), points.end(), [&](const FixedPoint& r) {
+            const Vector to_r = between(p, r);
+            const int side = sgn(cross(to_q, to_r));
+            return side > 0 || (side == 0 && sgn(dot(to_q, to_r)) > 0);
+        });
+    });
+}
+
+int winding(std::span<const FixedPoint> polygon, const FixedPoint& p) {
+    int turns = 0;
+    for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+        if (covers(polygon[0], polygon[i], polygon[i + 1], p)) {
+            turns += sgn(edge(polygon[0], polygon[i], polygon[i + 1]));
+        }
+    }
+    return turns;
+}
+
+bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p) {
+    if (outline.mode == OutlineMode::snapped) {
+        return by_snapping(outline, setup.grid_step, p) == Coverage::must;
+    }
+    return outline.mode == OutlineMode::boxes && by_boxes(outline, p) == Coverage::must;
+}
+
+Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
+    Classification out;
+    if (setup.kind == TriangleSetup::Kind::nothing || !setup.window.may_touch(p)) {
+        return out;
+    }
+    if (setup.kind == TriangleSetup::Kind::anywhere) {
+        out.coverage = Coverage::either;
+        return out;
+    }
+    size_t count = 0;
+    const auto outlines = setup.outlines(count);
+    bool is_in_all = true;
+    bool is_in_some = false;
+    for (size_t k = 0; k < count; ++k) {
+        const Outline& o = *outlines[k];
+        Coverage c = Coverage::must_not;
+        if (o.mode == OutlineMode::snapped) {
+            c = by_snapping(o, setup.grid_step, p);
+        } else if (o.mode == OutlineMode::boxes) {
+            c = by_boxes(o, p);
+        }
+        c = after_cuts(c, o, p);
+        is_in_all = is_in_all && c == Coverage::must;
+        is_in_some = is_in_some || c != Coverage::must_not;
+        for (uint32_t i = 0; i < o.count; ++i) {
+            const Box& a = o.boxes[i];
+            const Box& b = o.boxes[(i + 1) % o.count];
+            out.on_edge = out.on_edge || (a.is_point() && b.is_point() &&
+                                          is_on_segment({a.x0, a.y0}, {b.x0, b.y0}, p));
+        }
+    }
+    if (is_in_some) {
+        out.coverage = is_in_all && !setup.may_be_culled && setup.window.must_touch(p)
+                           ? Coverage::must
+                           : Coverage::either;
+    }
+    return out;
+}
+
+}  // namespace ref::exact

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The oracle: coverage from the definitions in plain loops over numbers of unlimited size (GMP),
+// with no shortcut but bounding boxes. Positions are integers in units of 2^-16 pixel.
+#pragma once
+
+#include <span>
+
+#include "ref/coverage/coverage.hpp"
+#include "ref/coverage/setup.hpp"
+
+namespace ref::exact {
+
+// Coverage of one sample.
+Classification classify(const TriangleSetup& setup, const FixedPoint& p);
+
+// True if p lies in the closed convex hull of the boxes: no line through p has all corners strictly
+// on one side.
+bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p);
+
+// As fast::winding, by its definition: the sum of the signs of the triangles (first vertex, edge)
+// that cover p under the top-left rule.
+int winding(std::span<const FixedPoint> polygon, const FixedPoint& p);
+
+// Whether the triangle covers p under the top-left rule; vertices in either order.
+bool covers(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c, const FixedPoint& p);
+
+// True if the outline covers p but for its cuts, whatever positions the device uses.
+bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
+
+}  // namespace ref::exact

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Convex sets of sample positions as intersections of integer half planes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ref/coverage/setup.hpp"
+#include "ref/number/edge_function.hpp"
+
+namespace ref::fast {
+
+// E_ab(p) >= 0 or, strictly, E_ab(p) > 0: over the integers E - 1 >= 0.
+inline HalfPlane right_of(const FixedPoint& a, const FixedPoint& b, bool is_strict) {
+    return {Int128{a.y} - b.y, Int128{b.x} - a.x,
+            static_cast<Int128>(a.x) * b.y - static_cast<Int128>(a.y) * b.x - (is_strict ? 1 : 0)};
+}
+
+// What a triangle setup says, as sets: must is the intersection of all `must` half planes (empty
+// without has_must), may the union of the `may` sets, each of them inside its bounds.
+struct ConvexSet {
+    std::vector<HalfPlane> planes;
+    Box bounds;
+};
+struct CoverageSets {
+    bool has_must = true;
+    std::vector<HalfPlane> must;
+    std::vector<ConvexSet> may;
+};
+
+// Corners of the closed convex hull of points, clockwise on screen (Andrew's monotone chain); fewer
+// than three if the points lie on a line.
+std::vector<FixedPoint> convex_hull(std::vector<FixedPoint> points);
+
+// The closed convex hull of the boxes.
+ConvexSet hull_set(std::span<const Box> boxes);
+
+// Of one outline without its cuts.
+CoverageSets coverage_set(const Outline& outline, int64_t grid_step);
+
+CoverageSets coverage_sets(const TriangleSetup& setup);
+
+}  // namespace ref::fast

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What of a triangle does not depend on the sample. A device may draw a triangle from one of up to
+// four outlines: the triangle as it is (cut by the depth planes only, if it has to be: a guard band
+// with an exact viewport scissor), and, if it leaves the view volume, the polygon clipped against
+// all planes; either of them cut by the clip distances, or not cut by them and the distances tested
+// at each sample. Each vertex of an outline is a box of positions.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/coverage/coverage.hpp"
+#include "ref/number/edge_function.hpp"
+#include "ref/number/sample.hpp"
+#include "ref/position/clip.hpp"
+#include "ref/position/limits.hpp"
+#include "ref/position/position.hpp"
+#include "ref/position/triangle.hpp"
+
+namespace ref {
+
+// How the samples of an outline are decided.
+enum class OutlineMode : uint8_t {
+    empty,    // covers nothing
+    snapped,  // every grid point of the boxes is tried, with the top-left rule (profile direct3d)
+    boxes,    // must: inside for every choice of positions; must not: outside the hull of the boxes
+};
+inline constexpr int64_t kMaxCandidates = 64;
+
+// How an edge between two boxes is tested for `must` in mode boxes.
+enum class EdgeTest : uint8_t {
+    strict,    // strictly inside for every choice of its ends
+    parallel,  // strictly inside the line that runs as the edge between the middles of the boxes,
+               // and has both boxes on its outer side
+    top_left,  // between two points that every device has (profile direct3d): the top-left rule
+};
+
+// A clip distance that is tested at each sample (ref/coverage/distance_cut.hpp): inside `may` it
+// may pass, inside `must` it passes whatever the device's freedom.
+struct DistanceCut {
+    HalfPlane may, must;
+};
+
+// The boxes of an outline, in one piece. Nearly every outline is a triangle, and there may be
+// hundreds of thousands: the first three are kept in place, all of them elsewhere once there are
+// more.
+class BoxList {
+  public:
+    BoxList() = default;
+    BoxList(const BoxList& other) { *this = other; }
+    BoxList(BoxList&&) noexcept = default;
+    BoxList& operator=(BoxList&&) noexcept = default;
+    BoxList& operator=(const BoxList& other) {
+        near_ = other.near_;
+        all_ = other.all_ ? std::make_unique<All>(*other.all_) : nullptr;
+        return *this;
+    }
+    ~BoxList() = default;
+
+    Box& operator[](size_t i) {
+        if (i >= kNear && !all_) {
+            all_ = std::make_unique<All>();
+            std::copy(near_.begin(), near_.end(), all_->begin());
+        }
+        return all_ ? (*all_)[i] : near_[i];
+    }
+    // One that has been written to.
+    const Box& operator[](size_t i) const { return data()[i]; }
+    const Box* data() const { return all_ ? all_->data() : near_.data(); }
+
+  private:
+    static constexpr size_t kNear = 3;
+    using All = std::array<Box, kMaxClippedVertices>;
+    std::array<Box, kNear> near_{};
+    std::unique_ptr<All> all_;
+};
+
+struct Outline {
+    OutlineMode mode = OutlineMode::empty;
+    bool is_on_grid = true;                             // every corner of the boxes is a grid point
+    uint32_t count = 0;                                 // vertices, at most kMaxClippedVertices
+    BoxList boxes;                                      // in the order of the triangle
+    std::array<EdgeLabel, kMaxClippedVertices> edge{};  // from vertex i to the next
+    // The same with neighbours whose boxes overlap drawn together into one box: what `must` is
+    // decided by in mode boxes, and empty in the others. Edges inside such a box cannot separate it
+    // from the rest.
+    uint32_t must_count = 0;
+    BoxList must_boxes;
+    // Of the edge from box i to the next.
+    std::array<EdgeTest, kMaxClippedVertices> must_test{};
+    std::array<int8_t, kMaxClippedVertices> tie_side{};  // top_left: sign of E for the other boxes
+    std::vector<DistanceCut> cuts;
+
+    std::span<const Box> vertices() const { return {boxes.data(), count}; }
+    std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }
+};
+
+// A closed range of S47.16 coordinates.
+struct Range {
+    int64_t low = 0, high = -1;
+    bool contains(int64_t v) const { return low <= v && v <= high; }
+};
+
+// The samples that a draw may touch at all: pixels inside scissor and framebuffer, and the
+// viewport.
+struct Window {
+    int64_t pixel_x0 = 0, pixel_x1 = 0;  // half-open
+    int64_t pixel_y0 = 0, pixel_y1 = 0;
+    // Nothing is drawn outside `zone`; nothing has to be drawn outside `core`. They differ along a
+    // fractional viewport only, by the pixel on either side that rules.md leaves open there.
+    Range zone_x, zone_y, core_x, core_y;
+    bool is_viewport_ignored = false;    // undefined positions: only scissor and framebuffer hold
+    uint32_t sample_mask = 0xffffffffU;  // bit s: sample s passes the sample masks
+
+    bool may_write(uint32_t sample) const { return ((sample_mask >> sample) & 1U) != 0; }
+    bool may_touch(const FixedPoint& p) const;
+    bool must_touch(const FixedPoint& p) const;
+};
+
+struct TriangleSetup {
+    enum class Kind : uint8_t {
+        nothing,   // culled or outside
+        outlines,  // decided by the outlines
+        anywhere,  // undefined position: any sample of the window, or none
+    };
+    Kind kind = Kind::nothing;
+    bool is_clipped = false;   // a vertex lies outside the clip volume
+    bool has_outline = false;  // `unclipped` is meaningful
+    Outline unclipped;         // cut by the depth planes and clip distances only
+    // Cut by all planes; only if is_clipped. Few triangles have one, and it is large.
+    std::shared_ptr<Outline> clipped;
+    // Not cut by the clip distances, which are tested at each sample; empty where no distance
+    // matters.
+    std::vector<Outline> tested;
+    int8_t tested_unclipped = -1, tested_clipped = -1;  // into `tested`; -1: as if cut
+    int64_t grid_step = 1;                              // S47.16 units of one subpixel
+    int orientation = 0;  // sign of the area for every choice of positions; 0 if it depends
+    Facing facing = Facing::depends;  // before culling
+    bool can_be_front = false;        // drawn so, after culling
+    bool can_be_back = false;
+    bool may_be_culled = false;
+    Window window;
+
+    // The outlines that a device may use, one to four.
+    std::array<const Outline*, 4> outlines(size_t& count) const;
+};
+
+// The boxes of a draw's vertices, computed when first asked for.
+class VertexBoxes {
+  public:
+    VertexBoxes(const cases::Case& c, const Limits& limits, cases::Profile profile);
+    const std::optional<Box>& of(uint32_t draw, uint32_t vertex);
+    // The box of a vertex in the view volume; null if the vertex is not in it, has no box or is not
+    // representable.
+    const Box* inside_view(uint32_t draw, uint32_t vertex);
+
+  private:
+    enum class View : uint8_t { unknown, inside, outside };
+    struct Entry {
+        bool is_known = false;
+        View view = View::unknown;  // and representable
+        std::optional<Box> box;
+    };
+    const cases::Case& case_;
+    Limits limits_;
+    cases::Profile profile_;
+    std::vector<std::vector<Entry>> entries_;
+};
+
+// The window of a draw.
+Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile profile);
+
+TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limits& limits,
+                     cases::Profile profile, VertexBoxes& boxes, const Window& window);
+
+// A position in the middle of a box, on no grid.
+FixedPoint middle_of(const Box& box);
+
+// The grid points of a box in mode snapped.
+std::vector<FixedPoint> grid_points(const Box& box, int64_t step);
+
+}  // namespace ref

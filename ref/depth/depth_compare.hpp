@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Three-valued comparison of depths that are known as ranges (Vulkan specification, "Depth Test"),
+// in Balls or rationals. Part of depth_test.cpp.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "ref/depth/depth_test.hpp"
+#include "ref/number/ball.hpp"
+#include "ref/value/accept/judge_candidates.hpp"
+
+namespace ref::value {
+
+using cases::CompareOp;
+
+// A range of depths as they may take part in a comparison.
+template <class T>
+struct Span {
+    bool is_free = false;
+    T low{}, high{};
+};
+
+// Nothing where the number's own error leaves it open.
+inline std::optional<double> floor_of(const Ball& a) {
+    const double low = std::floor(a.v - a.e);
+    return low < std::floor(a.v + a.e) ? std::nullopt : std::optional(low);
+}
+inline std::optional<double> floor_of(const mpq_class& a) {
+    mpz_class r;
+    mpz_fdiv_q(r.get_mpz_t(), a.get_num_mpz_t(), a.get_den_mpz_t());
+    return r.get_d();
+}
+
+// Each value itself or either neighbour among the codes.
+template <class T>
+std::optional<Span<T>> with_neighbours(const Range<T>& z, double steps) {
+    if (steps <= 0) {
+        return Span<T>{false, z.low, z.high};
+    }
+    const std::optional<double> low = floor_of(T(z.low * T(steps)));
+    const std::optional<double> minus_high = floor_of(T(-T(z.high * T(steps))));
+    if (!low || !minus_high) {
+        return std::nullopt;
+    }
+    return Span<T>{false, smaller(T(T(*low) / T(steps)), z.low),
+                   larger(T(T(-*minus_high) / T(steps)), z.high)};
+}
+
+// Three-valued, or nothing if T cannot tell.
+using Outcome = std::optional<DepthOutcome>;
+
+inline Outcome outcome_of(Answer always, Answer never) {
+    if (always == Answer::yes) {
+        return DepthOutcome::passes;
+    }
+    if (never == Answer::yes) {
+        return DepthOutcome::fails;
+    }
+    if (always == Answer::unknown || never == Answer::unknown) {
+        return std::nullopt;
+    }
+    return DepthOutcome::open;
+}
+
+inline DepthOutcome opposite(DepthOutcome o) {
+    return o == DepthOutcome::passes  ? DepthOutcome::fails
+           : o == DepthOutcome::fails ? DepthOutcome::passes
+                                      : o;
+}
+inline Outcome opposite(const Outcome& o) {
+    return o ? Outcome(opposite(*o)) : o;
+}
+
+// Whether a < b; strictly less is what is_at_most() denies the other way round.
+template <class T>
+Outcome is_less(const Span<T>& a, const Span<T>& b) {
+    const auto negated = [](Answer answer) {
+        return answer == Answer::yes ? Answer::no : answer == Answer::no ? Answer::yes : answer;
+    };
+    return outcome_of(negated(is_at_most(b.low, a.high)), is_at_most(b.high, a.low));
+}
+
+template <class T>
+Outcome is_equal(const Span<T>& a, const Span<T>& b) {
+    const Outcome less = is_less(a, b);
+    const Outcome greater = is_less(b, a);
+    if (less == DepthOutcome::passes || greater == DepthOutcome::passes) {
+        return DepthOutcome::fails;
+    }
+    // Points that are equal: neither side reaches beyond the other.
+    const Answer up = is_at_most(a.high, b.low);
+    const Answer down = is_at_most(b.high, a.low);
+    const Answer same = up == Answer::no || down == Answer::no     ? Answer::no
+                        : up == Answer::yes && down == Answer::yes ? Answer::yes
+                                                                   : Answer::unknown;
+    if (same == Answer::yes) {
+        return DepthOutcome::passes;
+    }
+    if (same == Answer::unknown || !less || !greater) {
+        return std::nullopt;
+    }
+    return DepthOutcome::open;
+}
+
+template <class T>
+Outcome compare(CompareOp op, const Span<T>& fragment, const Span<T>& stored) {
+    switch (op) {
+        case CompareOp::never:
+            return DepthOutcome::fails;
+        case CompareOp::always:
+            return DepthOutcome::passes;
+        default:
+            break;
+    }
+    if (fragment.is_free || stored.is_free) {
+        return DepthOutcome::open;
+    }
+    switch (op) {
+        case CompareOp::less:
+            return is_less(fragment, stored);
+        case CompareOp::greater_or_equal:
+            return opposite(is_less(fragment, stored));
+        case CompareOp::greater:
+            return is_less(stored, fragment);
+        case CompareOp::less_or_equal:
+            return opposite(is_less(stored, fragment));
+        case CompareOp::equal:
+            return is_equal(fragment, stored);
+        case CompareOp::not_equal:
+            return opposite(is_equal(fragment, stored));
+        default:
+            return DepthOutcome::open;
+    }
+}
+
+// The outcome if the sign of fragment - stored is known.
+inline DepthOutcome compare_sign(CompareOp op, int sign) {
+    const bool passes =
+        op == CompareOp::always || (op == CompareOp::less && sign < 0) ||
+        (op == CompareOp::less_or_equal && sign <= 0) || (op == CompareOp::equal && sign == 0) ||
+        (op == CompareOp::not_equal && sign != 0) ||
+        (op == CompareOp::greater_or_equal && sign >= 0) || (op == CompareOp::greater && sign > 0);
+    return passes ? DepthOutcome::passes : DepthOutcome::fails;
+}
+
+}  // namespace ref::value

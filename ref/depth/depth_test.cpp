@@ -1,0 +1,395 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/depth/depth_test.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <unordered_map>
+
+#include "ref/depth/depth_compare.hpp"
+#include "ref/value/accept/judge_candidates.hpp"
+
+namespace ref {
+
+namespace {
+
+using cases::CompareOp;
+using value::Answer;
+using value::Ball;
+using value::compare;
+using value::compare_sign;
+using value::is_positive;
+using value::Outcome;
+using value::Span;
+using value::with_neighbours;
+
+constexpr int kClear = -1;  // instead of a candidate's number
+
+template <class T>
+value::Point<T> point_of(const FixedPoint& p) {
+    return {T(static_cast<double>(p.x) / static_cast<double>(kFixedOne)),
+            T(static_cast<double>(p.y) / static_cast<double>(kFixedOne))};
+}
+
+// How two triangles are related whose vertices are the same.
+struct Relation {
+    bool is_same = false;
+    int sign = 0;  // of the second one's depth minus the first one's; 0: not known
+};
+
+bool has_equal_bits(const glm::vec4& a, const glm::vec4& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+bool has_equal_modes(const cases::Draw& a, const cases::Draw& b) {
+    return std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(),
+                      b.attributes.end(), [](const cases::Attribute& p, const cases::Attribute& q) {
+                          return p.interpolation == q.interpolation &&
+                                 p.components == q.components && p.auxiliary == q.auxiliary &&
+                                 p.source == q.source && p.probe == q.probe;
+                      });
+}
+
+}  // namespace
+
+struct DepthTest::Impl {
+    // What is known of a triangle in one kind of number.
+    template <class T>
+    struct Known {
+        std::optional<value::WideSet<T>> set;
+        uint64_t stamp = 0;  // of the sample that `span` belongs to
+        std::optional<Span<T>> span;
+    };
+    struct Loaded {
+        value::Primitive primitive;
+        Known<Ball> balls;
+        Known<mpq_class> rationals;
+    };
+
+    const cases::Case& c;
+    const std::vector<Triangle>& triangles;
+    Limits limits;
+    cases::Profile profile;
+    bool exact_only;
+    value::Quantity depth;
+    std::vector<std::unique_ptr<Loaded>> loaded;
+    double steps;
+    Span<Ball> clear_ball;
+    Span<mpq_class> clear_exact;
+    FixedPoint at;       // the sample whose spans are kept
+    uint64_t stamp = 1;  // counts samples
+
+    Impl(const cases::Case& the_case, const std::vector<Triangle>& the_triangles,
+         const Limits& the_limits, cases::Profile the_profile, bool exact)
+        : c(the_case),
+          triangles(the_triangles),
+          limits(the_limits),
+          profile(the_profile),
+          exact_only(exact),
+          loaded(the_triangles.size()),
+          steps(value::steps_of(the_case.target.depth_format)) {
+        depth.kind = value::Kind::linear;
+        depth.at_sample = true;
+        depth.plane = value::kPlaneDepth;
+        depth.attribute = -2;
+        const mpq_class value(static_cast<double>(c.target.depth_clear));
+        clear_exact = *with_neighbours<mpq_class>({value, value}, steps);
+        clear_ball = {false, value::from_exact<Ball>(clear_exact.low),
+                      value::from_exact<Ball>(clear_exact.high)};
+    }
+
+    Loaded& load(uint32_t t) {
+        if (!loaded[t]) {
+            loaded[t] = std::make_unique<Loaded>();
+            loaded[t]->primitive = value::make_primitive(c, triangles[t]);
+        }
+        return *loaded[t];
+    }
+
+    template <class T>
+    Known<T>& known(uint32_t t) {
+        if constexpr (std::is_same_v<T, Ball>) {
+            return load(t).balls;
+        } else {
+            return load(t).rationals;
+        }
+    }
+
+    template <class T>
+    const Span<T>& clear() const {
+        if constexpr (std::is_same_v<T, Ball>) {
+            return clear_ball;
+        } else {
+            return clear_exact;
+        }
+    }
+
+    // The depths of triangle t at p; nothing if T cannot tell.
+    template <class T>
+    std::optional<Span<T>> make_span(uint32_t t, const FixedPoint& p) {
+        const value::Primitive& primitive = load(t).primitive;
+        if (!primitive.is_finite) {
+            return Span<T>{true, {}, {}};
+        }
+        std::optional<value::WideSet<T>>& set = known<T>(t).set;
+        if (!set) {
+            set = value::make_wide_set<T>(primitive, {&depth, 1}, limits, profile);
+        }
+        if (!set->is_known) {
+            return std::nullopt;
+        }
+        const auto reach =
+            value::reach_of_depth(*set, depth, primitive.is_projectable, point_of<T>(p));
+        if (!reach.is_known) {
+            return std::nullopt;
+        }
+        if (reach.is_free) {
+            return Span<T>{true, {}, {}};
+        }
+        return with_neighbours<T>(reach.range, steps);
+    }
+
+    // The same, or what depth was cleared to; the last sample's answers are kept.
+    template <class T>
+    std::optional<Span<T>> span_of(int t, const FixedPoint& p) {
+        if (t == kClear) {
+            return clear<T>();
+        }
+        if (!(p == at)) {
+            at = p;
+            ++stamp;
+        }
+        Known<T>& k = known<T>(static_cast<uint32_t>(t));
+        if (k.stamp != stamp) {
+            k.span = make_span<T>(static_cast<uint32_t>(t), p);
+            k.stamp = stamp;
+        }
+        return k.span;
+    }
+
+    const cases::Draw& draw_of(uint32_t t) const { return c.draws[triangles[t].draw]; }
+
+    // Of triangle `next`, drawn after `first`.
+    Relation relation(uint32_t first, uint32_t next) {
+        const Triangle& a = triangles[first];
+        const Triangle& b = triangles[next];
+        const cases::Draw& da = c.draws[a.draw];
+        const cases::Draw& db = c.draws[b.draw];
+        for (size_t k = 0; k < 3; ++k) {
+            if (!has_equal_bits(da.positions[a.vertex[k]], db.positions[b.vertex[k]])) {
+                return {};
+            }
+        }
+        const bool is_same_state = da.topology == db.topology && da.viewport == db.viewport &&
+                                   da.cull == db.cull && da.front_face == db.front_face &&
+                                   da.scissor == db.scissor && da.distances == db.distances &&
+                                   da.multisample == db.multisample && has_equal_modes(da, db);
+        if (!is_same_state || !load(first).primitive.is_finite) {
+            return {};
+        }
+        if (da.depth == db.depth) {
+            return {steps <= 0, 0};
+        }
+        cases::DepthState x = da.depth;
+        cases::DepthState y = db.depth;
+        const cases::DepthBias p = x.bias.value_or(cases::DepthBias{});
+        const cases::DepthBias q = y.bias.value_or(cases::DepthBias{});
+        x.bias = y.bias = std::nullopt;
+        y.compare = x.compare;
+        y.write = x.write;
+        // "the smallest difference ... guaranteed to remain distinct" is said of r as the format
+        // has it, without depthBiasExact.
+        const bool is_shifted = x == y && !p.is_controlled() && !q.is_controlled() &&
+                                !(p.slope < q.slope) && !(p.slope > q.slope) &&
+                                !(std::fabs(p.clamp) > 0) && !(std::fabs(q.clamp) > 0);
+        const float apart = q.constant - p.constant;
+        const float least = steps > 0 ? 2.0F : 1.0F;
+        if (!is_shifted || !(std::fabs(apart) >= least)) {
+            return {};
+        }
+        return {false, apart > 0 ? 1 : -1};
+    }
+
+    // Whether nothing is cut off at the ends of the viewport's range or undefined there: the bias
+    // sets two depths apart only as long as they are not clamped.
+    bool is_inside(uint32_t t, const FixedPoint& p) {
+        if (!exact_only) {
+            const Answer answer = is_inside<Ball>(t, p);
+            if (answer != Answer::unknown) {
+                return answer == Answer::yes;
+            }
+        }
+        return is_inside<mpq_class>(t, p) == Answer::yes;
+    }
+    template <class T>
+    Answer is_inside(uint32_t t, const FixedPoint& p) {
+        const auto span = span_of<T>(static_cast<int>(t), p);
+        if (!span) {
+            return Answer::unknown;
+        }
+        if (span->is_free) {
+            return Answer::no;
+        }
+        const cases::Viewport& v = draw_of(t).viewport;
+        const auto low = static_cast<double>(std::min(v.min_depth, v.max_depth));
+        const auto high = static_cast<double>(std::max(v.min_depth, v.max_depth));
+        const Answer above = is_positive(T(span->low - T(low)));
+        const Answer below = is_positive(T(T(high) - span->high));
+        return above == Answer::no || below == Answer::no     ? Answer::no
+               : above == Answer::yes && below == Answer::yes ? Answer::yes
+                                                              : Answer::unknown;
+    }
+
+    // Whether a triangle has a depth there at all.
+    bool has_depth(uint32_t t, const FixedPoint& p) {
+        if (!exact_only) {
+            const auto span = span_of<Ball>(static_cast<int>(t), p);
+            if (span) {
+                return !span->is_free;
+            }
+        }
+        const auto span = span_of<mpq_class>(static_cast<int>(t), p);
+        return span && !span->is_free;
+    }
+
+    DepthOutcome outcome(int stored, uint32_t fragment, const FixedPoint& p, DepthReason& reason) {
+        const CompareOp op = draw_of(fragment).depth.compare;
+        if (op == CompareOp::always || op == CompareOp::never) {
+            return op == CompareOp::always ? DepthOutcome::passes : DepthOutcome::fails;
+        }
+        Outcome known;
+        if (!exact_only) {
+            const auto a = span_of<Ball>(static_cast<int>(fragment), p);
+            const auto b = span_of<Ball>(stored, p);
+            known = a && b ? compare(op, *a, *b) : Outcome();
+        }
+        if (!known) {
+            const auto a = span_of<mpq_class>(static_cast<int>(fragment), p);
+            const auto b = span_of<mpq_class>(stored, p);
+            known = a && b ? compare(op, *a, *b) : Outcome(DepthOutcome::open);
+        }
+        if (*known != DepthOutcome::open || stored == kClear) {
+            return *known;
+        }
+        const auto first = static_cast<uint32_t>(stored);
+        const Relation r = relation(first, fragment);
+        if (r.is_same) {
+            if (!has_depth(first, p)) {
+                return DepthOutcome::open;
+            }
+            reason = DepthReason::same;
+            return compare_sign(op, 0);
+        }
+        if (r.sign != 0 && is_inside(first, p) && is_inside(fragment, p)) {
+            reason = DepthReason::apart;
+            return compare_sign(op, r.sign);
+        }
+        return DepthOutcome::open;
+    }
+};
+
+DepthTest::DepthTest(const cases::Case& c, const std::vector<Triangle>& triangles,
+                     const Limits& limits, cases::Profile profile, bool exact_only)
+    : impl_(std::make_unique<Impl>(c, triangles, limits, profile, exact_only)) {}
+DepthTest::~DepthTest() = default;
+DepthTest::DepthTest(DepthTest&&) noexcept = default;
+
+bool DepthTest::is_needed(const cases::Case& c) {
+    return std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
+        return draw.depth.compare != CompareOp::always || !draw.depth.write;
+    });
+}
+
+DepthResolution DepthTest::resolve(const FixedPoint& p,
+                                   std::span<const DepthCandidate> candidates) {
+    DepthResolution out;
+    std::vector<int> stored{kClear};  // numbers of candidates
+    for (size_t m = 0; m < candidates.size(); ++m) {
+        const DepthCandidate& now = candidates[m];
+        out.outcomes.push_back(DepthOutcome::fails);
+        out.reasons.push_back(DepthReason::ranges);
+        if (now.is_absent) {
+            continue;
+        }
+        // A triangle that was drawn before, passed and wrote its depth covers the sample as well:
+        // what was stored before that is gone.
+        int since = kClear;
+        for (size_t k = 0; k < m; ++k) {
+            if (!candidates[k].is_absent && out.outcomes[k] == DepthOutcome::passes &&
+                impl_->draw_of(candidates[k].triangle).depth.write &&
+                impl_->relation(candidates[k].triangle, now.triangle).is_same) {
+                since = static_cast<int>(k);
+            }
+        }
+        bool passes = false, fails = false;
+        for (const int k : stored) {
+            // Of a set of which one covers the sample, that one is here.
+            const auto excludes = [&](int one_of) {
+                return k != kClear && one_of >= 0 &&
+                       candidates[static_cast<size_t>(k)].one_of == one_of;
+            };
+            const bool is_excluded =
+                excludes(now.one_of) || (since != kClear && k != since &&
+                                         excludes(candidates[static_cast<size_t>(since)].one_of));
+            if (k < since || is_excluded) {
+                continue;
+            }
+            const int t = k == kClear
+                              ? kClear
+                              : static_cast<int>(candidates[static_cast<size_t>(k)].triangle);
+            const DepthOutcome o = impl_->outcome(t, now.triangle, p, out.reasons.back());
+            passes = passes || o != DepthOutcome::fails;
+            fails = fails || o != DepthOutcome::passes;
+        }
+        DepthOutcome& outcome = out.outcomes.back();
+        outcome = passes && !fails   ? DepthOutcome::passes
+                  : fails && !passes ? DepthOutcome::fails
+                                     : DepthOutcome::open;
+        if (outcome == DepthOutcome::fails || !impl_->draw_of(now.triangle).depth.write) {
+            continue;
+        }
+        if (now.is_sure && outcome == DepthOutcome::passes) {
+            stored.clear();
+        }
+        stored.push_back(static_cast<int>(m));
+        if (now.one_of < 0 || !now.is_one_sure) {
+            continue;
+        }
+        // One of the set has written once all of them had their turn and none can have failed.
+        int first = kClear;
+        bool is_complete = true;
+        for (size_t k = 0; k < candidates.size(); ++k) {
+            if (candidates[k].one_of != now.one_of) {
+                continue;
+            }
+            first = first == kClear ? static_cast<int>(k) : first;
+            is_complete = is_complete && k <= m && out.outcomes[k] == DepthOutcome::passes &&
+                          impl_->draw_of(candidates[k].triangle).depth.write;
+        }
+        if (is_complete) {
+            std::erase_if(stored, [&](int k) { return k < first; });
+        }
+    }
+    for (const int k : stored) {
+        if (k == kClear) {
+            out.may_be_clear = true;
+        } else {
+            out.stored.push_back(static_cast<uint32_t>(k));
+        }
+    }
+    return out;
+}
+
+std::string DepthTest::range_text(uint32_t triangle, const FixedPoint& p) {
+    const auto span = impl_->span_of<mpq_class>(static_cast<int>(triangle), p);
+    if (!span || span->is_free) {
+        return "any depth";
+    }
+    return fmt::format("depth {:.9g} to {:.9g}", span->low.get_d(), span->high.get_d());
+}
+
+}  // namespace ref

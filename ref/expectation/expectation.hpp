@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a device may show at each sample of a case: how many hits by front and back faces, and which
+// triangles may have written last. Exactly-one rules (shared edges, mesh interiors) narrow the
+// bounds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/coverage/coverage.hpp"
+#include "ref/position/limits.hpp"
+#include "ref/position/triangle.hpp"
+
+namespace ref {
+
+// Allowed hits at one sample. All of: front in [front_min, front_max], back in [back_min,
+// back_max], front - back in [signed_min, signed_max], front + back in [total_min, total_max].
+struct HitBounds {
+    uint32_t front_min = 0, front_max = 0;
+    uint32_t back_min = 0, back_max = 0;
+    int32_t signed_min = 0, signed_max = 0;
+    uint32_t total_min = 0, total_max = 0;
+    bool allows(uint32_t front, uint32_t back) const;
+    // True if exactly one pair (front, back) is allowed.
+    bool is_decided() const;
+    friend bool operator==(const HitBounds&, const HitBounds&) = default;
+};
+
+struct SampleExpectation {
+    HitBounds hits;
+    uint32_t writers_begin = 0;  // into Expectation::writers
+    uint32_t writers_count =
+        0;  // triangles that may have written last, ascending; 0 if none may hit
+    // Into Expectation::depth_writers: whose depth may be stored. Only where a draw tests depth or
+    // does not write it (DepthTest::is_needed); otherwise it is the last writer's.
+    uint32_t depth_begin = 0, depth_count = 0;
+    bool depth_may_be_clear = false;  // or no fragment's
+    friend bool operator==(const SampleExpectation&, const SampleExpectation&) = default;
+};
+
+// A triangle that must or may cover a sample.
+struct PossibleHit {
+    uint32_t triangle = 0;
+    bool is_certain = false;
+    friend bool operator==(const PossibleHit&, const PossibleHit&) = default;
+};
+
+struct Expectation {
+    Limits limits;
+    cases::Profile profile = cases::Profile::direct3d;
+    cases::Target target;
+    std::vector<Triangle> triangles;         // drawing order
+    std::vector<SampleExpectation> samples;  // by index_of, sample.hpp
+    std::vector<uint32_t> writers;
+    std::vector<uint32_t> depth_writers;
+    // If the target has a colour: the triangles that must or may cover sample i, in drawing order,
+    // are fragments[fragments_begin[i] .. fragments_begin[i + 1]).
+    std::vector<PossibleHit> fragments;
+    std::vector<uint32_t> fragments_begin;
+    uint64_t must_samples = 0;    // samples that must be hit at least once: the control of the case
+    uint64_t either_samples = 0;  // samples where more than one answer is allowed
+};
+
+// The expectation of a case. Errors: none; a case that the loader accepted always has one.
+// Source: docs/design.md "The reference"; Vulkan specification, "Basic Polygon Rasterization".
+Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile);  // fast
+
+namespace exact {
+// The oracle: same result from rationals alone, slow and obvious.
+Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile);
+}  // namespace exact
+
+}  // namespace ref

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "ref/coverage/exact.hpp"
+#include "ref/coverage/setup.hpp"
+#include "ref/coverage/triangle_setups.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/expectation/narrowing.hpp"
+
+namespace ref::exact {
+
+Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile) {
+    Expectation out;
+    out.limits = limits;
+    out.profile = profile;
+    out.target = c.target;
+    out.triangles = assemble(c);
+    TriangleSetups setups(c, out.triangles, limits, profile);
+    std::optional<DepthTest> depth;
+    if (DepthTest::is_needed(c)) {
+        depth.emplace(c, out.triangles, limits, profile, true);
+    }
+    Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding, is_inside_whole},
+                        depth ? &*depth : nullptr);
+    for (uint32_t row = 0; row < c.target.rows(); ++row) {
+        const uint32_t j = row % c.target.height;
+        const uint32_t layer = row / c.target.height;
+        for (uint32_t i = 0; i < c.target.width; ++i) {
+            for (uint32_t s = 0; s < c.target.samples; ++s) {
+                const FixedPoint p = sample_position(i, j, s, c.target);
+                std::vector<Hit> hits;
+                for (uint32_t t = 0; t < out.triangles.size(); ++t) {
+                    const cases::Draw& draw = c.draws[out.triangles[t].draw];
+                    if (draw.layer != layer || !is_in_mask(draw.multisample, s)) {
+                        continue;
+                    }
+                    const Coverage coverage = classify(setups[t], p).coverage;
+                    if (coverage != Coverage::must_not) {
+                        hits.push_back({t, coverage});
+                    }
+                }
+                add_fragments(out, c, hits);
+                const SampleExpectation sample =
+                    narrowing.judge(p, s, hits, out.writers, out.depth_writers);
+                out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
+                out.either_samples += sample.hits.is_decided() ? 0U : 1U;
+                out.samples.push_back(sample);
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace ref::exact

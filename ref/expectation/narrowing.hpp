@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From the coverage of single triangles to the hits that a sample may show.
+//
+// Exactly one. Take the triangles that may or may not cover sample p, and orient each so that its
+// area is positive. Two that share an edge with bitwise-equal end points in one viewport and layer,
+// p in the band of that edge (the hull of its two boxes), run along it in opposite directions: they
+// lie on either side. Let K be a set of triangles closed under such partnership, in which every
+// edge whose band contains p occurs equally often in both directions. However the vertices are
+// snapped, if equal vertices are snapped alike, the border of the chain sum(K) stays away from p,
+// so its winding number around p, which is the number of triangles of K that cover p, is the same
+// for every snapping; on an edge itself the shared-edge rule (Vulkan specification, "Basic Polygon
+// Rasterization") keeps the number. So p is hit that often by K. At profile
+// direct3d some triangles of K may be decided by themselves, those that do not cover p included;
+// the others share what is left of the number.
+//
+// Complementary clip distances (ref/expectation/complement.hpp). Of a triangle and the same one
+// with negated distances never both cover p; with a single distance one of them does, if p lies so
+// deep in the triangle that only the distance leaves it open.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/coverage/setup.hpp"
+#include "ref/coverage/triangle_setups.hpp"
+#include "ref/depth/depth_test.hpp"
+#include "ref/expectation/complement.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/expectation/vertex_numbers.hpp"
+#include "ref/position/triangle.hpp"
+
+namespace ref {
+
+// A triangle that must or may cover the sample at hand.
+struct Hit {
+    uint32_t triangle = 0;
+    Coverage coverage = Coverage::either;
+};
+
+// The arithmetic that narrowing rests on, so that both implementations bring their own.
+struct Predicates {
+    // p lies in the closed convex hull of the boxes.
+    bool (*is_in_hull)(std::span<const Box>, const FixedPoint&);
+    // How often the polygon runs around p, clockwise positive, with the top-left rule on its
+    // border.
+    int (*winding)(std::span<const FixedPoint>, const FixedPoint&);
+    // An outline covers p but for its cuts, whatever positions the device uses.
+    bool (*is_inside_whole)(const TriangleSetup&, const Outline&, const FixedPoint&);
+};
+
+// Keeps the hits of the next sample for the colour target, if the case has one.
+inline void add_fragments(Expectation& out, const cases::Case& c, std::span<const Hit> hits) {
+    if (!out.target.color) {
+        return;
+    }
+    if (out.fragments_begin.empty()) {
+        out.fragments_begin.push_back(0);
+    }
+    for (const Hit& hit : hits) {
+        // A depth test or a mask may still take it away; the bounds of the sample know how many.
+        const cases::Draw& draw = c.draws[out.triangles[hit.triangle].draw];
+        const bool passes = draw.depth.compare == cases::CompareOp::always &&
+                            draw.multisample.sample_mask == 0xffffffffU &&
+                            !draw.multisample.shader_mask;
+        out.fragments.push_back({hit.triangle, passes && hit.coverage == Coverage::must});
+    }
+    out.fragments_begin.push_back(static_cast<uint32_t>(out.fragments.size()));
+}
+
+class Narrowing {
+  public:
+    Narrowing(const cases::Case& c, cases::Profile profile, const std::vector<Triangle>& triangles,
+              TriangleSetups& setups, Predicates predicates, DepthTest* depth);
+
+    // Bounds for sample `s` of a pixel, at p, from the triangles that must or may cover it, in
+    // drawing order; appends the triangles that may have written last, and those whose depth may be
+    // stored.
+    SampleExpectation judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
+                            std::vector<uint32_t>& writers, std::vector<uint32_t>& depth_writers);
+
+  private:
+    // Triangles of which exactly `count` cover the sample, or from `least` to `count`.
+    struct Fixed {
+        std::vector<uint32_t> members;  // positions in the list of hits, ascending
+        uint32_t count = 0;
+        uint32_t least = 0;
+    };
+    // One edge of a member whose band contains the sample.
+    struct Side {
+        uint64_t edge = 0;  // both vertex numbers, smaller one first
+        bool is_forward = false;
+        uint32_t member = 0;
+    };
+
+    // Pairs of triangles with complementary clip distances; their members are marked.
+    std::vector<Fixed> complementary_pairs(const FixedPoint& p, std::span<const Hit> hits,
+                                           std::vector<bool>& is_paired) const;
+    // Whether a triangle covers p but for its clip distances, whatever the device's freedom, and no
+    // edge of the triangle or border of the viewport is near.
+    bool is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const;
+    DepthResolution resolve_depth(const FixedPoint& p, std::span<const Hit> hits,
+                                  const std::vector<Fixed>& sets);
+    // Takes away what fails the depth test.
+    void apply_depth(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets,
+                     std::vector<Coverage>& coverage, std::vector<uint32_t>& depth_writers,
+                     SampleExpectation& out);
+    struct EdgeOwner {
+        uint64_t edge = 0;
+        uint32_t triangle = 0;
+    };
+
+    // Of the triangles that may cover p; sets of them alone.
+    std::vector<Fixed> fixed_sets(const FixedPoint& p, std::span<const Hit> hits);
+    // As fixed_sets, for the open ones among `hits` that are in none of its sets: with triangles
+    // that are decided. Appends to `sets`.
+    void add_decided_sets(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets);
+    // Sets closed under partnership among the hits that take part.
+    std::vector<Fixed> closed_sets(const FixedPoint& p, std::span<const Hit> hits,
+                                   const std::vector<bool>& takes_part);
+    // The triangles with an edge between two vertices, of those that may touch a sample at all (the
+    // others have no band that contains one).
+    std::span<const EdgeOwner> triangles_at(uint64_t edge);
+    uint64_t edge_number(const Triangle& triangle, uint32_t edge);
+    // Adds the edges of a hit near p; false if p lies where no rule fixes anything.
+    bool add_sides(const FixedPoint& p, const Hit& hit, uint32_t member, std::vector<Side>& sides);
+    // The number of the members that cover p, or -1 if it depends on the outline used.
+    int count_of(const FixedPoint& p, std::span<const Hit> hits,
+                 const std::vector<uint32_t>& members) const;
+    int winding_of(const FixedPoint& p, const TriangleSetup& setup, const Outline& outline) const;
+
+    const cases::Case& case_;
+    cases::Profile profile_;
+    const std::vector<Triangle>& triangles_;
+    TriangleSetups& setups_;
+    Predicates predicates_;
+    uint32_t sample_ = 0;                  // of the pixel, the one at hand
+    std::vector<Complement> complements_;  // by triangle, or empty
+    DepthTest* depth_;                     // null: every fragment passes and writes
+    VertexNumbers vertex_numbers_;
+    std::vector<EdgeOwner> edge_owners_;  // sorted by edge, then triangle; when first asked for
+};
+
+}  // namespace ref

@@ -1,0 +1,395 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The error of a clipped vertex, unit roundoff u. The plane distances d1 >= 0 > d2 of the end
+// points P1, P2 are sums of two components that are off by at most e, so |dd_i| <= eta_i = e_w +
+// e_c + u |d_i| (1 + u covers the rest). t = d1 / (d1 - d2), with D = |d1| + |d2|:
+//
+//     |dt| <= ((1-t) eta_1 + t eta_2) / (D - eta_1 - eta_2) + 4u m,    m = max(t, 1-t)
+//
+// (a subtraction, a reciprocal of 1 ulp and a product: 4u of t, which counts from either end). The
+// new point R is computed as
+//
+//     P1 + t (P2 - P1)      difference and product 2u m |P2 - P1|, the sum u |R|
+//     (1-t) P1 + t P2       1-t and the products 2u ((1-t) |P1| + t |P2|), the sum u |R|
+//
+// from either end, with the larger of both, r_c,
+//
+//     |dP_c| <= max(e1_c, e2_c) + (|dt| |P2_c - P1_c| + r_c + u |R_c|) (1 + 16u)
+//
+// where 1 + 16u covers the products of the at most seven roundings of a chain. The end points'
+// errors enter as weights (1-t) and t, which are off by |dt| times e1 + e2. Several planes: the
+// bound is carried from cut to cut. Devices cut in different orders; the larger bound of the orders
+// x y z, z x y and, with clip distances, those first and last is taken. A clip distance is exact at
+// the triangle's vertices and cut like a coordinate. Then x/w: (e_x + |x/w| e_w) / (w - e_w), times
+// |p/2|, plus the rounding of divide and transform (position.cpp). Bounds are symmetric in the two
+// end points, so that two triangles which share the edge get the same box for the same point.
+#include "ref/position/clip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "ref/position/position_detail.hpp"
+
+namespace ref {
+
+namespace {
+
+constexpr size_t kX = 0, kY = 1, kZ = 2, kW = 3;
+
+mpq_class exact(float f) {
+    return mpq_class(static_cast<double>(f));
+}
+
+// Rounded up to a binary64, so that bounds stay short numbers.
+mpq_class round_up(const mpq_class& q) {
+    if (q == 0) {
+        return q;
+    }
+    // get_d truncates.
+    const double d = std::nextafter(q.get_d(), std::numeric_limits<double>::infinity());
+    return std::isfinite(d) ? mpq_class(d) : q;
+}
+
+struct Work {
+    ClippedVertex v;
+    std::array<mpq_class, 4> error;  // of the clip coordinates
+    // Clip distances are clipped like a fifth coordinate.
+    std::vector<mpq_class> distance, distance_error;
+};
+
+bool is_user(ClipPlane plane) {
+    return plane >= ClipPlane::user_0;
+}
+size_t user_index(ClipPlane plane) {
+    return static_cast<size_t>(plane) - static_cast<size_t>(ClipPlane::user_0);
+}
+
+// The component that a plane of the view volume bounds; the distance is w + c (low), w - c (high),
+// z (z_low).
+size_t component_of(ClipPlane plane) {
+    return plane == ClipPlane::z_low_symmetric ? kZ : static_cast<size_t>(plane) / 2;
+}
+
+mpq_class distance(const Work& p, ClipPlane plane) {
+    if (is_user(plane)) {
+        return p.distance[user_index(plane)];
+    }
+    const std::array<mpq_class, 4>& clip = p.v.clip;
+    switch (plane) {
+        case ClipPlane::x_low:
+        case ClipPlane::y_low:
+        case ClipPlane::z_low_symmetric:
+            return clip[kW] + clip[component_of(plane)];
+        case ClipPlane::z_low:
+            return clip[kZ];
+        default:
+            return clip[kW] - clip[component_of(plane)];
+    }
+}
+
+mpq_class distance_error(const Work& p, const mpq_class& d, ClipPlane plane, const mpq_class& u) {
+    if (is_user(plane)) {
+        return p.distance_error[user_index(plane)];
+    }
+    if (plane == ClipPlane::z_low) {
+        return p.error[kZ];
+    }
+    return (p.error[kW] + p.error[component_of(plane)] + u * abs(d)) * (1 + u);
+}
+
+Work cut(const Work& p1, const Work& p2, const mpq_class& d1, const mpq_class& d2, ClipPlane plane,
+         const mpq_class& u) {
+    Work out;
+    const mpq_class span = abs(d1) + abs(d2);
+    const mpq_class t = abs(d1) / span;
+    const mpq_class rest = 1 - t;
+    const mpq_class larger = std::max(t, rest);
+    for (size_t i = 0; i < 3; ++i) {
+        out.v.weights[i] = rest * p1.v.weights[i] + t * p2.v.weights[i];
+    }
+    const mpq_class eta1 = distance_error(p1, d1, plane, u);
+    const mpq_class eta2 = distance_error(p2, d2, plane, u);
+    const mpq_class sure = span - eta1 - eta2;
+    out.v.is_bounded = p1.v.is_bounded && p2.v.is_bounded && sure > 0;
+    mpq_class dt = 1;  // t stays in [0,1]
+    if (out.v.is_bounded) {
+        dt = std::min<mpq_class>(dt, (rest * eta1 + t * eta2) / sure + 4 * u * larger);
+    }
+    const auto interpolate = [&](const mpq_class& a, const mpq_class& b, const mpq_class& ea,
+                                 const mpq_class& eb, mpq_class& value, mpq_class& error) {
+        value = rest * a + t * b;
+        const mpq_class difference = abs(b - a);
+        const mpq_class rounding =
+            2 * u * std::max<mpq_class>(larger * difference, rest * abs(a) + t * abs(b));
+        const mpq_class own = dt * (difference + ea + eb) + rounding + u * abs(value);
+        error = round_up(std::max(ea, eb) + own * (1 + 16 * u));
+    };
+    for (size_t c = 0; c < 4; ++c) {
+        interpolate(p1.v.clip[c], p2.v.clip[c], p1.error[c], p2.error[c], out.v.clip[c],
+                    out.error[c]);
+    }
+    out.distance.resize(p1.distance.size());
+    out.distance_error.resize(p1.distance.size());
+    for (size_t k = 0; k < p1.distance.size(); ++k) {
+        interpolate(p1.distance[k], p2.distance[k], p1.distance_error[k], p2.distance_error[k],
+                    out.distance[k], out.distance_error[k]);
+    }
+    return out;
+}
+
+// `d`: the vertices' distances from the plane.
+std::vector<Work> clip_by(const std::vector<Work>& polygon, const std::vector<mpq_class>& d,
+                          ClipPlane plane, const mpq_class& u) {
+    std::vector<Work> out;
+    const size_t n = polygon.size();
+    out.reserve(n + 1);
+    const auto label = static_cast<EdgeLabel>(kFirstClipEdge + static_cast<EdgeLabel>(plane));
+    for (size_t i = 0; i < n; ++i) {
+        const Work& a = polygon[i];
+        const size_t next = (i + 1) % n;
+        if (d[i] >= 0) {
+            out.push_back(a);
+            if (d[next] < 0) {
+                if (d[i] == 0) {
+                    out.back().v.edge = label;  // leaves at a itself
+                } else {
+                    out.push_back(cut(a, polygon[next], d[i], d[next], plane, u));
+                    out.back().v.edge = label;
+                }
+            }
+        } else if (d[next] > 0) {
+            out.push_back(cut(a, polygon[next], d[i], d[next], plane, u));
+            out.back().v.edge = a.v.edge;
+        }
+    }
+    return out;
+}
+
+std::vector<Work> clip_in_order(const std::vector<Work>& triangle, std::span<const ClipPlane> order,
+                                const mpq_class& u) {
+    std::vector<Work> polygon = triangle;
+    for (const ClipPlane plane : order) {
+        if (polygon.empty()) {
+            break;
+        }
+        // An earlier plane may have cut off all that is outside of this one.
+        std::vector<mpq_class> d;
+        d.reserve(polygon.size());
+        for (const Work& p : polygon) {
+            d.push_back(distance(p, plane));
+        }
+        if (std::any_of(d.begin(), d.end(), [](const mpq_class& each) { return each < 0; })) {
+            polygon = clip_by(polygon, d, plane, u);
+        }
+    }
+    return polygon;
+}
+
+// The planes that cut something off, in their order. All points of the polygon, which is exact, are
+// convex combinations of the triangle's vertices: a plane with these inside has all of them inside.
+std::vector<ClipPlane> cutting_planes(const ClipInput& triangle,
+                                      std::span<const ClipPlane> planes) {
+    std::vector<ClipPlane> out;
+    for (const ClipPlane& plane : planes) {
+        if (!is_inside(triangle, 0, {&plane, 1}) || !is_inside(triangle, 1, {&plane, 1}) ||
+            !is_inside(triangle, 2, {&plane, 1})) {
+            out.push_back(plane);
+        }
+    }
+    return out;
+}
+
+void raise(mpq_class& bound, const mpq_class& other) {
+    if (bound < other) {
+        bound = other;
+    }
+}
+
+// Takes the larger bound of the vertex of `other` between the same two edges.
+void widen_by(std::vector<Work>& polygon, const std::vector<Work>& other) {
+    const size_t n = polygon.size();
+    const size_t m = other.size();
+    for (size_t i = 0; i < n; ++i) {
+        Work& p = polygon[i];
+        const EdgeLabel in = polygon[(i + n - 1) % n].v.edge;
+        for (size_t k = 0; k < m; ++k) {
+            if (other[k].v.edge != p.v.edge || other[(k + m - 1) % m].v.edge != in) {
+                continue;
+            }
+            p.v.is_bounded = p.v.is_bounded && other[k].v.is_bounded;
+            for (size_t c = 0; c < 4; ++c) {
+                raise(p.error[c], other[k].error[c]);
+            }
+            for (size_t c = 0; c < p.distance_error.size(); ++c) {
+                raise(p.distance_error[c], other[k].distance_error[c]);
+            }
+        }
+    }
+}
+
+mpq_class axis_error(const Work& p, size_t c, float extent, float origin, const mpq_class& u) {
+    const mpq_class half = exact(extent) / 2;
+    const mpq_class offset = exact(origin) + half;
+    const mpq_class normalized = p.v.clip[c] / p.v.clip[kW];
+    const mpq_class divided =
+        (p.error[c] + abs(normalized) * p.error[kW]) / (p.v.clip[kW] - p.error[kW]);
+    const mpq_class t = (abs(normalized) + divided) * abs(half);
+    return round_up(divided * abs(half) + rounding_bound(t, offset, t + abs(offset), u));
+}
+
+void project(Work& p, const cases::Viewport& viewport, const mpq_class& u) {
+    ClippedVertex& v = p.v;
+    if (v.clip[kW] <= 0) {
+        v.is_bounded = false;
+        return;
+    }
+    IdealPosition& out = v.position;
+    out.inv_w = 1 / v.clip[kW];
+    const mpq_class half_x = exact(viewport.width) / 2;
+    const mpq_class half_y = exact(viewport.height) / 2;
+    out.x = half_x * v.clip[kX] * out.inv_w + exact(viewport.x) + half_x;
+    out.y = half_y * v.clip[kY] * out.inv_w + exact(viewport.y) + half_y;
+    const mpq_class range = exact(viewport.max_depth) - exact(viewport.min_depth);
+    out.z = range * v.clip[kZ] * out.inv_w + exact(viewport.min_depth);
+    v.ratio_error.resize(p.distance.size());
+    for (const mpq_class& d : p.distance) {
+        v.ratio.emplace_back(d * out.inv_w);
+    }
+    if (v.original >= 0) {
+        return;
+    }
+    if (p.error[kW] >= v.clip[kW]) {
+        v.is_bounded = false;
+        return;
+    }
+    v.error.x = axis_error(p, kX, viewport.width, viewport.x, u);
+    v.error.y = axis_error(p, kY, viewport.height, viewport.y, u);
+    for (size_t k = 0; k < p.distance.size(); ++k) {
+        v.ratio_error[k] = round_up((p.distance_error[k] + abs(v.ratio[k]) * p.error[kW]) /
+                                    (v.clip[kW] - p.error[kW]));
+    }
+}
+
+}  // namespace
+
+ClipVolume clip_volume_of(const cases::Draw& draw) {
+    ClipVolume v;
+    const auto add = [&v](ClipPlane plane) { v.planes[v.count++] = plane; };
+    add(ClipPlane::x_low);
+    add(ClipPlane::x_high);
+    add(ClipPlane::y_low);
+    add(ClipPlane::y_high);
+    // "depthClipEnable ... otherwise the inverse of depthClampEnable".
+    if (draw.depth.clip.value_or(!draw.depth.clamp)) {
+        add(draw.depth.negative_one_to_one ? ClipPlane::z_low_symmetric : ClipPlane::z_low);
+        add(ClipPlane::z_high);
+    }
+    v.view_count = v.count;
+    for (uint32_t k = 0; k < draw.distances.clip_count; ++k) {
+        add(static_cast<ClipPlane>(static_cast<uint32_t>(ClipPlane::user_0) + k));
+    }
+    return v;
+}
+
+ClipInput::ClipInput(const cases::Draw& draw, const std::array<uint32_t, 3>& vertex)
+    : distance_count(draw.distances.clip_count) {
+    for (size_t i = 0; i < 3; ++i) {
+        clip[i] = draw.positions[vertex[i]];
+        if (distance_count > 0) {
+            distance[i] = draw.distances.clip[vertex[i]];
+        }
+    }
+}
+
+bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes) {
+    ClipInput input;
+    input.clip[0] = clip;
+    return is_inside(input, 0, planes);
+}
+
+bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> planes) {
+    const glm::vec4& clip = triangle.clip[i];
+    if (!std::isfinite(clip.x) || !std::isfinite(clip.y) || !std::isfinite(clip.z) ||
+        !std::isfinite(clip.w)) {
+        return false;
+    }
+    // Comparisons, not sums: exact in binary32.
+    return std::all_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
+        switch (plane) {
+            case ClipPlane::x_low:
+                return clip.x >= -clip.w;
+            case ClipPlane::x_high:
+                return clip.x <= clip.w;
+            case ClipPlane::y_low:
+                return clip.y >= -clip.w;
+            case ClipPlane::y_high:
+                return clip.y <= clip.w;
+            case ClipPlane::z_low:
+                return clip.z >= 0;
+            case ClipPlane::z_high:
+                return clip.z <= clip.w;
+            case ClipPlane::z_low_symmetric:
+                return clip.z >= -clip.w;
+            default:
+                return triangle
+                           .distance[i][static_cast<glm::vec4::length_type>(user_index(plane))] >=
+                       0;
+        }
+    });
+}
+
+bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,
+                          std::span<const ClipPlane> planes) {
+    return std::any_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
+        return !is_user(plane) &&
+               std::none_of(triangle.begin(), triangle.end(), [&](const glm::vec4& v) {
+                   return is_inside(v, {&plane, 1});
+               });
+    });
+}
+
+std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases::Viewport& viewport,
+                                         cases::Profile profile,
+                                         std::span<const ClipPlane> planes) {
+    const mpq_class u =
+        profile == cases::Profile::vulkan ? mpq_class(1, 100000) : mpq_class(1, int64_t{1} << 24);
+    std::vector<Work> start(3);
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& p = triangle.clip[i];
+        start[i].v.clip = {exact(p.x), exact(p.y), exact(p.z), exact(p.w)};
+        start[i].v.weights[i] = 1;
+        start[i].v.original = static_cast<int>(i);
+        start[i].v.edge = static_cast<EdgeLabel>(i);
+        for (uint32_t k = 0; k < triangle.distance_count; ++k) {
+            start[i].distance.push_back(
+                exact(triangle.distance[i][static_cast<glm::vec4::length_type>(k)]));
+        }
+        start[i].distance_error.resize(triangle.distance_count);
+    }
+    // An order that has been cut in before gives the same polygon again.
+    const std::vector<ClipPlane> order = cutting_planes(triangle, planes);
+    std::vector<Work> polygon = clip_in_order(start, order, u);
+    std::vector<ClipPlane> other_order = order;
+    std::stable_partition(other_order.begin(), other_order.end(),
+                          [](ClipPlane p) { return !is_user(p) && component_of(p) == kZ; });
+    if (other_order != order) {
+        widen_by(polygon, clip_in_order(start, other_order, u));
+    }
+    std::vector<ClipPlane> user_first = other_order;
+    std::stable_partition(user_first.begin(), user_first.end(), is_user);
+    if (user_first != other_order && user_first != order) {
+        widen_by(polygon, clip_in_order(start, user_first, u));
+    }
+    std::vector<ClippedVertex> out;
+    out.reserve(polygon.size());
+    for (Work& p : polygon) {
+        project(p, viewport, u);
+        out.push_back(std::move(p.v));
+    }
+    return out;
+}
+
+}  // namespace ref

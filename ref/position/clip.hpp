@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact homogeneous clipping of one triangle against the view volume -w <= x <= w, -w <= y <= w,
+// 0 <= z <= w (or -w <= z <= w) and the half-spaces c_k >= 0 of the clip distances (Vulkan
+// specification, "Primitive Clipping"; Sutherland and Hodgman 1974).
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/position/position.hpp"
+
+namespace ref {
+
+enum class ClipPlane : uint8_t {
+    x_low,
+    x_high,
+    y_low,
+    y_high,
+    z_low,  // 0 <= z
+    z_high,
+    z_low_symmetric,  // -w <= z, VK_EXT_depth_clip_control
+    user_0,           // clip distance 0, ...
+    user_1,
+    user_2,
+    user_3
+};
+inline constexpr ClipPlane kViewVolume[] = {ClipPlane::x_low, ClipPlane::x_high,
+                                            ClipPlane::y_low, ClipPlane::y_high,
+                                            ClipPlane::z_low, ClipPlane::z_high};
+inline constexpr size_t kMaxUserPlanes = 4;
+inline constexpr size_t kMaxPlanes = 6 + kMaxUserPlanes;
+inline constexpr size_t kMaxClippedVertices = 3 + kMaxPlanes;  // each plane adds at most one
+
+// The half-spaces whose intersection is the clip volume of a draw: the borders of the viewport,
+// then near and far plane (none without depth clipping), then the clip distances.
+struct ClipVolume {
+    std::array<ClipPlane, kMaxPlanes> planes{};
+    uint8_t view_count = 0, count = 0;
+
+    std::span<const ClipPlane> all() const { return {planes.data(), count}; }
+    std::span<const ClipPlane> view() const { return {planes.data(), view_count}; }
+    // Without the borders: what a device with a guard band cuts by.
+    std::span<const ClipPlane> without_borders() const { return all().subspan(4); }
+    std::span<const ClipPlane> depth() const { return view().subspan(4); }
+    bool has_user_planes() const { return count > view_count; }
+};
+ClipVolume clip_volume_of(const cases::Draw& draw);
+
+// What is clipped: positions and clip distances of three vertices.
+struct ClipInput {
+    std::array<glm::vec4, 3> clip{};
+    std::array<glm::vec4, 3> distance{};  // component k of vertex i: distance k
+    uint32_t distance_count = 0;
+
+    ClipInput() = default;
+    ClipInput(const std::array<glm::vec4, 3>& positions) : clip(positions) {}  // no distances
+    ClipInput(const cases::Draw& draw, const std::array<uint32_t, 3>& vertex);
+};
+
+// The edge of the triangle (0: v0 v1, 1: v1 v2, 2: v2 v0), or kFirstClipEdge + plane.
+using EdgeLabel = uint8_t;
+inline constexpr EdgeLabel kFirstClipEdge = 3;
+
+struct ClippedVertex {
+    std::array<mpq_class, 3> weights;  // exact: clip position = sum weights[i] * triangle vertex i
+    std::array<mpq_class, 4> clip;     // exact clip-space x, y, z, w
+    // Exact framebuffer position, z as if the depth volume were 0..w; only if clip w > 0.
+    IdealPosition position;
+    // Bound on |computed - exact| of the framebuffer position in pixels for arithmetic with the
+    // unit roundoff of the profile (clip.cpp derives it); 0 for a vertex of the triangle, where
+    // transform_error applies.
+    TransformError error;
+    bool is_bounded =
+        true;  // false if no bound exists or w = 0: the device's vertex may be anywhere
+    // c_k / w of clip distance k, and what clipping may make of it; only if clip w > 0.
+    std::vector<mpq_class> ratio, ratio_error;
+    int original = -1;   // 0..2 if this is a vertex of the triangle
+    EdgeLabel edge = 0;  // of the edge from this vertex to the next one
+};
+
+// True if all components are finite and the vertex lies in the closed view volume.
+bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes = kViewVolume);
+
+// The same of vertex i, with clip distances.
+bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> planes);
+
+// True if all three vertices lie strictly outside one and the same plane of the view volume (not a
+// clip distance's, which a device may interpolate): nothing can be visible.
+bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,
+                          std::span<const ClipPlane> planes = kViewVolume);
+
+// The part of a triangle of finite vertices inside the planes, in the order of its vertices; empty
+// if there is none. With profile vulkan errors are those of arithmetic accurate to 1 part in 10^5,
+// otherwise those of binary32.
+std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases::Viewport& viewport,
+                                         cases::Profile profile,
+                                         std::span<const ClipPlane> planes = kViewVolume);
+
+}  // namespace ref

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What position.cpp and clip.cpp share.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <optional>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/position/limits.hpp"
+#include "ref/position/position.hpp"
+
+namespace ref {
+
+// Bound on the rounding errors from x_d to x_f = t + o with unit roundoff u; position.cpp derives
+// it.
+mpq_class rounding_bound(const mpq_class& t, const mpq_class& o, const mpq_class& x_f,
+                         const mpq_class& u);
+
+// The box of a position whose ideal is (x,y) pixels and whose computed value is off by at most
+// `error` before it is snapped (position_box, ref/position/position.hpp). Nothing beyond 2^32
+// pixels.
+std::optional<Box> box_around(const mpq_class& x, const mpq_class& y, const TransformError& error,
+                              const cases::Viewport& viewport, const Limits& limits,
+                              cases::Profile profile);
+
+// All positions where an edge may cross the border, if (x,y) is where the ideal edge does. A device
+// with a guard band cuts the edge farther out and snaps it there. Its edge is off the ideal one by
+// at most the snapping error of either end: less than one subpixel unit, 0.6 at profile direct3d;
+// so the crossing need not be near a grid point. Contains box_around of the same point.
+std::optional<Box> box_around_crossing(const mpq_class& x, const mpq_class& y,
+                                       const TransformError& error, const cases::Viewport& viewport,
+                                       const Limits& limits, cases::Profile profile);
+
+// position_box by rationals alone, for a projectable vertex in the guaranteed range; position_box
+// takes it where binary64 cannot tell.
+std::optional<Box> exact_position_box(const glm::vec4& clip, const cases::Viewport& viewport,
+                                      const Limits& limits, cases::Profile profile);
+
+}  // namespace ref

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/position/triangle.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace ref {
+
+namespace {
+
+// Assembles the vertices of one run between restarts. Numbers from first on count up the
+// primitives.
+void assemble_run(const cases::Draw& draw, uint32_t draw_index, std::span<const uint32_t> run,
+                  uint32_t& primitive, std::vector<Triangle>& out) {
+    const bool is_last = draw.provoking == cases::ProvokingVertex::last;
+    const auto add = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t last) {
+        const auto size = draw.positions.size();
+        // A vertex number out of range has no position; the loader refuses it.
+        if (a < size && b < size && c < size) {
+            out.push_back({draw_index, primitive, {a, b, c}, is_last ? last : a});
+        }
+        ++primitive;
+    };
+    const size_t n = run.size();
+    if (out.empty()) {  // nearly every case has one draw of one run
+        out.reserve(draw.topology == cases::Topology::triangle_list ? n / 3 : n);
+    }
+    switch (draw.topology) {
+        case cases::Topology::triangle_list:
+            for (size_t i = 0; i + 2 < n; i += 3) {
+                add(run[i], run[i + 1], run[i + 2], run[i + 2]);
+            }
+            break;
+        case cases::Topology::triangle_strip:
+            for (size_t i = 0; i + 2 < n; ++i) {
+                add(run[i], run[i + 1 + i % 2], run[i + 2 - i % 2], run[i + 2]);
+            }
+            break;
+        case cases::Topology::triangle_fan:
+            for (size_t i = 0; i + 2 < n; ++i) {
+                add(run[i + 1], run[i + 2], run[0], run[i + 2]);
+            }
+            break;
+    }
+}
+
+}  // namespace
+
+std::vector<Triangle> assemble(const cases::Case& c) {
+    std::vector<Triangle> out;
+    for (size_t d = 0; d < c.draws.size(); ++d) {
+        const cases::Draw& draw = c.draws[d];
+        const auto draw_index = static_cast<uint32_t>(d);
+        uint32_t primitive = 0;
+        if (!draw.indices) {
+            std::vector<uint32_t> run(draw.positions.size());
+            std::iota(run.begin(), run.end(), 0U);
+            assemble_run(draw, draw_index, run, primitive, out);
+            continue;
+        }
+        std::span<const uint32_t> rest(*draw.indices);
+        while (draw.primitive_restart) {
+            const auto restart = std::find(rest.begin(), rest.end(), cases::kRestartIndex);
+            if (restart == rest.end()) {
+                break;
+            }
+            const auto size = static_cast<size_t>(restart - rest.begin());
+            assemble_run(draw, draw_index, rest.first(size), primitive, out);
+            rest = rest.subspan(size + 1);
+        }
+        assemble_run(draw, draw_index, rest, primitive, out);
+    }
+    return out;
+}
+
+}  // namespace ref

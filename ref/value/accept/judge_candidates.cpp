@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value/accept/judge_candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "ref/value/accept/candidate_reach.hpp"
+#include "ref/value/accept/one_point.hpp"
+#include "ref/value/accept/probe.hpp"
+
+namespace ref::value {
+
+namespace {
+
+// What is kept of one round of candidates.
+template <class T>
+struct Round {
+    std::vector<Reach<T>> reaches;
+    std::vector<Fit> fits;
+    WideVerdict probes;
+};
+
+// The numeric inputs that are evaluated at one place with each other.
+std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<const size_t> only,
+                              bool at_centroid) {
+    std::vector<size_t> out;
+    for (size_t i = 0; i < quantities.size(); ++i) {
+        const Quantity& q = quantities[i];
+        if (is_judged(q, i, only) && q.attribute >= 0 && !q.at_sample &&
+            q.at_centroid == at_centroid) {
+            out.push_back(i);
+        }
+    }
+    return out;
+}
+
+// Whether one place explains all inputs that are decorated alike. Each of them alone has been
+// found to fit somewhere; with a single one that is enough.
+Answer has_one_point(const WideSet<Ball>&, const Candidate<Ball>&, std::span<const Quantity> all,
+                     const Evaluation<Ball>&, const FragmentValues&, std::span<const size_t> only,
+                     size_t&) {
+    const bool is_single =
+        inputs_at(all, only, false).size() < 2 && inputs_at(all, only, true).size() < 2;
+    return is_single ? Answer::yes : Answer::unknown;  // polygons are cut in rationals
+}
+
+Answer has_one_point(const WideSet<mpq_class>& set, const Candidate<mpq_class>& candidate,
+                     std::span<const Quantity> all, const Evaluation<mpq_class>& where,
+                     const FragmentValues& device, std::span<const size_t> only, size_t& blamed) {
+    if (candidate.bases.size() != 1 || candidate.is_unbounded) {
+        return Answer::yes;  // anywhere between several planes: each value alone
+    }
+    for (const bool at_centroid : {false, true}) {
+        const std::vector<size_t> which = inputs_at(all, only, at_centroid);
+        if (which.size() < 2) {
+            continue;
+        }
+        const auto wrong =
+            first_unexplained(candidate.bases.front(), set.factor,
+                              at_centroid ? where.centroid : where.attributes, all, which, device);
+        if (wrong) {
+            blamed = *wrong;
+            return Answer::no;
+        }
+    }
+    return Answer::yes;
+}
+
+// How many values do not fit, and the largest error in budgets.
+struct Score {
+    size_t failing = 0;
+    WorstError worst;
+};
+
+Score score_of(std::span<const Quantity> quantities, std::span<const Fit> fits,
+               std::span<const size_t> judged, const WideVerdict& probes) {
+    Score out{probes.failing.size(), probes.worst};
+    for (const size_t i : judged) {
+        out.failing += fits[i].answer == Answer::no ? 1U : 0U;
+        out.worst.raise(fits[i].ratio, quantities[i]);
+    }
+    return out;
+}
+
+// Fewer failing values, then the smaller ratio.
+bool is_better(const Score& a, const WideVerdict& than) {
+    return a.failing < than.failing.size() ||
+           (a.failing == than.failing.size() && a.worst.ratio < than.worst.ratio);
+}
+
+WideVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> judged,
+                       const WideVerdict& probes, const Score& score, ref::Basis basis) {
+    WideVerdict out;
+    out.basis = basis;
+    out.worst = score.worst;
+    for (const size_t i : judged) {
+        if (fits[i].answer == Answer::no) {
+            out.failing.push_back(i);
+            out.ratios.push_back(fits[i].ratio);
+        }
+    }
+    out.failing.insert(out.failing.end(), probes.failing.begin(), probes.failing.end());
+    out.ratios.insert(out.ratios.end(), probes.ratios.begin(), probes.ratios.end());
+    out.ok = out.failing.empty();
+    return out;
+}
+
+}  // namespace
+
+template <class T>
+WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                       bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
+                       const ProbePlace& place, const FragmentValues& device,
+                       std::span<const size_t> only) {
+    const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
+                                        [](const Quantity& q) { return q.kind == Kind::probe; });
+    std::vector<size_t> judged;
+    for (size_t i = 0; i < quantities.size(); ++i) {
+        if (is_judged(quantities[i], i, only)) {
+            judged.push_back(i);
+        }
+    }
+    const WideVerdict unknown{false, false, ref::Basis::unsnapped, {}, {}, {}};
+    std::optional<WideVerdict> best;
+    const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
+    std::vector<Round<T>> kept(rounds);
+    const Evaluation<T>* before = nullptr;
+    for (const Evaluation<T>& where : evaluations) {
+        const Shared<T> shared(quantities, only, std::exchange(before, &where), where);
+        for (size_t c = 0; c < rounds; ++c) {
+            // All evaluations of a fragment have one sample: a piece is near in all or in none.
+            if (set.candidates[c].is_piece) {
+                const Answer near =
+                    is_near(set.candidates[c].bases.front(), where.sample, set.margin);
+                if (near == Answer::unknown) {
+                    return unknown;
+                }
+                if (near == Answer::no) {
+                    continue;
+                }
+            }
+            auto& [reaches, fits, probes] = kept[c];
+            reaches.resize(quantities.size());
+            fits.resize(quantities.size());
+            for (const size_t i : shared.fresh) {
+                reaches[i] = {};
+            }
+            const size_t first = set.any_of_all ? 0 : c;
+            const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
+            for (size_t k = first; k < last && !shared.fresh.empty(); ++k) {
+                add_candidate(set, set.candidates[k], quantities, is_projectable, where,
+                              std::span<const size_t>(shared.fresh), device, reaches);
+            }
+            for (const size_t i : shared.fresh) {
+                const Quantity& q = quantities[i];
+                fits[i] = fit(reaches[i], static_cast<double>(q.get(device)), store_of(set, q));
+                if (fits[i].answer == Answer::unknown) {
+                    return unknown;
+                }
+            }
+            if (has_probes && shared.has_fresh_probes) {
+                probes = {};
+                judge_probes(set, std::span(set.candidates).subspan(first, last - first),
+                             quantities, is_projectable, where, place, device, only, probes);
+                if (!probes.is_known) {
+                    return unknown;
+                }
+            }
+            const Score score = score_of(quantities, fits, judged, probes);
+            if (best && score.failing > 0 && !is_better(score, *best)) {
+                continue;
+            }
+            WideVerdict verdict = verdict_of(fits, judged, probes, score, set.candidates[c].name);
+            if (verdict.ok && where.is_one_point) {
+                size_t blamed = 0;
+                switch (has_one_point(set, set.candidates[c], quantities, where, device, only,
+                                      blamed)) {
+                    case Answer::unknown:
+                        return unknown;
+                    case Answer::no:
+                        verdict.ok = false;
+                        verdict.failing.push_back(blamed);
+                        verdict.ratios.push_back(std::numeric_limits<double>::infinity());
+                        verdict.worst = {std::numeric_limits<double>::infinity(),
+                                         quantities[blamed].name};
+                        break;
+                    case Answer::yes:
+                        break;
+                }
+            }
+            if (verdict.ok && verdict.worst.ratio <= 1) {
+                return verdict;
+            }
+            if (!best || is_better({verdict.failing.size(), verdict.worst}, *best)) {
+                best = std::move(verdict);
+            }
+        }
+    }
+    return best.value_or(WideVerdict{});
+}
+
+template <class T>
+DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool is_projectable,
+                             const Point<T>& sample) {
+    DepthReach<T> out;
+    const Evaluation<T> where{{sample}, {}, sample, {sample}, false};
+    const FragmentValues none;
+    std::vector<Reach<T>> reaches(1);
+    for (const Candidate<T>& candidate : set.candidates) {
+        if (candidate.is_piece) {
+            const Answer near = is_near(candidate.bases.front(), sample, set.margin);
+            if (near == Answer::unknown) {
+                out.is_known = false;
+                return out;
+            }
+            if (near == Answer::no) {
+                continue;
+            }
+        }
+        add_candidate(set, candidate, {&depth, 1}, is_projectable, where, {}, none, reaches);
+    }
+    const Reach<T>& reach = reaches.front();
+    out.is_known = reach.is_known;
+    out.is_free = reach.is_free || reach.is_undefined || reach.is_first;
+    out.range = reach.range;
+    if (out.is_free) {
+        return out;
+    }
+    const Range<T> inside = clamped(reach.range, set.depth.viewport);
+    if (set.depth.is_clamped) {
+        out.range = inside;
+    } else if (set.any_of_all) {
+        // Undefined as soon as a device's value may lie outside of the viewport's range.
+        const Answer low = is_at_most(T(set.depth.viewport.low), reach.range.low);
+        const Answer high = is_at_most(reach.range.high, T(set.depth.viewport.high));
+        out.is_known = low != Answer::unknown && high != Answer::unknown;
+        out.is_free = low != Answer::yes || high != Answer::yes;
+    } else {
+        out.range = {smaller(inside.low, reach.range.low), larger(inside.high, reach.range.high)};
+    }
+    return out;
+}
+
+template DepthReach<Ball> reach_of_depth<Ball>(const WideSet<Ball>&, const Quantity&, bool,
+                                               const Point<Ball>&);
+template DepthReach<mpq_class> reach_of_depth<mpq_class>(const WideSet<mpq_class>&, const Quantity&,
+                                                         bool, const Point<mpq_class>&);
+template <class T>
+std::vector<WideRange<T>> ranges_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                                      bool is_projectable,
+                                      const std::vector<Evaluation<T>>& evaluations,
+                                      std::span<const size_t> only) {
+    std::vector<Reach<T>> reaches(quantities.size());
+    const FragmentValues nothing;  // only reports ask for the device's values
+    for (const Evaluation<T>& where : evaluations) {
+        for (const Candidate<T>& candidate : set.candidates) {
+            // A piece that may be near counts: the range is an upper bound.
+            if (!candidate.is_piece ||
+                is_near(candidate.bases.front(), where.sample, set.margin) != Answer::no) {
+                add_candidate(set, candidate, quantities, is_projectable, where, only, nothing,
+                              reaches);
+            }
+        }
+    }
+    std::vector<WideRange<T>> out;
+    for (const size_t index : only) {
+        const Reach<T>& reach = reaches[index];
+        out.push_back(
+            {reach.is_known, reach.is_free || reach.is_undefined || reach.is_first, reach.range});
+    }
+    return out;
+}
+
+template std::vector<WideRange<Ball>> ranges_wide<Ball>(const WideSet<Ball>&,
+                                                        std::span<const Quantity>, bool,
+                                                        const std::vector<Evaluation<Ball>>&,
+                                                        std::span<const size_t>);
+template std::vector<WideRange<mpq_class>> ranges_wide<mpq_class>(
+    const WideSet<mpq_class>&, std::span<const Quantity>, bool,
+    const std::vector<Evaluation<mpq_class>>&, std::span<const size_t>);
+template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
+                                      const std::vector<Evaluation<Ball>>&, const ProbePlace&,
+                                      const FragmentValues&, std::span<const size_t>);
+template WideVerdict judge_wide<mpq_class>(const WideSet<mpq_class>&, std::span<const Quantity>,
+                                           bool, const std::vector<Evaluation<mpq_class>>&,
+                                           const ProbePlace&, const FragmentValues&,
+                                           std::span<const size_t>);
+
+}  // namespace ref::value

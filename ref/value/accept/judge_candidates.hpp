@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Everything a device may have set its planes up from, under one profile, and whether one of these
+// candidates explains a fragment.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ref/number/plane_budget.hpp"
+#include "ref/value/fragment/depth_path.hpp"
+#include "ref/value/fragment/quantities.hpp"
+
+namespace ref::value {
+
+// One way to explain a fragment. Several bases: the device may be anywhere between them.
+template <class T>
+struct Candidate {
+    ref::Basis name = ref::Basis::unsnapped;
+    std::vector<Basis<T>> bases;
+    // Some of the positions have no area or another orientation: the values in between are bounded
+    // by the vertex values only.
+    bool is_unbounded = false;
+    // A clipped piece: explains only points at most this far (pixels) outside of its triangle.
+    bool is_piece = false;
+};
+
+template <class T>
+struct WideSet {
+    bool is_known = true;  // false: T could not tell an orientation; use rationals
+    std::vector<Candidate<T>> candidates;
+    std::vector<Range<T>> hulls;  // of the vertex values, by quantity (numeric ones only)
+    T factor{};                   // K
+    T margin{};                   // pixels, for pieces
+    T least_inv_w{};              // of the visible part of the triangle
+    DepthPath<T> depth;           // from interpolated to stored depth
+    bool any_of_all = false;      // profile vulkan: each value alone, any candidate, their hull
+};
+
+// The set for a profile. `factor` is K of docs/precision.md for that profile.
+template <class T>
+WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> quantities,
+                         const Limits& limits, cases::Profile profile);
+
+// Where the values may be evaluated: anywhere in the hull of the points.
+template <class T>
+struct Evaluation {
+    std::vector<Point<T>> attributes;  // without decoration
+    // FragCoord.z and w: the specification does not say where. None: as `attributes`.
+    std::vector<Point<T>> frag_coord;
+    Point<T> sample;  // depth, and inputs decorated with Sample
+    std::vector<Point<T>> centroid;
+    // One point of `attributes` explains all inputs that are evaluated there, one of `centroid`
+    // all of those. Otherwise each value may have its own.
+    bool is_one_point = false;
+};
+
+// All depths that the set's devices may compare and store at a point, after bias and clamp.
+template <class T>
+struct DepthReach {
+    bool is_known = true;  // false: T cannot tell; use rationals
+    bool is_free = false;  // any depth at all
+    Range<T> range;
+};
+template <class T>
+DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool is_projectable,
+                             const Point<T>& sample);
+
+struct ProbePlace;
+
+struct WideVerdict {
+    bool is_known = true;
+    bool ok = false;
+    ref::Basis basis = ref::Basis::unsnapped;
+    WorstError worst;
+    std::vector<size_t> failing;  // indices into the quantities
+    std::vector<double> ratios;   // of the failing ones
+};
+
+// `place`: what interpolateAt*, derivatives and levels of detail depend on (probe.hpp).
+// `only`: judges these quantities (indices) and no others, unless it is empty.
+template <class T>
+WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                       bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
+                       const ProbePlace& place, const FragmentValues& device,
+                       std::span<const size_t> only);
+
+// The failing quantities of judge_wide() alone, for a set with any_of_all: without the ratios most
+// values are accepted by the first candidate. Nothing if only ratios tell which evaluation is best,
+// or T does not know.
+template <class T>
+std::optional<std::vector<size_t>> failing_alone(
+    const WideSet<T>& set, std::span<const Quantity> quantities, bool is_projectable,
+    const std::vector<Evaluation<T>>& evaluations, const ProbePlace& place,
+    const FragmentValues& device, std::span<const size_t> only);
+
+// Everything that some quantities may be, whichever candidate and place the device uses: by place
+// in `only`, indices into the quantities. What they share, sites and their budgets, is made once.
+template <class T>
+struct WideRange {
+    bool is_known = true;
+    bool is_free = false;  // nothing is claimed of it
+    Range<T> range;
+};
+template <class T>
+std::vector<WideRange<T>> ranges_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
+                                      bool is_projectable,
+                                      const std::vector<Evaluation<T>>& evaluations,
+                                      std::span<const size_t> only);
+
+}  // namespace ref::value

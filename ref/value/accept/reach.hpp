@@ -1,0 +1,315 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which numbers one candidate accepts for a quantity: the hull of the values at its sites, widened
+// by the budgets of binary32, then bias, clamp and store of a depth. Part of judge_candidates.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "ref/value/accept/judge_candidates.hpp"
+
+namespace ref::value {
+
+inline bool is_numeric(const Quantity& q) {
+    return q.kind == Kind::linear || q.kind == Kind::perspective;
+}
+
+// One value against one candidate at one evaluation.
+struct Fit {
+    Answer answer = Answer::no;
+    double ratio = std::numeric_limits<double>::infinity();  // rounded
+};
+
+template <class T>
+void widen(Range<T>& range, bool& is_first, const T& low, const T& high) {
+    range.low = is_first ? low : smaller(range.low, low);
+    range.high = is_first ? high : larger(range.high, high);
+    is_first = false;
+}
+
+// Whether a point is inside a piece's triangle or at most `margin` outside of each edge's line.
+template <class T>
+Answer is_near(const Basis<T>& basis, const Point<T>& p, const T& margin) {
+    Answer all = Answer::yes;
+    for (const Form<T>& b : basis.bary) {
+        const T slack = margin * (magnitude(b.x) + magnitude(b.y));
+        const Answer a = is_at_most(T(-slack), b.at(p));
+        if (a == Answer::no) {
+            return a;
+        }
+        if (a == Answer::unknown) {
+            all = a;
+        }
+    }
+    return all;
+}
+
+template <class T>
+struct Reach {
+    Range<T> range;
+    bool is_first = true;
+    bool is_free = false;       // nothing is claimed but a finite value
+    bool is_undefined = false;  // nothing at all
+    bool is_known = true;
+    // Rounded, for reports: hull of the values alone, and the budget of the one nearest to the
+    // device.
+    double low = 0, high = 0, budget = 0;
+
+    void note(double device, double value, double one_budget) {
+        const bool is_nearer =
+            budget <= 0 || distance(device, value, value) < distance(device, low, high);
+        if (is_nearer) {
+            budget = one_budget;
+        }
+        low = noted ? std::min(low, value) : value;
+        high = noted ? std::max(high, value) : value;
+        noted = true;
+    }
+    static double distance(double device, double from, double to) {
+        return std::max({0.0, from - device, device - to});
+    }
+    bool noted = false;
+};
+
+inline bool is_depth(const Quantity& q) {
+    return q.attribute == -2;
+}
+inline bool is_frag_coord_z(const Quantity& q) {
+    return q.attribute == -1 && q.plane == kPlaneDepth;
+}
+
+// What bias may add to a quantity; FragCoord.z may have it or not.
+template <class T>
+Range<T> bias_for(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q) {
+    if (!set.depth.bias || !(is_depth(q) || is_frag_coord_z(q))) {
+        return {};
+    }
+    const Range<T> bias = bias_of(set.depth, basis, set.factor);
+    return is_depth(q) ? bias : Range<T>{smaller(bias.low, T(0.0)), larger(bias.high, T(0.0))};
+}
+
+// Whether the whole of a range lies outside of another one.
+template <class T>
+Answer is_beyond(const T& low, const T& high, const Range<double>& range) {
+    const Answer reaches_up = is_at_most(T(range.low), high);
+    const Answer reaches_down = is_at_most(low, T(range.high));
+    if (reaches_up == Answer::no || reaches_down == Answer::no) {
+        return Answer::yes;
+    }
+    return reaches_up == Answer::yes && reaches_down == Answer::yes ? Answer::no : Answer::unknown;
+}
+
+template <class T>
+void add_hull(const Range<T>& hull, const T& widest, double device, Reach<T>& out) {
+    out.note(device, nearest_double(hull.low), nearest_double(widest));
+    out.note(device, nearest_double(hull.high), nearest_double(widest));
+    widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
+}
+
+// A smooth value whose denominator binary32 cannot tell from zero. `is_covered`: a device that
+// uses this basis covers the point by the same positions, so that it is inside of its triangle.
+template <class T>
+void add_unsafe(const WideSet<T>& set, const Site<T>& site, const Plane<T>& inv_w,
+                const Plane<T>& plane, bool is_covered, const Range<T>& hull, double device,
+                Reach<T>& out) {
+    const Answer inside = is_covered ? Answer::yes : site.is_inside;
+    if (inside == Answer::unknown || is_positive(set.least_inv_w) == Answer::unknown) {
+        out.is_known = false;
+    } else if (inside == Answer::no || is_positive(set.least_inv_w) == Answer::no) {
+        out.is_free = true;
+    } else {
+        const T most = larger(T(magnitude(hull.low)), T(magnitude(hull.high)));
+        add_hull(hull, hull_reach(site, inv_w, plane, set.least_inv_w, most, set.factor), device,
+                 out);
+    }
+}
+
+// Adds what one basis accepts for a quantity at the sites; `widest` is the largest reach.
+// `is_covered`: as above, of each site. `at_sample`: they are the covered sample itself.
+template <class T>
+void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
+               std::span<const Site<T>> sites, const Range<T>& hull, bool at_sample,
+               bool is_covered, double device, T& widest, Reach<T>& out) {
+    const T& factor = set.factor;
+    const Range<T> bias = bias_for(set, basis, q);
+    for (const Site<T>& site : sites) {
+        const Valued<T> v =
+            value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
+        if (v.exists == Answer::unknown) {
+            out.is_known = false;
+            return;
+        }
+        if (v.exists == Answer::no) {
+            if (at_sample) {
+                add_unsafe(set, site, basis.planes[kPlaneInvW], basis.planes[q.plane], is_covered,
+                           hull, device, out);
+            } else {
+                out.is_free = true;
+            }
+            continue;
+        }
+        const T least = v.value + bias.low;
+        const T most = v.value + bias.high;
+        out.note(device, nearest_double(least), nearest_double(v.budget));
+        out.note(device, nearest_double(most), nearest_double(v.budget));
+        widest = larger(widest, v.reach);
+        // Adding the bias is one more rounding.
+        const T sum = set.depth.bias
+                          ? T(factor * T(kUnitRoundoff) * larger(magnitude(least), magnitude(most)))
+                          : T{};
+        const T low = least - v.reach - sum;
+        const T high = most + v.reach + sum;
+        if (is_depth(q) && set.any_of_all && !set.depth.is_clamped) {
+            // Vulkan: depth outside of the viewport's range is undefined unless it is clamped.
+            const Answer beyond =
+                is_beyond(T(least - v.budget), T(most + v.budget), set.depth.viewport);
+            out.is_known = out.is_known && beyond != Answer::unknown;
+            out.is_undefined = out.is_undefined || beyond == Answer::yes;
+        }
+        widen(out.range, out.is_first, low, high);
+    }
+}
+
+// What a quantity is held to besides its range: depth is clamped and stored, FragCoord.z may be
+// clamped.
+struct Store {
+    bool may_clamp = false;   // to the viewport's range
+    bool must_clamp = false;  // depthClampEnable
+    Range<double> viewport;
+    double steps = 0;  // 2^n - 1; 0 for binary32
+    double rounding =
+        1;  // of a store, in steps: less than 1 is either neighbour of a number between
+};
+
+template <class T>
+Store store_of(const WideSet<T>& set, const Quantity& q) {
+    Store store;
+    store.viewport = set.depth.viewport;
+    if (is_depth(q)) {
+        store.may_clamp = true;
+        store.must_clamp = set.depth.is_clamped;
+        store.steps = steps_of(set.depth.format);
+        // Direct3D 11.3, 3.2.3.6: within 0.6 of a step; max norm is what that profile has, too.
+        store.rounding = set.depth.is_max_norm ? 0.6 : 1;
+    } else if (is_frag_coord_z(q)) {
+        store.may_clamp = set.depth.is_clamped;
+    }
+    return store;
+}
+
+// Whether a stored value may come from the range. A number of steps is stored as itself; any other
+// as either neighbour (Vulkan specification, "Conversion From Floating-Point to Normalized
+// Fixed-Point").
+template <class T>
+Answer may_store(const Range<T>& range, double device, const Store& store) {
+    if (store.steps <= 0) {
+        const Answer low = is_at_most(range.low, T(device));
+        const Answer high = is_at_most(T(device), range.high);
+        return low == Answer::no || high == Answer::no     ? Answer::no
+               : low == Answer::yes && high == Answer::yes ? Answer::yes
+                                                           : Answer::unknown;
+    }
+    const double code = std::round(device * store.steps);
+    // depth_of_code() of capture/capture.hpp is within 2^-25 of the code's value.
+    if (std::fabs(device * store.steps - code) > 0.5) {
+        return Answer::no;
+    }
+    const T low = range.low * T(store.steps);
+    const T high = range.high * T(store.steps);
+    if (store.rounding < 1) {
+        const Answer below = is_at_most(low, T(code + store.rounding));
+        const Answer above = is_at_most(T(code - store.rounding), high);
+        return below == Answer::no || above == Answer::no     ? Answer::no
+               : below == Answer::yes && above == Answer::yes ? Answer::yes
+                                                              : Answer::unknown;
+    }
+    const Answer below = is_positive(T(T(code + 1) - low));
+    const Answer above = is_positive(T(high - T(code - 1)));
+    return below == Answer::no || above == Answer::no     ? Answer::no
+           : below == Answer::yes && above == Answer::yes ? Answer::yes
+                                                          : Answer::unknown;
+}
+
+template <class T>
+Fit fit(const Reach<T>& reach, double device, const Store& store) {
+    const bool is_outside =
+        store.must_clamp && (device < store.viewport.low || device > store.viewport.high);
+    if (reach.is_known && reach.is_undefined && !is_outside) {
+        return {Answer::yes, 0};
+    }
+    if (!std::isfinite(device)) {
+        const bool is_settled = reach.is_known || !store.may_clamp;
+        return {is_settled ? Answer::no : Answer::unknown, std::numeric_limits<double>::infinity()};
+    }
+    if (!reach.is_known) {
+        return {Answer::unknown, 0};
+    }
+    if (reach.is_free && (!store.must_clamp || store.steps > 0)) {
+        return {Answer::yes, 0};
+    }
+    if (reach.is_free) {
+        return {is_outside ? Answer::no : Answer::yes, 0};
+    }
+    if (reach.is_first) {
+        return {};
+    }
+    const double step = store.steps > 0 ? store.rounding / store.steps : 0;
+    const double distance = std::max(0.0, Reach<T>::distance(device, reach.low, reach.high) - step);
+    const double ratio = reach.budget > 0 ? distance / reach.budget
+                         : distance > 0   ? std::numeric_limits<double>::infinity()
+                                          : 0.0;
+    Answer answer = store.must_clamp ? Answer::no : may_store(reach.range, device, store);
+    if (answer != Answer::yes && store.may_clamp) {
+        const Answer other = may_store(clamped(reach.range, store.viewport), device, store);
+        if (other == Answer::yes) {
+            // A clamped value says nothing of the plane's error.
+            const bool is_inside = answer != Answer::no;
+            return {Answer::yes, is_inside || ratio <= 1 ? ratio : 0};
+        }
+        answer = other == Answer::unknown ? other : answer;
+    }
+    return {answer, ratio};
+}
+
+inline bool is_judged(const Quantity& q, size_t index, std::span<const size_t> only) {
+    return is_numeric(q) &&
+           (only.empty() || std::find(only.begin(), only.end(), index) != only.end());
+}
+
+// Evaluated at the sample and nowhere else. Both are exact in binary64.
+template <class T>
+bool is_same(const std::vector<Point<T>>& points, const Point<T>& sample) {
+    const auto same = [](const T& a, const T& b) {
+        return !(std::fabs(nearest_double(a) - nearest_double(b)) > 0);
+    };
+    return points.size() == 1 && same(points[0].x, sample.x) && same(points[0].y, sample.y);
+}
+
+// The budget of a value between several sites: each term as large as at any of them.
+template <class T>
+void spread_budgets(const Plane<T>& inv_w, const T& factor, std::vector<Site<T>>& sites) {
+    if (sites.size() < 2) {
+        return;
+    }
+    Site<T> most;
+    for (const Site<T>& s : sites) {
+        most.extent_x = larger(most.extent_x, s.extent_x);
+        most.extent_y = larger(most.extent_y, s.extent_y);
+        most.spread = larger(most.spread, s.spread);
+    }
+    for (Site<T>& s : sites) {
+        s.extent_x = most.extent_x;
+        s.extent_y = most.extent_y;
+        s.spread = most.spread;
+        s.bd = inv_w.budget(s.extent_x, s.extent_y, s.spread);
+        s.safe = s.d - factor * s.bd;
+        s.exists = is_positive(s.safe);
+    }
+}
+
+}  // namespace ref::value

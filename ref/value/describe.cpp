@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ref/value/fragment/partials.hpp"
+
+namespace ref::value {
+
+constexpr const char* kLodFreedom = "or up to half a level and the freedom of the quad away";
+
+Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
+                              const Evaluation<mpq_class>& place, cases::Profile profile) {
+    const mpq_class factor = exact_budget_factor(profile);
+    const auto site = make_site(basis, basis.planes[kPlaneInvW],
+                                q.at_sample     ? place.sample
+                                : q.at_centroid ? place.centroid.front()
+                                                : place.attributes.front(),
+                                factor);
+    return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
+}
+
+std::string number_text(double nearest, const std::optional<mpq_class>& exact) {
+    const std::string text = fmt::format("{:.9g}", nearest);
+    const std::string fraction = exact ? exact->get_str() : text;
+    return fraction == text || fraction.size() > 40 ? text : text + " = " + fraction;
+}
+
+std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const ProbePlace& place) {
+    const auto v = basis.orientation != 0 ? expected_probe(basis, q, place) : std::nullopt;
+    if (!v) {
+        return "a number that the values around the pixel explain";
+    }
+    if (q.probe == cases::Probe::lod) {
+        return fmt::format("{:.9g}, {}", v->nearest, kLodFreedom);
+    }
+    return fmt::format("{} within {:.4g} x {:.3g}{}", number_text(v->nearest, v->exact),
+                       budget_factor(place.profile), v->budget,
+                       derivative_of(q.probe) ? ", or the difference of another quad" : "");
+}
+
+bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
+                     std::span<const Quantity> all, const Evaluation<mpq_class>& place,
+                     cases::Profile profile, double device) {
+    if (basis.orientation == 0 || !std::isfinite(device)) {
+        return false;
+    }
+    for (const Quantity& other : all) {
+        if (other.attribute != q.attribute || other.component == q.component) {
+            continue;
+        }
+        const auto v = exact_value(basis, other, place, profile);
+        if (v.exists == Answer::yes && abs(mpq_class(device) - v.value) <= v.reach) {
+            return true;
+        }
+    }
+    return false;
+}
+
+namespace {
+
+// Partials of the input at the pixel centre from the ideal positions; nothing where they do not
+// exist.
+std::optional<Partials> partials_of(const Primitive& primitive, const Quantity& q,
+                                    const ProbePlace& place) {
+    const Vertices<mpq_class> v = ideal_vertices<mpq_class>(primitive);
+    const auto values =
+        attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+    std::array<PartialVertex, 3> vertices;
+    for (size_t i = 0; i < 3; ++i) {
+        if (!v.finite[i] || !std::isfinite(values[i])) {
+            return std::nullopt;
+        }
+        vertices[i] = {v.hx[i] / v.w[i], v.hy[i] / v.w[i], q.is_perspective ? v.w[i] : mpq_class(1),
+                       mpq_class(static_cast<double>(values[i]))};
+    }
+    return partials_at(vertices, mpq_class(place.id.x + 0.5), mpq_class(place.id.y + 0.5), 1);
+}
+
+}  // namespace
+
+void add_expected_probe(const Primitive& primitive, const Basis<mpq_class>& basis,
+                        const Quantity& q, const ProbePlace& place,
+                        std::vector<ExpectedValue>& out) {
+    const auto v = expected_probe(basis, q, place);
+    if (!v) {
+        return;
+    }
+    ExpectedValue e;
+    e.quantity = q.name;
+    e.exact = v->exact ? v->exact->get_str() : fmt::format("{}", v->nearest);
+    e.nearest = v->nearest;
+    e.budget = v->budget;
+    if (q.probe == cases::Probe::lod) {
+        e.also = kLodFreedom;
+    } else {
+        e.factor = budget_factor(place.profile);
+    }
+    out.push_back(std::move(e));
+    if (!derivative_of(q.probe)) {
+        return;
+    }
+    const auto partials = partials_of(primitive, q, place);
+    if (!partials) {
+        return;
+    }
+    for (const auto& [name, value] :
+         {std::pair{"partial x of ", partials->dx}, std::pair{"partial y of ", partials->dy},
+          std::pair{"total differential of ", partials->total}}) {
+        out.push_back({name + q.name, value.get_str(), value.get_d(), 0, 0, false});
+    }
+}
+
+}  // namespace ref::value

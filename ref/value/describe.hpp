@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the reference expects, as numbers and words for reports. No verdict rests on it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ref/value/accept/judge_candidates.hpp"
+#include "ref/value/accept/probe.hpp"
+#include "ref/value/value.hpp"
+
+namespace ref::value {
+
+// A linear or perspective value at its first place, and what the profile accepts around it.
+Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
+                              const Evaluation<mpq_class>& place, cases::Profile profile);
+
+// "0.333333333 = 1/3"; without the fraction if it says no more, or is too long to be read.
+std::string number_text(double nearest, const std::optional<mpq_class>& exact);
+
+// What a probe is expected to be: the number of the likeliest quad, and what it is made of.
+std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const ProbePlace& place);
+
+// Whether a barycentric component holds what another component of the attribute ought to.
+bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
+                     std::span<const Quantity> all, const Evaluation<mpq_class>& place,
+                     cases::Profile profile, double device);
+
+// Appends the expected value of a probe; of a derivative also Brown's partials
+// (ref/value/fragment/partials.hpp), called "partial x of attribute 0.x", "total differential of
+// ...".
+void add_expected_probe(const Primitive& primitive, const Basis<mpq_class>& basis,
+                        const Quantity& q, const ProbePlace& place,
+                        std::vector<ExpectedValue>& out);
+
+}  // namespace ref::value

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What to expect of a fragment: the interval of a value that its profile allows, and the exact
+// value of each plane.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "ref/value/describe.hpp"
+#include "ref/value/reference.hpp"
+#include "ref/value/sample_values.hpp"
+
+namespace ref {
+
+using cases::Profile;
+using value::Answer;
+using value::Ball;
+using value::is_plain_depth;
+using value::Kind;
+using value::nominal_depth;
+using value::Quantity;
+
+ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
+                                 uint32_t component) {
+    std::array<ValueRange, 4> out;
+    add_ranges(t, sample, attribute, std::array{component}, out);
+    return out.at(component);
+}
+
+std::array<ValueRange, 4> ValueReference::ranges(uint32_t t, SampleId sample, int32_t attribute) {
+    std::array<ValueRange, 4> out;
+    add_ranges(t, sample, attribute, std::array{0U, 1U, 2U, 3U}, out);
+    return out;
+}
+
+void ValueReference::add_ranges(uint32_t t, SampleId sample, int32_t attribute,
+                                std::span<const uint32_t> components,
+                                std::array<ValueRange, 4>& out) {
+    const value::Primitive& primitive = impl_->load(t).primitive;
+    if (!primitive.is_finite) {
+        return;
+    }
+    const std::vector<Quantity>& all = impl_->quantities_of(t);
+    std::vector<size_t> only;  // the interpolated ones that are asked for
+    std::vector<uint32_t> component_of;
+    for (const uint32_t component : components) {
+        if (attribute >= 0) {
+            const cases::Attribute& a = primitive.draw->attributes[static_cast<size_t>(attribute)];
+            if (component >= a.components) {
+                out.at(component) = {true, 0, 0};
+                continue;
+            }
+            if (a.interpolation == cases::Interpolation::flat) {
+                const auto v =
+                    static_cast<double>(a.values[primitive.triangle.provoking]
+                                                [static_cast<glm::vec4::length_type>(component)]);
+                out.at(component) = {std::isfinite(v), v, v};
+                continue;
+            }
+        }
+        const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) {
+            return q.attribute == attribute && q.component == component &&
+                   (q.kind == Kind::linear || q.kind == Kind::perspective);
+        });
+        const auto index = static_cast<size_t>(found - all.begin());
+        if (found != all.end() && impl_->is_asked(t, index, impl_->profile)) {
+            only.push_back(index);
+            component_of.push_back(component);
+        }
+    }
+    if (only.empty()) {
+        return;
+    }
+    const std::span<const Quantity> span(all);
+    const auto& balls = impl_->balls.get(t, impl_->profile, [&] {
+        return value::make_wide_set<Ball>(primitive, span, impl_->limits, impl_->profile);
+    });
+    value::WideRange<Ball> unknown;
+    unknown.is_known = false;
+    std::vector<value::WideRange<Ball>> wide(only.size(), unknown);
+    if (balls.is_known) {
+        wide = value::ranges_wide(balls, span, primitive.is_projectable,
+                                  impl_->places_of_range(t, sample), only);
+    }
+    for (size_t k = 0; k < only.size(); ++k) {
+        ValueRange& range = out.at(component_of[k]);
+        if (wide[k].is_known) {
+            range = {!wide[k].is_free, wide[k].range.low.v - wide[k].range.low.e,
+                     wide[k].range.high.v + wide[k].range.high.e};
+        } else {
+            const auto& rationals = impl_->rationals.get(t, impl_->profile, [&] {
+                return value::make_wide_set<mpq_class>(primitive, span, impl_->limits,
+                                                       impl_->profile);
+            });
+            const auto exact =
+                value::ranges_wide(rationals, span, primitive.is_projectable,
+                                   value::evaluations<mpq_class>(
+                                       impl_->fragment(t, sample, impl_->profile), impl_->profile),
+                                   std::span(only).subspan(k, 1))
+                    .front();
+            range = {!exact.is_free, exact.range.low.get_d(), exact.range.high.get_d()};
+        }
+        // Outwards: a subtraction rounds by half an ulp, get_d truncates by less than one.
+        range.low = std::nextafter(std::nextafter(range.low, -HUGE_VAL), -HUGE_VAL);
+        range.high = std::nextafter(std::nextafter(range.high, HUGE_VAL), HUGE_VAL);
+        range.is_promised =
+            range.is_promised && std::isfinite(range.low) && std::isfinite(range.high);
+    }
+}
+
+std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample) {
+    const value::Primitive& primitive = impl_->load(t).primitive;
+    std::vector<ExpectedValue> out;
+    if (!primitive.is_finite) {
+        return out;
+    }
+    const std::vector<Quantity>& all = impl_->quantities_of(t);
+    const value::Fragment fragment = impl_->fragment(t, sample, impl_->profile);
+    const auto place = value::evaluations<mpq_class>(fragment, impl_->profile).front();
+    const value::Basis<mpq_class>& basis = impl_->exact_basis(t);
+    for (const Quantity& q : all) {
+        ExpectedValue e;
+        e.quantity = q.name;
+        if (value::is_sample_kind(q.kind) || q.kind == Kind::flat) {
+            e.is_flat = true;
+            float f = nominal_number(fragment, q);
+            if (q.kind == Kind::flat) {
+                f = primitive.draw->attributes[static_cast<size_t>(q.attribute)]
+                        .values[primitive.triangle.provoking]
+                               [static_cast<glm::vec4::length_type>(q.component)];
+            }
+            e.nearest = static_cast<double>(f);
+            e.also =
+                q.kind == Kind::flat ? std::string() : also_allowed(fragment, q, impl_->profile);
+            e.exact = std::isfinite(f) ? mpq_class(e.nearest).get_str() : fmt::format("{}", f);
+        } else {
+            const auto index = static_cast<size_t>(&q - all.data());
+            if (basis.orientation == 0 || !impl_->promises(t)[index].is_number) {
+                continue;
+            }
+            if (q.kind == Kind::probe) {
+                value::add_expected_probe(primitive, basis, q,
+                                          impl_->probe_place(t, sample, impl_->profile), out);
+                continue;
+            }
+            const auto v = value::exact_value(basis, q, place, impl_->profile);
+            if (v.exists != Answer::yes) {
+                continue;
+            }
+            e.exact = v.value.get_str();
+            e.nearest = v.value.get_d();
+            e.budget = v.budget.get_d();
+            e.factor = budget_factor(impl_->profile);
+            if (q.attribute == -2 && !is_plain_depth(primitive)) {
+                e.nearest = nominal_depth(primitive, basis, e.nearest, impl_->profile);
+            }
+        }
+        out.push_back(std::move(e));
+    }
+    return out;
+}
+
+}  // namespace ref

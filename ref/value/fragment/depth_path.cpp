@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value/fragment/depth_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ref/position/clip.hpp"
+
+namespace ref::value {
+
+namespace {
+
+// Roundings of the bias: slope times m, constant times r, their sum, and one for a unit that is not
+// formed as a power of two. Each is at most u of |m slope| + |r constant|.
+constexpr double kBiasRoundings = 4;
+
+mpq_class exact(float f) {
+    return mpq_class(static_cast<double>(f));
+}
+
+// Largest |z_f| of the vertices, of those of the clipped polygon, and of either after depth clamp.
+std::vector<mpq_class> largest_depths(const Primitive& primitive) {
+    const cases::Viewport& v = primitive.draw->viewport;
+    const mpq_class low = exact(std::min(v.min_depth, v.max_depth));
+    const mpq_class high = exact(std::max(v.min_depth, v.max_depth));
+    // z_f = range z_d + near ("Controlling the Viewport").
+    const bool is_symmetric = primitive.draw->depth.negative_one_to_one;
+    mpq_class range = exact(v.max_depth) - exact(v.min_depth);
+    mpq_class near = exact(v.min_depth);
+    if (is_symmetric) {
+        range /= 2;
+        near = (exact(v.max_depth) + exact(v.min_depth)) / 2;
+    }
+    mpq_class whole = 0, whole_clamped = 0, cut = 0, cut_clamped = 0;
+    const auto add = [&](const mpq_class& z, mpq_class& free, mpq_class& clamped) {
+        free = std::max<mpq_class>(free, abs(z));
+        clamped = std::max<mpq_class>(clamped, std::min(std::max(z, low), high));
+    };
+    for (const glm::vec4& clip : primitive.clip) {
+        if (clip.w > 0) {
+            add(range * exact(clip.z) / exact(clip.w) + near, whole, whole_clamped);
+        }
+    }
+    std::vector<mpq_class> out{whole};
+    if (primitive.draw->depth.clamp) {
+        out.push_back(whole_clamped);
+    }
+    if (primitive.needs_clipping) {
+        const ClipInput input(*primitive.draw, primitive.triangle.vertex);
+        const ClipVolume volume = clip_volume_of(*primitive.draw);
+        for (const ClippedVertex& c :
+             clip_triangle(input, v, cases::Profile::direct3d, volume.all())) {
+            if (c.clip[3] > 0) {
+                add(range * c.clip[2] / c.clip[3] + near, cut, cut_clamped);
+            }
+        }
+        out.push_back(cut);
+    }
+    return out;
+}
+
+// 2^(e - 23), e the exponent of z >= 0 as a binary32; the least denormal where z is denormal or 0.
+double unit_at(const mpq_class& z) {
+    const double d = z.get_d();  // truncated: the exponent is right
+    if (!(d >= 0x1p-126)) {
+        return 0x1p-149;
+    }
+    return std::ldexp(1.0, std::ilogb(d) - 23);
+}
+
+// Whether r is a step of fixed point, one for the whole attachment.
+bool has_constant_unit(cases::DepthFormat format, const cases::DepthBias& bias) {
+    using Representation = cases::DepthBiasRepresentation;
+    return bias.representation == Representation::force_unorm ||
+           (bias.representation == Representation::format &&
+            format != cases::DepthFormat::d32_float);
+}
+
+// 2^-n; n: bits of the format, "or the number of mantissa bits plus one" of a floating-point one.
+double constant_unit(cases::DepthFormat format) {
+    return format == cases::DepthFormat::d16_unorm ? 0x1p-16 : 0x1p-24;
+}
+
+template <class T>
+Range<T> unit_of(const Primitive& primitive, cases::Profile profile) {
+    const cases::DepthFormat format = primitive.depth_format;
+    const cases::DepthBias& bias = *primitive.draw->depth.bias;
+    if (bias.representation == cases::DepthBiasRepresentation::floating) {
+        return {T(1.0), T(1.0)};
+    }
+    if (has_constant_unit(format, bias)) {
+        const double least = constant_unit(format);
+        return bias.is_exact ? Range<T>{T(least), T(least)} : Range<T>{T(0.0), T(2 * least)};
+    }
+    // z_f of a vertex is off by at most five roundings (quantities.cpp) of terms up to 1; relative
+    // to the largest z that may be a few more when near and far cancel, and 16 leaves room.
+    const mpq_class slack =
+        profile == cases::Profile::vulkan ? mpq_class(16, 100000) : mpq_class(16, 16777216);
+    const std::vector<mpq_class> depths = largest_depths(primitive);
+    const auto [least, most] = std::minmax_element(depths.begin(), depths.end());
+    const double low = *least == 0 ? 0.0 : unit_at(*least * (1 - slack));
+    return {T(low), T(unit_at(*most * (1 + slack)))};
+}
+
+// A bound from above on the square root.
+double root_above(const mpq_class& a) {
+    return std::sqrt(a.get_d() * (1 + 0x1p-50)) * (1 + 0x1p-50) + 0x1p-500;
+}
+double root_above(const Ball& a) {
+    return std::sqrt(std::max(0.0, a.v + a.e)) * (1 + 0x1p-50) + 0x1p-500;
+}
+
+template <class T>
+struct Slope {
+    T x, y, ex, ey;  // gradient and its error
+};
+
+// The gradients are differences of vertex values divided by the determinant: off by the budget that
+// a step of one pixel has, 2u max_k b_k, and by the error of the vertex values (Plane::constant)
+// through each barycentric gradient.
+template <class T>
+Slope<T> slope_of(const Basis<T>& basis, const T& factor) {
+    const Plane<T>& plane = basis.planes[kPlaneDepth];
+    Slope<T> s;
+    T bx{}, by{}, sum_x{}, sum_y{};
+    for (size_t k = 0; k < plane.bx.size(); ++k) {
+        bx = larger(bx, plane.bx[k]);
+        by = larger(by, plane.by[k]);
+    }
+    for (const Form<T>& b : basis.bary) {
+        sum_x = sum_x + magnitude(b.x);
+        sum_y = sum_y + magnitude(b.y);
+    }
+    s.x = magnitude(plane.form.x);
+    s.y = magnitude(plane.form.y);
+    s.ex = factor * (T(2 * kUnitRoundoff) * bx + plane.constant * sum_x);
+    s.ey = factor * (T(2 * kUnitRoundoff) * by + plane.constant * sum_y);
+    return s;
+}
+
+template <class T>
+Range<T> times(float f, const Range<T>& r) {
+    const T scale(static_cast<double>(f));
+    return f < 0 ? Range<T>{T(scale * r.high), T(scale * r.low)}
+                 : Range<T>{T(scale * r.low), T(scale * r.high)};
+}
+
+}  // namespace
+
+double steps_of(cases::DepthFormat format) {
+    switch (format) {
+        case cases::DepthFormat::d24_unorm:
+            return 16777215.0;
+        case cases::DepthFormat::d16_unorm:
+            return 65535.0;
+        case cases::DepthFormat::d32_float:
+            break;
+    }
+    return 0;
+}
+
+template <class T>
+DepthPath<T> make_depth_path(const Primitive& primitive, cases::Profile profile) {
+    DepthPath<T> path;
+    const cases::Viewport& v = primitive.draw->viewport;
+    path.format = primitive.depth_format;
+    path.bias = primitive.draw->depth.bias;
+    path.is_clamped = primitive.draw->depth.clamp;
+    path.is_max_norm = profile == cases::Profile::direct3d;
+    path.viewport = {static_cast<double>(std::min(v.min_depth, v.max_depth)),
+                     static_cast<double>(std::max(v.min_depth, v.max_depth))};
+    if (path.bias) {
+        path.unit = unit_of<T>(primitive, profile);
+    }
+    return path;
+}
+
+template <class T>
+Range<T> bias_of(const DepthPath<T>& path, const Basis<T>& basis, const T& factor) {
+    if (!path.bias) {
+        return {};
+    }
+    const Slope<T> s = slope_of(basis, factor);
+    Range<T> m;
+    m.low = larger(larger(T(s.x - s.ex), T(s.y - s.ey)), T(0.0));
+    const T high_x = s.x + s.ex;
+    const T high_y = s.y + s.ey;
+    m.high = path.is_max_norm ? larger(high_x, high_y)
+                              : T(root_above(T(high_x * high_x + high_y * high_y)));
+    const Range<T> sloped = times(path.bias->slope, m);
+    const Range<T> constant = times(path.bias->constant, path.unit);
+    const T size = larger(magnitude(sloped.low), magnitude(sloped.high)) +
+                   larger(magnitude(constant.low), magnitude(constant.high));
+    const T rounding = factor * T(kBiasRoundings * kUnitRoundoff) * size;
+    Range<T> o{T(sloped.low + constant.low - rounding), T(sloped.high + constant.high + rounding)};
+    const T clamp(static_cast<double>(path.bias->clamp));
+    if (path.bias->clamp > 0) {
+        o = {smaller(o.low, clamp), smaller(o.high, clamp)};
+    } else if (path.bias->clamp < 0) {
+        o = {larger(o.low, clamp), larger(o.high, clamp)};
+    }
+    return o;
+}
+
+double nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>& basis) {
+    if (!path.bias) {
+        return 0;
+    }
+    const Form<mpq_class>& form = basis.planes[kPlaneDepth].form;
+    const double m = std::max(std::fabs(form.x.get_d()), std::fabs(form.y.get_d()));
+    const double r = has_constant_unit(path.format, *path.bias) ? constant_unit(path.format)
+                                                                : path.unit.high.get_d();
+    const double o =
+        m * static_cast<double>(path.bias->slope) + r * static_cast<double>(path.bias->constant);
+    const auto clamp = static_cast<double>(path.bias->clamp);
+    return clamp > 0 ? std::min(o, clamp) : clamp < 0 ? std::max(o, clamp) : o;
+}
+
+template DepthPath<Ball> make_depth_path<Ball>(const Primitive&, cases::Profile);
+template DepthPath<mpq_class> make_depth_path<mpq_class>(const Primitive&, cases::Profile);
+template Range<Ball> bias_of<Ball>(const DepthPath<Ball>&, const Basis<Ball>&, const Ball&);
+template Range<mpq_class> bias_of<mpq_class>(const DepthPath<mpq_class>&, const Basis<mpq_class>&,
+                                             const mpq_class&);
+
+}  // namespace ref::value

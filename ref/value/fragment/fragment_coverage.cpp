@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value/fragment/fragment_coverage.hpp"
+
+#include "ref/coverage/exact.hpp"
+#include "ref/coverage/fast/fast.hpp"
+#include "ref/coverage/fast/half_plane.hpp"
+#include "ref/number/sample.hpp"
+
+namespace ref {
+
+namespace {
+
+using Points = std::vector<value::Point<mpq_class>>;
+
+mpz_class to_mpz(Int128 v) {
+    mpz_class out(static_cast<long>(v >> 64));  // rounds down, so that the rest is positive
+    out <<= 64;
+    return out + mpz_class(static_cast<unsigned long>(v));
+}
+
+template <class Classify>
+PixelCoverage coverage_of(const cases::Target& target, const TriangleSetup& setup, uint32_t x,
+                          uint32_t y, Classify classify) {
+    PixelCoverage out;
+    out.is_one_fragment = !setup.is_clipped;
+    for (uint32_t s = 0; s < target.samples; ++s) {
+        switch (classify(setup, sample_position(x, y, s, target)).coverage) {
+            case Coverage::must:
+                out.must |= 1U << s;
+                out.may |= 1U << s;
+                break;
+            case Coverage::either:
+                out.may |= 1U << s;
+                break;
+            case Coverage::must_not:
+                break;
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+Points cut(const Points& polygon, const value::Form<mpq_class>& inside) {
+    Points out;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const value::Point<mpq_class>& a = polygon[i];
+        const value::Point<mpq_class>& b = polygon[(i + 1) % polygon.size()];
+        const mpq_class at_a = inside.at(a);
+        const mpq_class at_b = inside.at(b);
+        if (at_a >= 0) {
+            out.push_back(a);
+        }
+        if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) {
+            const mpq_class t = at_a / (at_a - at_b);
+            out.push_back({mpq_class(a.x + t * (b.x - a.x)), mpq_class(a.y + t * (b.y - a.y))});
+        }
+    }
+    return out;
+}
+
+Points pixel_region(const TriangleSetup& setup, uint32_t x, uint32_t y) {
+    const mpq_class x0(x), y0(y), x1(x + 1), y1(y + 1);
+    Points region = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    if (setup.kind != TriangleSetup::Kind::outlines || !setup.has_outline) {
+        return region;
+    }
+    // The unclipped outline holds the clipped one: "within the bounds of the primitive".
+    const fast::ConvexSet hull = fast::hull_set(setup.unclipped.vertices());
+    const mpq_class unit(kFixedOne);
+    const auto side = [](int a, int b, const mpq_class& c) {
+        return value::Form<mpq_class>{mpq_class(a), mpq_class(b), c};
+    };
+    region = cut(region, side(1, 0, mpq_class(-hull.bounds.x0) / unit));
+    region = cut(region, side(-1, 0, mpq_class(hull.bounds.x1) / unit));
+    region = cut(region, side(0, 1, mpq_class(-hull.bounds.y0) / unit));
+    region = cut(region, side(0, -1, mpq_class(hull.bounds.y1) / unit));
+    for (const HalfPlane& h : hull.planes) {
+        // S47.16 to pixels: a X + b Y + c with X = 2^16 x.
+        const mpq_class a(to_mpz(h.a)), b(to_mpz(h.b)), c(to_mpz(h.c));
+        region = cut(region, {mpq_class(a * unit), mpq_class(b * unit), c});
+    }
+    return region;
+}
+
+FragmentCoverage::FragmentCoverage(const cases::Case& c, const Limits& limits,
+                                   cases::Profile profile, const std::vector<Triangle>& triangles)
+    : case_(c),
+      limits_(limits),
+      profile_(profile),
+      triangles_(triangles),
+      boxes_(c, limits, profile),
+      setups_(triangles.size()) {}
+
+const TriangleSetup& FragmentCoverage::setup(uint32_t t) {
+    if (!setups_[t]) {
+        const cases::Draw& draw = case_.draws[triangles_[t].draw];
+        setups_[t] = set_up(case_, triangles_[t], limits_, profile_, boxes_,
+                            window_of(case_, draw, profile_));
+    }
+    return *setups_[t];
+}
+
+const PixelCoverage& FragmentCoverage::of(uint32_t t, uint32_t x, uint32_t y) {
+    if (!last_ || !last_->is_of(t, x, y)) {
+        last_ = {t, x, y, coverage_of(case_.target, setup(t), x, y, fast::classify)};
+    }
+    return last_->answer;
+}
+
+const Points& FragmentCoverage::region(uint32_t t, uint32_t x, uint32_t y) {
+    if (!last_region_ || !last_region_->is_of(t, x, y)) {
+        last_region_ = {t, x, y, pixel_region(setup(t), x, y)};
+    }
+    return last_region_->answer;
+}
+
+PixelCoverage FragmentCoverage::exact(uint32_t t, uint32_t x, uint32_t y) {
+    return coverage_of(case_.target, setup(t), x, y, exact::classify);
+}
+
+}  // namespace ref

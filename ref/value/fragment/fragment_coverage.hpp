@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the fragment of a triangle in a pixel may be: the samples that it covers, and the part of
+// the pixel that lies in the primitive. Centroid interpolation and gl_SampleMaskIn depend on it.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/coverage/setup.hpp"
+#include "ref/number/plane_budget.hpp"
+#include "ref/position/limits.hpp"
+#include "ref/position/triangle.hpp"
+
+namespace ref {
+
+// Bit s: sample s; before any sample mask. Scissor and viewport are included.
+struct PixelCoverage {
+    uint32_t must = 0, may = 0;
+    // False: the triangle is clipped, and devices may make several fragments of its pieces.
+    bool is_one_fragment = true;
+};
+
+// Corners of the intersection of pixel (x,y) with the convex hull of the positions that a device
+// may use, in pixels, exact. The whole pixel where the positions have no bounds (w <= 0). May be
+// empty.
+std::vector<value::Point<mpq_class>> pixel_region(const TriangleSetup& setup, uint32_t x,
+                                                  uint32_t y);
+
+// The part of a convex polygon where a x + b y + c >= 0 (Sutherland and Hodgman 1974).
+std::vector<value::Point<mpq_class>> cut(const std::vector<value::Point<mpq_class>>& polygon,
+                                         const value::Form<mpq_class>& inside);
+
+// Set-up once a triangle, lazily; the last pixel asked for is kept.
+class FragmentCoverage {
+  public:
+    FragmentCoverage(const cases::Case& c, const Limits& limits, cases::Profile profile,
+                     const std::vector<Triangle>& triangles);
+
+    const PixelCoverage& of(uint32_t t, uint32_t x, uint32_t y);
+    // pixel_region() of the triangle's set-up; valid until the next call.
+    const std::vector<value::Point<mpq_class>>& region(uint32_t t, uint32_t x, uint32_t y);
+    // As of(), from rationals alone.
+    PixelCoverage exact(uint32_t t, uint32_t x, uint32_t y);
+    const TriangleSetup& setup(uint32_t t);
+
+  private:
+    const cases::Case& case_;
+    Limits limits_;
+    cases::Profile profile_;
+    const std::vector<Triangle>& triangles_;
+    VertexBoxes boxes_;
+    std::vector<std::optional<TriangleSetup>> setups_;
+    template <class Answer>
+    struct Last {
+        uint32_t t = 0, x = 0, y = 0;
+        Answer answer;
+        bool is_of(uint32_t triangle, uint32_t column, uint32_t row) const {
+            return t == triangle && x == column && y == row;
+        }
+    };
+    std::optional<Last<PixelCoverage>> last_;
+    std::optional<Last<std::vector<value::Point<mpq_class>>>> last_region_;
+};
+
+}  // namespace ref

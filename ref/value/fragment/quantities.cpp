@@ -1,0 +1,406 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value/fragment/quantities.hpp"
+
+#include <cmath>
+
+#include "ref/number/sample.hpp"
+#include "ref/position/clip.hpp"
+#include "ref/value/places.hpp"
+
+namespace ref::value {
+
+namespace {
+
+constexpr char kComponentNames[] = {'x', 'y', 'z', 'w'};
+
+// Viewport transform: x_f = scale x_d + offset (Vulkan specification, "Controlling the Viewport").
+template <class T>
+struct Transform {
+    T scale_x, scale_y, scale_z, offset_x, offset_y, offset_z;
+};
+
+template <class T>
+Transform<T> transform_of(const cases::Draw& draw) {
+    const cases::Viewport& v = draw.viewport;
+    const T x(static_cast<double>(v.x));
+    const T y(static_cast<double>(v.y));
+    const T near(static_cast<double>(v.min_depth));
+    const T far(static_cast<double>(v.max_depth));
+    Transform<T> t;
+    t.scale_x = T(static_cast<double>(v.width) / 2);  // exact: a power of two
+    t.scale_y = T(static_cast<double>(v.height) / 2);
+    t.scale_z = far - near;
+    t.offset_x = x + t.scale_x;
+    t.offset_y = y + t.scale_y;
+    t.offset_z = near;
+    if (draw.depth.negative_one_to_one) {
+        // VK_EXT_depth_clip_control: p_z = (max - min)/2, o_z = (max + min)/2
+        t.scale_z = t.scale_z * T(0.5);
+        t.offset_z = (far + near) * T(0.5);
+    }
+    return t;
+}
+
+template <class T>
+T from_float(float f) {
+    return T(static_cast<double>(f));
+}
+
+// Round half to even of a rational, in units of 2^-bits, as S47.16.
+std::optional<int64_t> snap(const mpq_class& pixels, int bits) {
+    const mpq_class scaled = pixels * mpq_class(uint64_t{1} << bits);
+    mpz_class floor;
+    mpz_fdiv_q(floor.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+    const mpq_class rest = scaled - floor;
+    const int half = cmp(rest, mpq_class(1, 2));
+    if (half > 0 || (half == 0 && mpz_odd_p(floor.get_mpz_t()) != 0)) {
+        floor += 1;
+    }
+    const mpz_class fixed = floor << static_cast<mp_bitcnt_t>(kFixedBits - bits);
+    if (abs(fixed) > (mpz_class(1) << (32 + kFixedBits))) {
+        return std::nullopt;
+    }
+    return fixed.get_si();
+}
+
+// The same for a vertex, in binary64: half extent * c / w + offset. Nothing if the nearest grid
+// point is not proven. Products of two binary32 are exact; the quotient, the offset and the sum
+// are each off by at most 2^-53 of |quotient| + |offset|, and 2^-50 of it is more than all three.
+std::optional<int64_t> snap_fast(float c, float w, float origin, float extent, int bits) {
+    const double half = static_cast<double>(extent) / 2;
+    const double quotient = half * static_cast<double>(c) / static_cast<double>(w);
+    const double offset = static_cast<double>(origin) + half;
+    const double scale = std::ldexp(1.0, bits);
+    const double error = (std::fabs(quotient) + std::fabs(offset)) * scale * 0x1p-50 + 0x1p-900;
+    const double scaled = (quotient + offset) * scale;
+    if (!(std::fabs(scaled) < 0x1p31 * scale) || !(error < 0x1p-4)) {
+        return std::nullopt;
+    }
+    const double floor = std::floor(scaled);
+    const double from_tie = scaled - floor - 0.5;  // its sign is right: |scaled| < 2^47
+    if (!(std::fabs(from_tie) > error)) {
+        return std::nullopt;
+    }
+    const auto nearest = static_cast<int64_t>(floor) + (from_tie > 0 ? 1 : 0);
+    return nearest * (int64_t{1} << (kFixedBits - bits));
+}
+
+// The quantity of an attribute whose source is a sample built-in.
+bool set_sample_source(cases::Source source, Quantity& q) {
+    switch (source) {
+        case cases::Source::sample_mask_in:
+            q.kind = Kind::sample_mask;
+            q.rule = "sample.mask-in";
+            return true;
+        case cases::Source::sample_id:
+            q.kind = Kind::sample_id;
+            q.rule = "sample.id";
+            return true;
+        case cases::Source::sample_position:
+            q.kind = Kind::sample_position;
+            q.rule = "sample.id";
+            return true;
+        case cases::Source::vertex:
+        case cases::Source::barycentric:
+            break;
+    }
+    return false;
+}
+
+}  // namespace
+
+// at-centroid is an input that is evaluated elsewhere, all others are functions of their own.
+void set_probe(const cases::Attribute& attribute, bool multisampled, Quantity& q) {
+    switch (attribute.probe) {
+        case cases::Probe::value:
+            return;
+        case cases::Probe::at_centroid:
+            q.at_sample = false;
+            q.at_centroid = multisampled;
+            q.rule = "interp.at-centroid";
+            return;
+        case cases::Probe::at_sample:
+            q.rule = "interp.at-sample";
+            break;
+        case cases::Probe::at_offset:
+            q.rule = "interp.at-offset";
+            break;
+        case cases::Probe::dx:
+        case cases::Probe::dy:
+        case cases::Probe::width:
+            q.rule = "derivative.plain";
+            break;
+        case cases::Probe::dx_fine:
+        case cases::Probe::dy_fine:
+        case cases::Probe::width_fine:
+            q.rule = "derivative.fine";
+            break;
+        case cases::Probe::dx_coarse:
+        case cases::Probe::dy_coarse:
+        case cases::Probe::width_coarse:
+            q.rule = "derivative.coarse";
+            break;
+        case cases::Probe::lod:
+            q.rule = "lod.query";
+            break;
+    }
+    q.is_perspective = q.kind == Kind::perspective;
+    q.kind = Kind::probe;
+    q.probe = attribute.probe;
+}
+
+float Quantity::get(const FragmentValues& device) const {
+    const auto c = static_cast<glm::vec4::length_type>(component);
+    if (attribute == -2) {
+        return device.depth;
+    }
+    if (attribute == -1) {
+        return device.frag_coord[c];
+    }
+    return device.attributes[static_cast<size_t>(attribute)][c];
+}
+
+std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target) {
+    // With one sample in the centre the sample is where everything is evaluated.
+    const bool multisampled = target.samples > 1 || !target.sample_locations.empty();
+    const bool is_shaded = shading_rate(draw, target.samples) != ShadingRate::fragment;
+    const std::string_view xy = is_shaded ? "fragcoord.sample" : "fragcoord.xy";
+    std::vector<Quantity> all;
+    all.push_back({Kind::pixel_centre, false, 0, -1, 0, "frag_coord.x", xy});
+    all.push_back({Kind::pixel_centre, false, 0, -1, 1, "frag_coord.y", xy});
+    all.push_back({Kind::linear, false, kPlaneDepth, -1, 2, "frag_coord.z", "depth.linear"});
+    all.push_back({Kind::linear, false, kPlaneInvW, -1, 3, "frag_coord.w", "fragcoord.w"});
+    all.push_back({Kind::linear, multisampled, kPlaneDepth, -2, 0, "depth", "depth.linear"});
+    uint32_t plane = kPlaneDepth + 1;
+    for (size_t a = 0; a < draw.attributes.size(); ++a) {
+        const cases::Attribute& attribute = draw.attributes[a];
+        for (uint32_t c = 0; c < attribute.components; ++c) {
+            Quantity q;
+            q.attribute = static_cast<int32_t>(a);
+            q.component = c;
+            q.name = "attribute " + std::to_string(a) + "." + kComponentNames[c];
+            if (set_sample_source(attribute.source, q)) {
+                all.push_back(std::move(q));
+                continue;
+            }
+            switch (attribute.interpolation) {
+                case cases::Interpolation::smooth:
+                    q.kind = Kind::perspective;
+                    q.rule = "interp.perspective";
+                    q.plane = plane++;
+                    break;
+                case cases::Interpolation::noperspective:
+                    q.kind = Kind::linear;
+                    q.rule = "interp.linear";
+                    q.plane = plane++;
+                    break;
+                case cases::Interpolation::flat:
+                    q.kind = Kind::flat;
+                    q.rule = "interp.flat";
+                    break;
+            }
+            if (multisampled && q.kind != Kind::flat) {
+                q.at_sample = attribute.auxiliary == cases::Auxiliary::sample;
+                q.at_centroid = attribute.auxiliary == cases::Auxiliary::centroid;
+                q.rule = q.at_sample ? "interp.sample" : q.at_centroid ? "interp.centroid" : q.rule;
+            }
+            if (q.kind != Kind::flat) {
+                set_probe(attribute, multisampled, q);
+            }
+            if (attribute.source == cases::Source::barycentric) {
+                q.rule = "barycentric.value";
+            }
+            all.push_back(std::move(q));
+        }
+    }
+    return all;
+}
+
+Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
+    Primitive p;
+    p.draw = &c.draws[triangle.draw];
+    p.triangle = triangle;
+    p.depth_format = c.target.depth_format;
+    p.is_finite = true;
+    p.is_projectable = true;
+    const ClipVolume volume = clip_volume_of(*p.draw);
+    const ClipInput input(*p.draw, triangle.vertex);
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4 v = p.draw->positions[triangle.vertex[i]];
+        p.clip[i] = v;
+        const bool finite = is_representable(v, cases::Profile::direct3d);
+        p.is_finite = p.is_finite && finite;
+        p.is_projectable = p.is_projectable && finite && v.w > 0;
+        p.needs_clipping = p.needs_clipping || !is_inside(input, i, volume.all());
+    }
+    return p;
+}
+
+// The barycentric built-ins interpolate unit vectors: vertex k of the order has a 1 in component k.
+// The order is the triangle's, turned so that the provoking vertex is its first, or its last with
+// the last vertex convention (Vulkan specification, "Barycentric Interpolation", the tables for
+// list, strip and fan).
+Triple<float> barycentric_values(const Primitive& primitive, uint32_t component) {
+    const Triangle& t = primitive.triangle;
+    uint32_t provoking = 0;
+    for (uint32_t i = 0; i < 3; ++i) {
+        if (t.vertex[i] == t.provoking) {
+            provoking = i;
+            break;
+        }
+    }
+    const bool is_last = primitive.draw->provoking == cases::ProvokingVertex::last;
+    const uint32_t first = (provoking + (is_last ? 1U : 0U)) % 3;
+    Triple<float> out{};
+    out[(first + component) % 3] = 1.0F;
+    return out;
+}
+
+Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, uint32_t component) {
+    if (primitive.draw->attributes[attribute].source == cases::Source::barycentric) {
+        return barycentric_values(primitive, component);
+    }
+    Triple<float> out{};
+    for (size_t i = 0; i < 3; ++i) {
+        out[i] = primitive.draw->attributes[attribute]
+                     .values[primitive.triangle.vertex[i]]
+                            [static_cast<glm::vec4::length_type>(component)];
+    }
+    return out;
+}
+
+namespace {
+
+// transform_error (position.cpp) of the coordinate c of a vertex.
+template <class T>
+T coordinate_error(float c, float w, float origin, float extent) {
+    if (is_transform_exact(c, w, origin, extent)) {
+        return T(0.0);
+    }
+    const T u(kUnitRoundoff);
+    const T half(static_cast<double>(extent) / 2);
+    const T offset = T(static_cast<double>(origin)) + half;
+    const T t = from_float<T>(c) / from_float<T>(w) * half;
+    const T sum = T(4.0) * magnitude(t) + magnitude(offset) + T(2.0) * magnitude(T(t + offset));
+    T error = u * T(sum + T(1.0)) * T(T(1.0) + T(8.0) * u);
+    error =
+        error + T(0x1p-120) * T(T(1.0) + magnitude(half)) * T(T(1.0) + magnitude(from_float<T>(c)));
+    return std::abs(w) > 0x1p125F ? T(error + magnitude(t)) : error;
+}
+
+}  // namespace
+
+template <class T>
+Vertices<T> ideal_vertices(const Primitive& primitive) {
+    const auto t = transform_of<T>(*primitive.draw);
+    Vertices<T> v;
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& c = primitive.clip[i];
+        v.w[i] = from_float<T>(c.w);
+        v.hx[i] = t.scale_x * from_float<T>(c.x) + t.offset_x * v.w[i];
+        v.hy[i] = t.scale_y * from_float<T>(c.y) + t.offset_y * v.w[i];
+        v.finite[i] = c.w > 0 || c.w < 0;
+        if (v.finite[i]) {
+            const cases::Viewport& p = primitive.draw->viewport;
+            v.ex[i] = coordinate_error<T>(c.x, c.w, p.x, p.width);
+            v.ey[i] = coordinate_error<T>(c.y, c.w, p.y, p.height);
+        }
+    }
+    return v;
+}
+
+template <class T>
+Vertices<T> moved_vertices(const Primitive& primitive, const std::array<FixedPoint, 3>& at) {
+    Vertices<T> v;
+    for (size_t i = 0; i < 3; ++i) {
+        v.w[i] = from_float<T>(primitive.clip[i].w);
+        v.finite[i] = true;
+        // S47.16 with a magnitude of at most 2^48: exact in binary64.
+        v.hx[i] = T(static_cast<double>(at[i].x) / static_cast<double>(kFixedOne)) * v.w[i];
+        v.hy[i] = T(static_cast<double>(at[i].y) / static_cast<double>(kFixedOne)) * v.w[i];
+    }
+    return v;
+}
+
+template <class T>
+std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
+                                        std::span<const Quantity> quantities) {
+    const auto t = transform_of<T>(*primitive.draw);
+    std::vector<PlaneInput<T>> in(2);
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& c = primitive.clip[i];
+        const T w = from_float<T>(c.w);
+        in[kPlaneInvW].h[i] = T(1.0);
+        const T scaled = t.scale_z * from_float<T>(c.z);  // p_z z_d w
+        in[kPlaneDepth].h[i] = scaled + t.offset_z * w;
+        if (c.w > 0 || c.w < 0) {
+            // z_d = z/w: u, or 2u as z * (1/w); p_z rounded: u; the product: u; the sum: u |z_f|.
+            const T z = magnitude(T(in[kPlaneDepth].h[i] / w));
+            T e = T(kUnitRoundoff) * (T(4.0) * magnitude(T(scaled / w)) + z);
+            if (primitive.draw->depth.negative_one_to_one) {
+                e = e + T(kUnitRoundoff) * magnitude(t.offset_z);  // o_z is a sum
+            }
+            in[kPlaneDepth].rounding = larger(in[kPlaneDepth].rounding, e);
+        }
+    }
+    for (const Quantity& q : quantities) {
+        if (q.attribute < 0 || !has_plane(q)) {
+            continue;
+        }
+        Triple<float> f =
+            attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+        for (float& value : f) {
+            value = std::isfinite(value) ? value : 0.0F;  // nothing is asked of it (promises_of)
+        }
+        PlaneInput<T> plane;
+        for (size_t i = 0; i < 3; ++i) {
+            plane.h[i] = is_quotient(q)
+                             ? from_float<T>(f[i])
+                             : T(from_float<T>(f[i]) * from_float<T>(primitive.clip[i].w));
+        }
+        in.push_back(plane);
+    }
+    return in;
+}
+
+std::optional<std::array<FixedPoint, 3>> snapped_positions(const Primitive& primitive,
+                                                           const Limits& limits) {
+    const cases::Viewport& viewport = primitive.draw->viewport;
+    const auto snap_axis = [&](float c, float w, float origin, float extent) {
+        const int bits = limits.subpixel_bits;
+        if (const auto fast = snap_fast(c, w, origin, extent, bits); fast) {
+            return fast;
+        }
+        const auto half = mpq_class(from_float<mpq_class>(extent) / 2);
+        const auto offset = mpq_class(from_float<mpq_class>(origin) + half);
+        return snap(mpq_class(half * from_float<mpq_class>(c) / from_float<mpq_class>(w) + offset),
+                    bits);
+    };
+    std::array<FixedPoint, 3> out;
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& clip = primitive.clip[i];
+        if (!(clip.w > 0 || clip.w < 0)) {
+            return std::nullopt;
+        }
+        const auto x = snap_axis(clip.x, clip.w, viewport.x, viewport.width);
+        const auto y = snap_axis(clip.y, clip.w, viewport.y, viewport.height);
+        if (!x || !y) {
+            return std::nullopt;
+        }
+        out[i] = {*x, *y};
+    }
+    return out;
+}
+
+template Vertices<Ball> ideal_vertices<Ball>(const Primitive&);
+template Vertices<mpq_class> ideal_vertices<mpq_class>(const Primitive&);
+template Vertices<Ball> moved_vertices<Ball>(const Primitive&, const std::array<FixedPoint, 3>&);
+template Vertices<mpq_class> moved_vertices<mpq_class>(const Primitive&,
+                                                       const std::array<FixedPoint, 3>&);
+template std::vector<PlaneInput<Ball>> plane_inputs<Ball>(const Primitive&,
+                                                          std::span<const Quantity>);
+template std::vector<PlaneInput<mpq_class>> plane_inputs<mpq_class>(const Primitive&,
+                                                                    std::span<const Quantity>);
+
+}  // namespace ref::value

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a triangle's fragments carry, and the vertices as each basis has them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/number/plane_budget.hpp"
+#include "ref/position/limits.hpp"
+#include "ref/position/position.hpp"
+#include "ref/position/triangle.hpp"
+#include "ref/value/value.hpp"
+
+namespace ref::value {
+
+// The planes of every basis: 0 is 1/w, 1 is depth, then one a smooth or noperspective component.
+inline constexpr uint32_t kPlaneInvW = 0;
+inline constexpr uint32_t kPlaneDepth = 1;
+
+enum class Kind : uint8_t {
+    linear,
+    perspective,
+    flat,
+    // One of a few exact numbers (sample_values.hpp).
+    pixel_centre,  // FragCoord.xy
+    sample_mask,   // gl_SampleMaskIn
+    sample_id,
+    sample_position,
+    probe,  // made of an input by a function (probe.hpp)
+};
+
+// One scalar of a fragment.
+struct Quantity {
+    Kind kind = Kind::linear;
+    bool at_sample = false;  // evaluated at the sample; otherwise where the fragment's inputs are
+    uint32_t plane = 0;      // linear and perspective
+    int32_t attribute = -1;  // index into Draw::attributes; -1 frag_coord, -2 depth
+    uint32_t component = 0;
+    std::string name;       // "attribute 1.x", "depth", "frag_coord.w"
+    std::string_view rule;  // of a mismatch that stays inside the hull
+    bool at_centroid = false;
+    cases::Probe probe = cases::Probe::value;  // of Kind::probe
+    bool is_perspective = false;               // likewise: of the input that it looks at
+    float get(const FragmentValues& device) const;
+};
+
+// The largest error among the values of a fragment.
+struct WorstError {
+    double ratio = 0;           // in budgets
+    std::string_view quantity;  // Quantity::name of the value that has it; empty while ratio is 0
+
+    void raise(double other, const Quantity& of) {
+        if (other > ratio) {
+            *this = {other, of.name};
+        }
+    }
+};
+
+// Whether a plane of its own belongs to it, and whether that plane's value is a quotient by 1/w.
+inline bool has_plane(const Quantity& q) {
+    return q.kind == Kind::linear || q.kind == Kind::perspective || q.kind == Kind::probe;
+}
+inline bool is_quotient(const Quantity& q) {
+    return q.kind == Kind::perspective || (q.kind == Kind::probe && q.is_perspective);
+}
+
+// All quantities of a draw, in the order in which mismatches are told.
+std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target);
+
+// One triangle, everything that is exact in binary32 or cheap to have.
+struct Primitive {
+    const cases::Draw* draw = nullptr;
+    Triangle triangle;
+    cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
+    std::array<glm::vec4, 3> clip{};
+    bool is_finite = false;       // is_representable() at the profiles beyond vulkan
+    bool is_projectable = false;  // and w > 0
+    bool needs_clipping = false;  // a vertex is outside the clip volume
+};
+Primitive make_primitive(const cases::Case& c, const Triangle& triangle);
+
+// Vertex values g_i of a plane that come straight from the case (attributes); not for 1/w and z.
+Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, uint32_t component);
+
+// Vertices with their ideal positions. `ex`, `ey` bound the device's rounding of them.
+template <class T>
+Vertices<T> ideal_vertices(const Primitive& primitive);
+// Vertices moved to given positions, S47.16; exact, so ex = ey = 0.
+template <class T>
+Vertices<T> moved_vertices(const Primitive& primitive, const std::array<FixedPoint, 3>& at);
+
+// Homogeneous values of all planes.
+template <class T>
+std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
+                                        std::span<const Quantity> quantities);
+
+// The nearest grid points of the three vertices; nothing if one has w = 0 or is farther than 2^32
+// pixels. Also for w < 0, where the projected position is snapped.
+std::optional<std::array<FixedPoint, 3>> snapped_positions(const Primitive& primitive,
+                                                           const Limits& limits);
+
+}  // namespace ref::value

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The verdict on one fragment. Stages: binary64 against the unsnapped and the snapped basis
+// (accepts only what is proven); all bases of the profile in Balls; the same in rationals.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "ref/number/sample.hpp"
+#include "ref/value/reference.hpp"
+#include "ref/value/sample_values.hpp"
+
+namespace ref {
+
+using cases::Profile;
+using value::Ball;
+using value::bits_of;
+using value::is_plain_depth;
+using value::Kind;
+using value::Quantity;
+
+void ValueReference::Impl::judge_samples(uint32_t t, SampleId id, const FragmentValues& device,
+                                         bool exact_only, FragmentVerdict& out) {
+    std::array<std::optional<value::Fragment>, std::size(cases::kProfiles)> fragments;
+    for (const Quantity& q : quantities_of(t)) {
+        if (!value::is_sample_kind(q.kind) || !selection.has(q.attribute)) {
+            continue;
+        }
+        // What is allowed at a profile is allowed at every looser one.
+        auto& strict = fragments.at(static_cast<size_t>(profile));
+        if (!strict) {
+            strict = covered_fragment(t, id, profile, exact_only);
+        }
+        if (may_be(*strict, q, device, profile)) {
+            continue;
+        }
+        // The loosest profile that forbids it.
+        for (const Profile at : cases::kProfiles) {
+            auto& f = fragments.at(static_cast<size_t>(at));
+            if (!f) {
+                f = covered_fragment(t, id, at, exact_only);
+            }
+            if (at > profile || may_be(*f, q, device, at)) {
+                continue;
+            }
+            ValueMismatch m;
+            m.quantity = q.name;
+            m.rule = q.rule;
+            m.level = at;
+            m.expected = allowed_text(*f, q, at);
+            m.got = bits_of(q.get(device));
+            m.ratio = std::numeric_limits<double>::infinity();
+            out.mismatches.push_back(std::move(m));
+            break;
+        }
+    }
+}
+
+namespace {
+
+void tell_worst(const value::WorstError& worst, FragmentVerdict& out) {
+    out.worst_ratio = worst.ratio;
+    out.worst_quantity = worst.quantity;
+}
+
+}  // namespace
+
+bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues& device,
+                                  FragmentVerdict& out) {
+    const value::Loaded& triangle = load_filters(t);
+    const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
+    const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
+    const value::Point<double> sample{
+        static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
+        static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)};
+    value::Places places{centre, sample, centre};
+    if (c.target.samples > 1) {
+        // The likeliest alternative; the others are left to the next stage.
+        const auto nominal =
+            value::evaluations<Ball>(fragment(t, id, Profile::direct3d), Profile::direct3d).front();
+        places = {{nominal.attributes[0].x.v, nominal.attributes[0].y.v},
+                  sample,
+                  {nominal.centroid[0].x.v, nominal.centroid[0].y.v}};
+    }
+    const std::span<const Quantity> all(selected.at(triangles[t].draw));
+    const value::ProbePlace place = probe_place(t, id, profile);
+    const auto accepts = [&](const value::Filter& filter, value::WorstError& worst) {
+        return filter_accepts(filter, all, places, device, kBudgetFactor, worst) &&
+               filter_accepts_probes(filter, all, place, device, kBudgetFactor, worst);
+    };
+    value::WorstError worst;
+    bool is_decided = accepts(triangle.unsnapped, worst);
+    if (triangle.has_snapped && !(is_decided && worst.ratio <= 1)) {
+        value::WorstError snapped;
+        if (accepts(triangle.snapped, snapped) && (!is_decided || snapped.ratio < worst.ratio)) {
+            is_decided = true;
+            out.basis = Basis::snapped;
+            worst = snapped;
+        }
+    }
+    tell_worst(worst, out);
+    return is_decided;
+}
+
+FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const FragmentValues& device,
+                                            bool exact_only) {
+    FragmentVerdict out;
+    const value::Loaded& triangle = load(t);
+    if (!triangle.primitive.is_finite) {
+        return out;  // nothing is promised of a triangle with NaN or infinite positions
+    }
+    const std::vector<Quantity>& all = quantities_of(t);
+    for (const Quantity& q : all) {
+        if (is_part(q) && q.kind == Kind::flat) {
+            judge_flat(triangle.primitive, q, q.get(device), out);
+        }
+    }
+    if (part != FragmentPart::depth) {
+        judge_samples(t, id, device, exact_only, out);
+    }
+    const bool is_decided = !exact_only && part == FragmentPart::all &&
+                            is_plain_depth(triangle.primitive) && filter(t, id, device, out);
+    // Accepted, but above one budget: another basis may explain it better.
+    if (!is_decided || out.worst_ratio > 1) {
+        const value::WideVerdict verdict =
+            exact_only ? wide_exact(t, id, device, profile) : wide(t, id, device, profile);
+        out.basis = verdict.basis;
+        tell_worst(verdict.worst, out);
+        if (!verdict.ok && is_brief) {
+            for (size_t k = 0; k < verdict.failing.size(); ++k) {
+                ValueMismatch m;
+                m.quantity = all[verdict.failing[k]].name;
+                m.level = profile;
+                m.ratio = verdict.ratios[k];
+                out.mismatches.push_back(std::move(m));
+            }
+        } else if (!verdict.ok) {
+            describe(t, id, device, verdict, out);
+        }
+    }
+    out.ok = out.mismatches.empty();
+    for (const ValueMismatch& m : out.mismatches) {
+        if (m.ratio > out.worst_ratio) {
+            const auto q = std::find_if(all.begin(), all.end(), [&](const Quantity& any) {
+                return any.name == m.quantity;
+            });
+            tell_worst({m.ratio, q == all.end() ? std::string_view() : std::string_view(q->name)},
+                       out);
+        }
+    }
+    return out;
+}
+
+ValueReference::ValueReference(const cases::Case& c, const Limits& limits, Profile profile)
+    : impl_(std::make_unique<Impl>(c, limits, profile)) {}
+ValueReference::~ValueReference() = default;
+ValueReference::ValueReference(ValueReference&&) noexcept = default;
+
+void ValueReference::judge_only(const ValueSelection& selection) {
+    impl_->selection = selection;
+    impl_->selected = impl_->quantities;
+    for (std::vector<Quantity>& draw : impl_->selected) {
+        std::erase_if(draw, [&](const Quantity& q) { return !selection.has(q.attribute); });
+    }
+}
+
+void ValueReference::judge_briefly() {
+    impl_->is_brief = true;
+}
+
+FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device,
+                                      FragmentPart part) {
+    impl_->part = part;
+    return impl_->judge(t, sample, device, false);
+}
+
+FragmentVerdict ValueReference::judge_exact(uint32_t t, SampleId sample,
+                                            const FragmentValues& device, FragmentPart part) {
+    impl_->part = part;
+    return impl_->judge(t, sample, device, true);
+}
+
+}  // namespace ref

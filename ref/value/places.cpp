@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value/places.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ref/number/sample.hpp"
+
+namespace ref::value {
+
+namespace {
+
+using cases::Profile;
+
+// Multiples of 1/16 below 2^14: exact in binary64.
+struct Spot {
+    double x = 0, y = 0;
+    friend bool operator==(const Spot&, const Spot&) = default;
+};
+
+Spot spot_of(const Fragment& f, uint32_t sample) {
+    const FixedPoint p = sample_position(f.id.x, f.id.y, sample, *f.target);
+    return {static_cast<double>(p.x) / static_cast<double>(kFixedOne),
+            static_cast<double>(p.y) / static_cast<double>(kFixedOne)};
+}
+
+void add(std::vector<Spot>& spots, const Spot& spot) {
+    if (std::find(spots.begin(), spots.end(), spot) == spots.end()) {
+        spots.push_back(spot);
+    }
+}
+
+// Where the invocations of the fragment may take all their inputs from, besides the centre.
+void add_invocations(const Fragment& f, ShadingRate rate, std::vector<Spot>& spots) {
+    if (rate != ShadingRate::fragment) {
+        add(spots, spot_of(f, f.id.sample));
+    }
+    if (rate == ShadingRate::some) {
+        for (uint32_t s = 0; s < f.target->samples; ++s) {
+            add(spots, spot_of(f, s));
+        }
+    }
+}
+
+// Direct3D's centroid, for every coverage that the fragment may have. The fragments of a clipped
+// triangle may be those of its pieces, which cover any part of the pixel's samples.
+void add_centroids(const Fragment& f, const Spot& centre, std::vector<Spot>& spots) {
+    const uint32_t all = (1U << f.target->samples) - 1;
+    const uint32_t mask = f.draw->multisample.sample_mask & all;
+    if (f.coverage.may == all) {
+        add(spots, centre);
+        if (f.coverage.is_one_fragment && f.coverage.must == all && mask == all) {
+            return;
+        }
+    }
+    for (uint32_t s = 0; s < f.target->samples; ++s) {
+        if (((f.coverage.may & mask) >> s & 1U) != 0) {
+            add(spots, spot_of(f, s));
+        }
+        if (f.coverage.is_one_fragment && ((f.coverage.must & mask) >> s & 1U) != 0) {
+            return;
+        }
+    }
+}
+
+template <class T>
+Point<T> point_of(const Spot& spot) {
+    return {T(spot.x), T(spot.y)};
+}
+
+}  // namespace
+
+uint32_t least_invocations(const cases::Draw& draw, uint32_t samples) {
+    const bool uses_sample =
+        std::any_of(draw.attributes.begin(), draw.attributes.end(), [](const cases::Attribute& a) {
+            return a.source == cases::Source::sample_id ||
+                   a.source == cases::Source::sample_position;
+        });
+    if (uses_sample) {
+        return samples;  // "sample shading is enabled and a value of 1.0 is used"
+    }
+    // max(ceil(minSampleShading x rasterizationSamples), 1); the product is exact.
+    const double least = static_cast<double>(draw.multisample.min_sample_shading.value_or(0)) *
+                         static_cast<double>(samples);
+    return std::max(static_cast<uint32_t>(std::ceil(least)), 1U);
+}
+
+ShadingRate shading_rate(const cases::Draw& draw, uint32_t samples) {
+    if (samples == 1) {
+        return ShadingRate::fragment;
+    }
+    if (least_invocations(draw, samples) == samples) {
+        return ShadingRate::sample;
+    }
+    if (draw.multisample.min_sample_shading) {
+        return ShadingRate::some;
+    }
+    const bool has_sample = std::any_of(
+        draw.attributes.begin(), draw.attributes.end(),
+        [](const cases::Attribute& a) { return a.auxiliary == cases::Auxiliary::sample; });
+    return has_sample ? ShadingRate::may_split : ShadingRate::fragment;
+}
+
+bool has_centroid(const cases::Draw& draw) {
+    return std::any_of(draw.attributes.begin(), draw.attributes.end(),
+                       [](const cases::Attribute& a) {
+                           return a.auxiliary == cases::Auxiliary::centroid ||
+                                  a.probe == cases::Probe::at_centroid;
+                       });
+}
+
+template <class T>
+std::vector<Evaluation<T>> evaluations(const Fragment& f, Profile profile) {
+    const Spot centre{f.id.x + 0.5, f.id.y + 0.5};
+    const Spot own = spot_of(f, f.id.sample);
+    const Point<T> sample = point_of<T>(own);
+    if (f.target->samples == 1 && centre == own) {
+        return {{{sample}, {}, sample, {sample}, false}};
+    }
+    const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
+    std::vector<Spot> undecorated = {centre};
+    std::vector<Spot> centroid;
+    if (f.target->samples == 1) {
+        undecorated.push_back(own);
+        centroid = undecorated;
+    } else {
+        add_invocations(f, rate, undecorated);
+        if (rate == ShadingRate::sample) {
+            std::swap(undecorated.front(), undecorated.back());  // the own sample is likelier
+        }
+        if (has_centroid(*f.draw)) {
+            add_centroids(f, centre, centroid);
+            add_invocations(f, rate, centroid);
+        }
+        if (centroid.empty()) {
+            centroid = {own};
+        }
+    }
+    // FragCoord.z and w: "not fully specified" under sample shading (Vulkan-Docs issue 1544); the
+    // hull over the centre and the samples that the invocation may stand for.
+    std::vector<Point<T>> frag_coord = {point_of<T>(centre), sample};
+    if (rate == ShadingRate::some) {
+        for (uint32_t s = 0; s < f.target->samples; ++s) {
+            frag_coord.push_back(point_of<T>(spot_of(f, s)));
+        }
+    }
+    std::vector<Evaluation<T>> all;
+    for (const Spot& u : undecorated) {
+        for (const Spot& c : centroid) {
+            all.push_back({{point_of<T>(u)}, frag_coord, sample, {point_of<T>(c)}, false});
+        }
+    }
+    if (profile == Profile::direct3d) {
+        return all;
+    }
+    if (f.target->samples == 1) {
+        const std::vector<Point<T>> both = {point_of<T>(centre), sample};
+        all.push_back({both, {}, sample, both, false});
+        return all;
+    }
+    // Anywhere: a linear function, and a quotient of two where the denominator stays positive, is
+    // largest at a corner. At profile practice one place has to explain all inputs of a fragment
+    // that are decorated alike, as every known device has it.
+    const double x = f.id.x;
+    const double y = f.id.y;
+    Evaluation<T> anywhere;
+    anywhere.attributes = {{T(x), T(y)}, {T(x + 1), T(y)}, {T(x + 1), T(y + 1)}, {T(x), T(y + 1)}};
+    if (profile == Profile::practice) {  // Vulkan's text says nothing of FragCoord.z's place at all
+        anywhere.frag_coord = frag_coord;
+    }
+    anywhere.sample = sample;
+    for (const Point<mpq_class>& p : f.region) {
+        anywhere.centroid.push_back({from_exact<T>(p.x), from_exact<T>(p.y)});
+    }
+    if (anywhere.centroid.empty()) {
+        anywhere.centroid = {sample};
+    }
+    anywhere.is_one_point = profile == Profile::practice;
+    all.push_back(std::move(anywhere));
+    return all;
+}
+
+template std::vector<Evaluation<Ball>> evaluations<Ball>(const Fragment&, Profile);
+template std::vector<Evaluation<mpq_class>> evaluations<mpq_class>(const Fragment&, Profile);
+
+}  // namespace ref::value

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where in its pixel a fragment's inputs may be evaluated.
+//
+// Vulkan specification, "Interpolation Decorations": "an implementation-defined position within the
+// fragment area"; Centroid: one that must "also fall within the bounds of the primitive"; Sample:
+// at the sample; with one sample a pixel: at the centre, or at the sample where its location can be
+// chosen. Direct3D 11.3, 3.5.5 and 16.3-16.5: the centre; centroid: the centre if all samples are
+// covered, else the first covered one in the order of indices, after the sample mask.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/value/accept/judge_candidates.hpp"
+#include "ref/value/fragment/fragment_coverage.hpp"
+#include "ref/value/value.hpp"
+
+namespace ref::value {
+
+// How often the fragment shader runs for a fragment (Vulkan specification, "Sample Shading").
+enum class ShadingRate : uint8_t {
+    fragment,   // sample shading is off
+    may_split,  // an input is decorated with Sample, which "may" turn it on
+    some,       // it is on, with fewer invocations than samples required
+    sample,     // one invocation a sample is required
+};
+ShadingRate shading_rate(const cases::Draw& draw, uint32_t samples);
+
+// The fewest invocations that a fragment must have.
+uint32_t least_invocations(const cases::Draw& draw, uint32_t samples);
+
+// What the places of one fragment depend on.
+struct Fragment {
+    SampleId id;
+    const cases::Target* target = nullptr;
+    const cases::Draw* draw = nullptr;
+    PixelCoverage coverage;                // only if an input is decorated with Centroid
+    std::vector<Point<mpq_class>> region;  // likewise: pixel and primitive
+};
+
+bool has_centroid(const cases::Draw& draw);
+
+// The alternatives, the likeliest first.
+template <class T>
+std::vector<Evaluation<T>> evaluations(const Fragment& fragment, cases::Profile profile);
+
+}  // namespace ref::value

@@ -1,0 +1,323 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ValueReference keeps of a case: bases and filters by triangle, sets of candidates, coverage
+// by profile. Judging is judge.cpp, what is wrong and at which level mismatch.cpp, what
+// to expect expected_values.cpp.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ref/value/accept/filter.hpp"
+#include "ref/value/accept/judge_candidates.hpp"
+#include "ref/value/accept/probe.hpp"
+#include "ref/value/fragment/fragment_coverage.hpp"
+#include "ref/value/fragment/promise.hpp"
+#include "ref/value/places.hpp"
+#include "ref/value/value.hpp"
+
+namespace ref {
+
+namespace value {
+
+// Sets of candidates are large (up to 64 bases) and needed for few triangles: the last ones are
+// kept.
+template <class T>
+class WideCache {
+  public:
+    explicit WideCache(size_t capacity) : capacity_(capacity) {}
+
+    template <class Make>
+    const WideSet<T>& get(uint32_t t, cases::Profile profile, Make make) {
+        for (const Entry& e : entries_) {
+            if (e.triangle == t && e.profile == profile) {
+                return e.set;
+            }
+        }
+        if (entries_.size() == capacity_) {
+            entries_.pop_front();
+        }
+        entries_.push_back({t, profile, make()});
+        return entries_.back().set;
+    }
+
+  private:
+    struct Entry {
+        uint32_t triangle;
+        cases::Profile profile;
+        WideSet<T> set;
+    };
+    size_t capacity_;
+    std::deque<Entry> entries_;
+};
+
+struct Loaded {
+    Primitive primitive;
+    Filter unsnapped, snapped;
+    bool has_filters = false;                      // the two are made when first asked for
+    bool has_snapped = false;                      // and it differs from the unsnapped one
+    std::optional<std::vector<Promise>> promises;  // filled when first asked for
+};
+
+// A number as read back, and its bits.
+inline std::string bits_of(float f) {
+    return fmt::format("{:.9g} (0x{:08x})", f, std::bit_cast<uint32_t>(f));
+}
+
+// Depth that is stored as it is interpolated: the filters know no other.
+inline bool is_plain_depth(const Primitive& primitive) {
+    const cases::DepthState& depth = primitive.draw->depth;
+    return primitive.depth_format == cases::DepthFormat::d32_float && !depth.bias && !depth.clamp;
+}
+
+// The depth that a device most likely stores, from the exact one of its plane.
+double nominal_depth(const Primitive& primitive, const Basis<mpq_class>& basis, double z,
+                     cases::Profile profile);
+
+}  // namespace value
+
+struct ValueReference::Impl {
+    using Ball = value::Ball;
+    using Kind = value::Kind;
+    using Loaded = value::Loaded;
+    using Profile = cases::Profile;
+    using Quantity = value::Quantity;
+
+    const cases::Case& c;
+    Limits limits;
+    Profile profile;
+    std::vector<Triangle> triangles;
+    std::vector<std::vector<Quantity>> quantities;  // by draw
+    std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
+    std::deque<uint32_t> order;                     // of the loaded ones, oldest first
+    static constexpr size_t kKeptTriangles = 16384;
+    value::WideCache<Ball> balls{64};
+    value::WideCache<mpq_class> rationals{4};
+    std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)>
+        coverage;  // by profile
+    uint32_t text_triangle = 0;
+    std::optional<value::Basis<mpq_class>> text_basis;
+    uint32_t range_triangle = 0;
+    SampleId range_id;
+    std::vector<value::Evaluation<Ball>> range_places;
+    FragmentPart part = FragmentPart::all;  // of the fragment being judged
+    bool is_brief = false;                  // judge_briefly
+    ValueSelection selection;
+    std::vector<std::vector<Quantity>> selected;  // the quantities of it, by draw
+
+    Impl(const cases::Case& the_case, const Limits& the_limits, Profile the_profile)
+        : c(the_case), limits(the_limits), profile(the_profile), triangles(assemble(the_case)) {
+        for (const cases::Draw& draw : c.draws) {
+            quantities.push_back(value::quantities(draw, c.target));
+        }
+        loaded.resize(triangles.size());
+        selected = quantities;
+    }
+
+    const std::vector<Quantity>& quantities_of(uint32_t t) const {
+        return quantities[triangles[t].draw];
+    }
+
+    Loaded& load(uint32_t t) {
+        std::unique_ptr<Loaded>& slot = loaded[t];
+        if (slot) {
+            return *slot;
+        }
+        slot = std::make_unique<Loaded>();
+        // Samples come row by row: what was not asked for longest is not asked for soon.
+        order.push_back(t);
+        if (order.size() > kKeptTriangles) {
+            loaded[order.front()].reset();
+            order.pop_front();
+        }
+        slot->primitive = value::make_primitive(c, triangles[t]);
+        return *slot;
+    }
+
+    // The same with the filters, which only a fragment's verdict needs.
+    const Loaded& load_filters(uint32_t t) {
+        Loaded& slot = load(t);
+        if (slot.has_filters) {
+            return slot;
+        }
+        slot.has_filters = true;
+        const auto inputs = value::plane_inputs<Ball>(slot.primitive, quantities_of(t));
+        const auto ideal = value::ideal_vertices<Ball>(slot.primitive);
+        slot.unsnapped = make_filter(make_basis(ideal, inputs, kBudgetFactor));
+        const auto at = snapped_positions(slot.primitive, limits);
+        if (at) {
+            const auto moved = value::moved_vertices<Ball>(slot.primitive, *at);
+            for (size_t i = 0; i < 3; ++i) {
+                // Not provably the same position: a basis of its own.
+                slot.has_snapped = slot.has_snapped || is_other(moved.hx[i], ideal.hx[i]) ||
+                                   is_other(moved.hy[i], ideal.hy[i]);
+            }
+            if (slot.has_snapped) {
+                slot.snapped = make_filter(make_basis(moved, inputs, kBudgetFactor));
+            }
+        }
+        return slot;
+    }
+
+    FragmentCoverage& coverage_at(Profile at) {
+        auto& slot = coverage.at(static_cast<size_t>(at));
+        if (!slot) {
+            slot = std::make_unique<FragmentCoverage>(c, limits, at, triangles);
+        }
+        return *slot;
+    }
+
+    // Where the fragment is, and what a profile says of its coverage if anything depends on it.
+    value::Fragment fragment(uint32_t t, SampleId id, Profile at, bool is_exact = false) {
+        value::Fragment f = covered_fragment(t, id, at, is_exact);
+        if (at != Profile::direct3d && c.target.samples > 1 && value::has_centroid(*f.draw)) {
+            f.region = coverage_at(at).region(t, id.x, id.y);
+        }
+        return f;
+    }
+
+    // The same without the part of the pixel that lies in the primitive, which takes rationals.
+    value::Fragment covered_fragment(uint32_t t, SampleId id, Profile at, bool is_exact) {
+        value::Fragment f;
+        f.id = id;
+        f.target = &c.target;
+        f.draw = &c.draws[triangles[t].draw];
+        const bool has_mask =
+            std::any_of(quantities_of(t).begin(), quantities_of(t).end(),
+                        [](const Quantity& q) { return q.kind == Kind::sample_mask; });
+        const bool has_centroid = c.target.samples > 1 && value::has_centroid(*f.draw);
+        if (has_mask || has_centroid) {
+            FragmentCoverage& cover = coverage_at(at);
+            f.coverage = is_exact ? cover.exact(t, id.x, id.y) : cover.of(t, id.x, id.y);
+        }
+        return f;
+    }
+
+    value::ProbePlace probe_place(uint32_t t, SampleId id, Profile at) const {
+        return {id, &c.target, &c.draws[triangles[t].draw], limits, at};
+    }
+
+    // Whether one of the two nominal bases is proven to explain all numbers of the fragment.
+    bool filter(uint32_t t, SampleId id, const FragmentValues& device, FragmentVerdict& out);
+
+    // The unsnapped basis in rationals, for texts; the last one is kept.
+    const value::Basis<mpq_class>& exact_basis(uint32_t t) {
+        if (text_triangle != t || !text_basis) {
+            const value::Primitive& primitive = load(t).primitive;
+            text_basis = make_basis(value::ideal_vertices<mpq_class>(primitive),
+                                    value::plane_inputs<mpq_class>(primitive, quantities_of(t)),
+                                    kBudgetFactor);
+            text_triangle = t;
+        }
+        return *text_basis;
+    }
+
+    // Whether the part of the fragment that is being judged has the quantity.
+    bool is_part(const Quantity& q) const {
+        return selection.has(q.attribute) &&
+               (part == FragmentPart::all ||
+                (q.attribute == kDepthAttribute) == (part == FragmentPart::depth));
+    }
+
+    static bool is_other(const Ball& a, const Ball& b) {
+        return std::fabs(a.v - b.v) > 0 || a.e > std::fabs(a.v) * 0x1p-40;
+    }
+
+    const std::vector<value::Promise>& promises(uint32_t t) {
+        Loaded& triangle = load(t);
+        if (!triangle.promises) {
+            triangle.promises = value::promises_of(triangle.primitive, quantities_of(t));
+        }
+        return *triangle.promises;
+    }
+
+    // Whether the profile asks for a quantity.
+    bool is_asked(uint32_t t, size_t index, Profile at) {
+        const value::Promise& promise = promises(t)[index];
+        return is_part(quantities_of(t)[index]) && promise.is_number &&
+               (at != Profile::vulkan || promise.is_guaranteed);
+    }
+    std::vector<size_t> asked(uint32_t t, Profile at) {
+        std::vector<size_t> out(quantities_of(t).size());
+        std::iota(out.begin(), out.end(), size_t{0});
+        std::erase_if(out, [&](size_t index) { return !is_asked(t, index, at); });
+        return out;
+    }
+
+    // Where the fragment's inputs may be evaluated at the profile; the last answer is kept.
+    const std::vector<value::Evaluation<Ball>>& places_of_range(uint32_t t, SampleId id) {
+        if (range_places.empty() || range_triangle != t || !(range_id == id)) {
+            range_places = value::evaluations<Ball>(fragment(t, id, profile), profile);
+            range_triangle = t;
+            range_id = id;
+        }
+        return range_places;
+    }
+
+    value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at) {
+        const std::vector<size_t> only = asked(t, at);
+        if (only.empty()) {
+            return {true, true, ref::Basis::unsnapped, {}, {}, {}};
+        }
+        const value::Primitive& primitive = load(t).primitive;
+        const std::vector<Quantity>& q = quantities_of(t);
+        const value::WideSet<Ball>& set =
+            balls.get(t, at, [&] { return value::make_wide_set<Ball>(primitive, q, limits, at); });
+        if (set.is_known) {
+            value::WideVerdict verdict =
+                judge_wide(set, std::span<const Quantity>(q), primitive.is_projectable,
+                           value::evaluations<Ball>(fragment(t, id, at), at),
+                           probe_place(t, id, at), device, only);
+            if (verdict.is_known) {
+                return verdict;
+            }
+        }
+        const value::WideSet<mpq_class>& exact = rationals.get(
+            t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
+        return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
+                          value::evaluations<mpq_class>(fragment(t, id, at), at),
+                          probe_place(t, id, at), device, only);
+    }
+
+    // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
+    std::vector<size_t> failing_at(uint32_t t, SampleId id, const FragmentValues& device,
+                                   Profile at);
+
+    // The oracle: rationals only, no filter.
+    value::WideVerdict wide_exact(uint32_t t, SampleId id, const FragmentValues& device,
+                                  Profile at) {
+        const std::vector<size_t> only = asked(t, at);
+        if (only.empty()) {
+            return {true, true, ref::Basis::unsnapped, {}, {}, {}};
+        }
+        const value::Primitive& primitive = load(t).primitive;
+        const std::vector<Quantity>& q = quantities_of(t);
+        const value::WideSet<mpq_class>& exact = rationals.get(
+            t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
+        return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
+                          value::evaluations<mpq_class>(fragment(t, id, at, true), at),
+                          probe_place(t, id, at), device, only);
+    }
+
+    void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
+                    FragmentVerdict& out) const;
+    void judge_samples(uint32_t t, SampleId id, const FragmentValues& device, bool exact_only,
+                       FragmentVerdict& out);
+    std::vector<Profile> levels_of(uint32_t t, SampleId id, const FragmentValues& device,
+                                   const std::vector<size_t>& failing);
+    void describe(uint32_t t, SampleId id, const FragmentValues& device,
+                  const value::WideVerdict& verdict, FragmentVerdict& out);
+    FragmentVerdict judge(uint32_t t, SampleId id, const FragmentValues& device, bool exact_only);
+};
+
+}  // namespace ref

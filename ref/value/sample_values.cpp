@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/value/sample_values.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "ref/number/sample.hpp"
+
+namespace ref::value {
+
+namespace {
+
+using cases::Profile;
+
+struct Pair {
+    float x = 0, y = 0;  // multiples of 1/16 below 2^15: exact in binary32
+};
+
+bool same_bits(float a, float b) {
+    return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+}
+
+Pair location(const Fragment& f, uint32_t s) {
+    const auto& at = sample_locations(*f.target)[s];
+    return {static_cast<float>(at[0]) / 16.0F, static_cast<float>(at[1]) / 16.0F};
+}
+
+Pair in_framebuffer(const Fragment& f, const Pair& in_pixel) {
+    return {static_cast<float>(f.id.x) + in_pixel.x, static_cast<float>(f.id.y) + in_pixel.y};
+}
+
+Pair centre_of(const Fragment& f) {
+    return in_framebuffer(f, {0.5F, 0.5F});
+}
+
+// Where FragCoord.xy may be.
+std::vector<Pair> frag_coords(const Fragment& f, Profile profile) {
+    const Pair centre = centre_of(f);
+    const Pair own = in_framebuffer(f, location(f, f.id.sample));
+    std::vector<Pair> all_samples;
+    for (uint32_t s = 0; s < f.target->samples; ++s) {
+        all_samples.push_back(in_framebuffer(f, location(f, s)));
+    }
+    switch (shading_rate(*f.draw, f.target->samples)) {
+        case ShadingRate::fragment:
+            return {centre};
+        case ShadingRate::may_split:
+            if (profile != Profile::vulkan) {
+                return {centre, own};
+            }
+            all_samples.push_back(centre);
+            return all_samples;
+        case ShadingRate::some:
+            // A minimum of one invocation asks for nothing that a fragment without sample shading
+            // does not have; devices then leave it off.
+            if (least_invocations(*f.draw, f.target->samples) == 1) {
+                all_samples.insert(all_samples.begin(), centre);
+            }
+            return all_samples;
+        case ShadingRate::sample:
+            break;
+    }
+    return profile == Profile::vulkan ? all_samples : std::vector<Pair>{own};
+}
+
+std::vector<Pair> sample_positions(const Fragment& f, Profile profile) {
+    if (profile != Profile::vulkan) {
+        return {location(f, f.id.sample)};
+    }
+    std::vector<Pair> all;
+    for (uint32_t s = 0; s < f.target->samples; ++s) {
+        all.push_back(location(f, s));
+    }
+    return all;
+}
+
+// Component `c` of `got` is blamed if no pair has it, or if no pair has both and it is the first.
+bool is_in(std::span<const Pair> pairs, const Pair& got, uint32_t c) {
+    bool has_x = false, has_y = false, has_both = false;
+    for (const Pair& p : pairs) {
+        const bool x = same_bits(p.x, got.x);
+        const bool y = same_bits(p.y, got.y);
+        has_x = has_x || x;
+        has_y = has_y || y;
+        has_both = has_both || (x && y);
+    }
+    return has_both || (c == 0 ? has_x && !has_y : has_y);
+}
+
+// A whole number in [0, 2^16), or -1.
+int64_t whole(float v) {
+    return v >= 0.0F && v < 0x1p16F && same_bits(v, std::floor(v)) ? static_cast<int64_t>(v) : -1;
+}
+
+// gl_SampleMaskIn of the invocation that writes the sample: all of `must`, nothing beyond `may`.
+struct MaskBounds {
+    uint32_t own = 0, must = 0, may = 0;
+};
+MaskBounds mask_bounds(const Fragment& f) {
+    const uint32_t own = 1U << f.id.sample;
+    const uint32_t state = f.draw->multisample.sample_mask;
+    return {own, (f.coverage.must & state) | own, (f.coverage.may & state) | own};
+}
+
+bool is_mask_in(const Fragment& f, float value, Profile profile) {
+    const int64_t got = whole(value);
+    if (got < 0) {
+        return false;
+    }
+    const auto mask = static_cast<uint32_t>(got);
+    const auto [own, must, may] = mask_bounds(f);
+    if ((mask & own) == 0 || (mask & ~may) != 0) {
+        return false;
+    }
+    switch (shading_rate(*f.draw, f.target->samples)) {
+        case ShadingRate::fragment:
+            return !f.coverage.is_one_fragment || (mask & must) == must;
+        case ShadingRate::may_split:
+        case ShadingRate::some:
+            return true;
+        case ShadingRate::sample:
+            break;
+    }
+    return profile == Profile::vulkan || mask == own;
+}
+
+// "or A, B": component `c` of the pairs, but for `nominal`, each once.
+std::string others(std::span<const Pair> pairs, uint32_t c, float nominal) {
+    std::vector<float> numbers;
+    for (const Pair& p : pairs) {
+        const float n = c == 0 ? p.x : p.y;
+        if (!same_bits(n, nominal) && std::none_of(numbers.begin(), numbers.end(),
+                                                   [n](float m) { return same_bits(n, m); })) {
+            numbers.push_back(n);
+        }
+    }
+    return numbers.empty() ? "" : fmt::format("or {}", fmt::join(numbers, ", "));
+}
+
+}  // namespace
+
+bool is_sample_kind(Kind kind) {
+    return kind == Kind::pixel_centre || kind == Kind::sample_mask || kind == Kind::sample_id ||
+           kind == Kind::sample_position;
+}
+
+bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, Profile profile) {
+    const float got = q.get(device);
+    switch (q.kind) {
+        case Kind::pixel_centre: {
+            const Pair at{device.frag_coord.x, device.frag_coord.y};
+            if (shading_rate(*f.draw, f.target->samples) == ShadingRate::fragment) {
+                const Pair centre = centre_of(f);  // the only one; no list for every fragment
+                return is_in({&centre, 1}, at, q.component);
+            }
+            return is_in(frag_coords(f, profile), at, q.component);
+        }
+        case Kind::sample_position: {
+            const glm::vec4& v = device.attributes[static_cast<size_t>(q.attribute)];
+            return is_in(sample_positions(f, profile), {v.x, v.y}, q.component);
+        }
+        case Kind::sample_id:
+            return profile == Profile::vulkan
+                       ? whole(got) >= 0 && whole(got) < int64_t{f.target->samples}
+                       : whole(got) == int64_t{f.id.sample};
+        case Kind::sample_mask:
+            return is_mask_in(f, got, profile);
+        case Kind::linear:
+        case Kind::perspective:
+        case Kind::flat:
+        case Kind::probe:
+            break;
+    }
+    return true;
+}
+
+float nominal_number(const Fragment& f, const Quantity& q) {
+    const auto component = [&](const Pair& p) { return q.component == 0 ? p.x : p.y; };
+    const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
+    switch (q.kind) {
+        case Kind::pixel_centre:
+            return component(rate == ShadingRate::sample
+                                 ? in_framebuffer(f, location(f, f.id.sample))
+                                 : frag_coords(f, Profile::direct3d).front());
+        case Kind::sample_position:
+            return component(location(f, f.id.sample));
+        case Kind::sample_id:
+            return static_cast<float>(f.id.sample);
+        case Kind::sample_mask:
+            return static_cast<float>(rate == ShadingRate::sample
+                                          ? 1U << f.id.sample
+                                          : f.coverage.may & f.draw->multisample.sample_mask &
+                                                0xffffU);
+        case Kind::linear:
+        case Kind::perspective:
+        case Kind::flat:
+        case Kind::probe:
+            break;
+    }
+    return 0;
+}
+
+std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) {
+    const float number = nominal_number(f, q);
+    const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
+    switch (q.kind) {
+        case Kind::pixel_centre:
+            return others(frag_coords(f, profile), q.component, number);
+        case Kind::sample_position:
+            return others(sample_positions(f, profile), q.component, number);
+        case Kind::sample_id:
+            return profile == Profile::vulkan && f.target->samples > 1
+                       ? "or that of another sample of the pixel"
+                       : "";
+        case Kind::sample_mask: {
+            const auto [own, must, may] = mask_bounds(f);
+            if (may == own || (rate == ShadingRate::sample && profile != Profile::vulkan)) {
+                return "";
+            }
+            if (rate == ShadingRate::fragment && f.coverage.is_one_fragment) {
+                return must == may ? "" : fmt::format("or others from {:#b} to {:#b}", must, may);
+            }
+            return fmt::format("or others of {:#b} with sample {}", may, f.id.sample);
+        }
+        case Kind::linear:
+        case Kind::perspective:
+        case Kind::flat:
+        case Kind::probe:
+            break;
+    }
+    return {};
+}
+
+std::string allowed_text(const Fragment& f, const Quantity& q, Profile profile) {
+    const std::string also = also_allowed(f, q, profile);
+    if (!also.empty()) {
+        return fmt::format("{} {}", nominal_number(f, q), also);
+    }
+    const bool is_centre = q.kind == Kind::pixel_centre &&
+                           shading_rate(*f.draw, f.target->samples) == ShadingRate::fragment;
+    return fmt::format("{} exactly, {}", nominal_number(f, q),
+                       is_centre                     ? "the pixel centre"
+                       : q.kind == Kind::sample_mask ? "the covered samples of the invocation"
+                                                     : fmt::format("sample {}", f.id.sample));
+}
+
+}  // namespace ref::value

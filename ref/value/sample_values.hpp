@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Values of a fragment that are one of a few exact numbers: FragCoord.xy, gl_SampleMaskIn,
+// gl_SampleID and gl_SamplePosition.
+//
+// Vulkan specification, "Built-In Variables". FragCoord.xy: "the location of the center of the
+// fragment", or with sample shading "of one of the samples corresponding to the shader invocation".
+// SampleMask: "the subset of the covered samples for the fragment that correspond to the
+// invocation", each covered sample in exactly one of them. How the samples are handed to fewer
+// invocations than samples is free; that an invocation a sample has the sample itself is practice.
+#pragma once
+
+#include <string>
+
+#include "ref/value/fragment/fragment_coverage.hpp"
+#include "ref/value/fragment/quantities.hpp"
+#include "ref/value/places.hpp"
+#include "ref/value/value.hpp"
+
+namespace ref::value {
+
+bool is_sample_kind(Kind kind);
+
+// Whether a device may have the value of a quantity of these kinds under the profile.
+// `fragment.coverage` is that of the profile.
+bool may_be(const Fragment& fragment, const Quantity& quantity, const FragmentValues& device,
+            cases::Profile profile);
+
+// The likeliest number; what is allowed besides, as "or 1.375, 1.875", empty if nothing is; and
+// all of it in words.
+float nominal_number(const Fragment& fragment, const Quantity& quantity);
+std::string also_allowed(const Fragment& fragment, const Quantity& quantity,
+                         cases::Profile profile);
+std::string allowed_text(const Fragment& fragment, const Quantity& quantity,
+                         cases::Profile profile);
+
+}  // namespace ref::value

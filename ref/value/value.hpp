@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What values a fragment may carry: attributes (smooth, noperspective, flat), FragCoord and depth.
+//
+// A smooth value is f = N/D with N = sum b_i f_i/w_i and D = sum b_i/w_i (Vulkan specification,
+// "Polygon barycentrics"; Brown, "Barycentric Coordinates as Interpolants", eq. 4 and 5); a
+// noperspective value, depth and 1/w are linear. The device may set the planes up from snapped or
+// unsnapped positions, or from a clipped piece's vertices, but one basis has to explain all values
+// of a fragment. Around each basis the binary32 budget of docs/precision.md, times K
+// (exact_budget_factor), is accepted.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
+#include "ref/number/sample.hpp"
+#include "ref/position/limits.hpp"
+#include "ref/position/triangle.hpp"
+
+namespace ref {
+
+// Accepted error in units of the budget. Measured maxima of every driver stand in
+// docs/precision.md.
+inline constexpr int kBudgetFactor = 2;  // K of practice and direct3d
+
+// Budgets that are proven to hold to first order for the evaluations of docs/precision.md.
+inline constexpr int kProvenFactor = 8;
+
+// K of a profile. At vulkan an operation may be wrong by about 1 part in 10^5
+// (value::kVulkanRoundoff) instead of u = 2^-24 (value::kUnitRoundoff), of which the budget is
+// made, and K is the proven factor: 8 x 10^-5 / u, about 1342.
+inline mpq_class exact_budget_factor(cases::Profile profile) {
+    constexpr int64_t kParts = 100000;
+    constexpr int64_t kUnits = 1 << 24;
+    return profile == cases::Profile::vulkan ? mpq_class(kProvenFactor * kUnits) / kParts
+                                             : mpq_class(kBudgetFactor);
+}
+// Rounded, for texts.
+inline double budget_factor(cases::Profile profile) {
+    return exact_budget_factor(profile).get_d();
+}
+
+// What the device drew at one sample.
+struct FragmentValues {
+    glm::vec4 frag_coord{};
+    float depth = 0;
+    std::array<glm::vec4, cases::kMaxAttributes> attributes{};
+};
+
+// From what the device may have set up its planes.
+enum class Basis : uint8_t { unsnapped, snapped, clipped_piece };
+
+// One value that no basis explains.
+struct ValueMismatch {
+    std::string quantity;                             // "attribute 1.x", "depth", "frag_coord.w"
+    std::string rule;                                 // rule id
+    cases::Profile level = cases::Profile::practice;  // loosest profile at which it is wrong
+    std::string expected;                             // exact value, budget, as text
+    std::string got;                                  // value and bits
+    double ratio = 0;  // |got - expected| / budget of the best basis; may be infinite
+};
+
+struct FragmentVerdict {
+    bool ok = true;
+    Basis basis = Basis::unsnapped;  // the basis that explains the fragment best
+    double worst_ratio = 0;          // largest |error| / budget over its values under that basis
+    // The value that has it, as in ValueMismatch; empty if none has an error. Refers to the
+    // ValueReference.
+    std::string_view worst_quantity;
+    std::vector<ValueMismatch> mismatches;
+};
+
+// One value as the reference has it, for pictures and explanations.
+struct ExpectedValue {
+    std::string quantity;
+    std::string exact;      // "p/q"
+    double nearest = 0;     // the exact value rounded
+    double budget = 0;      // one budget, absolute
+    double factor = 0;      // so many budgets are accepted; 0: what is accepted is not told in them
+    bool is_flat = false;   // compared bit for bit
+    std::string also = {};  // "or 1.375": what else is right
+};
+
+// All that a value may be under a profile, rounded outwards to binary64.
+struct ValueRange {
+    bool is_promised = false;  // false: nothing is claimed of the value
+    double low = 0, high = 0;
+};
+inline constexpr int32_t kDepthAttribute = -2;
+
+// The values that somebody delivered; the others of a FragmentValues mean nothing then.
+struct ValueSelection {
+    bool frag_coord = true, depth = true;
+    std::array<bool, cases::kMaxAttributes> attributes{true, true, true, true};
+    bool is_all() const { return *this == ValueSelection{}; }
+    // `attribute` as in Quantity: an index, -1 FragCoord, -2 depth.
+    bool has(int32_t attribute) const {
+        return attribute == kDepthAttribute ? depth
+               : attribute < 0              ? frag_coord
+                                            : attributes.at(static_cast<size_t>(attribute));
+    }
+    friend bool operator==(const ValueSelection&, const ValueSelection&) = default;
+};
+
+// Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
+// Which values of a fragment are judged: the depth plane may hold an older fragment than the
+// others, if the last one does not write depth.
+enum class FragmentPart : uint8_t { all, all_but_depth, depth };
+
+class ValueReference {
+  public:
+    ValueReference(const cases::Case& c, const Limits& limits, cases::Profile profile);
+    ~ValueReference();
+    ValueReference(ValueReference&&) noexcept;
+
+    // From now on only these values are judged; one basis has to explain those together.
+    void judge_only(const ValueSelection& selection);
+
+    // From now on a mismatch has its quantity and ratio only; its level is the asked profile. What
+    // a wholly broken device has thousands of, beyond those that a report tells.
+    void judge_briefly();
+
+    // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
+    FragmentVerdict judge(uint32_t t, SampleId sample, const FragmentValues& device,
+                          FragmentPart part = FragmentPart::all);
+
+    // The oracle: the same question answered by rationals alone, without any filter. Slow.
+    FragmentVerdict judge_exact(uint32_t t, SampleId sample, const FragmentValues& device,
+                                FragmentPart part = FragmentPart::all);
+
+    // The exact values of triangle t at a sample, unsnapped basis.
+    std::vector<ExpectedValue> expected(uint32_t t, SampleId sample);
+
+    // What component `component` of an attribute (index into Draw::attributes, or kDepthAttribute)
+    // may be; a point if it is flat. Components beyond the attribute's are 0.
+    ValueRange range(uint32_t t, SampleId sample, int32_t attribute, uint32_t component);
+    // The same of all components, in less time than one after another.
+    std::array<ValueRange, 4> ranges(uint32_t t, SampleId sample, int32_t attribute);
+
+  private:
+    void add_ranges(uint32_t t, SampleId sample, int32_t attribute,
+                    std::span<const uint32_t> components, std::array<ValueRange, 4>& out);
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ref

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/compare/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "report/text/sentences.hpp"
+
+namespace report {
+
+namespace {
+
+constexpr std::array<std::string_view, kChanges> kNames = {
+    "regression",     "fix",          "fails otherwise", "fails alike",
+    "other coverage", "other values", "only in some",    "same"};
+
+// How bad a status is; nothing for what was not judged.
+std::optional<int> severity(const CaseRecord* record) {
+    if (record == nullptr) {
+        return std::nullopt;
+    }
+    switch (actual_status(*record)) {
+        case Status::pass:
+            return 0;
+        case Status::flake:
+            return 1;
+        case Status::fail:
+            return 2;
+        case Status::device_lost:
+            return 3;
+        case Status::timeout:
+            return 4;
+        case Status::crash:
+            return 5;
+        default:
+            return std::nullopt;
+    }
+}
+
+// What identifies how a case fails, as far as both runs tell it.
+bool fails_alike(const CaseRecord& a, const CaseRecord& b) {
+    return a.counts == b.counts && a.level == b.level && a.signal == b.signal && a.bits == b.bits &&
+           actual_status(a) == actual_status(b);
+}
+
+Change change_of(const std::vector<const CaseRecord*>& records) {
+    const std::optional<int> first = severity(records.front());
+    bool worse = false, better = false, some = false, all = true;
+    for (const CaseRecord* record : records) {
+        const std::optional<int> s = severity(record);
+        some = some || s;
+        all = all && s;
+        worse = worse || (first && s && *s > *first);
+        better = better || (first && s && *s < *first);
+    }
+    if (worse) {
+        return Change::regression;
+    }
+    if (better) {
+        return Change::fix;
+    }
+    if (!all) {
+        const bool all_there =
+            std::all_of(records.begin(), records.end(), [](const auto* r) { return r != nullptr; });
+        return some || !all_there ? Change::only_in_some : Change::same;
+    }
+    bool alike = true, same_bits = true, same_hits = true;
+    for (const CaseRecord* record : records) {
+        alike = alike && fails_alike(*records.front(), *record);
+        same_bits = same_bits && record->bits == records.front()->bits;
+        same_hits = same_hits && record->hit_bits == records.front()->hit_bits;
+    }
+    if (*first > 0) {
+        return alike ? Change::fails_alike : Change::fails_otherwise;
+    }
+    return !same_hits ? Change::other_coverage : !same_bits ? Change::other_values : Change::same;
+}
+
+bool have_same_pictures(const CaseRecord& a, const CaseRecord& b) {
+    const Pictures &p = a.pictures, &q = b.pictures;
+    return p.width > 0 && p.width == q.width && p.height == q.height && p.left == q.left &&
+           p.top == q.top && p.device_hits.size() == q.device_hits.size() &&
+           p.device_hits.size() % (size_t{p.width} * p.height) == 0 && !p.device_hits.empty();
+}
+
+// "3 of 64 samples are hit otherwise in A and B, first (3,4)", from the kept pictures.
+std::string picture_detail(const CaseRecord& a, const CaseRecord& b, const std::string& names) {
+    const Pictures &p = a.pictures, &q = b.pictures;
+    const size_t samples = p.device_hits.size() / (size_t{p.width} * p.height);
+    size_t count = 0, first = 0;
+    for (size_t k = 0; k < p.device_hits.size(); ++k) {
+        if (p.device_hits[k] != q.device_hits[k]) {
+            first = count == 0 ? k : first;
+            ++count;
+        }
+    }
+    if (count == 0) {
+        return {};
+    }
+    const size_t pixel = first / samples;
+    return fmt::format("{} of {} samples hit otherwise in {}, first ({},{})", count,
+                       p.device_hits.size(), names, p.left + pixel % p.width,
+                       p.top + pixel / p.width);
+}
+
+// What a bad result is known by: "1 missing of 64 samples, tie.top-left [direct3d]".
+std::string short_reason(const CaseRecord& record) {
+    if (record.findings.empty()) {
+        return record.signal.empty() ? why_it_happened(record) : printable(record.signal);
+    }
+    const diff::Finding& f = leading_finding(record);
+    return printable(
+        fmt::format("{}, {} [{}]", counts_text(record), f.rule, cases::to_string(f.level)));
+}
+
+std::string detail_of(const ComparedCase& c, const std::vector<std::string>& letters) {
+    const CaseRecord* first = c.records.front();
+    switch (c.change) {
+        case Change::regression:
+        case Change::fix:
+        case Change::fails_otherwise:
+        case Change::fails_alike: {
+            // The worst one says why.
+            size_t worst = 0;
+            for (size_t k = 1; k < c.records.size(); ++k) {
+                const auto s = severity(c.records[k]);
+                worst = s && *s > severity(c.records[worst]).value_or(-1) ? k : worst;
+            }
+            std::string text = letters[worst] + ": " + short_reason(*c.records[worst]);
+            if (c.change == Change::fails_otherwise && worst == 0) {
+                text += "; " + letters[1] + ": " + short_reason(*c.records[1]);
+            }
+            return text;
+        }
+        case Change::other_coverage: {
+            for (size_t k = 1; k < c.records.size(); ++k) {
+                if (have_same_pictures(*first, *c.records[k])) {
+                    const std::string text =
+                        picture_detail(*first, *c.records[k], letters[0] + " and " + letters[k]);
+                    if (!text.empty()) {
+                        return text;
+                    }
+                }
+            }
+            // Each by its own subpixel grid.
+            std::string text;
+            for (size_t k = 0; k < c.records.size(); ++k) {
+                if (c.records[k] != nullptr) {
+                    text += fmt::format("{}{} of {} samples are free in {}", k == 0 ? "" : ", ",
+                                        c.records[k]->either_samples,
+                                        c.records[k]->compared_samples, letters[k]);
+                }
+            }
+            return text;
+        }
+        case Change::only_in_some:
+            for (size_t k = 0; k < c.records.size(); ++k) {
+                if (c.records[k] != nullptr && !severity(c.records[k])) {
+                    return letters[k] + ": " + why_it_happened(*c.records[k]);
+                }
+            }
+            return {};
+        case Change::other_values:
+        case Change::same:
+            break;
+    }
+    return {};
+}
+
+std::string letter(size_t k) {
+    return k < 26 ? std::string(1, static_cast<char>('A' + k)) : fmt::format("R{}", k + 1);
+}
+
+}  // namespace
+
+std::string_view to_string(Change change) {
+    return kNames.at(static_cast<size_t>(change));
+}
+
+cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs) {
+    if (runs.size() < 2) {
+        return tl::unexpected(cases::Error{{}, "comparing needs the folders of at least two runs"});
+    }
+    Comparison result;
+    const Run& first = runs.front().run;
+    for (size_t k = 0; k < runs.size(); ++k) {
+        const Run& run = runs[k].run;
+        result.letters.push_back(letter(k));
+        if (run.profile != first.profile) {
+            return tl::unexpected(cases::Error{
+                {},
+                fmt::format("{} is judged at profile {} and {} at {}; compare runs of one profile",
+                            runs.front().folder, cases::to_string(first.profile), runs[k].folder,
+                            cases::to_string(run.profile))});
+        }
+        if (run.suite_hash != first.suite_hash) {
+            result.remarks.push_back(fmt::format(
+                "the suites of {} and {} are not the same: a case may ask something else",
+                result.letters.front(), result.letters[k]));
+        }
+        if (run.device.subpixel_bits != first.device.subpixel_bits) {
+            result.remarks.push_back(
+                fmt::format("{} has {} subpixel bits and {} has {}: vertices snap to other places",
+                            result.letters.front(), first.device.subpixel_bits, result.letters[k],
+                            run.device.subpixel_bits));
+        }
+    }
+    std::map<std::string, size_t> index;
+    for (size_t k = 0; k < runs.size(); ++k) {
+        for (const CaseRecord& record : runs[k].run.cases) {
+            const auto [at, fresh] = index.emplace(record.id, result.cases.size());
+            if (fresh) {
+                result.cases.push_back({record.id, Change::same, {}, {}});
+                result.cases.back().records.resize(runs.size(), nullptr);
+            }
+            result.cases[at->second].records[k] = &record;
+            const Status status = actual_status(record);
+            result.unjudged += status == Status::error || status == Status::not_run ? 1U : 0U;
+        }
+    }
+    for (ComparedCase& c : result.cases) {
+        c.change = change_of(c.records);
+        c.detail = detail_of(c, result.letters);
+        std::replace(c.detail.begin(), c.detail.end(), '\n', ' ');
+        ++result.counts.at(static_cast<size_t>(c.change));
+    }
+    return result;
+}
+
+int exit_code(const Comparison& comparison) {
+    if (comparison.counts.at(static_cast<size_t>(Change::regression)) > 0) {
+        return kExitUnexpected;
+    }
+    return comparison.unjudged > 0 ? kExitInternal : kExitOk;
+}
+
+}  // namespace report

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two or more runs side by side: drivers, versions, renderers. What is compared is what happened,
+// not what an expectation file made of it.
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/base/error.hpp"
+#include "report/record/run.hpp"
+#include "report/text/reports.hpp"
+
+namespace report {
+
+struct NamedRun {
+    std::string folder;
+    Run run;
+};
+
+// What became of a case between the first run (A) and the others, the most important first.
+enum class Change : uint8_t {
+    regression,       // worse in a later run (pass < flake < fail < device_lost < timeout < crash)
+    fix,              // better in a later run, worse in none
+    fails_otherwise,  // bad in all, with other findings or other bits
+    fails_alike,      // bad in all, bit for bit the same
+    other_coverage,   // passes in all, other samples are hit: the reference allows both
+    other_values,     // passes in all with the same hits and other bits
+    only_in_some,     // not in a run, or not judged there (unsupported, skipped, not run, error)
+    same,             // passes in all, bit for bit the same, or is judged in none
+};
+inline constexpr size_t kChanges = 8;
+std::string_view to_string(Change change);  // "regression", "other coverage", ...
+
+struct ComparedCase {
+    std::string id;
+    Change change = Change::same;
+    std::vector<const CaseRecord*> records;  // one a run; null where the run has no such case
+    std::string detail;                      // one line; may be empty
+};
+
+struct Comparison {
+    std::vector<std::string> letters;  // "A", "B", ...
+    std::vector<ComparedCase> cases;   // in the order of the first run, then of the others
+    std::array<size_t, kChanges> counts{};
+    size_t unjudged =
+        0;  // cases that a run began with and that were not run or could not be judged
+    std::vector<std::string> remarks;  // what makes the runs less comparable, one sentence each
+};
+
+// Error, one sentence: fewer than two runs, or runs of different profiles. The pointers are into
+// `runs`.
+cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs);
+
+// 1 with a regression, else 7 if a run is not whole, else 0.
+int exit_code(const Comparison& comparison);
+
+// "regressions: 2 cases got worse"
+std::string heading(Change change, size_t count);
+// "exit 1: regressions"
+std::string exit_words(const Comparison& comparison);
+
+// The table for a terminal. style.verbose lists every case that is not the same and draws where the
+// kept pictures (--capture all) differ. The last line is `exit`, or, if empty, exit_words.
+std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison& comparison,
+                            const ConsoleStyle& style, const std::string& exit = {});
+// What the table's JSON and the page say alike of run `index`: its letter, folder, device, driver,
+// subpixel bits.
+nlohmann::ordered_json compared_run(const NamedRun& run, const Comparison& comparison,
+                                    size_t index);
+// docs/schema/comparison-1.json
+std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison& comparison);
+// One page that loads nothing: the runs, every case that is not the same, and where kept pictures
+// differ, at most some 6 MiB of them. `reports`: the address of each run's report.html as the page
+// sees it, to which the cases lead; empty without one.
+std::string comparison_html(const std::vector<NamedRun>& runs, const Comparison& comparison,
+                            const std::vector<std::string>& reports);
+
+}  // namespace report

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/compare/comparison.hpp"
+#include "report/journal/picture_codec.hpp"
+#include "report/page/page_parts.hpp"
+#include "report/text/sentences.hpp"
+
+namespace report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::string_view kPage =
+#include "embedded/compare.html.inc"
+    ;
+constexpr std::string_view kScripts[] = {
+#include "embedded/dom.js.inc"
+    ,
+#include "embedded/pictures.js.inc"
+    ,
+#include "embedded/compare.js.inc"
+    ,
+};
+
+constexpr size_t kMostPictures = size_t{6} << 20;  // bytes, as they stand in the page
+
+// The hits of each run, if they are there for two runs at least, of the same pixels, and differ.
+Json pictures_of(const ComparedCase& c) {
+    const Pictures* first = nullptr;
+    bool differs = false;
+    Json hits = Json::array();
+    for (const CaseRecord* record : c.records) {
+        const Pictures* p = record == nullptr ? nullptr : &record->pictures;
+        const bool has_hits = p != nullptr && p->width > 0 && p->height > 0 &&
+                              !p->device_hits.empty() &&
+                              p->device_hits.size() % (size_t{p->width} * p->height) == 0;
+        const bool fits = has_hits && (first == nullptr ||
+                                       (p->width == first->width && p->height == first->height &&
+                                        p->left == first->left && p->top == first->top &&
+                                        p->device_hits.size() == first->device_hits.size()));
+        if (!fits) {
+            hits.push_back(nullptr);
+            continue;
+        }
+        differs = differs || (first != nullptr && p->device_hits != first->device_hits);
+        first = first == nullptr ? p : first;
+        hits.push_back(encode_picture(p->device_hits));
+    }
+    if (!differs) {
+        return {};
+    }
+    return Json{{"width", first->width},
+                {"height", first->height},
+                {"left", first->left},
+                {"top", first->top},
+                {"layer_height", first->layer_height},
+                {"hits", hits}};
+}
+
+Json result_of(const CaseRecord* record) {
+    if (record == nullptr) {
+        return nullptr;
+    }
+    const Status status = actual_status(*record);
+    return Json{{"status", to_string(status)},
+                {"what", what_happened(*record)},
+                {"why", status == Status::pass ? std::string() : why_it_happened(*record)}};
+}
+
+Json data_of(const std::vector<NamedRun>& runs, const Comparison& comparison,
+             const std::vector<std::string>& reports) {
+    Json list = Json::array();
+    for (size_t k = 0; k < runs.size(); ++k) {
+        const Run& run = runs[k].run;
+        Json json = compared_run(runs[k], comparison, k);
+        json["cases"] = run.cases.size();
+        json["exit"] = exit_text(run);
+        json["report"] = reports[k];
+        list.push_back(std::move(json));
+    }
+    Json kinds = Json::array();
+    for (size_t k = 0; k < kChanges; ++k) {
+        const auto change = static_cast<Change>(k);
+        kinds.push_back(Json{{"name", to_string(change)},
+                             {"count", comparison.counts.at(k)},
+                             {"text", heading(change, comparison.counts.at(k))}});
+    }
+    size_t bytes = 0, left_out = 0;
+    Json cases = Json::array();
+    for (const ComparedCase& c : comparison.cases) {
+        if (c.change == Change::same) {
+            continue;
+        }
+        Json results = Json::array();
+        for (const CaseRecord* record : c.records) {
+            results.push_back(result_of(record));
+        }
+        Json one{{"id", printable(c.id)},
+                 {"change", to_string(c.change)},
+                 {"results", std::move(results)},
+                 {"detail", c.detail}};
+        if (Json pictures = pictures_of(c); !pictures.is_null()) {
+            const size_t size = pictures.dump().size();
+            if (bytes + size > kMostPictures) {
+                ++left_out;
+            } else {
+                bytes += size;
+                one["pictures"] = std::move(pictures);
+            }
+        }
+        cases.push_back(std::move(one));
+    }
+    return Json{{"profile", cases::to_string(runs.front().run.profile)},
+                {"runs", std::move(list)},
+                {"remarks", comparison.remarks},
+                {"kinds", std::move(kinds)},
+                {"cases", std::move(cases)},
+                {"pictures_left_out", left_out},
+                {"strings", Json::array()},
+                {"rules", Json::object()},
+                {"meanings", Json::object()}};
+}
+
+// For readers without a script.
+std::string table(const Comparison& comparison) {
+    std::string text = "<table><thead><tr><th scope=\"col\">change</th>";
+    for (const std::string& letter : comparison.letters) {
+        text += fmt::format("<th scope=\"col\">{}</th>", markup(letter));
+    }
+    text += "<th scope=\"col\">case</th><th scope=\"col\">detail</th></tr></thead><tbody>\n";
+    for (const ComparedCase& c : comparison.cases) {
+        if (c.change == Change::same) {
+            continue;
+        }
+        text += fmt::format("<tr><td>{}</td>", to_string(c.change));
+        for (const CaseRecord* record : c.records) {
+            text += fmt::format("<td>{}</td>",
+                                record == nullptr ? "-" : to_string(actual_status(*record)));
+        }
+        text += fmt::format("<td>{}</td><td>{}</td></tr>\n", markup(c.id), markup(c.detail));
+    }
+    return text + "</tbody></table>";
+}
+
+}  // namespace
+
+std::string comparison_html(const std::vector<NamedRun>& runs, const Comparison& comparison,
+                            const std::vector<std::string>& reports) {
+    std::string title = "edgecase:", script;
+    for (size_t k = 0; k < runs.size(); ++k) {
+        title += fmt::format("{} {}", k == 0 ? "" : " and", printable(runs[k].run.device.name));
+    }
+    for (const std::string_view part : kScripts) {
+        script += part;
+    }
+    const PageField fields[] = {
+        {"{{TITLE}}", markup(title)},
+        {"{{CSS}}", std::string(page_style())},
+        {"{{VERDICT}}", markup(exit_words(comparison))},
+        {"{{TABLE}}", table(comparison)},
+        {"{{DATA}}", script_data(data_of(runs, comparison, reports))},
+        {"{{SCRIPT}}", script},
+    };
+    return fill_page(kPage, fields);
+}
+
+}  // namespace report

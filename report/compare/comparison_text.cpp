@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "report/compare/comparison.hpp"
+#include "report/journal/record_codec.hpp"
+#include "report/text/sentences.hpp"
+#include "report/text/wrap.hpp"
+
+namespace report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr size_t kListed = 20;     // cases of a less important kind that are listed
+constexpr uint32_t kMaxSide = 64;  // characters and lines of a picture
+
+std::string status_word(const CaseRecord* record) {
+    std::string word(record == nullptr ? "-" : to_string(actual_status(*record)));
+    std::replace(word.begin(), word.end(), '_', ' ');
+    return word;
+}
+
+size_t listed(Change change, bool verbose) {
+    if (change == Change::same) {
+        return 0;
+    }
+    if (verbose || change == Change::regression || change == Change::fix) {
+        return static_cast<size_t>(-1);
+    }
+    return change == Change::other_values || change == Change::fails_alike ? 0 : kListed;
+}
+
+// Where two devices hit other samples: '#' both, '.' none, 'A' and 'B' one of them, '2' another
+// number of times.
+std::string picture(const ComparedCase& c, const std::vector<std::string>& letters,
+                    const ConsoleStyle& style) {
+    for (size_t k = 1; k < c.records.size(); ++k) {
+        if (c.records[0] == nullptr || c.records[k] == nullptr) {
+            continue;
+        }
+        const Pictures &p = c.records[0]->pictures, &q = c.records[k]->pictures;
+        const size_t pixels = size_t{p.width} * p.height;
+        if (pixels == 0 || p.width != q.width || p.height != q.height || p.left != q.left ||
+            p.top != q.top || p.device_hits.size() != q.device_hits.size() ||
+            p.device_hits == q.device_hits || p.device_hits.size() % pixels != 0) {
+            continue;
+        }
+        const size_t samples = p.device_hits.size() / pixels;
+        const uint32_t width = std::min({p.width, kMaxSide, std::max(style.width, 16U) - 8});
+        const uint32_t height = std::min(p.height, kMaxSide);
+        std::string text = fmt::format(
+            "    pixels ({},{}) to ({},{}): # both, . none, {} and {} one of them, "
+            "2 both, not as often\n",
+            p.left, p.top, p.left + width - 1, p.top + height - 1, letters[0], letters[k]);
+        for (uint32_t j = 0; j < height; ++j) {
+            text += "    ";
+            for (uint32_t i = 0; i < width; ++i) {
+                char mark = '.';
+                for (size_t s = 0; s < samples; ++s) {
+                    const size_t at = (size_t{j} * p.width + i) * samples + s;
+                    const unsigned a = p.device_hits[at], b = q.device_hits[at];
+                    if (a != b) {
+                        mark = a > 0 && b > 0 ? '2' : a > 0 ? letters[0][0] : letters[k][0];
+                        break;
+                    }
+                    mark = a > 0 ? '#' : mark;
+                }
+                text += mark;
+            }
+            text += '\n';
+        }
+        return text;
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string heading(Change change, size_t count) {
+    const std::string_view cases = count == 1 ? "case" : "cases";
+    switch (change) {
+        case Change::regression:
+            return fmt::format("regressions: {} {} got worse", count, cases);
+        case Change::fix:
+            return fmt::format("fixes: {} {} got better", count, cases);
+        case Change::fails_otherwise:
+            return fmt::format("fail in all, in different ways: {} {}", count, cases);
+        case Change::fails_alike:
+            return fmt::format("fail in all, bit for bit alike: {} {}", count, cases);
+        case Change::other_coverage:
+            return fmt::format("the reference allows both, other samples are hit: {} {}", count,
+                               cases);
+        case Change::other_values:
+            return fmt::format("pass with the same hits and other values within the budgets: {} {}",
+                               count, cases);
+        case Change::only_in_some:
+            return fmt::format("judged in some of the runs only: {} {}", count, cases);
+        case Change::same:
+            break;
+    }
+    return fmt::format("the same bit for bit: {} {}", count, cases);
+}
+
+std::string exit_words(const Comparison& comparison) {
+    const int code = exit_code(comparison);
+    return fmt::format("exit {}: {}", code,
+                       code == kExitOk           ? "no regression"
+                       : code == kExitUnexpected ? "regressions"
+                                                 : "no regression, but cases were not judged");
+}
+
+std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison& comparison,
+                            const ConsoleStyle& style, const std::string& exit) {
+    std::string text;
+    for (size_t k = 0; k < runs.size(); ++k) {
+        const Run& run = runs[k].run;
+        text += fmt::format("{}  {}  {}  {} {}  {} subpixel bits  profile {}  {} cases\n",
+                            comparison.letters[k], printable(runs[k].folder),
+                            printable(run.device.name), printable(run.device.driver_name),
+                            printable(run.device.driver_info), run.device.subpixel_bits,
+                            cases::to_string(run.profile), run.cases.size());
+    }
+    for (const std::string& remark : comparison.remarks) {
+        text += "note: " + remark + "\n";
+    }
+    size_t column = 4;
+    for (const ComparedCase& c : comparison.cases) {
+        for (const CaseRecord* record : c.records) {
+            column = std::max(column, status_word(record).size());
+        }
+    }
+    for (size_t kind = 0; kind < kChanges; ++kind) {
+        const auto change = static_cast<Change>(kind);
+        const size_t count = comparison.counts.at(kind);
+        if (count == 0) {
+            continue;
+        }
+        const bool loud = change == Change::regression;
+        const std::string title = heading(change, count);
+        text += style.color ? fmt::format("\x1b[{}m{}\x1b[0m\n", loud ? "1;31" : "1", title)
+                            : title + '\n';
+        const size_t most = listed(change, style.verbose);
+        size_t told = 0;
+        for (const ComparedCase& c : comparison.cases) {
+            if (c.change != change || told >= most) {
+                continue;
+            }
+            if (told++ == 0) {
+                text += "  ";
+                for (const std::string& name : comparison.letters) {
+                    text += fmt::format("{:<{}}  ", name, column);
+                }
+                text += "case\n";
+            }
+            text += "  ";
+            for (const CaseRecord* record : c.records) {
+                text += fmt::format("{:<{}}  ", status_word(record), column);
+            }
+            text += printable(c.id) + (c.detail.empty() ? "" : "   " + c.detail) + '\n';
+            if (style.verbose) {
+                text += picture(c, comparison.letters, style);
+            }
+        }
+        if (told > 0 && told < count) {
+            text += fmt::format("  and {} more (-v lists them)\n", count - told);
+        }
+    }
+    text += (exit.empty() ? exit_words(comparison) : exit) + '\n';
+    return style.wrap ? wrapped(text, style.width) : text;
+}
+
+Json compared_run(const NamedRun& run, const Comparison& comparison, size_t index) {
+    const Device& device = run.run.device;
+    return Json{{"name", comparison.letters[index]},
+                {"folder", printable(run.folder)},
+                {"device", printable(device.name)},
+                {"driver", printable(device.driver_name + " " + device.driver_info)},
+                {"subpixel_bits", device.subpixel_bits}};
+}
+
+std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison& comparison) {
+    Json list = Json::array();
+    for (size_t k = 0; k < runs.size(); ++k) {
+        const Run& run = runs[k].run;
+        Json json = compared_run(runs[k], comparison, k);
+        json["tool_version"] = printable(run.tool_version);
+        json["suite_hash"] = printable(run.suite_hash);
+        json["started"] = printable(run.started);
+        json["cases"] = run.cases.size();
+        list.push_back(std::move(json));
+    }
+    Json totals = Json::object();
+    for (size_t k = 0; k < kChanges; ++k) {
+        totals[std::string(to_string(static_cast<Change>(k)))] = comparison.counts.at(k);
+    }
+    Json cases = Json::array();
+    for (const ComparedCase& c : comparison.cases) {
+        if (c.change == Change::same) {
+            continue;
+        }
+        Json results = Json::array();
+        for (const CaseRecord* record : c.records) {
+            results.push_back(record == nullptr
+                                  ? Json(nullptr)
+                                  : Json{{"status", to_string(actual_status(*record))},
+                                         {"bits", printable(record->bits)},
+                                         {"hit_bits", printable(record->hit_bits)},
+                                         {"worst_ratio", encode_number(record->worst_ratio)}});
+        }
+        cases.push_back(Json{{"id", printable(c.id)},
+                             {"change", to_string(c.change)},
+                             {"results", results},
+                             {"detail", c.detail}});
+    }
+    Json remarks = Json::array();
+    for (const std::string& remark : comparison.remarks) {
+        remarks.push_back(remark);
+    }
+    const Json json{{"schema", "edgecase-comparison-1"},
+                    {"profile", cases::to_string(runs.front().run.profile)},
+                    {"runs", list},
+                    {"remarks", remarks},
+                    {"totals", totals},
+                    {"exit_code", exit_code(comparison)},
+                    {"cases", cases}};
+    return json.dump(1) + '\n';
+}
+
+}  // namespace report

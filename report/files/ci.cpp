@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/files/ci.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "report/text/causes.hpp"
+#include "report/text/reports.hpp"
+#include "report/text/sentences.hpp"
+
+namespace report {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr size_t kMaxSummary = 900 * 1024;  // bytes; GitHub refuses more than 1 MiB a step
+constexpr size_t kMaxCommands = 10;         // causes whose commands are told
+
+// A file as the CI's pages name it: relative to the checkout, '/' between parts.
+std::string file_in(const fs::path& base, const Run& run, const std::string& file) {
+    fs::path path = file;
+    for (const auto& [name, value] : run.environment) {
+        if (name == "PWD" && path.is_relative()) {
+            path = fs::path(value) / path;
+        }
+    }
+    const fs::path relative = path.lexically_normal().lexically_relative(base.lexically_normal());
+    const bool inside = !relative.empty() && *relative.begin() != "..";
+    return (inside ? relative : path.lexically_normal()).generic_string();
+}
+
+// docs.github.com, "Workflow commands for GitHub Actions": data escapes % CR LF, properties also
+// ':' and ','.
+std::string command_text(std::string_view bytes, bool is_property) {
+    std::string text;
+    for (const char c : printable(bytes)) {
+        if (c == '%' || c == '\r' || c == '\n' || (is_property && (c == ':' || c == ','))) {
+            text += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        } else {
+            text += c;
+        }
+    }
+    return text;
+}
+
+// Text in a cell of a Markdown table.
+std::string cell(std::string_view bytes) {
+    std::string text;
+    for (const char c : markup(bytes)) {
+        switch (c) {
+            case '\n':
+            case '\t':
+                text += ' ';
+                break;
+            case '|':
+            case '`':
+            case '*':
+            case '_':
+            case '[':
+            case ']':
+            case '\\':
+                text += '\\';
+                text += c;
+                break;
+            default:
+                text += c;
+        }
+    }
+    return text;
+}
+
+// A command in an indented block, where Markdown changes nothing.
+std::string command_block(const CaseRecord& record) {
+    const auto one_line = [](const std::string& bytes) {
+        std::string text = printable(bytes);
+        std::replace(text.begin(), text.end(), '\n', ' ');
+        return text;
+    };
+    std::string text = "    " + one_line(record.rerun) + "\n";
+    if (!record.explain.empty()) {
+        text += "    " + one_line(record.explain) + "\n";
+    }
+    return text;
+}
+
+std::string severity_of(const CaseRecord& record) {
+    switch (record.status) {
+        case Status::error:
+        case Status::crash:
+        case Status::timeout:
+        case Status::device_lost:
+            return "blocker";
+        case Status::fail:
+            return record.level == cases::Profile::vulkan     ? "critical"
+                   : record.level == cases::Profile::practice ? "major"
+                                                              : "minor";
+        case Status::flake:
+            return "major";
+        default:
+            return "info";
+    }
+}
+
+// 128 bits of FNV-1a in two halves; a name, not a secret.
+std::string fingerprint(const std::string& text) {
+    uint64_t low = 0xcbf29ce484222325U;
+    uint64_t high = 0x84222325cbf29ce4U;
+    for (const char c : text) {
+        low = (low ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+        high = (high + static_cast<unsigned char>(c)) * 0x9e3779b97f4a7c15U;
+    }
+    return fmt::format("{:016x}{:016x}", low, high ^ (high >> 29));
+}
+
+}  // namespace
+
+std::string to_github_annotations(const Run& run, const fs::path& base) {
+    const std::vector<Cause> list = causes(run);
+    std::string text;
+    for (size_t k = 0; k < std::min(list.size(), kMaxAnnotations); ++k) {
+        const CaseRecord& first = *list[k].cases.front();
+        const std::string body = fmt::format(
+            "{}   {}\n{}\nrerun: {}{}", first.id, what_happened(first), why_it_happened(first),
+            first.rerun, first.explain.empty() ? "" : "\nexplain: " + first.explain);
+        text += fmt::format("::error file={},line={},title={}::{}\n",
+                            command_text(file_in(base, run, first.file), true),
+                            std::max(first.line, 1U), command_text(cause_title(list[k]), true),
+                            command_text(body, false));
+    }
+    if (list.size() > kMaxAnnotations) {
+        const size_t more = list.size() - kMaxAnnotations;
+        text += fmt::format("+{} more {} of unexpected results: see the summary of the step\n",
+                            more, more == 1 ? "cause" : "causes");
+    }
+    return text;
+}
+
+std::string to_github_summary(const Run& run) {
+    const Device& d = run.device;
+    std::string text = fmt::format("## Edgecase: {}\n\n", exit_text(run));
+    text +=
+        fmt::format("{}, {}{}{}{}, {} subpixel bits, profile {}, seed {}, {}\n\n", cell(d.name),
+                    cell(d.driver_name), d.driver_info.empty() ? "" : " ", cell(d.driver_info),
+                    d.api_version.empty() ? "" : ", Vulkan " + cell(d.api_version), d.subpixel_bits,
+                    cases::to_string(run.profile), run.seed, seconds_text(run.seconds));
+    text += "| status | cases |\n| --- | ---: |\n";
+    const auto count = totals(run);
+    for (size_t k = 0; k < kStatuses; ++k) {
+        if (count.at(k) > 0) {
+            text +=
+                fmt::format("| {} | {} |\n", cell(to_string(static_cast<Status>(k))), count.at(k));
+        }
+    }
+    text += fmt::format("| all | {} |\n", run.cases.size());
+    const std::vector<Cause> list = causes(run);
+    if (list.empty()) {
+        return text;
+    }
+    text +=
+        "\n### Unexpected results by cause\n\n"
+        "| status | rule | kind | broken profile | family | cases | the first |\n"
+        "| --- | --- | --- | --- | --- | ---: | --- |\n";
+    size_t told = 0;
+    for (const Cause& cause : list) {
+        const CaseRecord& first = *cause.cases.front();
+        const std::string row =
+            fmt::format("| {} | {} | {} | {} | {} | {} | {}: {} |\n", cell(to_string(cause.status)),
+                        cell(cause.rule), cell(cause.kind),
+                        cause.rule.empty() ? "" : cases::to_string(cause.level), cell(cause.family),
+                        cause.cases.size(), cell(first.id), cell(why_it_happened(first)));
+        if (text.size() + row.size() > kMaxSummary / 2) {
+            break;
+        }
+        text += row;
+        ++told;
+    }
+    if (told < list.size()) {
+        text += fmt::format("\n+{} more causes, see the report.\n", list.size() - told);
+    }
+    text += "\n### Commands that repeat the first case of each\n\n";
+    for (size_t k = 0; k < std::min({told, list.size(), kMaxCommands}); ++k) {
+        const std::string block = command_block(*list[k].cases.front());
+        if (text.size() + block.size() <= kMaxSummary) {
+            text += block;
+        }
+    }
+    return text;
+}
+
+std::string to_gitlab(const Run& run, const fs::path& base) {
+    Json issues = Json::array();
+    for (const CaseRecord& record : run.cases) {
+        if (is_expected(record.status)) {
+            continue;
+        }
+        const std::string rule = record.findings.empty() ? std::string(to_string(record.status))
+                                                         : leading_finding(record).rule;
+        const std::string kind = record.findings.empty()
+                                     ? record.signal
+                                     : std::string(diff::to_string(leading_finding(record).kind));
+        issues.push_back(Json{
+            {"description",
+             printable(record.id + ": " + what_happened(record) + ". " + why_it_happened(record))},
+            {"check_name", printable(rule)},
+            {"fingerprint", fingerprint(record.id + '\n' + std::string(to_string(record.status)) +
+                                        '\n' + rule + '\n' + kind)},
+            {"severity", severity_of(record)},
+            {"location", Json{{"path", printable(file_in(base, run, record.file))},
+                              {"lines", Json{{"begin", std::max(record.line, 1U)}}}}},
+        });
+    }
+    return issues.dump(1) + '\n';
+}
+
+}  // namespace report

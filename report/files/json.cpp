@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "report/journal/json_object.hpp"
+#include "report/journal/picture_codec.hpp"
+#include "report/journal/record_codec.hpp"
+#include "report/text/causes.hpp"
+#include "report/text/reports.hpp"
+#include "report/text/sentences.hpp"
+
+namespace report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// Readers of results.json get text, never an escape sequence or a byte that is not UTF-8.
+Json texts(const std::vector<std::string>& list) {
+    Json json = Json::array();
+    for (const std::string& entry : list) {
+        json.push_back(printable(entry));
+    }
+    return json;
+}
+
+Json device_json(Device d) {
+    for (std::string* text :
+         {&d.name, &d.driver_name, &d.driver_info, &d.uuid, &d.type, &d.api_version}) {
+        *text = printable(*text);
+    }
+    return encode_device(d);
+}
+
+Json finding_json(const diff::Finding& f) {
+    Json sample{{"x", f.x}, {"y", f.y}, {"index", f.sample}};
+    if (f.layer) {
+        sample["layer"] = *f.layer;
+    }
+    return object_of({{"kind", diff::to_string(f.kind)},
+                      {"rule", printable(f.rule)},
+                      {"level", cases::to_string(f.level)},
+                      {"sample", std::move(sample)},
+                      {"quantity", printable(f.quantity)},
+                      {"expected", printable(f.expected)},
+                      {"got", printable(f.got)},
+                      {"why", printable(f.why)},
+                      {"ratio", encode_number(f.ratio)}});
+}
+
+Json counts_json(const CaseRecord& r) {
+    Json json = Json::object();
+    for (size_t k = 0; k < diff::kFindingKinds; ++k) {
+        json[std::string(diff::to_string(static_cast<diff::FindingKind>(k)))] = r.counts.at(k);
+    }
+    return json;
+}
+
+uint64_t finding_total(const CaseRecord& r) {
+    uint64_t total = 0;
+    for (const uint64_t count : r.counts) {
+        total += count;
+    }
+    return total;
+}
+
+Json case_json(const CaseRecord& r, cases::Profile profile) {
+    Json findings = Json::array();
+    for (const diff::Finding& f : r.findings) {
+        findings.push_back(finding_json(f));
+    }
+    const bool wrong = finding_total(r) > 0;
+    Json box = nullptr;
+    if (wrong) {
+        box = Json{{"min_x", r.min_x}, {"min_y", r.min_y}, {"max_x", r.max_x}, {"max_y", r.max_y}};
+    }
+    Json pictures = nullptr;
+    if (r.pictures.width > 0) {
+        const Pictures& p = r.pictures;
+        pictures = Json{{"encoding", "base64 of (run length - 1, value) pairs"},
+                        {"width", p.width},
+                        {"height", p.height},
+                        {"left", p.left},
+                        {"top", p.top},
+                        {"expected_hits", encode_picture(p.expected_hits)},
+                        {"device_hits", encode_picture(p.device_hits)},
+                        {"marks", encode_picture(p.marks)}};
+        if (p.layer_height > 0) {
+            pictures["layer_height"] = p.layer_height;
+        }
+    }
+    return object_of({
+        {"id", printable(r.id)},
+        {"file", printable(r.file)},
+        {"line", r.line},
+        {"description", printable(r.description)},
+        {"status", to_string(r.status)},
+        {"profile", cases::to_string(profile)},
+        {"rules", texts(r.rules)},
+        {"links", texts(r.links)},
+        {"expected", r.expected ? Json(to_string(*r.expected)) : Json(nullptr)},
+        {"bug", printable(r.bug)},
+        {"expectation", printable(r.expectation)},
+        {"expired", printable(r.expired)},
+        {"actual", to_string(actual_status(r))},
+        {"bits", printable(r.bits)},
+        {"hit_bits", printable(r.hit_bits)},
+        {"reason", printable(r.reason)},
+        {"step", printable(r.step)},
+        {"signal", printable(r.signal)},
+        {"stderr", printable(r.stderr_text)},
+        {"messages", texts(r.messages)},
+        {"seconds", encode_number(r.seconds)},
+        {"attempts", r.attempts},
+        {"level", wrong ? Json(cases::to_string(r.level)) : Json(nullptr)},
+        {"counts", counts_json(r)},
+        {"finding_total", finding_total(r)},
+        {"wrong_samples", r.wrong_samples ? Json(*r.wrong_samples) : Json(nullptr)},
+        {"findings", std::move(findings)},
+        {"bounding_box", std::move(box)},
+        {"must_samples", r.must_samples},
+        {"either_samples", r.either_samples},
+        {"compared_samples", r.compared_samples},
+        {"compared_values", r.compared_values},
+        {"worst_ratio", encode_number(r.worst_ratio)},
+        {"worst_quantity", printable(r.worst_quantity)},
+        {"pictures", std::move(pictures)},
+        {"rerun", printable(r.rerun)},
+        {"explain", printable(r.explain)},
+    });
+}
+
+Json run_json(const Run& run) {
+    Json environment = Json::object();
+    for (const auto& [name, value] : run.environment) {
+        environment[printable(name)] = printable(value);
+    }
+    return Json{
+        {"arguments", texts(run.arguments)},
+        {"environment", environment},
+        {"started", printable(run.started)},
+        {"ended", run.ended.empty() ? Json(nullptr) : Json(printable(run.ended))},
+        {"seconds", encode_number(run.seconds)},
+        {"host", printable(run.host)},
+        {"seed", run.seed},
+        {"suite_root", printable(run.suite_root)},
+        {"suite_hash", printable(run.suite_hash)},
+        {"expectation_file", printable(run.expectation_file)},
+        {"shard", run.shard},
+        {"shards", run.shards},
+        {"jobs", run.jobs},
+        {"interrupted", run.interrupted},
+        {"exit_code", exit_code(run)},
+    };
+}
+
+Json causes_json(const Run& run) {
+    Json list = Json::array();
+    for (const Cause& cause : causes(run)) {
+        Json json{
+            {"status", to_string(cause.status)},
+            {"family", printable(cause.family)},
+            {"rule", printable(cause.rule)},
+            {"kind", printable(cause.kind)},
+            {"level", cause.rule.empty() ? Json(nullptr) : Json(cases::to_string(cause.level))},
+            {"cases", Json::array()}};
+        for (const CaseRecord* record : cause.cases) {
+            json["cases"].push_back(printable(record->id));
+        }
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string to_json(const Run& run) {
+    Json total = Json::object();
+    const auto count = totals(run);
+    for (size_t k = 0; k < kStatuses; ++k) {
+        total[std::string(to_string(static_cast<Status>(k)))] = count.at(k);
+    }
+    total["cases"] = run.cases.size();
+    Json list = Json::array();
+    for (const CaseRecord& record : run.cases) {
+        list.push_back(case_json(record, run.profile));
+    }
+    const CaseRecord* worst = worst_case(run);
+    const Json json{
+        {"schema", "edgecase-results-1"},
+        {"tool", Json{{"name", "edgecase"}, {"version", printable(run.tool_version)}}},
+        {"profile", cases::to_string(run.profile)},
+        {"run", run_json(run)},
+        {"device", device_json(run.device)},
+        {"totals", total},
+        {"worst", worst == nullptr ? Json(nullptr)
+                                   : Json{{"ratio", encode_number(worst->worst_ratio)},
+                                          {"quantity", printable(worst->worst_quantity)},
+                                          {"case", printable(worst->id)}}},
+        {"causes", causes_json(run)},
+        {"cases", std::move(list)},
+    };
+    return json.dump(1) + '\n';
+}
+
+}  // namespace report

@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/journal/journal.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "cases/base/parallel.hpp"
+#include "report/journal/record_codec.hpp"
+
+namespace report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr int kFormat = 1;
+
+tl::unexpected<cases::Error> failure(std::string message, std::string file = {},
+                                     uint32_t line = 0) {
+    return tl::unexpected(
+        cases::Error{{std::move(file), line, line > 0 ? 1U : 0U}, std::move(message)});
+}
+
+std::string advice(int error) {
+    switch (error) {
+        case ENOSPC:
+        case EDQUOT:
+            return "; free some space and go on with --resume";
+        case ENOENT:
+            return "; create the directory first";
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return "; choose another directory with -o";
+        default:
+            return {};
+    }
+}
+
+// Cuts off what follows the last newline: a record whose write was cut short.
+bool drop_torn_line(int fd) {
+    struct stat status {};
+    if (::fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
+        return false;
+    }
+    off_t end = status.st_size;
+    char byte = 0;
+    while (end > 0 && ::pread(fd, &byte, 1, end - 1) == 1 && byte != '\n') {
+        --end;
+    }
+    return end == status.st_size || ::ftruncate(fd, end) == 0;
+}
+
+std::string line_of(const char* type, const Json& body) {
+    std::string line = fmt::format(R"({{"record":"{}")", type);
+    line += body.empty() ? "" : ",";
+    return line.append(body.dump(), 1).append(1, '\n');
+}
+
+}  // namespace
+
+Journal::~Journal() {
+    if (fd_ >= 0) {
+        ::close(fd_);
+    }
+}
+
+Journal::Journal(Journal&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), file_(std::move(other.file_)) {}
+
+Journal& Journal::operator=(Journal&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    std::swap(file_, other.file_);
+    return *this;
+}
+
+cases::Expected<Journal> Journal::open(const std::filesystem::path& dir, bool append) {
+    const std::string file = (dir / "journal.jsonl").string();
+    const int flags = append ? O_RDWR | O_APPEND : O_WRONLY | O_CREAT | O_TRUNC | O_APPEND;
+    const int fd = ::open(file.c_str(), flags | O_CLOEXEC, 0644);
+    if (fd < 0) {
+        const int error = errno;
+        if (append && error == ENOENT) {
+            return failure(
+                fmt::format("{} does not exist, so there is no run to go on with", file));
+        }
+        return failure(
+            fmt::format("cannot open {}: {}{}", file, std::strerror(error), advice(error)));
+    }
+    Journal journal(fd);
+    journal.file_ = file;
+    if (append && !drop_torn_line(fd)) {
+        return failure(
+            fmt::format("cannot go on with {}: it is no ordinary file, or its torn last "
+                        "line cannot be cut off",
+                        file));
+    }
+    return journal;
+}
+
+cases::Expected<void> Journal::write_line(const std::string& line) {
+    if (fd_ < 0) {
+        return failure("the journal was moved away and cannot be written to");
+    }
+    size_t done = 0;
+    while (done < line.size()) {
+        const ssize_t count = ::write(fd_, line.data() + done, line.size() - done);
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count <= 0) {
+            const int error = count < 0 ? errno : ENOSPC;
+            if (done > 0) {
+                drop_torn_line(fd_);  // so that a later record begins a line
+            }
+            return failure(
+                fmt::format("cannot write {}: {}{}", file_, std::strerror(error), advice(error)));
+        }
+        done += static_cast<size_t>(count);
+    }
+    return {};
+}
+
+cases::Expected<void> Journal::write_run(const Run& header) {
+    Json body = {{"format", kFormat}};
+    body.update(encode_header(header));
+    Json& list = body["cases"] = Json::array();
+    for (const CaseRecord& record : header.cases) {
+        list.push_back(encode_planned(record));
+    }
+    return write_line(line_of("run", body));
+}
+
+cases::Expected<void> Journal::write_device(const Device& device) {
+    return write_line(line_of("device", encode_device(device)));
+}
+
+cases::Expected<void> Journal::write_begin(const std::string& id, uint32_t attempt) {
+    return write_line(line_of("begin", Json{{"id", encode_text(id)}, {"attempt", attempt}}));
+}
+
+cases::Expected<void> Journal::write_end(const CaseRecord& record) {
+    return write_line(line_of("end", encode_case(record)));
+}
+
+cases::Expected<void> Journal::write_stop(const Run& run) {
+    return write_line(line_of("stop", encode_stop(run)));
+}
+
+namespace {
+
+// Puts records together, in the order of the file.
+class Rebuilder {
+  public:
+    // `ended`: what decode_case makes of an "end" record, if it is known.
+    void add(const Json& record, std::optional<CaseRecord> ended) {
+        if (!record.is_object() || !record.contains("record") || !record["record"].is_string()) {
+            throw std::invalid_argument("this is not a record of a journal");
+        }
+        const auto& type = record["record"].get_ref<const std::string&>();
+        if (type != "run" && !begun_) {
+            throw std::invalid_argument("the journal does not begin with a \"run\" record");
+        }
+        if (type == "run") {
+            add_run(record);
+        } else if (type == "device") {
+            run_.device = decode_device(record);
+        } else if (type == "begin") {
+            open_.insert(known(decode_id(record)));
+        } else if (type == "end") {
+            CaseRecord done = ended ? std::move(*ended) : decode_case(record);
+            const size_t at = known(done.id);
+            open_.erase(at);
+            run_.cases[at] = std::move(done);
+        } else if (type == "stop") {
+            decode_stop(record, run_);
+        } else {
+            throw std::invalid_argument(fmt::format("\"{}\" is no kind of record", type));
+        }
+    }
+
+    bool begun() const { return begun_; }
+    Run take(std::vector<std::string>* in_flight) {
+        if (in_flight != nullptr) {
+            in_flight->clear();
+            for (const size_t at : open_) {
+                in_flight->push_back(run_.cases[at].id);
+            }
+        }
+        return std::move(run_);
+    }
+
+  private:
+    static std::string decode_id(const Json& record) {
+        const auto it = record.find("id");
+        if (it == record.end()) {
+            throw std::invalid_argument("\"id\" is missing");
+        }
+        return decode_text(*it, "id");
+    }
+
+    size_t known(const std::string& id) const {
+        const auto it = index_.find(id);
+        if (it == index_.end()) {
+            throw std::invalid_argument(
+                fmt::format("the case {} is not in the list that the run began with", id));
+        }
+        return it->second;
+    }
+
+    // The first run record opens the journal; a later one is a resumed run: what has ended stays.
+    void add_run(const Json& record) {
+        const auto format = record.find("format");
+        if (format == record.end() || *format != kFormat) {
+            throw std::invalid_argument(fmt::format(
+                "the journal is not of format {}; use the edgecase that wrote it", kFormat));
+        }
+        Run header = decode_header(record);
+        const auto cases = record.find("cases");
+        if (cases == record.end() || !cases->is_array()) {
+            throw std::invalid_argument("\"cases\" is not a list");
+        }
+        if (begun_) {
+            header.started = run_.started;
+            header.device = std::move(run_.device);
+            header.seconds = run_.seconds;
+            header.cases = std::move(run_.cases);
+        }
+        begun_ = true;
+        run_ = std::move(header);
+        for (const Json& entry : *cases) {
+            CaseRecord c = decode_planned(entry);
+            if (index_.emplace(c.id, run_.cases.size()).second) {
+                run_.cases.push_back(std::move(c));
+            }
+        }
+    }
+
+    Run run_;
+    bool begun_ = false;
+    std::map<std::string, size_t> index_;
+    std::set<size_t> open_;  // begun and not ended
+};
+
+// A line of the journal, read without the lines before it.
+struct Line {
+    std::optional<Json> record;       // none: this is not JSON
+    std::optional<CaseRecord> ended;  // of a right "end" record
+};
+
+Line read_line(const std::string& text) {
+    Line line;
+    try {
+        line.record = Json::parse(text);
+        if (line.record->is_object() && line.record->value("record", "") == "end") {
+            line.ended = decode_case(*line.record);
+        }
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {  // Rebuilder tells what is wrong, in the order of the file
+    }
+    return line;
+}
+
+// All lines, by several threads.
+std::vector<Line> read_lines(const std::vector<std::string>& texts) {
+    std::vector<Line> lines(texts.size());
+    cases::for_each_index(texts.size(), [&](size_t k) { lines[k] = read_line(texts[k]); });
+    return lines;
+}
+
+}  // namespace
+
+cases::Expected<Run> load_journal(const std::filesystem::path& dir,
+                                  std::vector<std::string>* in_flight) {
+    const std::string file = (dir / "journal.jsonl").string();
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        return failure(fmt::format("cannot read {}: {}; name the directory of a run", file,
+                                   std::strerror(errno)));
+    }
+    std::vector<std::string> texts;
+    std::string text;
+    while (std::getline(stream, text) && !stream.eof()) {  // no newline: the write was cut short
+        texts.push_back(std::move(text));
+    }
+    Rebuilder rebuilder;
+    uint32_t number = 0;
+    for (Line& line : read_lines(texts)) {
+        ++number;
+        try {
+            if (!line.record) {
+                return failure("this line is not JSON; the journal was changed or damaged", file,
+                               number);
+            }
+            rebuilder.add(*line.record, std::move(line.ended));
+        } catch (const Json::exception&) {
+            return failure("this line is not JSON; the journal was changed or damaged", file,
+                           number);
+        } catch (const std::exception& e) {
+            return failure(std::string(e.what()) + "; the journal was changed or damaged", file,
+                           number);
+        }
+    }
+    if (stream.bad()) {
+        return failure(fmt::format("cannot read {}: {}", file, std::strerror(errno)));
+    }
+    if (!rebuilder.begun()) {
+        return failure("the journal ends before its first record; start the run again", file);
+    }
+    return rebuilder.take(in_flight);
+}
+
+}  // namespace report

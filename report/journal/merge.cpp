@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/journal/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "report/text/reports.hpp"
+
+namespace report {
+
+namespace {
+
+tl::unexpected<cases::Error> failure(const std::string& sentence) {
+    return tl::unexpected(cases::Error{{}, sentence});
+}
+
+std::string device_text(const Run& run) {
+    const Device& d = run.device;
+    return fmt::format("{} {} {}, {} subpixel bits", d.name, d.driver_name, d.driver_info,
+                       d.subpixel_bits);
+}
+
+// What all parts have in common, and how a sentence calls it.
+struct Common {
+    const char* what;
+    std::string (*text)(const Run&);
+};
+const Common kCommon[] = {
+    {"the device", device_text},
+    {"the profile", [](const Run& r) { return std::string(cases::to_string(r.profile)); }},
+    {"the suite (a hash of its files)", [](const Run& r) { return r.suite_hash; }},
+    {"the version of edgecase", [](const Run& r) { return r.tool_version; }},
+    {"the number of shards", [](const Run& r) { return std::to_string(r.shards); }},
+};
+
+}  // namespace
+
+cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
+    if (parts.empty()) {
+        return failure("there is no run to merge; name the folders of runs");
+    }
+    const Part& first = parts.front();
+    for (const Part& part : parts) {
+        for (const Common& common : kCommon) {
+            const std::string a = common.text(first.run);
+            const std::string b = common.text(part.run);
+            if (a != b) {
+                return failure(
+                    fmt::format("{} is '{}' in {} and '{}' in {}; only parts of one run "
+                                "can be merged, use 'edgecase compare' for different ones",
+                                common.what, printable(a), first.name, printable(b), part.name));
+            }
+        }
+    }
+    std::map<std::string, const Part*> owner;
+    for (const Part& part : parts) {
+        for (const CaseRecord& record : part.run.cases) {
+            const auto [at, fresh] = owner.emplace(record.id, &part);
+            if (!fresh) {
+                return failure(
+                    fmt::format("the case '{}' is in {} and in {}; give each job its own --shard",
+                                printable(record.id), at->second->name, part.name));
+            }
+        }
+    }
+    Merged merged;
+    Run& run = merged.run;
+    run = first.run;
+    std::set<uint32_t> shards = {run.shard};
+    for (size_t k = 1; k < parts.size(); ++k) {
+        Run& part = parts[k].run;
+        shards.insert(part.shard);
+        run.started = std::min(run.started, part.started);
+        run.ended = run.ended.empty() || part.ended.empty() ? "" : std::max(run.ended, part.ended);
+        run.seconds += part.seconds;
+        run.interrupted = run.interrupted || part.interrupted;
+        run.jobs += part.jobs;
+        std::move(part.cases.begin(), part.cases.end(), std::back_inserter(run.cases));
+    }
+    for (uint32_t shard = 1; shard <= run.shards; ++shard) {
+        if (!shards.contains(shard)) {
+            merged.missing_shards.push_back(shard);
+        }
+    }
+    run.shard = run.shards = 1;
+    std::sort(run.cases.begin(), run.cases.end(),
+              [](const CaseRecord& a, const CaseRecord& b) { return a.id < b.id; });
+    return merged;
+}
+
+}  // namespace report

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "report/page/page_data.hpp"
+#include "report/page/page_parts.hpp"
+#include "report/text/reports.hpp"
+#include "report/text/sentences.hpp"
+
+namespace report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// The page, from report/page/ (cmake/Embed.cmake).
+constexpr std::string_view kPage =
+#include "embedded/report.html.inc"
+    ;
+// In an order in which each file uses only what stands above it at load time.
+constexpr std::string_view kScripts[] = {
+#include "embedded/dom.js.inc"
+    ,
+#include "embedded/exact.js.inc"
+    ,
+#include "embedded/geometry.js.inc"
+    ,
+#include "embedded/pictures.js.inc"
+    ,
+#include "embedded/canvas.js.inc"
+    ,
+#include "embedded/viewer.js.inc"
+    ,
+#include "embedded/inspector.js.inc"
+    ,
+#include "embedded/case.js.inc"
+    ,
+#include "embedded/overview.js.inc"
+    ,
+#include "embedded/main.js.inc"
+    ,
+};
+
+std::string fact(std::string_view name, const std::string& value) {
+    return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, markup(value));
+}
+
+std::string key_fact(std::string_view name, const std::string& value) {
+    return "<div>" + fact(name, value) + "</div>";
+}
+
+std::string title_of(const Run& run) {
+    const auto unexpected =
+        std::count_if(run.cases.begin(), run.cases.end(),
+                      [](const CaseRecord& record) { return !is_expected(record.status); });
+    return fmt::format("edgecase: {} of {} unexpected, {}", unexpected, run.cases.size(),
+                       run.device.name.empty() ? "no device" : run.device.name);
+}
+
+std::string header(const Run& run) {
+    const Device& d = run.device;
+    std::string text =
+        fmt::format("<h1>{}</h1>\n", markup(d.name.empty() ? std::string("no device") : d.name));
+    text +=
+        fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n", markup(exit_text(run)));
+    text += key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info);
+    text += key_fact("Vulkan", d.api_version);
+    text += key_fact("subpixel bits", fmt::format("{}", d.subpixel_bits));
+    text += key_fact("profile", fmt::format("{} (a finding at this level: {})",
+                                            cases::to_string(run.profile), meaning(run.profile)));
+    if (const CaseRecord* worst = worst_case(run)) {
+        text += key_fact("largest accepted error",
+                         fmt::format("{} budgets, {}", ratio_text(worst->worst_ratio), worst->id));
+    }
+    text += key_fact("took", seconds_text(run.seconds) + (run.ended.empty() ? ", cut off" : ""));
+    text += "</dl>\n<details><summary>About this run</summary><dl>\n";
+    text += fact("edgecase", run.tool_version);
+    text += fact("started", run.started);
+    text += fact("seed", fmt::format("{}", run.seed));
+    text += fact("host", run.host);
+    text += fact("UUID", d.uuid);
+    text += fact("expectations", run.expectation_file);
+    text += "</dl><pre>";
+    for (const auto& [name, value] : run.environment) {
+        text += markup(name + "=" + value) + "\n";
+    }
+    for (size_t k = 0; k < run.arguments.size(); ++k) {
+        text += (k > 0 ? " " : "") + markup(run.arguments[k]);
+    }
+    return text + "</pre></details>";
+}
+
+// For readers without a script: the whole list, in a plain table.
+std::string table(const Run& run) {
+    std::string text =
+        "<table><caption>All cases</caption><thead><tr><th scope=\"col\">status</th>"
+        "<th scope=\"col\">case</th><th scope=\"col\">what</th></tr></thead><tbody>\n";
+    for (const CaseRecord& r : run.cases) {
+        const std::string what = what_happened(r);
+        text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", to_string(r.status),
+                            markup(r.id), markup(what),
+                            is_expected(r.status) ? "" : "<br>" + markup(why_it_happened(r)));
+    }
+    return text + "</tbody></table>";
+}
+
+std::string script() {
+    std::string text;
+    for (const std::string_view part : kScripts) {
+        text += part;
+    }
+    return text;
+}
+
+// One page; `left_out` as page_data() fills it.
+std::string page_of(const Run& run, size_t part, std::vector<size_t>& left_out) {
+    const std::string part_text = part > 1 ? fmt::format(" (part {})", part) : "";
+    const PageField fields[] = {
+        {"{{TITLE}}", markup(title_of(run)) + part_text},
+        {"{{CSS}}", std::string(page_style())},
+        {"{{HEADER}}", header(run)},
+        {"{{TABLE}}", table(run)},
+        {"{{DATA}}", script_data(page_data(run, part, left_out))},
+        {"{{SCRIPT}}", script()},
+    };
+    return fill_page(kPage, fields);
+}
+
+}  // namespace
+
+std::string to_html(const Run& run) {
+    std::vector<size_t> left_out;
+    return page_of(run, 1, left_out);
+}
+
+std::vector<std::string> to_html_parts(const Run& run) {
+    std::vector<std::string> pages;
+    std::vector<size_t> left_out;
+    pages.push_back(page_of(run, 1, left_out));
+    Run rest = run;
+    while (!left_out.empty()) {
+        std::vector<CaseRecord> cases;
+        for (const size_t k : left_out) {
+            cases.push_back(std::move(rest.cases[k]));
+        }
+        rest.cases = std::move(cases);  // fewer than before: the first case of a page always fits
+        pages.push_back(page_of(rest, pages.size() + 1, left_out));
+    }
+    return pages;
+}
+
+}  // namespace report

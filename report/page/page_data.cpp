@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/page/page_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <unordered_map>
+
+#include "cases/model/rule.hpp"
+#include "report/journal/evidence_codec.hpp"
+#include "report/journal/record_codec.hpp"
+#include "report/text/reports.hpp"
+#include "report/text/sentences.hpp"
+
+namespace report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// results.json holds everything.
+constexpr size_t kMostFindings = 200;  // of a case
+constexpr size_t kLeastFindings = 5;   // of a case
+constexpr size_t kMostOfSample = 24;   // four attributes of four numbers, FragCoord, depth, colour
+constexpr size_t kFindingBudget = 12000;  // of a page
+constexpr size_t kMaxOutput = 8192;       // bytes of a driver's output, a case
+
+// Texts that many cases share, stored once; printable.
+class Strings {
+  public:
+    size_t number_of(const std::string& bytes) {
+        const auto [it, is_new] = numbers_.try_emplace(bytes, list_.size());
+        if (is_new) {
+            list_.push_back(printable(bytes));
+        }
+        return it->second;
+    }
+    const Json& list() const { return list_; }
+
+  private:
+    std::unordered_map<std::string, size_t> numbers_;
+    Json list_ = Json::array();
+};
+
+void put(Json& json, const char* key, const std::string& bytes) {
+    if (!bytes.empty()) {
+        json[key] = printable(bytes);
+    }
+}
+
+void put(Json& json, const char* key, const std::vector<std::string>& list) {
+    for (const std::string& entry : list) {
+        json[key].push_back(printable(entry));
+    }
+}
+
+uint64_t finding_total(const CaseRecord& record) {
+    uint64_t total = 0;
+    for (const uint64_t count : record.counts) {
+        total += count;
+    }
+    return std::max<uint64_t>(total, record.findings.size());
+}
+
+std::string cut(const std::string& bytes) {
+    return bytes.size() <= kMaxOutput ? bytes
+                                      : bytes.substr(0, kMaxOutput / 2) + "\n[...]\n" +
+                                            bytes.substr(bytes.size() - kMaxOutput / 2);
+}
+
+// A list, as finding() of dom.js reads it. Rows are those of the stacked layers, as in pictures.
+Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings) {
+    const uint32_t row = f.layer.value_or(0) * r.pictures.layer_height + f.y;
+    const bool has_ratio = f.kind == diff::FindingKind::value && f.ratio > 0;
+    return Json::array({diff::to_string(f.kind), strings.number_of(f.rule),
+                        cases::to_string(f.level), f.x, row, f.sample,
+                        strings.number_of(f.quantity), strings.number_of(f.expected),
+                        strings.number_of(f.got), strings.number_of(f.why),
+                        has_ratio ? Json(ratio_text(f.ratio)) : Json(nullptr)});
+}
+
+// What cases fail by the same cause: 300 failures are mostly a handful of these.
+std::string signature(const CaseRecord& r) {
+    if (!r.findings.empty()) {
+        const diff::Finding& f = leading_finding(r);
+        return fmt::format("{}|{}|{}", f.rule, diff::to_string(f.kind), cases::to_string(f.level));
+    }
+    return fmt::format("{}|{}|{}|{}", to_string(r.status), r.signal, r.step, r.reason);
+}
+
+Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
+    Json json{{"id", printable(r.id)}, {"status", to_string(r.status)}, {"line", r.line}};
+    const std::string what = what_happened(r);
+    json["what"] = what.empty() && r.status != Status::pass ? why_it_happened(r) : what;
+    put(json, "file", r.file);
+    json["description"] = strings.number_of(r.description);
+    json["catches"] = strings.number_of(r.catches);
+    put(json, "rules", r.rules);
+    put(json, "links", r.links);
+    if (r.expected) {
+        json["expected"] = to_string(*r.expected);
+    }
+    put(json, "bug", r.bug);
+    put(json, "reason", r.reason);
+    put(json, "step", r.step);
+    put(json, "signal", r.signal);
+    put(json, "stderr", cut(r.stderr_text));
+    put(json, "messages", r.messages);
+    json["time"] = seconds_text(r.seconds);
+    json["seconds"] = encode_number(r.seconds);
+    json["attempts"] = r.attempts;
+    if (r.compared_samples > 0) {
+        json["compared"] =
+            Json::array({r.compared_samples, r.must_samples, r.either_samples, r.compared_values});
+    }
+    if (r.compared_values > 0) {
+        json["worst"] = Json::array(
+            {encode_number(r.worst_ratio), ratio_text(r.worst_ratio), printable(r.worst_quantity)});
+    }
+    if (!r.findings.empty()) {
+        json["finding_total"] = finding_total(r);
+        json["counts"] = counts_text(r);
+        const diff::Finding& lead = leading_finding(r);
+        json["lead"] = finding_json(r, lead, strings);
+        const auto is_here = [](const diff::Finding& a, const diff::Finding& b) {
+            return a.x == b.x && a.y == b.y && a.sample == b.sample;
+        };
+        // Those of the leading sample, then the others in order; of a sample all, within reason.
+        const size_t most_of_sample = std::min(most_findings + 4, kMostOfSample);
+        Json& list = json["findings"] = Json::array();
+        for (const diff::Finding& f : r.findings) {
+            if (is_here(f, lead) && list.size() < most_of_sample) {
+                list.push_back(finding_json(r, f, strings));
+            }
+        }
+        for (size_t k = 0; k < r.findings.size(); ++k) {
+            const bool is_new = k == 0 || !is_here(r.findings[k], r.findings[k - 1]);
+            if (list.size() >= (is_new ? most_findings : most_findings + kMostOfSample)) {
+                break;
+            }
+            if (!is_here(r.findings[k], lead)) {
+                list.push_back(finding_json(r, r.findings[k], strings));
+            }
+        }
+    }
+    put(json, "rerun", r.rerun);
+    put(json, "explain", r.explain);
+    return json;
+}
+
+// Adds what fits to the cases: first all of the first case of every cause, then pictures with
+// triangles, then values. Returns the cases that had to be left without.
+std::vector<size_t> add_evidence(const Run& run, Json& list) {
+    size_t left = kEvidenceBudget;
+    std::vector<size_t> without;
+    const auto add_picture = [&](size_t k) {
+        const CaseRecord& r = run.cases[k];
+        if (r.pictures.width > 0 && r.pictures.height > 0) {
+            Json both = Json::array({encode_pictures(r.pictures), encode_geometry(r.geometry)});
+            const size_t size = both.dump().size();
+            const bool is_first =
+                left == kEvidenceBudget;  // fits by definition: parts come to an end
+            if (size > left && !is_first) {
+                without.push_back(k);
+                return;
+            }
+            left -= std::min(size, left);
+            list[k]["pictures"] = std::move(both[0]);
+            list[k]["geometry"] = std::move(both[1]);
+        }
+    };
+    const auto add_values = [&](size_t k) {
+        Json values = Json::array();
+        for (SampleEvidence e : run.cases[k].evidence) {
+            for (std::string* text : {&e.writer, &e.allowed, &e.hits}) {
+                *text = printable(*text);
+            }
+            for (SampleValue& v : e.values) {
+                v.quantity = printable(v.quantity);
+                v.exact = printable(v.exact);
+                v.also = printable(v.also);
+            }
+            values.push_back(encode_evidence(e));
+        }
+        if (!values.empty() && list[k].contains("pictures")) {
+            const size_t size = values.dump().size();
+            if (size <= left) {
+                left -= size;
+                list[k]["evidence"] = std::move(values);
+            }
+        }
+    };
+    std::set<std::string> seen;
+    std::vector<size_t> rest;
+    for (size_t k = 0; k < run.cases.size(); ++k) {
+        if (run.cases[k].pictures.width == 0) {
+            continue;
+        }
+        if (seen.insert(signature(run.cases[k])).second) {
+            add_picture(k);
+            add_values(k);
+        } else {
+            rest.push_back(k);
+        }
+    }
+    std::for_each(rest.begin(), rest.end(), add_picture);
+    std::for_each(rest.begin(), rest.end(), add_values);
+    return without;
+}
+
+}  // namespace
+
+Json page_data(const Run& run, size_t part, std::vector<size_t>& left_out) {
+    Json rules = Json::object();
+    for (const cases::Rule& rule : cases::all_rules()) {
+        rules[std::string(rule.id)] = Json{{"title", rule.title},
+                                           {"text", rule.text},
+                                           {"profile", cases::to_string(rule.profile)},
+                                           {"anchor", rule.anchor}};
+    }
+    Json meanings = Json::object();
+    for (const cases::Profile profile : cases::kProfiles) {
+        meanings[std::string(cases::to_string(profile))] = meaning(profile);
+    }
+    Json total = Json::object();
+    const auto count = totals(run);
+    for (size_t k = 0; k < kStatuses; ++k) {
+        total[std::string(to_string(static_cast<Status>(k)))] = count.at(k);
+    }
+    const auto wrong = static_cast<size_t>(
+        std::count_if(run.cases.begin(), run.cases.end(),
+                      [](const CaseRecord& record) { return !record.findings.empty(); }));
+    const size_t most =
+        std::clamp(kFindingBudget / std::max<size_t>(wrong, 1), kLeastFindings, kMostFindings);
+    Strings strings;
+    Json list = Json::array();
+    for (const CaseRecord& record : run.cases) {
+        list.push_back(case_json(record, most, strings));
+    }
+    left_out = add_evidence(run, list);
+    for (const size_t k : left_out) {
+        list[k]["part"] = part + 1;
+    }
+    return Json{{"rules", std::move(rules)},
+                {"meanings", std::move(meanings)},
+                {"totals", std::move(total)},
+                {"profile", cases::to_string(run.profile)},
+                {"subpixel_bits", run.device.subpixel_bits},
+                {"part", part},
+                {"without_pictures", left_out.size()},
+                {"strings", strings.list()},
+                {"cases", std::move(list)}};
+}
+
+}  // namespace report

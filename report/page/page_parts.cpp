@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/page/page_parts.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace report {
+
+std::string_view page_style() {
+    // From report/page/ (cmake/Embed.cmake).
+    constexpr std::string_view kStyle =
+#include "embedded/report.css.inc"
+        ;
+    return kStyle;
+}
+
+std::string script_data(const nlohmann::ordered_json& json) {
+    std::string text;
+    for (const char c : json.dump()) {
+        switch (c) {
+            case '<':
+                text += "\\u003c";
+                break;
+            case '>':
+                text += "\\u003e";
+                break;
+            case '&':
+                text += "\\u0026";
+                break;
+            default:
+                text += c;
+        }
+    }
+    return text;
+}
+
+std::string fill_page(std::string_view page, std::span<const PageField> fields) {
+    std::string text;
+    for (const auto& [name, value] : fields) {
+        const size_t at = page.find(name);
+        text += page.substr(0, at);
+        text += value;
+        page.remove_prefix(std::min(page.size(), at + name.size()));
+    }
+    text += page;
+    return text;
+}
+
+}  // namespace report

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a reader needs to check a picture by hand: where the triangles and samples lie, and what the
+// device wrote at a sample beside what was allowed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace report {
+
+// One assembled triangle.
+struct Shape {
+    uint32_t draw = 0, primitive = 0;  // gl_PrimitiveID
+    uint32_t layer = 0;                // that it goes to; coordinates are those of the layer
+    std::array<uint32_t, 3> vertex{};  // numbers in the draw
+    // x0, y0, x1, y1, x2, y2 after snapping to the nearest subpixel position, in 2^-16 pixels
+    // (ref/number/sample.hpp); meaningless unless has_points.
+    std::array<int64_t, 6> points{};
+    bool has_points = false;  // false: a vertex has no position on screen (w <= 0, not finite)
+    bool is_exact = false;    // every vertex may be in this one place only
+    bool is_clipped = false;  // reaches out of the view volume
+    // Then: corners of what is left of it, x and y in pixels, rounded. Empty if nothing is.
+    std::vector<double> piece;
+    friend bool operator==(const Shape&, const Shape&) = default;
+};
+
+// Where everything lies.
+struct Geometry {
+    uint32_t width = 0, height = 0, samples = 1;  // of all layers, stacked; 0: nothing is known
+    std::vector<std::array<uint8_t, 2>> sample_locations;  // in 1/16 pixel, one a sample
+    std::vector<Shape> triangles;                          // those that the picture shows, capped
+    uint64_t triangle_total = 0;                           // of the case
+    std::vector<std::array<int64_t, 4>> scissors;          // x, y, width, height; one a draw
+    // x0, y0, x1, y1 of a blit's regions in texels; empty for a case with draws.
+    std::vector<std::array<int64_t, 4>> blit_regions;  // source, destination
+    friend bool operator==(const Geometry&, const Geometry&) = default;
+};
+inline constexpr size_t kMaxShapes = 512;
+
+// One value of a fragment.
+struct SampleValue {
+    std::string quantity;      // "attribute 0.x", "depth", "frag_coord.w"
+    std::string exact;         // as a fraction where it is short
+    double nearest = 0;        // the exact value rounded to binary64
+    double budget = 0;         // one budget, absolute; 0 if it is compared bit for bit
+    double low = 0, high = 0;  // what is accepted, all set-ups together
+    std::string also;          // "or 1.375": other numbers that are right where bits are compared
+    bool has_device = false;   // the device wrote it
+    uint32_t bits = 0;         // then: the binary32 that it wrote
+    friend bool operator==(const SampleValue&, const SampleValue&) = default;
+};
+
+struct SampleEvidence {
+    uint32_t x = 0, y = 0, sample = 0;  // y: a row of the stacked layers
+    std::string writer;                 // the triangle that wrote last, as the device says
+    std::string allowed;                // the hits that are allowed here
+    std::string hits;                   // what the device's hit counter says
+    std::vector<SampleValue> values;    // of the writer, or of the triangle that ought to be it
+    friend bool operator==(const SampleEvidence&, const SampleEvidence&) = default;
+};
+inline constexpr size_t kMaxEvidence = 32;  // samples of a case
+
+}  // namespace report

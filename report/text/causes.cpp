@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/text/causes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "cases/model/rule.hpp"
+#include "report/text/reports.hpp"
+#include "report/text/sentences.hpp"
+
+namespace report {
+
+namespace {
+
+// What a case is grouped by, besides its status and family.
+struct Signature {
+    std::string rule, kind;
+};
+
+Signature signature_of(const CaseRecord& record) {
+    if (!record.findings.empty()) {
+        const diff::Finding& f = leading_finding(record);
+        return {f.rule, std::string(diff::to_string(f.kind))};
+    }
+    std::string kind = record.signal;
+    if (!record.step.empty()) {
+        kind += (kind.empty() ? "during " : " during ") + record.step;
+    }
+    return {"", kind};
+}
+
+std::string family_of(const std::string& id) {
+    return id.substr(0, std::min(id.find('/'), id.find(':')));
+}
+
+int rank(const Cause& cause) {
+    switch (cause.status) {
+        case Status::error:
+            return 0;
+        case Status::crash:
+            return 1;
+        case Status::timeout:
+            return 2;
+        case Status::device_lost:
+            return 3;
+        case Status::fail:
+            return 4 + static_cast<int>(cause.level);  // vulkan, practice, direct3d
+        case Status::flake:
+            return 8;
+        case Status::improved:
+            return 9;
+        case Status::xpass:
+            return 10;
+        default:
+            return 11;
+    }
+}
+
+}  // namespace
+
+namespace {
+
+// How far a rule reaches: the families and cases in which it leads, with the same rank.
+struct Reach {
+    size_t families = 0, cases = 0;
+};
+
+// Where a rule stands in the list of rules: what is decided earlier in the pipeline comes first.
+std::ptrdiff_t number_of(std::string_view rule) {
+    const auto all = cases::all_rules();
+    return std::find_if(all.begin(), all.end(),
+                        [&](const cases::Rule& r) { return r.id == rule; }) -
+           all.begin();
+}
+
+}  // namespace
+
+std::vector<Cause> causes(const Run& run) {
+    std::vector<Cause> list;
+    std::map<std::tuple<Status, std::string, std::string, std::string>, size_t> index;
+    for (const CaseRecord& record : run.cases) {
+        if (is_expected(record.status)) {
+            continue;
+        }
+        const Signature s = signature_of(record);
+        const std::string family = family_of(record.id);
+        const auto [at, fresh] =
+            index.emplace(std::tuple(record.status, family, s.rule, s.kind), list.size());
+        if (fresh) {
+            list.push_back({record.status, family, s.rule, s.kind, record.level, {}});
+        }
+        Cause& cause = list[at->second];
+        cause.level = std::min(cause.level, record.level);
+        cause.cases.push_back(&record);
+    }
+    std::map<std::pair<int, std::string>, Reach> reaches;
+    std::set<std::tuple<int, std::string, std::string>> families;
+    for (const Cause& cause : list) {
+        Reach& reach = reaches[{rank(cause), cause.rule}];
+        reach.cases += cause.cases.size();
+        reach.families += families.emplace(rank(cause), cause.rule, cause.family).second ? 1U : 0U;
+    }
+    const auto order = [&](const Cause& a) {
+        const Reach& reach = reaches.at({rank(a), a.rule});
+        return std::tuple(-rank(a), reach.families, reach.cases, -number_of(a.rule),
+                          a.cases.size());
+    };
+    std::stable_sort(list.begin(), list.end(),
+                     [&](const Cause& a, const Cause& b) { return order(b) < order(a); });
+    return list;
+}
+
+std::string cause_title(const Cause& cause) {
+    std::string text(to_string(cause.status));
+    std::replace(text.begin(), text.end(), '_', ' ');
+    if (!cause.rule.empty() || !cause.kind.empty()) {
+        text +=
+            ": " + cause.rule + (cause.rule.empty() || cause.kind.empty() ? "" : " ") + cause.kind;
+    }
+    text += fmt::format(" in {}, {} {}", cause.family, cause.cases.size(),
+                        cause.cases.size() == 1 ? "case" : "cases");
+    text = printable(text);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::replace(text.begin(), text.end(), '\t', ' ');
+    return text;
+}
+
+}  // namespace report

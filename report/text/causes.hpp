@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Unexpected results in groups that probably have one cause: 300 failures are rarely 300 faults.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/record/run.hpp"
+
+namespace report {
+
+// Cases of one family with the same status and the same leading rule and kind of finding (deaths:
+// the same signal or step).
+struct Cause {
+    Status status = Status::fail;
+    std::string family;  // first part of the ids
+    std::string rule;    // of the leading finding; empty if there is none
+    std::string kind;    // "missing", ...; of a death: "SIGSEGV during submit"
+    cases::Profile level = cases::Profile::direct3d;  // loosest of all
+    std::vector<const CaseRecord*> cases;             // in the order of the run; at least one
+};
+
+// All causes of a run's unexpected results, the worst first: what could not be judged and deaths,
+// then failures by profile, then the rest. Among equals the causes of the rule that leads in the
+// most families come first, then of the rule that leads in the most cases, then of the rule that
+// stands first in cases::all_rules(): what one fault breaks everywhere before what follows from it
+// here and there. The pointers are into `run`.
+std::vector<Cause> causes(const Run& run);
+
+// "fail: tie.top-left missing in ties, 12 cases"; printable, one line.
+std::string cause_title(const Cause& cause);
+
+}  // namespace report

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "report/text/reports.hpp"
+#include "report/text/sentences.hpp"
+#include "report/text/wrap.hpp"
+
+namespace report {
+
+namespace {
+
+constexpr uint32_t kMaxPictureWidth = 64;   // characters
+constexpr uint32_t kMaxPictureHeight = 32;  // lines
+constexpr std::string_view kIndent = "      ";
+
+// SGR codes; blue, orange and bold tell apart what red and green do not.
+std::string_view color_of(Status status) {
+    switch (status) {
+        case Status::pass:
+            return "34";
+        case Status::unsupported:
+        case Status::skip:
+        case Status::xfail:
+            return "2";
+        case Status::xpass:
+        case Status::improved:
+            return "1;36";
+        case Status::flake:
+        case Status::not_run:
+            return "1;33";
+        case Status::fail:
+        case Status::device_lost:
+        case Status::timeout:
+        case Status::crash:
+        case Status::error:
+            break;
+    }
+    return "1;31";
+}
+
+std::string painted(std::string_view text, std::string_view sgr, const ConsoleStyle& style) {
+    return style.color ? fmt::format("\x1b[{}m{}\x1b[0m", sgr, text) : std::string(text);
+}
+
+std::string upper(std::string_view word) {
+    std::string text;
+    for (const char c : word) {
+        text += c == '_' ? ' ' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+    return text;
+}
+
+char character_of(uint8_t mark, uint8_t expected_hits) {
+    switch (static_cast<diff::SampleMark>(mark)) {
+        case diff::SampleMark::ok:
+            return expected_hits == 0 ? '.' : '#';
+        case diff::SampleMark::either:
+            return '~';
+        case diff::SampleMark::missing:
+            return 'M';
+        case diff::SampleMark::extra:
+            return 'X';
+        case diff::SampleMark::double_hit:
+            return 'D';
+        case diff::SampleMark::value:
+            return 'V';
+        case diff::SampleMark::order:
+            return 'O';
+    }
+    return '?';
+}
+
+// Where `length` of `size` pixels begin such that `middle` is seen.
+uint32_t window_begin(uint32_t middle, uint32_t length, uint32_t size) {
+    const uint32_t begin = middle > length / 2 ? middle - length / 2 : 0;
+    return std::min(begin, size - length);
+}
+
+std::string ascii_picture(const CaseRecord& record, const ConsoleStyle& style) {
+    const Pictures& p = record.pictures;
+    const size_t pixels = size_t{p.width} * p.height;
+    if (pixels == 0 || p.marks.empty() || p.marks.size() % pixels != 0 ||
+        p.expected_hits.size() != p.marks.size()) {
+        return {};
+    }
+    const size_t samples = p.marks.size() / pixels;
+    const uint32_t room = style.width > 16 ? style.width - 8 : 8;
+    const uint32_t width = std::min({p.width, kMaxPictureWidth, room});
+    const uint32_t height = std::min(p.height, kMaxPictureHeight);
+    // The window holds the first finding, else the middle of the wrong samples.
+    const bool told = !record.findings.empty();
+    const auto inside = [](uint32_t at, uint32_t begin) { return at > begin ? at - begin : 0; };
+    const uint32_t x = told ? record.findings.front().x : record.min_x;
+    const uint32_t y = told ? record.findings.front().layer.value_or(0) * p.layer_height +
+                                  record.findings.front().y
+                            : record.min_y;
+    const uint32_t left = window_begin(inside(x, p.left), width, p.width);
+    const uint32_t top = window_begin(inside(y, p.top), height, p.height);
+
+    std::string text = fmt::format(
+        "{}pixels ({},{}) to ({},{}): # covered, . not, ~ either, M missing, X extra, D double, "
+        "V value, O order\n",
+        kIndent, p.left + left, p.top + top, p.left + left + width - 1, p.top + top + height - 1);
+    for (uint32_t j = top; j < top + height; ++j) {
+        if (p.layer_height > 0 && (j == top || (p.top + j) % p.layer_height == 0)) {
+            text += fmt::format("{}layer {}, from row {}\n", kIndent, (p.top + j) / p.layer_height,
+                                (p.top + j) % p.layer_height);
+        }
+        text += kIndent;
+        for (uint32_t i = left; i < left + width; ++i) {
+            const size_t begin = (size_t{j} * p.width + i) * samples;
+            size_t worst = begin;
+            for (size_t k = begin; k < begin + samples; ++k) {
+                // The worst sample stands for its pixel; among good ones, a covered one.
+                if (p.marks[k] > p.marks[worst] ||
+                    (p.marks[k] == p.marks[worst] && p.expected_hits[k] > p.expected_hits[worst])) {
+                    worst = k;
+                }
+            }
+            text += character_of(p.marks[worst], p.expected_hits[worst]);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+std::string or_unknown(const std::string& text) {
+    return text.empty() ? "unknown" : printable(text);
+}
+
+}  // namespace
+
+std::string console_header(const Run& run, const ConsoleStyle& style) {
+    const Device& d = run.device;
+    // Captures of another renderer have no Vulkan.
+    const bool is_other = d.type == "other" && d.api_version.empty();
+    std::string text = fmt::format(
+        "{}  {}  {}{}{}{}  {} subpixel bits  profile {}  seed {}",
+        painted("edgecase " + or_unknown(run.tool_version), "1", style), or_unknown(d.name),
+        or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ", printable(d.driver_info),
+        is_other ? std::string() : "  Vulkan " + or_unknown(d.api_version), d.subpixel_bits,
+        cases::to_string(run.profile), run.seed);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text += '\n';
+    return style.wrap ? wrapped(text, style.width) : text;
+}
+
+std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
+    std::string text = fmt::format(
+        "{} {}   {}\n", painted(upper(to_string(record.status)), color_of(record.status), style),
+        printable(record.id), what_happened(record));
+    text += fmt::format("{}{}\n", kIndent, why_it_happened(record));
+    text += fmt::format("{}rerun: {}\n", kIndent, printable(record.rerun));
+    if (!record.explain.empty()) {
+        text += fmt::format("{}explain: {}\n", kIndent, printable(record.explain));
+    }
+    const bool is_outdated = record.status == Status::xpass || record.status == Status::improved;
+    if (is_outdated && !record.expectation.empty() && !style.folder.empty()) {
+        const std::string file = record.expectation.substr(0, record.expectation.rfind(':'));
+        text += fmt::format("{}update: edgecase expect --update {} {}\n", kIndent,
+                            printable(style.folder), printable(file));
+    }
+    if (style.verbose) {
+        text += ascii_picture(record, style);
+    }
+    return style.wrap ? wrapped(text, style.width) : text;
+}
+
+std::string console_summary(const Run& run, const std::string& report_path,
+                            const ConsoleStyle& style, const std::string& exit_words) {
+    const auto count = totals(run);
+    std::string text =
+        fmt::format("{} {}", run.cases.size(), run.cases.size() == 1 ? "case" : "cases");
+    for (size_t k = 0; k < kStatuses; ++k) {
+        if (count.at(k) > 0) {
+            const auto status = static_cast<Status>(k);
+            std::string word(to_string(status));
+            std::replace(word.begin(), word.end(), '_', ' ');
+            text +=
+                "  " + painted(fmt::format("{} {}", count.at(k), word), color_of(status), style);
+        }
+    }
+    const bool is_cut = run.ended.empty() && !(run.seconds > 0);
+    text +=
+        fmt::format("   {}   seed {}\n", is_cut ? "cut off" : seconds_text(run.seconds), run.seed);
+    if (const CaseRecord* worst = worst_case(run)) {
+        text +=
+            fmt::format("largest accepted error {} budgets{}{} in {}\n",
+                        ratio_text(worst->worst_ratio), worst->worst_quantity.empty() ? "" : ", ",
+                        printable(worst->worst_quantity), printable(worst->id));
+    }
+    const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
+    text += report_path.empty() ? exit + '\n'
+                                : fmt::format("report {}    {}\n", printable(report_path), exit);
+    return style.wrap ? wrapped(text, style.width) : text;
+}
+
+}  // namespace report

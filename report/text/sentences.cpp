@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/text/sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/text/reports.hpp"
+
+namespace report {
+
+namespace {
+
+std::string last_line(const std::string& bytes) {
+    const std::string text = printable(bytes);
+    const size_t end = text.find_last_not_of("\n\t ");
+    if (end == std::string::npos) {
+        return {};
+    }
+    const size_t begin = text.rfind('\n', end);
+    return text.substr(begin == std::string::npos ? 0 : begin + 1,
+                       end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+}
+
+std::string one_line(const std::string& bytes) {
+    std::string text = printable(bytes);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::replace(text.begin(), text.end(), '\t', ' ');
+    return text;
+}
+
+uint64_t count_of(const CaseRecord& record, diff::FindingKind kind) {
+    return record.counts.at(static_cast<size_t>(kind));
+}
+
+}  // namespace
+
+const diff::Finding& leading_finding(const CaseRecord& record) {
+    return *std::min_element(
+        record.findings.begin(), record.findings.end(),
+        [](const diff::Finding& a, const diff::Finding& b) { return a.level < b.level; });
+}
+
+std::string seconds_text(double seconds) {
+    if (!std::isfinite(seconds)) {
+        return "?";
+    }
+    if (seconds < 0.01) {
+        return fmt::format("{:.2f} ms", seconds * 1000);
+    }
+    return seconds < 1 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.1f} s", seconds);
+}
+
+std::string ratio_text(double ratio) {
+    return fmt::format("{:.3g}", ratio);
+}
+
+std::string_view meaning(cases::Profile level) {
+    switch (level) {
+        case cases::Profile::vulkan:
+            return "not conformant";
+        case cases::Profile::practice:
+            return "very suspicious";
+        case cases::Profile::direct3d:
+            break;
+    }
+    return "differs from top-left hardware";
+}
+
+std::string sample_text(const diff::Finding& finding) {
+    const std::string layer = finding.layer ? fmt::format("layer {} ", *finding.layer) : "";
+    const std::string pixel = fmt::format("{}({},{})", layer, finding.x, finding.y);
+    return finding.sample == 0 ? pixel : fmt::format("{} sample {}", pixel, finding.sample);
+}
+
+std::string counts_text(const CaseRecord& record) {
+    uint64_t total = 0;
+    for (const uint64_t count : record.counts) {
+        total += count;
+    }
+    // Several numbers of a sample may be wrong: then the samples are told, too.
+    const bool has_more = record.wrong_samples && total > *record.wrong_samples;
+    std::string text;
+    for (size_t k = 0; k < diff::kFindingKinds; ++k) {
+        const auto kind = static_cast<diff::FindingKind>(k);
+        const uint64_t count = count_of(record, kind);
+        if (count > 0) {
+            const bool is_plural = has_more && kind == diff::FindingKind::value && count > 1;
+            text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", count, diff::to_string(kind),
+                                is_plural ? "s" : "");
+        }
+    }
+    if (has_more) {
+        return fmt::format("{} of {} samples wrong ({})", *record.wrong_samples,
+                           record.compared_samples, text);
+    }
+    return text.empty() ? text : fmt::format("{} of {} samples", text, record.compared_samples);
+}
+
+std::string what_happened(const CaseRecord& record) {
+    const std::string step = record.step.empty() ? "" : " during " + one_line(record.step);
+    const std::string signal = record.signal.empty() ? "the worker ended" : one_line(record.signal);
+    const std::string bug = record.bug.empty() ? "" : fmt::format(" ({})", one_line(record.bug));
+    std::string expected;
+    if (record.expected && !record.expired.empty()) {
+        expected =
+            fmt::format("the expectation of {}{} ended on {}: re-check it, or extend the date",
+                        to_string(*record.expected), bug, one_line(record.expired));
+    } else if (record.expected) {
+        expected = fmt::format("expected {}{}", to_string(*record.expected), bug);
+    }
+    std::string text;
+    switch (record.status) {
+        case Status::crash:
+            text = fmt::format("{}{} after {}", signal, step, seconds_text(record.seconds));
+            break;
+        case Status::timeout:
+            text = fmt::format("no answer{} for {}", step, seconds_text(record.seconds));
+            break;
+        case Status::device_lost:
+            text = "device lost" + step;
+            break;
+        case Status::xpass:
+            return record.expired.empty() ? expected + ", but it passes" : "passes; " + expected;
+        case Status::improved:
+            return expected + ", but it got better";
+        case Status::not_run:
+            text = "was not run";
+            break;
+        case Status::error:
+            text = "cannot be judged";
+            break;
+        case Status::flake:
+            text = fmt::format("differs from run to run ({} attempts)", record.attempts);
+            break;
+        case Status::pass:
+        case Status::unsupported:
+        case Status::skip:
+        case Status::xfail:
+        case Status::fail:
+            break;
+    }
+    const std::string counts = counts_text(record);
+    if (!counts.empty()) {
+        text += (text.empty() ? "" : ", ") + counts;
+    }
+    if (!record.findings.empty()) {
+        const diff::Finding& leading = leading_finding(record);
+        text += fmt::format("   {} [{}: {}]", one_line(leading.rule),
+                            cases::to_string(leading.level), meaning(leading.level));
+    }
+    if (!expected.empty()) {
+        text += (text.empty() ? "" : ", ") + expected;
+    }
+    return text;
+}
+
+std::string why_it_happened(const CaseRecord& record) {
+    if (!record.findings.empty()) {
+        const diff::Finding& f = leading_finding(record);
+        std::string text = sample_text(f) + ": ";
+        if (!f.quantity.empty()) {
+            text += one_line(f.quantity) + ": ";
+        }
+        text += fmt::format("expected {}, got {}", one_line(f.expected), one_line(f.got));
+        if (f.kind == diff::FindingKind::value && f.ratio > 0) {  // exact ones have no budget
+            text += fmt::format(", {} budgets off", ratio_text(f.ratio));
+        }
+        return f.why.empty() ? text : text + "; " + one_line(f.why);
+    }
+    if (!record.reason.empty()) {
+        return one_line(record.reason);
+    }
+    if (record.status == Status::xpass || record.status == Status::improved) {
+        return record.expectation.empty() ? "bring the expectation file up to date"
+                                          : "bring " + one_line(record.expectation) + " up to date";
+    }
+    const std::string words = last_line(record.stderr_text);
+    return words.empty() ? "no reason was given" : "the driver's last words: " + words;
+}
+
+std::string exit_text(const Run& run) {
+    const int code = exit_code(run);
+    std::string why;
+    if (code == kExitInternal) {
+        const auto count = totals(run);
+        const auto add = [&](Status status, std::string_view what, std::string_view what_of_all) {
+            const size_t n = count.at(static_cast<size_t>(status));
+            if (n > 0) {
+                why +=
+                    fmt::format("{}{} {}", why.empty() ? "" : ", ", n, n == 1 ? what : what_of_all);
+            }
+        };
+        add(Status::not_run, "case was not run", "cases were not run");
+        add(Status::error, "case could not be judged", "cases could not be judged");
+    }
+    return exit_text(code, why);
+}
+
+std::string exit_text(int code, const std::string& why) {
+    if (!why.empty()) {
+        return fmt::format("exit {}: {}", code, why);
+    }
+    std::string_view text = "internal error, or cases were not run or could not be judged";
+    switch (code) {
+        case kExitOk:
+            text = "all as expected";
+            break;
+        case kExitUnexpected:
+            text = "unexpected results";
+            break;
+        case kExitUsage:
+            text = "usage error";
+            break;
+        case kExitInvalidFile:
+            text = "invalid case or suite file";
+            break;
+        case kExitNothingSelected:
+            text = "nothing selected";
+            break;
+        case kExitDevice:
+            text = "no device, or the wrong one";
+            break;
+        case kExitAllSkipped:
+            text = "everything was skipped or unsupported";
+            break;
+        case kExitInterrupted:
+            text = "interrupted";
+            break;
+        default:
+            break;
+    }
+    return fmt::format("exit {}: {}", code, text);
+}
+
+const CaseRecord* worst_case(const Run& run) {
+    const CaseRecord* worst = nullptr;
+    for (const CaseRecord& record : run.cases) {
+        const bool is_clean = record.counts == decltype(record.counts){};
+        if (is_clean && record.compared_values > 0 &&
+            (worst == nullptr || record.worst_ratio > worst->worst_ratio)) {
+            worst = &record;
+        }
+    }
+    return worst;
+}
+
+}  // namespace report

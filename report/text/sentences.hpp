@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What console, JUnit and HTML say in the same words. Everything returned is printable.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/record/run.hpp"
+
+namespace report {
+
+// "12.4 s", "0.03 s", "0.42 ms"; "?" if not finite.
+std::string seconds_text(double seconds);
+// At most three significant digits: "0.732", "12.5", "inf".
+std::string ratio_text(double ratio);
+
+// What breaking a profile means: "not conformant", "very suspicious", "differs from top-left
+// hardware".
+std::string_view meaning(cases::Profile level);
+
+// "(3,4)", or "(3,4) sample 2" if the sample is not 0.
+std::string sample_text(const diff::Finding& finding);
+// "2 missing, 1 double of 64 samples", or "5 of 64 samples wrong (2 missing, 6 values)" where some
+// have several findings; empty without any.
+std::string counts_text(const CaseRecord& record);
+// One line that tells what happened to a case, without its id.
+std::string what_happened(const CaseRecord& record);
+// One line that tells why: the first finding, or the reason, or the driver's last words.
+std::string why_it_happened(const CaseRecord& record);
+
+// The finding that a case is known by: the first of the loosest level, so that a broken Vulkan rule
+// is never hidden behind a difference in a tie. The record has at least one.
+const diff::Finding& leading_finding(const CaseRecord& record);
+
+// "exit 1: unexpected results"; `why` stands in place of what the code means in general.
+std::string exit_text(int code, const std::string& why = {});
+// The same of a whole run, with what was not judged: "exit 7: 12 cases were not run".
+std::string exit_text(const Run& run);
+
+// The case with the largest accepted error in budgets (what findings are off by stands with them);
+// null if no case without a finding compared a value.
+const CaseRecord* worst_case(const Run& run);
+
+}  // namespace report

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/evidence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <set>
+
+#include "ref/value/value.hpp"
+#include "run/picture.hpp"
+
+namespace cli {
+
+namespace {
+
+using report::SampleEvidence;
+using report::SampleValue;
+
+// Wrong samples, the first of each rule before the rest; then their neighbours.
+std::vector<size_t> chosen_samples(const Window& window, const cases::Target& target,
+                                   const diff::Verdict& verdict) {
+    std::vector<size_t> chosen;
+    std::set<size_t> seen;
+    const auto choose = [&](size_t index, size_t most) {
+        if (chosen.size() < most && seen.insert(index).second) {
+            chosen.push_back(index);
+        }
+    };
+    std::set<std::string> rules;
+    for (const diff::Finding& f : verdict.findings) {
+        if (rules.insert(f.rule).second) {
+            choose(ref::index_of(target, diff::place_of(f)), report::kMaxEvidence);
+        }
+    }
+    for (const diff::Finding& f : verdict.findings) {
+        choose(ref::index_of(target, diff::place_of(f)), report::kMaxEvidence * 3 / 4);
+    }
+    const std::vector<size_t> wrong = chosen;
+    for (const size_t index : wrong) {
+        ref::SampleId id = ref::sample_at(target, index);
+        const uint32_t y0 = std::max(id.y, 1U) - 1;
+        const uint32_t y1 = std::min(id.y + 1, target.height - 1);
+        const uint32_t x0 = std::max(id.x, 1U) - 1;
+        const uint32_t x1 = std::min(id.x + 1, target.width - 1);
+        for (id.y = y0; id.y <= y1; ++id.y) {
+            for (id.x = x0; id.x <= x1; ++id.x) {
+                choose(ref::index_of(target, id), report::kMaxEvidence);
+            }
+        }
+    }
+    if (chosen.empty()) {  // a passing case that was asked for: the first samples drawn
+        window.for_each([&](uint32_t, uint32_t, uint32_t, size_t index) {
+            if (verdict.device_hits[index] > 0) {
+                choose(index, report::kMaxEvidence / 4);
+            }
+        });
+    }
+    return chosen;
+}
+
+std::string range_text(uint32_t low, uint32_t high) {
+    return low == high ? fmt::format("{}", low) : fmt::format("{} to {}", low, high);
+}
+
+std::string hits_text(const ref::HitBounds& b) {
+    std::string text = range_text(b.total_min, b.total_max);
+    if (b.front_max > 0 || b.back_max > 0) {
+        text += fmt::format(" ({} front, {} back)", range_text(b.front_min, b.front_max),
+                            range_text(b.back_min, b.back_max));
+    }
+    return text;
+}
+
+// Which number of the capture a quantity names.
+struct Plane {
+    enum class Kind : uint8_t { none, attribute, frag_coord, depth } kind = Kind::none;
+    uint32_t attribute = 0, component = 0;
+};
+Plane plane_of(const std::string& quantity) {
+    const auto component_at = [&](size_t at) {
+        const size_t k = std::string_view("xyzw").find(quantity[at]);
+        return at + 1 == quantity.size() ? k : std::string::npos;
+    };
+    if (quantity == "depth") {
+        return {Plane::Kind::depth, 0, 0};
+    }
+    if (quantity.size() == 12 && quantity.starts_with("frag_coord.") &&
+        component_at(11) != std::string::npos) {
+        return {Plane::Kind::frag_coord, 0, static_cast<uint32_t>(component_at(11))};
+    }
+    if (quantity.size() == 13 && quantity.starts_with("attribute ") && quantity[11] == '.' &&
+        quantity[10] >= '0' && quantity[10] < static_cast<char>('0' + cases::kMaxAttributes) &&
+        component_at(12) != std::string::npos) {
+        return {Plane::Kind::attribute, static_cast<uint32_t>(quantity[10] - '0'),
+                static_cast<uint32_t>(component_at(12))};
+    }
+    return {};
+}
+
+class EvidenceMaker {
+  public:
+    EvidenceMaker(const cases::Case& c, const ref::Expectation& expectation,
+                  const diff::CaptureView& capture, const ref::Limits& limits)
+        : case_(c),
+          expectation_(expectation),
+          capture_(capture),
+          values_(c, limits, expectation.profile) {}
+
+    SampleEvidence at(size_t index) {
+        const ref::SampleId id = ref::sample_at(case_.target, index);
+        const ref::SampleExpectation& expected = expectation_.samples[index];
+        SampleEvidence e;
+        e.x = id.x;
+        e.y = id.layer * case_.target.height + id.y;
+        e.sample = id.sample;
+        e.allowed = hits_text(expected.hits);
+        if (!case_.target.has_instruments) {
+            return e;
+        }
+        const glm::vec4& hits = capture_.hits[index];
+        e.hits = fmt::format("{} front, {} back", hits.x, hits.y);
+        const diff::Writer& writer = capture_.writers[index];
+        const bool drawn = diff::sample_state(capture_, index) == diff::SampleState::drawn;
+        if (drawn) {
+            e.writer = capture_.has_primitive
+                           ? fmt::format("triangle {} of draw {}", writer.primitive, writer.draw)
+                           : fmt::format("draw {}, provoking vertex {}", writer.draw,
+                                         writer.provoking_vertex);
+        }
+        // What the device's triangle ought to have written, or else the last one that may be here.
+        std::optional<uint32_t> triangle;
+        bool is_writer = false;
+        for (uint32_t k = 0; k < expected.writers_count && !is_writer; ++k) {
+            triangle = expectation_.writers[expected.writers_begin + k];
+            const ref::Triangle& t = expectation_.triangles[*triangle];
+            is_writer = drawn && writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
+                        (!capture_.has_primitive || writer.primitive == t.primitive);
+        }
+        if (triangle) {
+            for (const ref::ExpectedValue& v : values_.expected(*triangle, id)) {
+                add(e, v, *triangle, id, is_writer ? std::optional(index) : std::nullopt);
+            }
+        }
+        return e;
+    }
+
+  private:
+    void add(SampleEvidence& e, const ref::ExpectedValue& v, uint32_t triangle, ref::SampleId id,
+             std::optional<size_t> drawn) {
+        const Plane plane = plane_of(v.quantity);
+        if (plane.kind == Plane::Kind::none) {
+            return;  // what a derivative is made of: no plane holds it
+        }
+        SampleValue value;
+        value.quantity = v.quantity;
+        value.exact = v.exact.size() <= 48 ? v.exact : std::string();
+        value.nearest = v.nearest;
+        value.also = v.also;
+        value.budget = v.is_flat ? 0 : v.budget;
+        const double reach = v.factor * value.budget;
+        value.low = v.nearest - reach;
+        value.high = v.nearest + reach;
+        if (plane.kind != Plane::Kind::frag_coord && !v.is_flat) {
+            const ref::ValueRange range = values_.range(triangle, id,
+                                                        plane.kind == Plane::Kind::depth
+                                                            ? ref::kDepthAttribute
+                                                            : static_cast<int32_t>(plane.attribute),
+                                                        plane.component);
+            if (range.is_promised) {
+                value.low = range.low;
+                value.high = range.high;
+            }
+        }
+        if (drawn) {
+            const auto component = static_cast<glm::vec4::length_type>(plane.component);
+            switch (plane.kind) {
+                case Plane::Kind::depth:
+                    value.has_device = *drawn < capture_.depth.size();
+                    value.bits =
+                        value.has_device ? std::bit_cast<uint32_t>(capture_.depth[*drawn]) : 0;
+                    break;
+                case Plane::Kind::frag_coord:
+                    value.has_device = true;
+                    value.bits = std::bit_cast<uint32_t>(capture_.frag_coord[*drawn][component]);
+                    break;
+                default:
+                    value.has_device = plane.attribute < capture_.attribute_count;
+                    value.bits = value.has_device ? std::bit_cast<uint32_t>(capture_.attributes.at(
+                                                        plane.attribute)[*drawn][component])
+                                                  : 0;
+            }
+        }
+        e.values.push_back(std::move(value));
+    }
+
+    const cases::Case& case_;
+    const ref::Expectation& expectation_;
+    const diff::CaptureView& capture_;
+    ref::ValueReference values_;
+};
+
+}  // namespace
+
+void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Limits& limits) {
+    const Window window(verdict, c.target);
+    record.pictures = cut_pictures(window, c, verdict, capture);
+    record.geometry = geometry_of(window, c, limits, expectation);
+}
+
+void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Limits& limits) {
+    keep_pictures(record, c, verdict, expectation, capture, limits);
+    const Window window(verdict, c.target);
+    if (c.blit || !verdict.error.empty()) {
+        return;
+    }
+    EvidenceMaker maker(c, expectation, capture, limits);
+    for (const size_t index : chosen_samples(window, c.target, verdict)) {
+        record.evidence.push_back(maker.at(index));
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is kept of a judged case so that a reader can check it by hand: pictures, the triangles over
+// them, and the values at wrong samples.
+#pragma once
+
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
+#include "diff/verdict.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/position/limits.hpp"
+#include "report/record/run.hpp"
+
+namespace cli {
+
+// Fills pictures and geometry of the record of a case with draws or a blit; planes that the capture
+// lacks are left out. `expectation` is empty for a blit.
+void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Limits& limits);
+
+// Fills pictures, geometry and evidence of the record of a case with draws or a blit. `expectation`
+// is empty for a blit.
+void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Limits& limits);
+
+}  // namespace cli

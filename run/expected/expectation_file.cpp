@@ -1,0 +1,392 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/expected/expectation_file.hpp"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <utility>
+
+#include "cases/model/selector.hpp"
+#include "report/text/reports.hpp"
+
+namespace cli {
+
+using cases::Error;
+using cases::Errors;
+using report::Status;
+
+namespace {
+
+constexpr std::string_view kFirstLine = "# edgecase-expectations 1";
+constexpr std::array kStatuses = {Status::fail,        Status::crash, Status::timeout,
+                                  Status::device_lost, Status::flake, Status::skip};
+
+std::string_view trim(std::string_view s) {
+    const size_t begin = s.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos) {
+        return {};
+    }
+    return s.substr(begin, s.find_last_not_of(" \t\r") - begin + 1);
+}
+
+std::vector<std::string> split_words(std::string_view s) {
+    std::istringstream in{std::string(s)};
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) {
+        words.push_back(word);
+    }
+    return words;
+}
+
+std::optional<VersionBound> parse_bound(std::string_view word) {
+    using Relation = VersionBound::Relation;
+    constexpr std::array<std::pair<std::string_view, Relation>, 5> kRelations = {{
+        {">=", Relation::at_least},
+        {"<=", Relation::at_most},
+        {">", Relation::above},
+        {"<", Relation::below},
+        {"=", Relation::equal},
+    }};
+    for (const auto& [sign, relation] : kRelations) {
+        if (word.starts_with(sign)) {
+            const std::string_view rest = word.substr(sign.size());
+            if (rest.empty() || rest.find_first_not_of("0123456789.") != std::string_view::npos) {
+                return std::nullopt;
+            }
+            VersionBound bound{relation, find_version(rest, 0)};
+            return bound.version.empty() ? std::nullopt : std::optional(std::move(bound));
+        }
+    }
+    return std::nullopt;
+}
+
+class Parser {
+  public:
+    Parser(const std::filesystem::path& path, std::string today) : today_(std::move(today)) {
+        file_.path = path;
+    }
+
+    cases::ExpectedAll<ExpectationFile> parse(std::string_view text) {
+        size_t begin = 0;
+        while (begin < text.size()) {
+            const size_t end = std::min(text.find('\n', begin), text.size());
+            ++line_;
+            parse_line(trim(text.substr(begin, end - begin)));
+            if (line_ == 1 && !errors_.empty()) {
+                return tl::unexpected(errors_);  // something else: its lines would tell nothing
+            }
+            begin = end + 1;
+        }
+        if (line_ == 0) {
+            line_ = 1;
+            fail("the file is empty; its first line must be '" + std::string(kFirstLine) + "'");
+        } else if (!has_device_) {
+            line_ = 1;
+            fail(
+                "no line says which device is meant; add '# device: NAME-GLOB  driver: REGEX "
+                "VERSIONS'");
+        }
+        if (!errors_.empty()) {
+            return tl::unexpected(errors_);
+        }
+        return std::move(file_);
+    }
+
+  private:
+    void fail(std::string message) {
+        errors_.push_back({{file_.path.string(), line_, 1}, report::printable(message)});
+    }
+
+    void parse_line(std::string_view line) {
+        if (line_ == 1) {
+            if (line != kFirstLine) {
+                fail("the first line must be '" + std::string(kFirstLine) + "'");
+            }
+        } else if (line.empty()) {
+            return;
+        } else if (line.front() == '#') {
+            const std::string_view comment = trim(line.substr(1));
+            for (const std::string_view key : {"device:", "driver:", "profile:"}) {
+                if (comment.starts_with(key)) {
+                    parse_header(comment);
+                    return;
+                }
+            }
+        } else {
+            parse_expectation(line);
+        }
+    }
+
+    void parse_header(std::string_view header) {
+        constexpr std::array<std::string_view, 3> kKeys = {"device:", "driver:", "profile:"};
+        if (!file_.lines.empty()) {
+            fail("a header line must stand above the first expectation");
+            return;
+        }
+        while (!header.empty()) {
+            const auto key = std::find_if(kKeys.begin(), kKeys.end(), [&](std::string_view k) {
+                return header.starts_with(k);
+            });
+            header.remove_prefix(
+                key->size());  // found: the caller and the search below look for keys
+            size_t end = header.size();
+            for (const std::string_view other : kKeys) {
+                end = std::min(end, header.find(other));
+            }
+            set_header(*key, trim(header.substr(0, end)));
+            header.remove_prefix(end);
+        }
+    }
+
+    void set_header(std::string_view key, std::string_view value) {
+        if (value.empty()) {
+            fail("'" + std::string(key) + "' has no value");
+        } else if (key == "device:") {
+            if (std::exchange(has_device_, true)) {
+                fail("a second 'device:' header; one file speaks of one device");
+            }
+            file_.device_glob = value;
+        } else if (key == "driver:") {
+            for (const std::string& word : split_words(value)) {
+                if (std::string_view("<>=").find(word.front()) != std::string_view::npos) {
+                    if (std::optional<VersionBound> bound = parse_bound(word); bound) {
+                        file_.versions.push_back(std::move(*bound));
+                    } else {
+                        fail("'" + word +
+                             "' is no version bound; write one like '>=22.3' or '<23'");
+                    }
+                } else {
+                    file_.driver_regex += (file_.driver_regex.empty() ? "" : " ") + word;
+                }
+            }
+            try {
+                const std::regex check(file_.driver_regex, std::regex::ECMAScript);
+            } catch (const std::regex_error&) {
+                fail("'" + file_.driver_regex + "' is not a regular expression (ECMAScript)");
+            }
+        } else {
+            for (const std::string& word : split_words(value)) {
+                if (const auto profile = cases::parse_profile(word); profile) {
+                    file_.profiles.push_back(*profile);
+                } else {
+                    fail("'" + word + "' is no profile; write vulkan, practice or direct3d");
+                }
+            }
+        }
+    }
+
+    void parse_expectation(std::string_view line) {
+        ExpectationLine entry;
+        entry.where = {file_.path.string(), line_, 1};
+        const size_t hash = line.find(" #");
+        entry.note = hash == std::string_view::npos ? "" : std::string(trim(line.substr(hash + 2)));
+        const std::vector<std::string> words = split_words(line.substr(0, hash));
+        if (words.size() < 3) {
+            fail("an expectation is 'ID-GLOB STATUS BUG [until=YYYY-MM-DD]  # REASON'");
+            return;
+        }
+        entry.glob = words[0];
+        std::vector<std::string> names;
+        bool known = false;
+        for (const Status status : kStatuses) {
+            names.emplace_back(report::to_string(status));
+            if (words[1] == names.back()) {
+                entry.status = status;
+                known = true;
+            }
+        }
+        if (!known) {
+            const std::string nearest = cases::nearest_name(words[1], names);
+            fail("'" + words[1] + "' is no status that can be expected" +
+                 (nearest.empty() ? "; write fail, crash, timeout, device_lost, flake or skip"
+                                  : "; did you mean '" + nearest + "'?"));
+            return;
+        }
+        entry.bug = words[2] == "-" ? "" : words[2];
+        if (entry.bug.empty() && entry.status != Status::skip) {
+            fail("an expected " + words[1] +
+                 " needs a reference to a bug in its third column ('-' is for skip)");
+        }
+        for (size_t k = 3; k < words.size(); ++k) {
+            if (!words[k].starts_with("until=") || !is_date(words[k].substr(6))) {
+                fail("'" + words[k] +
+                     "' is not understood; only 'until=YYYY-MM-DD' may follow the bug");
+                continue;
+            }
+            entry.until = words[k].substr(6);
+            entry.is_past = entry.until < today_;
+        }
+        if (entry.note.empty()) {
+            fail("the expectation of '" + entry.glob +
+                 "' gives no reason; add one sentence after ' # '");
+        }
+        file_.lines.push_back(std::move(entry));
+    }
+
+    ExpectationFile file_;
+    std::string today_;
+    Errors errors_;
+    uint32_t line_ = 0;
+    bool has_device_ = false;
+};
+
+}  // namespace
+
+cases::ExpectedAll<ExpectationFile> parse_expectations(std::string_view text,
+                                                       const std::filesystem::path& path,
+                                                       const std::string& today) {
+    return Parser(path, today).parse(text);
+}
+
+cases::ExpectedAll<ExpectationFile> load_expectations(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    if (!in || !(text << in.rdbuf())) {
+        std::error_code ignored;
+        return tl::unexpected(Errors{{{path.string(), 0, 0},
+                                      std::filesystem::exists(path, ignored)
+                                          ? "the expectation file is empty or cannot be read"
+                                          : "there is no such expectation file"}});
+    }
+    return parse_expectations(text.str(), path, today_utc());
+}
+
+std::vector<uint32_t> find_version(std::string_view text, size_t begin) {
+    std::vector<uint32_t> version;
+    size_t at = text.find_first_of("0123456789", begin);
+    while (at < text.size() && text[at] >= '0' && text[at] <= '9') {
+        uint64_t number = 0;
+        for (; at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at) {
+            number = std::min<uint64_t>(number * 10 + static_cast<uint64_t>(text[at] - '0'),
+                                        0xffffffffU);
+        }
+        version.push_back(static_cast<uint32_t>(number));
+        if (at >= text.size() || text[at] != '.') {
+            break;
+        }
+        ++at;
+    }
+    return version;
+}
+
+bool satisfies(const std::vector<uint32_t>& version, const VersionBound& bound) {
+    // Compared as far as the bound goes: 22.3.6 is equal to 22.3 and not above it.
+    std::vector<uint32_t> head = version;
+    head.resize(bound.version.size(), 0);
+    switch (bound.relation) {
+        case VersionBound::Relation::at_least:
+            return head >= bound.version;
+        case VersionBound::Relation::above:
+            return head > bound.version;
+        case VersionBound::Relation::at_most:
+            return head <= bound.version;
+        case VersionBound::Relation::below:
+            return head < bound.version;
+        case VersionBound::Relation::equal:
+            return head == bound.version;
+    }
+    return false;
+}
+
+std::string mismatch(const ExpectationFile& file, const report::Device& device,
+                     cases::Profile profile) {
+    if (::fnmatch(file.device_glob.c_str(), device.name.c_str(), 0) != 0) {
+        return "it is for the device '" + file.device_glob + "', this is '" + device.name + "'";
+    }
+    const std::string driver = device.driver_name + " " + device.driver_info;
+    std::smatch match;
+    if (!std::regex_search(driver, match, std::regex(file.driver_regex))) {
+        return "it is for the driver '" + file.driver_regex + "', this is '" + driver + "'";
+    }
+    const size_t after = static_cast<size_t>(match.position(0) + match.length(0));
+    for (const VersionBound& bound : file.versions) {
+        if (!satisfies(find_version(driver, after), bound)) {
+            return "its driver versions do not include '" + driver + "'";
+        }
+    }
+    if (!file.profiles.empty() &&
+        std::find(file.profiles.begin(), file.profiles.end(), profile) == file.profiles.end()) {
+        return "it is not for profile " + std::string(cases::to_string(profile));
+    }
+    return {};
+}
+
+cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
+    const std::vector<ExpectationFile>& files, const std::vector<std::string>& ids,
+    bool whole_suite) {
+    std::map<std::string, ExpectationLine> expected;
+    Errors errors;
+    for (const ExpectationFile& file : files) {
+        for (const ExpectationLine& line : file.lines) {
+            bool used = false;
+            for (const std::string& id : ids) {
+                if (!cases::glob_matches(line.glob, id)) {
+                    continue;
+                }
+                used = true;
+                const auto [at, fresh] = expected.emplace(id, line);
+                if (!fresh && (at->second.status != line.status || at->second.bug != line.bug)) {
+                    errors.push_back({line.where, "'" + line.glob + "' disagrees about '" + id +
+                                                      "' with " + at->second.where.file + ":" +
+                                                      std::to_string(at->second.where.line)});
+                    break;
+                }
+            }
+            if (!used && whole_suite) {
+                const std::string nearest = cases::nearest_name(line.glob, ids);
+                errors.push_back(
+                    {line.where, "'" + line.glob + "' matches no case" +
+                                     (nearest.empty() ? "; remove the line"
+                                                      : "; did you mean '" + nearest + "'?")});
+            }
+        }
+    }
+    if (!errors.empty()) {
+        return tl::unexpected(errors);
+    }
+    return expected;
+}
+
+Status judge_expected(Status actual, std::optional<Status> expected, bool is_past) {
+    if (!expected || actual == Status::error || actual == Status::not_run ||
+        actual == Status::unsupported || actual == Status::skip) {
+        return actual;
+    }
+    if (is_past) {
+        return actual == Status::pass ? Status::xpass : actual;
+    }
+    if (*expected == Status::flake) {
+        // A known flake may pass; failing the same way every time is news.
+        return actual == Status::flake ? Status::xfail : actual;
+    }
+    if (actual == *expected) {
+        return Status::xfail;
+    }
+    if (actual == Status::pass) {
+        return Status::xpass;
+    }
+    if (actual == Status::flake || actual > *expected) {
+        return actual;
+    }
+    return Status::improved;  // bad, but less bad than the line says
+}
+
+void apply(const ExpectationLine& line, report::CaseRecord& record) {
+    record.expected = line.status;
+    record.bug = line.bug;
+    record.expectation = line.where.file + ":" + std::to_string(line.where.line);
+    record.expired = line.is_past ? line.until : "";
+    record.actual = record.status;
+    record.status = judge_expected(record.status, line.status, line.is_past);
+}
+
+bool skips(const ExpectationLine& line) {
+    return line.status == report::Status::skip && !line.is_past;
+}
+
+}  // namespace cli

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One child process with its own process group, a request pipe, a result pipe, and its standard
+// output and error caught.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/base/error.hpp"
+
+namespace cli {
+
+// Keeps the first and the last half of what would be more than kLimit bytes.
+class HeadAndTail {
+  public:
+    static constexpr size_t kLimit = size_t{64} << 10;  // bytes
+    void add(std::string_view bytes);
+    void clear();
+    std::string text() const;
+
+  private:
+    std::string head_, tail_;
+    size_t dropped_ = 0;
+};
+
+// A file descriptor that closes itself.
+class Fd {
+  public:
+    explicit Fd(int fd = -1) : fd_(fd) {}
+    ~Fd() { reset(); }
+    Fd(Fd&& other) noexcept : fd_(other.release()) {}
+    Fd& operator=(Fd&& other) noexcept;
+    int get() const { return fd_; }
+    bool is_open() const { return fd_ >= 0; }
+    int release();
+    void reset();
+
+  private:
+    int fd_;
+};
+
+struct ExitStatus {
+    bool signalled = false;
+    int code = 0;  // exit status, or the signal's number
+};
+
+// "SIGSEGV", ...
+std::string signal_name(int signal);
+
+struct ChildProcess {
+    pid_t pid = -1;
+    Fd request;  // write end, non-blocking
+    Fd result;   // read end, non-blocking
+    Fd output;   // read end of the child's stdout and stderr, non-blocking
+};
+
+// Starts a command: own process group, killed when the calling thread's process dies, no core file,
+// stdin from /dev/null, the worker's fds 3 and 4 connected, `shared` (if not -1) as its fd 5,
+// everything else closed on exec.
+cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int shared = -1);
+
+// Kills the child's whole process group and reaps the child. A child that is dying by itself is
+// given `grace_ms` to do so, and its own status is told.
+ExitStatus kill_and_reap(pid_t pid, int grace_ms);
+
+}  // namespace cli

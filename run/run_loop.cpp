@@ -1,0 +1,408 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/run_loop.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "cases/model/derive.hpp"
+#include "report/text/sentences.hpp"
+
+namespace cli {
+
+using report::CaseRecord;
+using report::Status;
+using vk_harness::Rendered;
+
+namespace {
+
+constexpr uint64_t kMaxJudgingBytes = uint64_t{512} << 20;
+constexpr uint32_t kMaxStartFailures = 3;
+constexpr int kProgressMs = 200;
+
+std::vector<uint64_t> all_bytes(const std::vector<PlannedCase>& cases) {
+    std::vector<uint64_t> bytes;
+    for (const PlannedCase& c : cases) {
+        bytes.push_back(capture_bytes(c.data));
+    }
+    return bytes;
+}
+
+// Of a duration in seconds.
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+Status death_status(const Death& death) {
+    return death.timed_out ? Status::timeout : Status::crash;
+}
+
+}  // namespace
+
+RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal& journal,
+                 SignalFd& signals, OnRecord on_record, OnProgress on_progress)
+    : config_(std::move(config)),
+      cases_(cases),
+      journal_(journal),
+      signals_(signals),
+      on_record_(std::move(on_record)),
+      on_progress_(std::move(on_progress)),
+      schedule_(all_bytes(cases), config_.schedule),
+      pool_(std::max(1U, std::thread::hardware_concurrency())) {}
+
+RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& device) {
+    device_ = device;
+    slots_.resize(std::max(size_t{1}, config_.schedule.lanes));
+    slots_.front().client.emplace(std::move(first));
+    for (size_t k = 0; k < cases_.size(); ++k) {
+        const PlannedCase& c = cases_[k];
+        if (!c.error.empty() || (c.expected && skips(*c.expected))) {
+            CaseRecord record = fresh_record(k);
+            record.status = c.error.empty() ? Status::skip : Status::error;
+            record.reason = c.error.empty() ? c.expected->note : c.error;
+            settle(k, std::move(record));
+        } else if (c.alone) {
+            schedule_.add_alone(k);
+        } else {
+            schedule_.add(k);
+        }
+    }
+    while (settled_ < cases_.size() && end_.failure.empty()) {
+        for (Slot& slot : slots_) {
+            feed(slot);
+        }
+        std::vector<pollfd> fds{{signals_.fd(), POLLIN, 0}, {pool_.fd(), POLLIN, 0}};
+        for (const Slot& slot : slots_) {
+            if (slot.client) {
+                slot.client->add_poll(fds);
+            }
+        }
+        ::poll(fds.data(), fds.size(), poll_timeout());
+        if (signals_.has_come()) {
+            end_.interrupted = true;
+            break;
+        }
+        for (Slot& slot : slots_) {
+            advance(slot);
+        }
+        pool_.collect();
+        on_progress_(settled_);
+    }
+    // The system takes a while to free what a worker holds.
+    ending_ = std::async(std::launch::async,
+                         [slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
+    for (auto& [k, record] : std::exchange(held_, {})) {  // only if the run ends early
+        finish(k, std::move(record));
+    }
+    return end_;
+}
+
+int RunLoop::poll_timeout() const {
+    Clock::time_point next = Clock::now() + std::chrono::milliseconds(kProgressMs);
+    for (const Slot& slot : slots_) {
+        if (slot.client && slot.client->state() != WorkerClient::State::idle) {
+            next = std::min(next, slot.client->deadline());
+        }
+    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
+    return static_cast<int>(std::max<int64_t>(left.count(), 0));
+}
+
+void RunLoop::fail(const std::string& why) {
+    if (end_.failure.empty()) {
+        end_.failure = why;
+    }
+}
+
+void RunLoop::check(const cases::Expected<void>& written) {
+    if (!written) {
+        fail(written.error().message);
+    }
+}
+
+void RunLoop::start_worker(Slot& slot) {
+    slot.client.reset();
+    cases::Expected<WorkerClient> client =
+        WorkerClient::start(config_.command, config_.worker, config_.timeout);
+    if (client) {
+        slot.client.emplace(std::move(*client));
+    } else {
+        fail(client.error().message);
+    }
+}
+
+void RunLoop::feed(Slot& slot) {
+    const bool judging_too_much = judging_bytes_ > kMaxJudgingBytes;
+    if (!slot.batch && !judging_too_much) {
+        slot.batch = schedule_.next(static_cast<size_t>(&slot - slots_.data()));
+        slot.sent = false;
+    }
+    if (!slot.batch || slot.sent) {
+        return;
+    }
+    if (!slot.client || (slot.batch->fresh && !slot.client->is_fresh())) {
+        start_worker(slot);
+    }
+    if (!slot.client || slot.client->state() != WorkerClient::State::idle ||
+        !slot.client->has_room()) {
+        return;
+    }
+    std::vector<const cases::Case*> batch;
+    uint64_t bytes = 0;
+    for (const size_t k : slot.batch->cases) {
+        check(journal_.write_begin(cases_[k].data.id, schedule_.attempts(k)));
+        batch.push_back(&cases_[k].data);
+        bytes += capture_bytes(cases_[k].data);
+    }
+    slot.answered.assign(batch.size(), false);
+    slot.since = Clock::now();
+    slot.sent = true;
+    slot.client->render(slot.batch->attempt, batch, bytes);
+}
+
+void RunLoop::advance(Slot& slot) {
+    if (!slot.client) {
+        return;
+    }
+    for (WorkerEvent& event : slot.client->advance()) {
+        if (!slot.client) {
+            return;  // an earlier event has ended it
+        }
+        if (auto* device = std::get_if<vk_harness::DeviceInfo>(&event); device != nullptr) {
+            on_device(slot, *device);
+        } else if (auto* failure = std::get_if<vk_harness::Failure>(&event); failure != nullptr) {
+            on_start_failure(slot, failure->message);
+            return;
+        } else if (auto* result = std::get_if<CaseResult>(&event); result != nullptr) {
+            on_result(slot, *result);
+        } else if (std::get_if<BatchDone>(&event) != nullptr) {
+            on_batch_done(slot);
+        } else if (auto* death = std::get_if<Death>(&event); death != nullptr) {
+            on_death(slot, *death);
+            return;
+        }
+    }
+}
+
+void RunLoop::on_device(Slot& slot, const vk_harness::DeviceInfo& device) {
+    start_failures_ = 0;
+    if (device.name != device_.name || device.uuid != device_.uuid ||
+        device.driver_version != device_.driver_version) {
+        fail("a later worker found another device ('" + device.name + "' instead of '" +
+             device_.name + "')");
+        slot.client->kill();
+    }
+}
+
+void RunLoop::on_start_failure(Slot& slot, const std::string& why) {
+    slot.client.reset();
+    if (++start_failures_ >= kMaxStartFailures) {
+        fail("workers cannot be started any more: " + why);
+    }
+}
+
+CaseRecord RunLoop::fresh_record(size_t k) const {
+    CaseRecord record = make_record(cases_[k].data);
+    record.rerun = cases_[k].rerun;
+    return record;
+}
+
+bool RunLoop::is_unexpected(size_t k, Status status) const {
+    const auto& expected = cases_[k].expected;
+    return !report::is_expected(
+        expected ? judge_expected(status, expected->status, expected->is_past) : status);
+}
+
+void RunLoop::on_result(Slot& slot, CaseResult& result) {
+    if (!slot.batch || result.index >= slot.answered.size() || slot.answered[result.index]) {
+        slot.client->kill();
+        Death death;
+        death.malformed = true;
+        death.step = "readback";
+        on_death(slot, death);
+        return;
+    }
+    const size_t k = slot.batch->cases[result.index];
+    Rendered& rendered = result.rendered;
+    const bool drawn = rendered.status == Rendered::Status::drawn;
+    const bool unsupported = rendered.status == Rendered::Status::unsupported;
+    if (!drawn && !unsupported && !slot.batch->fresh) {
+        return;  // stays without a result; on_batch_done renders it alone
+    }
+    slot.answered[result.index] = true;
+    seconds_[k] += seconds_since(slot.since) / static_cast<double>(slot.answered.size());
+    if (!drawn) {
+        CaseRecord record = fresh_record(k);
+        record.status = unsupported                                        ? Status::unsupported
+                        : rendered.status == Rendered::Status::device_lost ? Status::device_lost
+                                                                           : Status::error;
+        record.reason = rendered.reason;
+        record.messages = rendered.messages;
+        if (!unsupported) {
+            record.stderr_text = slot.client->output_since_batch();
+        }
+        settle(k, std::move(record));
+        return;
+    }
+    if (result.view.target != cases_[k].data.target) {
+        CaseRecord record = fresh_record(k);
+        record.status = Status::error;
+        record.reason = "the worker sent an image of another size than the case's target";
+        settle(k, std::move(record));
+        return;
+    }
+    if (result.consistency.size() != cases::derivations(cases_[k].data).size()) {
+        CaseRecord record = fresh_record(k);
+        record.status = Status::error;
+        record.reason = "the worker did not compare all of the case's derived renderings";
+        settle(k, std::move(record));
+        return;
+    }
+    const uint64_t bits = result.bits ^ checksum(FrameType::result, encode_findings(result));
+    switch (schedule_.drawn(k, bits)) {
+        case Schedule::Drawn::judge: {
+            auto record = std::make_shared<CaseRecord>(fresh_record(k));
+            record->messages = rendered.messages;
+            record->bits = hex(result.bits);
+            const uint64_t bytes = capture_bytes(cases_[k].data);
+            judging_bytes_ += bytes;
+            pool_.submit(
+                [this, k, view = result.view, consistency = std::move(result.consistency),
+                 strays = std::move(rendered.stray_writes), record] {
+                    judge(*record, cases_[k].data, view, {consistency, strays}, config_.limits,
+                          config_.profile, config_.pictures);
+                },
+                [this, k, bytes, record, keep = result.keep] {
+                    judging_bytes_ -= bytes;
+                    on_judged(k, std::move(*record));
+                });
+            break;
+        }
+        case Schedule::Drawn::same:
+            if (schedule_.confirmed(k)) {
+                CaseRecord record = std::move(judged_.at(k));
+                judged_.erase(k);
+                settle(k, std::move(record));
+            }
+            break;
+        case Schedule::Drawn::differs: {
+            CaseRecord record = std::move(judged_.at(k));
+            judged_.erase(k);
+            record.reason = "rendering " + std::to_string(schedule_.attempts(k)) +
+                            " has other bits than the first, which counted as " +
+                            std::string(report::to_string(record.status));
+            record.status = Status::flake;
+            settle(k, std::move(record));
+            break;
+        }
+    }
+}
+
+void RunLoop::on_judged(size_t k, CaseRecord record) {
+    if (!record.findings.empty()) {
+        const diff::Finding& f = report::leading_finding(record);
+        record.explain =
+            cases_[k].explain + " --pixel " + std::to_string(f.x) + "," + std::to_string(f.y);
+        if (cases_[k].data.target.samples > 1) {
+            record.explain += " --sample " + std::to_string(f.sample);
+        }
+        if (cases_[k].data.target.layers > 1) {
+            record.explain += " --layer " + std::to_string(f.layer.value_or(0));
+        }
+    }
+    const bool unexpected = record.status != Status::pass && is_unexpected(k, record.status);
+    if (schedule_.judged(k, unexpected)) {
+        settle(k, std::move(record));
+    } else {
+        judged_[k] = std::move(record);
+    }
+}
+
+void RunLoop::on_batch_done(Slot& slot) {
+    std::vector<size_t> without_result;
+    for (size_t k = 0; slot.batch && k < slot.answered.size(); ++k) {
+        if (!slot.answered[k]) {
+            without_result.push_back(slot.batch->cases[k]);
+        }
+    }
+    if (!without_result.empty()) {
+        if (slot.batch->fresh) {  // said it was done, sent nothing
+            Death death;
+            death.malformed = true;
+            death.step = "readback";
+            slot.client->kill();
+            on_death(slot, death);
+            return;
+        }
+        schedule_.died(
+            *slot.batch, without_result,
+            "the device was lost, or a batch failed, while this case was drawn with others");
+        slot.client.reset();  // what a driver does after that is worth nothing
+    }
+    slot.batch.reset();
+}
+
+void RunLoop::on_death(Slot& slot, const Death& death) {
+    if (!slot.batch || !slot.sent) {
+        on_start_failure(slot, describe(death));
+        return;
+    }
+    const Batch batch = *std::exchange(slot.batch, std::nullopt);
+    slot.client.reset();
+    std::vector<size_t> without_result;
+    for (size_t k = 0; k < slot.answered.size(); ++k) {
+        if (!slot.answered[k]) {
+            without_result.push_back(batch.cases[k]);
+        }
+    }
+    if (without_result.empty() || !schedule_.died(batch, without_result, describe(death))) {
+        return;
+    }
+    for (const size_t k : without_result) {
+        seconds_[k] += seconds_since(slot.since);
+        CaseRecord record = fresh_record(k);
+        record.status = death_status(death);
+        record.reason = describe(death);
+        record.step = death.step;
+        if (death.exit.signalled && !death.timed_out && !death.malformed) {
+            record.signal = signal_name(death.exit.code);
+        }
+        record.stderr_text = death.output;
+        judged_.erase(k);
+        settle(k, std::move(record));
+    }
+}
+
+void RunLoop::settle(size_t k, CaseRecord record) {
+    record.attempts = schedule_.attempts(k);
+    record.seconds = seconds_[k];
+    schedule_.settled(k, record.status);
+    if (!schedule_.is_held(k)) {
+        finish(k, std::move(record));
+        return;
+    }
+    held_[k] = std::move(record);
+    for (const Schedule::Released& released : schedule_.release()) {
+        CaseRecord ready = std::move(held_.at(released.k));
+        held_.erase(released.k);
+        if (!released.unrepeated_death.empty()) {
+            ready.status = Status::flake;
+            ready.reason = released.unrepeated_death + "; no case of its batch repeated that alone";
+        }
+        finish(released.k, std::move(ready));
+    }
+}
+
+void RunLoop::finish(size_t k, CaseRecord record) {
+    if (const auto& expected = cases_[k].expected; expected) {
+        apply(*expected, record);
+    }
+    check(journal_.write_end(record));
+    ++settled_;
+    on_record_(record);
+}
+
+}  // namespace cli

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The heart of `edgecase run`: hands batches to workers, judges what they drew while they draw on,
+// charges deaths to the right case, and settles every case exactly once.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "report/journal/journal.hpp"
+#include "report/record/run.hpp"
+#include "run/expected/expectation_file.hpp"
+#include "run/judge.hpp"
+#include "run/process/signal_fd.hpp"
+#include "run/schedule.hpp"
+#include "run/worker/worker_client.hpp"
+
+namespace cli {
+
+// One case of a run.
+struct PlannedCase {
+    cases::Case data;
+    std::optional<ExpectationLine> expected;
+    std::string error;           // not empty: not rendered, status error
+    bool alone = false;          // was in flight when an earlier run was cut off
+    std::string rerun, explain;  // command lines without --pixel
+};
+
+struct LoopConfig {
+    std::vector<std::string> command;  // starts a worker
+    WorkerOptions worker;
+    std::string icd_from = "--icd";  // what chose worker.vulkan.icd_file
+    std::chrono::milliseconds timeout{30000};
+    Schedule::Options schedule;  // its lanes: workers
+    cases::Profile profile = cases::Profile::direct3d;
+    ref::Limits limits;
+    KeepPictures pictures = KeepPictures::failed;
+};
+
+class RunLoop {
+  public:
+    // Called with each final record, in the order of settling.
+    using OnRecord = std::function<void(const report::CaseRecord&)>;
+    // Called at least five times a second: cases settled.
+    using OnProgress = std::function<void(size_t)>;
+
+    RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal& journal,
+            SignalFd& signals, OnRecord on_record, OnProgress on_progress);
+
+    struct End {
+        bool interrupted = false;
+        std::string failure;  // why cases were left, or why the journal could not be written
+    };
+    // `first` is a worker that has answered with `device`; another worker with another device ends
+    // the run.
+    End run(WorkerClient first, const vk_harness::DeviceInfo& device);
+
+  private:
+    struct Slot {
+        std::optional<WorkerClient> client;
+        std::optional<Batch> batch;
+        bool sent = false;
+        std::vector<bool> answered;  // [k] of the batch has a result
+        Clock::time_point since;
+    };
+
+    void feed(Slot& slot);
+    void start_worker(Slot& slot);
+    void advance(Slot& slot);
+    void on_device(Slot& slot, const vk_harness::DeviceInfo& device);
+    void on_result(Slot& slot, CaseResult& result);
+    void on_batch_done(Slot& slot);
+    void on_death(Slot& slot, const Death& death);
+    void on_start_failure(Slot& slot, const std::string& why);
+    void on_judged(size_t k, report::CaseRecord record);
+    void settle(size_t k, report::CaseRecord record);
+    void finish(size_t k, report::CaseRecord record);
+    report::CaseRecord fresh_record(size_t k) const;
+    bool is_unexpected(size_t k, report::Status status) const;
+    int poll_timeout() const;
+    void check(const cases::Expected<void>& written);
+    void fail(const std::string& why);
+
+    LoopConfig config_;
+    const std::vector<PlannedCase>& cases_;
+    report::Journal& journal_;
+    SignalFd& signals_;
+    OnRecord on_record_;
+    OnProgress on_progress_;
+    Schedule schedule_;
+    Pool pool_;
+    uint64_t judging_bytes_ = 0;  // captures in the pool
+    std::vector<Slot> slots_;
+    std::map<size_t, report::CaseRecord> judged_;  // waiting for more renderings
+    std::map<size_t, report::CaseRecord> held_;    // waiting for the rest of a dead batch
+    std::map<size_t, double> seconds_;
+    vk_harness::DeviceInfo device_;
+    size_t settled_ = 0;
+    uint32_t start_failures_ = 0;  // in a row
+    std::future<void> ending_;     // of the workers, waited for at the end of the loop's life
+    End end_;
+};
+
+}  // namespace cli

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which case is rendered next, with which others, and how often: pure bookkeeping, no processes.
+//
+// Cases are first rendered in batches. When a batch dies, its cases without a result are rendered
+// one by one in fresh workers, so that only the culprit is charged, confirmed alone; if none of
+// them dies alone, the first of the batch is charged as a flake, because the death must not be
+// lost. Unexpected failures are rendered again alone; different bits make a flake.
+//
+// Each worker has a lane of cases that follow each other in the suite: neighbours share pipelines,
+// and what one worker has compiled no other compiles again. A worker whose lane is empty takes over
+// the back half of the longest one.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "report/record/run.hpp"
+
+namespace cli {
+
+struct Batch {
+    std::vector<size_t> cases;
+    uint32_t attempt = 1;
+    bool fresh = false;  // needs a worker that has rendered nothing yet
+};
+
+class Schedule {
+  public:
+    struct Options {
+        size_t batch = 16;                         // cases at most
+        uint64_t batch_bytes = uint64_t{8} << 20;  // of captures, a case alone may be larger
+        uint32_t repeat = 1;                       // renderings of each case
+        uint32_t retries = 1;                      // more renderings of an unexpected failure
+        size_t lanes = 1;                          // workers
+    };
+
+    // `bytes[k]` is the size of case k's capture.
+    Schedule(std::vector<uint64_t> bytes, const Options& options);
+
+    // Puts a case into the first round, or into the round of fresh workers.
+    void add(size_t k) { lanes_.front().cases.push_back(k); }
+    void add_alone(size_t k) { fresh_.push_back(k); }
+
+    // The next batch of the worker of this lane, or nothing (yet).
+    std::optional<Batch> next(size_t lane = 0);
+    // True while a case waits for its batch.
+    bool has_waiting() const;
+
+    // A case was drawn; `bits` is a hash of its capture.
+    enum class Drawn { judge, same, differs };
+    Drawn drawn(size_t k, uint64_t bits);
+    // A drawn case was judged: true if it is finished, false if it has been queued again.
+    bool judged(size_t k, bool is_unexpected_failure);
+    // A case drawn again with the same bits: true if it is finished, false if it has been queued
+    // again.
+    bool confirmed(size_t k);
+
+    // The cases of a dead batch that have no result. True: `charge` it (a fresh worker died over
+    // this case alone); false: they have been queued for fresh workers.
+    bool died(const Batch& batch, const std::vector<size_t>& without_result,
+              const std::string& reason);
+
+    uint32_t attempts(size_t k) const { return states_[k].attempts; }
+
+    // Called with the final status of each case. Returns the reason of a death that no case of its
+    // batch repeated alone, to be charged to `k` as a flake; k's record must be held back while
+    // is_held(k).
+    void settled(size_t k, report::Status status);
+    bool is_held(size_t k) const;
+    // Records that are no longer held, in the order of settling, with the reason to charge, if any.
+    struct Released {
+        size_t k = 0;
+        std::string unrepeated_death;
+    };
+    std::vector<Released> release();
+
+  private:
+    struct State {
+        uint32_t attempts = 0;  // handed out
+        uint32_t drawn = 0;
+        uint32_t needed = 1;
+        std::optional<uint64_t> bits;
+        int group = -1;  // the first death it was in
+    };
+    // A death and the cases that may have caused it.
+    struct Group {
+        std::vector<size_t> open;  // not settled
+        std::vector<size_t> held;  // settled, in order
+        bool repeated = false;
+        size_t charged = 0;
+        std::string reason;
+        bool released = false;
+    };
+
+    struct Lane {
+        std::deque<size_t> cases;
+        bool has_worker = false;  // has handed out a batch
+    };
+
+    std::optional<Batch> take(std::deque<size_t>& queue, size_t count, bool fresh);
+    void refill(Lane& lane);
+
+    std::vector<uint64_t> bytes_;
+    Options options_;
+    std::vector<State> states_;
+    std::vector<Lane> lanes_;
+    std::deque<size_t> again_, retry_, fresh_;
+    std::vector<Group> groups_;
+};
+
+}  // namespace cli

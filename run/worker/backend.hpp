@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What draws in a worker: a Vulkan driver, or for the tests of the runner the reference itself.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "rasterizers/algorithms/device.hpp"
+#include "run/worker/message.hpp"
+#include "vk_harness/harness.hpp"
+
+namespace cli {
+
+class Backend {
+  public:
+    virtual ~Backend() = default;
+    virtual const vk_harness::DeviceInfo& device() const = 0;
+    virtual std::vector<vk_harness::Rendered> render(
+        const std::vector<cases::Case>& batch, const std::function<void(std::string_view)>& step,
+        const vk_harness::PlaneStore& store) = 0;
+};
+
+vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options);
+
+// Draws a case as the reference expects it: of several allowed answers the first, values rounded to
+// binary32. No driver is involved; a perfect device of 8 subpixel bits.
+diff::Capture draw_by_reference(const cases::Case& c);
+
+// Draws a case as an algorithm does; only without a ref::algorithms::unsupported_reason().
+diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Device& device);
+
+}  // namespace cli

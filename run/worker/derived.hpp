@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// In a worker: a batch with the derived renderings of its cases, which are compared on the spot.
+// Only what was found travels; the parent demands one result for each derivation.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "diff/consistency.hpp"
+#include "run/worker/backend.hpp"
+
+namespace cli {
+
+// A case's own rendering, and what its derived ones differ in, one result a derivation.
+struct RenderedCase {
+    vk_harness::Rendered rendered;
+    std::vector<diff::Consistency> consistency;
+};
+
+// Draws the cases and all renderings derived from them: those that come later in a submission of
+// their own, the others beside the cases. A case one of whose derived renderings was not drawn
+// has that one's status and reason. `store` places the cases' own planes. `damage`, if any, may
+// change a derived capture of the case with that number before it is compared.
+std::vector<RenderedCase> render_with_derived(
+    Backend& backend, const std::vector<cases::Case>& batch,
+    const std::function<void(std::string_view)>& step, const vk_harness::PlaneStore& store,
+    const std::function<void(size_t, vk_harness::Rendered&)>& damage = {});
+
+// The capture of a drawn case, wherever its planes lie.
+diff::CaptureView view_of(const vk_harness::Rendered& rendered);
+
+}  // namespace cli

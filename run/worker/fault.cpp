@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/worker/fault.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <utility>
+
+#include "cases/model/selector.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr std::array<std::pair<const char*, FaultKind>, 16> kNames = {{
+    {"segv", FaultKind::segv},
+    {"abort", FaultKind::abort},
+    {"hang", FaultKind::hang},
+    {"oom", FaultKind::oom},
+    {"exit0", FaultKind::exit0},
+    {"truncate", FaultKind::truncate},
+    {"garbage", FaultKind::garbage},
+    {"flip-pixel", FaultKind::flip_pixel},
+    {"flake", FaultKind::flake},
+    {"flip-derived", FaultKind::flip_derived},
+    {"device-lost", FaultKind::device_lost},
+    {"unsupported", FaultKind::unsupported},
+    {"noise", FaultKind::noise},
+    {"segv-at-start", FaultKind::segv_at_start},
+    {"hang-at-start", FaultKind::hang_at_start},
+    {"no-device", FaultKind::no_device},
+}};
+
+void use_up_memory() {
+    const rlimit limit{rlim_t{1} << 30, rlim_t{1} << 30};
+    ::setrlimit(RLIMIT_AS, &limit);
+    for (;;) {
+        volatile char* block = new char[size_t{1} << 24];
+        block[0] = 1;  // std::bad_alloc, uncaught, ends the worker
+    }
+}
+
+}  // namespace
+
+cases::Expected<std::vector<Fault>> parse_faults(std::string_view list) {
+    std::vector<Fault> faults;
+    while (!list.empty()) {
+        // ids hold commas, so a comma separates faults only before the name of one
+        size_t end = list.size();
+        for (size_t comma = list.find(','); comma != std::string_view::npos;
+             comma = list.find(',', comma + 1)) {
+            const std::string_view rest = list.substr(comma + 1);
+            const std::string_view word = rest.substr(0, rest.find_first_of(",@"));
+            for (const auto& [name, kind] : kNames) {
+                if (word == name) {
+                    end = std::min(end, comma);
+                }
+            }
+        }
+        const std::string_view item = list.substr(0, end);
+        list.remove_prefix(std::min(list.size(), end + 1));
+        const size_t at = item.find('@');
+        const std::string_view word = item.substr(0, at);
+        bool found = false;
+        for (const auto& [name, kind] : kNames) {
+            if (word == name) {
+                faults.push_back({kind, at == std::string_view::npos
+                                            ? std::string("**")
+                                            : std::string(item.substr(at + 1))});
+                found = true;
+            }
+        }
+        if (!found) {
+            std::vector<std::string> names;
+            std::string all;
+            for (const auto& [name, kind] : kNames) {
+                all += (names.empty() ? "" : ", ") + std::string(name);
+                names.emplace_back(name);
+            }
+            const std::string nearest = cases::nearest_name(std::string(word), names);
+            return tl::unexpected(cases::Error{
+                {},
+                "EDGECASE_FAULT names an unknown fault '" + std::string(word) + "'; " +
+                    (nearest.empty() ? "there are " + all : "did you mean '" + nearest + "'?")});
+        }
+    }
+    return faults;
+}
+
+bool has_fault(const std::vector<Fault>& faults, FaultKind kind, std::string_view id) {
+    for (const Fault& fault : faults) {
+        if (fault.kind == kind && (fault.glob == "**" || cases::glob_matches(fault.glob, id))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void commit(FaultKind kind) {
+    switch (kind) {
+        case FaultKind::segv:
+        case FaultKind::segv_at_start:
+            ::signal(SIGSEGV, SIG_DFL);
+            ::raise(SIGSEGV);
+            break;
+        case FaultKind::abort:
+            std::abort();
+        case FaultKind::hang:
+        case FaultKind::hang_at_start:
+            for (;;) {
+                ::pause();
+            }
+        case FaultKind::oom:
+            use_up_memory();
+            break;
+        case FaultKind::exit0:
+            ::_exit(0);
+        default:
+            break;
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the frames between the parent and a worker carry. Every decode_* returns nothing for bytes
+// that its encode_* could not have written.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "diff/consistency.hpp"
+#include "vk_harness/harness.hpp"
+
+namespace cli {
+
+// How a worker is to render.
+struct WorkerOptions {
+    vk_harness::Options vulkan;
+    // No driver if not empty: "reference" draws what the reference expects (tests of the runner),
+    // other names are devices of rasterizers/algorithms.
+    std::string renderer;
+};
+std::string encode_options(const WorkerOptions& options);
+std::optional<WorkerOptions> decode_options(std::string_view bytes);
+
+// A batch of cases; attempt counts from 1.
+// Where in the shared memory a batch may write its captures; size 0: nowhere.
+struct Room {
+    uint64_t offset = 0, size = 0;
+};
+struct RenderRequest {
+    uint32_t attempt = 1;
+    Room room;
+    std::vector<cases::Case> cases;
+};
+std::string encode_request(uint32_t attempt, const Room& room,
+                           const std::vector<const cases::Case*>& cases);
+std::optional<RenderRequest> decode_request(std::string_view bytes);
+
+std::string encode_device(const vk_harness::DeviceInfo& device);
+std::optional<vk_harness::DeviceInfo> decode_device(std::string_view bytes);
+std::string encode_devices(const std::vector<vk_harness::DeviceInfo>& devices);
+std::optional<std::vector<vk_harness::DeviceInfo>> decode_devices(std::string_view bytes);
+
+std::string encode_failure(const vk_harness::Failure& failure);
+std::optional<vk_harness::Failure> decode_failure(std::string_view bytes);
+
+// One case of a batch. The capture's planes travel as raw bytes; decoding refuses planes whose
+// sizes do not fit the target.
+struct CaseResult {
+    uint32_t index = 0;  // in the batch
+    vk_harness::Rendered rendered;
+    // Set if the planes lie in shared memory: where, and capture_bits() of them when they were
+    // written. The message is worth nothing if the bits are others when it arrives.
+    bool is_shared = false;
+    uint64_t offset = 0;
+    uint64_t bits = 0;
+    // What comparing the case's derived renderings with it has found, one a derivation.
+    std::vector<diff::Consistency> consistency;
+    // In the parent: the capture, wherever it lies, and what keeps it there.
+    diff::CaptureView view;
+    std::shared_ptr<const void> keep;
+};
+// Of what the worker found itself: the same bytes for the same findings.
+std::string encode_findings(const CaseResult& result);
+std::string encode_result(const CaseResult& result);
+std::optional<CaseResult> decode_result(std::string_view bytes);
+
+}  // namespace cli

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/worker/worker.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+#include "cases/load/color.hpp"
+#include "report/record/run.hpp"
+#include "run/judge.hpp"
+#include "run/process/frame.hpp"
+#include "run/process/shared_memory.hpp"
+#include "run/worker/backend.hpp"
+#include "run/worker/derived.hpp"
+#include "run/worker/fault.hpp"
+#include "run/worker/message.hpp"
+
+namespace cli {
+
+namespace {
+
+using vk_harness::Rendered;
+
+void send(FrameType type, std::string_view payload) {
+    if (!write_all(kResultFd, encode_frame(type, payload))) {
+        ::_exit(report::kExitInternal);  // the parent is gone
+    }
+}
+
+// The next frame of the parent; nothing at the end of the pipe.
+std::optional<Frame> receive(FrameReader& reader) {
+    for (;;) {
+        if (std::optional<Frame> frame = reader.next(); frame) {
+            return frame;
+        }
+        std::vector<char> chunk(size_t{1} << 16);
+        const ssize_t n = ::read(kRequestFd, chunk.data(), chunk.size());
+        if (n < 0 && errno == EINTR) {
+            continue;
+        }
+        if (n <= 0 || reader.is_malformed()) {
+            return std::nullopt;
+        }
+        reader.feed({chunk.data(), static_cast<size_t>(n)});
+    }
+}
+
+// Bytes that no report may pass on as they are: ESC, NUL, invalid UTF-8, ends of CDATA and script.
+void print_noise() {
+    constexpr char kNoise[] =
+        "driver \x1b[31mred\x1b[0m \0 nul \xff\xfe ]]> </script> & <b> \xed\xa0\x80\n";
+    std::fwrite(kNoise, 1, sizeof kNoise - 1, stderr);
+    std::fwrite(kNoise, 1, sizeof kNoise - 1, stdout);
+    std::fflush(stdout);
+}
+
+// Another colour in the middle of a target that counts no hits: the second highest bit of red.
+void flip_color(Rendered& rendered) {
+    const cases::Target& target = rendered.capture.target;
+    std::span<diff::ColorCodes> codes(rendered.capture.color);
+    if (!rendered.placed.empty()) {  // colours come first where there are no instruments
+        codes = std::span(reinterpret_cast<diff::ColorCodes*>(rendered.placed.data()),
+                          rendered.capture.sample_count());
+    }
+    if (target.color && !codes.empty()) {
+        codes[codes.size() / 2][0] ^= 1U << (cases::component_of(target.color->format, 0).bits - 2);
+    }
+}
+
+// One hit more at the first drawn sample from the middle of the target on: a double hit.
+void flip_pixel(Rendered& rendered) {
+    if (!rendered.capture.target.has_instruments) {
+        flip_color(rendered);
+        return;
+    }
+    std::span<glm::vec4> planes(rendered.capture.hits);
+    if (!rendered.placed.empty()) {  // the hits come first
+        planes = std::span(reinterpret_cast<glm::vec4*>(rendered.placed.data()),
+                           rendered.capture.sample_count());
+    }
+    const size_t n = planes.size();
+    for (size_t k = 0; k < n; ++k) {
+        glm::vec4& hits = planes[(n / 2 + k) % n];
+        if (hits.x + hits.y > 0) {
+            hits.x += 1;
+            hits.w += 1;
+            return;
+        }
+    }
+}
+
+// The message about a result, with its planes or with the place where they lie.
+std::string frame_of(uint32_t k, RenderedCase drawn, const SharedWriter& shared) {
+    CaseResult result;
+    result.index = k;
+    result.consistency = std::move(drawn.consistency);
+    Rendered& rendered = drawn.rendered;
+    if (!rendered.placed.empty() && rendered.status == Rendered::Status::drawn) {
+        result.is_shared = true;
+        result.offset = shared.offset_of(rendered.placed);
+        result.bits = capture_bits(view_of(rendered));
+    }
+    result.rendered = std::move(rendered);
+    return encode_frame(FrameType::result, encode_result(result));
+}
+
+void render_batch(Backend& backend, const RenderRequest& request, const std::vector<Fault>& faults,
+                  SharedWriter& shared) {
+    const auto step = [](std::string_view name) { send(FrameType::step, name); };
+    for (const cases::Case& c : request.cases) {
+        if (has_fault(faults, FaultKind::noise, c.id)) {
+            print_noise();
+        }
+        for (const FaultKind kind : {FaultKind::segv, FaultKind::abort, FaultKind::hang,
+                                     FaultKind::oom, FaultKind::exit0}) {
+            if (has_fault(faults, kind, c.id)) {
+                step("submit");
+                commit(kind);
+            }
+        }
+    }
+    shared.open(request.room.offset, request.room.size);
+    std::vector<RenderedCase> results = render_with_derived(
+        backend, request.cases, step,
+        [&shared](size_t, uint64_t bytes) { return shared.place(bytes); },
+        [&](size_t k, Rendered& derived) {
+            if (has_fault(faults, FaultKind::flip_derived, request.cases[k].id)) {
+                flip_pixel(derived);
+            }
+        });
+    for (const cases::Case& c : request.cases) {
+        if (has_fault(faults, FaultKind::device_lost, c.id)) {
+            for (RenderedCase& r : results) {
+                r.rendered.status = Rendered::Status::device_lost;
+                r.rendered.reason = "the device was lost on purpose (EDGECASE_FAULT)";
+            }
+        }
+    }
+    for (size_t k = 0; k < results.size(); ++k) {
+        const std::string& id = request.cases[k].id;
+        if (has_fault(faults, FaultKind::unsupported, id)) {
+            results[k].rendered.status = Rendered::Status::unsupported;
+            results[k].rendered.reason = "unsupported on purpose (EDGECASE_FAULT)";
+        }
+        if (has_fault(faults, FaultKind::flip_pixel, id) ||
+            (request.attempt == 1 && has_fault(faults, FaultKind::flake, id))) {
+            flip_pixel(results[k].rendered);
+        }
+        const std::string frame = frame_of(static_cast<uint32_t>(k), std::move(results[k]), shared);
+        if (has_fault(faults, FaultKind::truncate, id)) {
+            write_all(kResultFd, std::string_view(frame).substr(0, frame.size() / 2));
+            ::_exit(0);
+        }
+        if (has_fault(faults, FaultKind::garbage, id)) {
+            write_all(kResultFd, std::string(4096, '\x5a'));
+        }
+        if (!write_all(kResultFd, frame)) {
+            ::_exit(report::kExitInternal);
+        }
+    }
+    shared.lock();
+    send(FrameType::batch_done, {});
+}
+
+void answer_list_devices(const WorkerOptions& options) {
+    const vk_harness::Result<std::vector<vk_harness::DeviceInfo>> devices =
+        vk_harness::list_devices(options.vulkan);
+    if (devices) {
+        send(FrameType::devices, encode_devices(*devices));
+    } else {
+        send(FrameType::no_device, encode_failure(devices.error()));
+    }
+}
+
+}  // namespace
+
+int run_worker() {
+    FrameReader reader;
+    if (::isatty(kRequestFd) == 1 || ::fcntl(kRequestFd, F_GETFD) < 0 ||
+        ::fcntl(kResultFd, F_GETFD) < 0) {
+        std::fputs("edgecase: 'worker' is started by 'edgecase run' itself, not by hand\n", stderr);
+        return report::kExitUsage;
+    }
+    const char* list = std::getenv("EDGECASE_FAULT");
+    const cases::Expected<std::vector<Fault>> faults = parse_faults(list != nullptr ? list : "");
+    if (!faults) {
+        send(FrameType::no_device,
+             encode_failure({vk_harness::Stage::loader, 0, faults.error().message, {}}));
+        return report::kExitUsage;
+    }
+    if (has_fault(*faults, FaultKind::segv_at_start, "")) {
+        commit(FaultKind::segv);
+    }
+    if (has_fault(*faults, FaultKind::hang_at_start, "")) {
+        commit(FaultKind::hang);
+    }
+    WorkerOptions options;
+    SharedWriter shared(kSharedFd);
+    std::unique_ptr<Backend> backend;
+    while (std::optional<Frame> frame = receive(reader)) {
+        if (frame->type == FrameType::configure) {
+            const std::optional<WorkerOptions> decoded = decode_options(frame->payload);
+            if (!decoded) {
+                return report::kExitInternal;
+            }
+            options = *decoded;
+        } else if (frame->type == FrameType::list_devices) {
+            answer_list_devices(options);
+        } else if (frame->type == FrameType::hello) {
+            vk_harness::Result<std::unique_ptr<Backend>> made = make_backend(options);
+            if (has_fault(*faults, FaultKind::no_device, "")) {
+                made = tl::unexpected(vk_harness::Failure{
+                    vk_harness::Stage::device, 0, "no device, on purpose (EDGECASE_FAULT)", {}});
+            }
+            if (!made) {
+                send(FrameType::no_device, encode_failure(made.error()));
+                continue;
+            }
+            backend = std::move(*made);
+            send(FrameType::hello, encode_device(backend->device()));
+        } else if (frame->type == FrameType::render && backend != nullptr) {
+            const std::optional<RenderRequest> request = decode_request(frame->payload);
+            if (!request) {
+                return report::kExitInternal;
+            }
+            render_batch(*backend, *request, *faults, shared);
+        } else {
+            return report::kExitInternal;
+        }
+    }
+    // The driver is not torn down: what it does at exit belongs to no case.
+    std::fflush(nullptr);
+    ::_exit(0);
+}
+
+}  // namespace cli

@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/worker/worker_client.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <memory>
+#include <utility>
+
+#include "run/judge.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr int kGraceMs = 500;  // a worker whose pipe has closed is dying already
+constexpr size_t kChunk = size_t{1} << 20;
+
+}  // namespace
+
+std::string describe(const Death& death) {
+    const std::string where =
+        death.step.empty() ? " before it was ready" : " during '" + death.step + "'";
+    if (death.timed_out) {
+        return "the worker gave no sign of life within the time limit" + where;
+    }
+    if (death.malformed) {
+        return "the worker sent a result that is malformed" + where;
+    }
+    if (death.exit.signalled) {
+        return "the worker was killed by " + signal_name(death.exit.code) + where;
+    }
+    return "the worker left with exit status " + std::to_string(death.exit.code) +
+           " and without a result" + where;
+}
+
+cases::Expected<WorkerClient> WorkerClient::start_with(const std::vector<std::string>& command,
+                                                       const WorkerOptions& options,
+                                                       std::chrono::milliseconds timeout,
+                                                       FrameType request) {
+    std::shared_ptr<SharedMemory> memory =
+        request == FrameType::hello ? SharedMemory::create() : nullptr;
+    cases::Expected<ChildProcess> child = spawn(command, memory ? memory->fd() : -1);
+    if (!child) {
+        return tl::unexpected(child.error());
+    }
+    WorkerClient client(std::move(*child), std::move(memory), timeout);
+    client.pending_ = encode_frame(FrameType::configure, encode_options(options));
+    client.pending_ += encode_frame(request, {});
+    client.write_pending();
+    return client;
+}
+
+cases::Expected<WorkerClient> WorkerClient::start(const std::vector<std::string>& command,
+                                                  const WorkerOptions& options,
+                                                  std::chrono::milliseconds timeout) {
+    return start_with(command, options, timeout, FrameType::hello);
+}
+
+cases::Expected<WorkerClient> WorkerClient::start_listing(const std::vector<std::string>& command,
+                                                          const WorkerOptions& options,
+                                                          std::chrono::milliseconds timeout) {
+    return start_with(command, options, timeout, FrameType::list_devices);
+}
+
+WorkerClient::~WorkerClient() {
+    if (child_.request.is_open()) {  // not moved from
+        kill();
+    }
+}
+
+void WorkerClient::kill() {
+    if (state_ != State::dead && child_.request.is_open()) {
+        kill_and_reap(child_.pid, 0);
+    }
+    state_ = State::dead;
+}
+
+void WorkerClient::render(uint32_t attempt, const std::vector<const cases::Case*>& batch,
+                          uint64_t bytes) {
+    region_ = memory_ ? memory_->take() : nullptr;
+    Room room;
+    if (region_) {  // no more than needed: the worker unlocks and locks page by page
+        constexpr uint64_t kPage = 4096;
+        const uint64_t padded = bytes + batch.size() * 64;  // places are aligned
+        room = {region_->offset,
+                std::min<uint64_t>((padded + kPage - 1) / kPage * kPage, region_->bytes.size())};
+    }
+    pending_ += encode_frame(FrameType::render, encode_request(attempt, room, batch));
+    state_ = State::busy;
+    deadline_ = Clock::now() + timeout_;
+    read_output();
+    output_.clear();
+    step_ = "start of the batch";
+    ++batches_;
+    write_pending();
+}
+
+void WorkerClient::add_poll(std::vector<pollfd>& fds) const {
+    if (state_ == State::dead) {
+        return;
+    }
+    fds.push_back({child_.result.get(), POLLIN, 0});
+    if (child_.output.is_open()) {
+        fds.push_back({child_.output.get(), POLLIN, 0});
+    }
+    if (!pending_.empty()) {
+        fds.push_back({child_.request.get(), POLLOUT, 0});
+    }
+}
+
+void WorkerClient::write_pending() {
+    while (written_ < pending_.size()) {
+        const ssize_t n =
+            ::write(child_.request.get(), pending_.data() + written_, pending_.size() - written_);
+        if (n < 0) {
+            if (errno == EINTR) {
+                continue;
+            }
+            if (errno != EAGAIN) {
+                pending_.clear();  // the worker is gone; the result pipe tells
+                written_ = 0;
+            }
+            return;
+        }
+        written_ += static_cast<size_t>(n);
+    }
+    pending_.clear();
+    written_ = 0;
+}
+
+void WorkerClient::read_output() {
+    constexpr size_t kOutputChunk = size_t{1} << 16;
+    const auto chunk = std::make_unique_for_overwrite<char[]>(kOutputChunk);
+    while (child_.output.is_open()) {
+        const ssize_t n = ::read(child_.output.get(), chunk.get(), kOutputChunk);
+        if (n > 0) {
+            output_.add({chunk.get(), static_cast<size_t>(n)});
+        } else if (n < 0 && errno == EINTR) {
+            continue;
+        } else {
+            if (n == 0) {
+                child_.output.reset();
+            }
+            return;
+        }
+    }
+}
+
+bool WorkerClient::read_result() {
+    const auto chunk = std::make_unique_for_overwrite<char[]>(kChunk);
+    for (;;) {
+        const ssize_t n = ::read(child_.result.get(), chunk.get(), kChunk);
+        if (n > 0) {
+            reader_.feed({chunk.get(), static_cast<size_t>(n)});
+            deadline_ = Clock::now() + timeout_;
+            if (static_cast<size_t>(n) < kChunk / 2) {
+                return true;
+            }
+        } else if (n < 0 && errno == EINTR) {
+            continue;
+        } else {
+            return n < 0 && errno == EAGAIN;
+        }
+    }
+}
+
+bool WorkerClient::find_planes(CaseResult& result) const {
+    if (result.rendered.status != vk_harness::Rendered::Status::drawn) {
+        return !result.is_shared;
+    }
+    diff::Capture& c = result.rendered.capture;
+    if (!result.is_shared) {
+        auto capture = std::make_shared<const diff::Capture>(std::move(c));
+        c = diff::Capture();
+        result.view = *capture;
+        result.keep = std::move(capture);
+        result.bits = capture_bits(result.view);
+        return true;
+    }
+    if (region_ == nullptr || result.offset < region_->offset || result.offset % 16 != 0 ||
+        c.target.width > cases::kMaxTargetSize || c.target.height > cases::kMaxTargetSize ||
+        c.target.samples > 64 || c.target.layers > cases::kMaxLayers) {
+        return false;
+    }
+    const uint64_t at = result.offset - region_->offset;
+    const uint64_t bytes = diff::plane_bytes(c.target, c.attribute_count);
+    if (bytes > region_->bytes.size() || at > region_->bytes.size() - bytes) {
+        return false;
+    }
+    result.view =
+        diff::view_planes(c.target, c.has_primitive, c.attribute_count, region_->bytes.data() + at);
+    result.keep = region_;
+    return capture_bits(result.view) == result.bits;
+}
+
+bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) {
+    switch (frame.type) {
+        case FrameType::step:
+            step_ = frame.payload;
+            return true;
+        case FrameType::hello:
+            if (auto device = decode_device(frame.payload); device && state_ == State::starting) {
+                state_ = State::idle;
+                events.emplace_back(std::move(*device));
+                return true;
+            }
+            return false;
+        case FrameType::no_device:
+            if (auto failure = decode_failure(frame.payload);
+                failure && state_ == State::starting) {
+                events.emplace_back(std::move(*failure));
+                return true;
+            }
+            return false;
+        case FrameType::devices:
+            if (auto devices = decode_devices(frame.payload);
+                devices && state_ == State::starting) {
+                events.emplace_back(std::move(*devices));
+                return true;
+            }
+            return false;
+        case FrameType::result:
+            if (auto result = decode_result(frame.payload);
+                result && state_ == State::busy && find_planes(*result)) {
+                events.emplace_back(std::move(*result));
+                return true;
+            }
+            return false;
+        case FrameType::batch_done:
+            if (state_ != State::busy) {
+                return false;
+            }
+            state_ = State::idle;
+            region_ = nullptr;
+            events.emplace_back(BatchDone{});
+            return true;
+        default:
+            return false;
+    }
+}
+
+Death WorkerClient::die(bool timed_out, bool malformed, int grace_ms) {
+    Death death;
+    death.timed_out = timed_out;
+    death.malformed = malformed;
+    death.exit = kill_and_reap(child_.pid, grace_ms);
+    read_output();
+    death.step = step_;
+    death.output = output_.text();
+    state_ = State::dead;
+    return death;
+}
+
+std::vector<WorkerEvent> WorkerClient::advance() {
+    std::vector<WorkerEvent> events;
+    if (state_ == State::dead) {
+        return events;
+    }
+    write_pending();
+    read_output();
+    const bool open = read_result();
+    bool valid = true;
+    while (valid) {
+        const std::optional<Frame> frame = reader_.next();
+        if (!frame) {
+            break;
+        }
+        valid = handle(*frame, events);
+    }
+    if (!valid || reader_.is_malformed()) {
+        events.emplace_back(die(false, true, 0));
+    } else if (!open) {
+        Death death = die(false, false, kGraceMs);
+        death.malformed = reader_.has_rest() && !death.exit.signalled;
+        events.emplace_back(std::move(death));
+    } else if (state_ != State::idle && Clock::now() >= deadline_) {
+        events.emplace_back(die(true, false, 0));
+    }
+    return events;
+}
+
+}  // namespace cli

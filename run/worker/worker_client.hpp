@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The parent's end of one worker: never blocks, turns what arrives into events.
+#pragma once
+
+#include <poll.h>
+
+#include <chrono>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "run/process/frame.hpp"
+#include "run/process/process.hpp"
+#include "run/process/shared_memory.hpp"
+#include "run/worker/message.hpp"
+
+namespace cli {
+
+using Clock = std::chrono::steady_clock;
+
+// How a worker ended.
+struct Death {
+    bool timed_out = false;
+    bool malformed = false;  // sent bytes that are no frame, or a frame that says nothing valid
+    ExitStatus exit;
+    std::string step;    // the last stage that it announced
+    std::string output;  // what it printed since the batch began, head and tail, any bytes
+};
+// One sentence: "the worker was killed by SIGSEGV during submit".
+std::string describe(const Death& death);
+
+struct BatchDone {};
+using WorkerEvent = std::variant<vk_harness::DeviceInfo, vk_harness::Failure,
+                                 std::vector<vk_harness::DeviceInfo>, CaseResult, BatchDone, Death>;
+
+class WorkerClient {
+  public:
+    enum class State { starting, idle, busy, dead };
+
+    // Starts the command; the answer is a DeviceInfo, Failure or Death event. `timeout` is the
+    // longest time without any sign of life while starting or busy.
+    static cases::Expected<WorkerClient> start(const std::vector<std::string>& command,
+                                               const WorkerOptions& options,
+                                               std::chrono::milliseconds timeout);
+    ~WorkerClient();
+    WorkerClient(WorkerClient&&) noexcept = default;
+    WorkerClient& operator=(WorkerClient&&) = delete;
+
+    // As start, but asks for the list of devices only.
+    static cases::Expected<WorkerClient> start_listing(const std::vector<std::string>& command,
+                                                       const WorkerOptions& options,
+                                                       std::chrono::milliseconds timeout);
+
+    State state() const { return state_; }
+    bool is_fresh() const { return batches_ == 0; }
+    pid_t pid() const { return child_.pid; }
+    std::string output_since_batch() const { return output_.text(); }
+
+    // True if a batch handed over now finds room for its captures.
+    bool has_room() const { return memory_ == nullptr || memory_->has_free(); }
+    // Hands a batch over whose captures take `bytes` bytes; the worker must be idle.
+    void render(uint32_t attempt, const std::vector<const cases::Case*>& batch, uint64_t bytes);
+
+    // For poll(2): appends what this worker waits for.
+    void add_poll(std::vector<pollfd>& fds) const;
+    // Reads and writes what is possible now, and kills the worker if its time is up.
+    std::vector<WorkerEvent> advance();
+    Clock::time_point deadline() const { return deadline_; }
+
+    // Ends the worker at once.
+    void kill();
+
+  private:
+    WorkerClient(ChildProcess child, std::shared_ptr<SharedMemory> memory,
+                 std::chrono::milliseconds timeout)
+        : child_(std::move(child)),
+          memory_(std::move(memory)),
+          timeout_(timeout),
+          deadline_(Clock::now() + timeout) {}
+    static cases::Expected<WorkerClient> start_with(const std::vector<std::string>& command,
+                                                    const WorkerOptions& options,
+                                                    std::chrono::milliseconds timeout,
+                                                    FrameType request);
+    void write_pending();
+    void read_output();
+    bool read_result();  // false at the end of the pipe
+    bool handle(const Frame& frame, std::vector<WorkerEvent>& events);
+    bool find_planes(CaseResult& result) const;  // false if they are not what was written
+    Death die(bool timed_out, bool malformed, int grace_ms);
+
+    ChildProcess child_;
+    std::shared_ptr<SharedMemory> memory_;
+    std::shared_ptr<const Region> region_;  // of the batch in hand
+    State state_ = State::starting;
+    std::chrono::milliseconds timeout_;
+    Clock::time_point deadline_;
+    std::string pending_;  // request bytes, of which the first written_ are written
+    size_t written_ = 0;
+    FrameReader reader_;
+    HeadAndTail output_;
+    std::string step_;
+    uint32_t batches_ = 0;
+};
+
+}  // namespace cli

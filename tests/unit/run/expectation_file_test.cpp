@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/expected/expectation_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "run/worker/fault.hpp"
+
+namespace cli {
+namespace {
+
+using report::Status;
+
+report::Device lavapipe() {
+    report::Device device;
+    device.name = "llvmpipe (LLVM 15.0.6, 256 bits)";
+    device.driver_name = "llvmpipe";
+    device.driver_info = "Mesa 22.3.6 (LLVM 15.0.6)";
+    return device;
+}
+
+std::string mismatch_of(const std::string& header) {
+    const auto file =
+        parse_expectations("# edgecase-expectations 1\n# " + header + "\n", "f", "2026-01-01");
+    EXPECT_TRUE(file) << header;
+    return file ? mismatch(*file, lavapipe(), cases::Profile::direct3d) : "not parsed";
+}
+
+TEST(Expectations, HeadersFitOrSayWhyNot) {
+    EXPECT_EQ(mismatch_of("device: llvmpipe*"), "");
+    EXPECT_EQ(mismatch_of("device: llvmpipe*  driver: Mesa >=22.3 <23"), "");
+    EXPECT_EQ(mismatch_of("device: *  driver: Mesa =22.3  profile: vulkan direct3d"), "");
+    EXPECT_NE(mismatch_of("device: Swift*"), "");
+    EXPECT_NE(mismatch_of("device: *  driver: Mesa >=22.4"), "");
+    EXPECT_NE(mismatch_of("device: *  driver: Mesa <22.3.6"), "");
+    EXPECT_NE(mismatch_of("device: *  driver: Radeon"), "");
+    EXPECT_NE(mismatch_of("device: *  profile: vulkan"), "");
+}
+
+TEST(Expectations, VersionsCompareAsNumbers) {
+    using Relation = VersionBound::Relation;
+    EXPECT_TRUE(satisfies({22, 10}, {Relation::at_least, {22, 9}}));
+    EXPECT_FALSE(satisfies({22, 3, 6}, {Relation::above, {22, 3}}));
+    EXPECT_TRUE(satisfies({22, 3, 6}, {Relation::at_most, {22, 3}}));
+    EXPECT_TRUE(satisfies({22}, {Relation::below, {22, 0, 1}}));
+    EXPECT_EQ(find_version("Mesa 22.3.6-1 (LLVM 15)", 0), (std::vector<uint32_t>{22, 3, 6}));
+    EXPECT_TRUE(find_version("none", 0).empty());
+}
+
+TEST(Expectations, StatusesOfEveryPair) {
+    const auto judge = [](Status actual, Status expected) {
+        return judge_expected(actual, expected);
+    };
+    EXPECT_EQ(judge_expected(Status::fail, std::nullopt), Status::fail);
+    for (const Status s : {Status::fail, Status::crash, Status::timeout, Status::device_lost}) {
+        EXPECT_EQ(judge(s, s), Status::xfail);
+        EXPECT_EQ(judge(Status::pass, s), Status::xpass);
+        EXPECT_EQ(judge(Status::error, s), Status::error);
+        EXPECT_EQ(judge(Status::not_run, s), Status::not_run);
+        EXPECT_EQ(judge(Status::unsupported, s), Status::unsupported);
+        EXPECT_EQ(judge(Status::flake, s), Status::flake);
+    }
+    for (const Status s : {Status::fail, Status::flake, Status::skip}) {  // its date is past
+        EXPECT_EQ(judge_expected(Status::pass, s, true), Status::xpass);
+        EXPECT_EQ(judge_expected(Status::fail, s, true), Status::fail);
+        EXPECT_EQ(judge_expected(Status::flake, s, true), Status::flake);
+    }
+    EXPECT_EQ(judge(Status::crash, Status::fail), Status::crash);
+    EXPECT_EQ(judge(Status::fail, Status::crash), Status::improved);
+    EXPECT_EQ(judge(Status::timeout, Status::device_lost), Status::timeout);
+    EXPECT_EQ(judge(Status::pass, Status::flake), Status::pass);
+    EXPECT_EQ(judge(Status::flake, Status::flake), Status::xfail);
+    EXPECT_EQ(judge(Status::fail, Status::flake), Status::fail);
+}
+
+TEST(Expectations, DatesAreDaysOfTheCalendar) {
+    for (const char* good : {"2026-11-22", "2028-02-29", "2000-02-29"}) {
+        EXPECT_TRUE(is_date(good)) << good;
+    }
+    for (const char* bad : {"2026-02-29", "2100-02-29", "2026-13-01", "2026-00-10", "2026-04-31",
+                            "2026-1-01", "2026/01/01", "", "2026-01-011", "20x6-01-01"}) {
+        EXPECT_FALSE(is_date(bad)) << bad;
+    }
+}
+
+TEST(Expectations, APastDateIsKnownToTheDay) {
+    const auto past_on = [](const std::string& today) {
+        const auto file = parse_expectations(
+            "# edgecase-expectations 1\n# device: *\na fail b until=2026-05-01  # R.\n", "f",
+            today);
+        return file ? past_lines(*file).size() : size_t{99};
+    };
+    EXPECT_EQ(past_on("2026-04-30"), 0U);
+    EXPECT_EQ(past_on("2026-05-01"), 0U);  // the last day
+    EXPECT_EQ(past_on("2026-05-02"), 1U);
+}
+
+TEST(Faults, CommasInsideIdsDoNotSeparate) {
+    const auto faults = parse_faults("segv@a/b:x=1,y=2,hang,noise@c");
+    ASSERT_TRUE(faults);
+    ASSERT_EQ(faults->size(), 3U);
+    EXPECT_EQ((*faults)[0].glob, "a/b:x=1,y=2");
+    EXPECT_TRUE(has_fault(*faults, FaultKind::segv, "a/b:x=1,y=2"));
+    EXPECT_FALSE(has_fault(*faults, FaultKind::segv, "a/b:x=1,y=3"));
+    EXPECT_TRUE(has_fault(*faults, FaultKind::hang, "anything"));
+    EXPECT_FALSE(parse_faults("segv,nosie"));
+}
+
+}  // namespace
+}  // namespace cli

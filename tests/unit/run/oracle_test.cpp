@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The fast reference against the oracle on the shipped suite: what may be drawn, and what values
+// may be. A share of the leaves by EDGECASE_ORACLE_SHARE=k/n (0/1: all).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "cases/load/loader.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/value/value.hpp"
+#include "tests/share.hpp"
+#include "tests/unit/ref/value_case.hpp"
+
+namespace {
+
+using cases::Profile;
+
+// Work of the oracle at which a leaf takes some tenths of a second: a larger one is left out.
+constexpr uint64_t kMostWork = 1U << 14U;
+
+uint64_t work_of(const cases::Case& c) {
+    uint64_t triangles = 0;
+    for (const cases::Draw& d : c.draws) {
+        triangles += (d.indices ? d.indices->size() : d.positions.size()) / 3 + 1;
+    }
+    return uint64_t{c.target.width} * c.target.rows() * c.target.samples * triangles;
+}
+
+struct Leaves {
+    std::vector<cases::Case> cases;
+    size_t large = 0;  // that were left out
+};
+
+const Leaves& leaves() {
+    static const Leaves kLeaves = [] {
+        Leaves out;
+        const auto suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+        const auto share = test_support::share_of("EDGECASE_ORACLE_SHARE", 32, suite.cases.size());
+        for (const cases::Case& c : suite.cases) {
+            if (c.blit || !share.has(c.id)) {
+                continue;
+            }
+            if (work_of(c) > kMostWork) {
+                ++out.large;
+            } else {
+                out.cases.push_back(c);
+            }
+        }
+        return out;
+    }();
+    return kLeaves;
+}
+
+TEST(Oracle, ExpectsOfTheSuiteWhatTheFastReferenceDoes) {
+    size_t compared = 0;
+    for (const cases::Case& c : leaves().cases) {
+        for (const Profile profile : cases::kProfiles) {
+            for (const int bits : {8, 4}) {
+                ref::Limits limits;
+                limits.subpixel_bits = bits;
+                const ref::Expectation fast = ref::expect(c, limits, profile);
+                const ref::Expectation exact = ref::exact::expect(c, limits, profile);
+                const auto where = [&] { return c.id + " at " + std::string(to_string(profile)); };
+                EXPECT_EQ(fast.samples, exact.samples) << where();
+                EXPECT_EQ(fast.writers, exact.writers) << where();
+                EXPECT_EQ(fast.depth_writers, exact.depth_writers) << where();
+                EXPECT_EQ(fast.fragments, exact.fragments) << where();
+                EXPECT_EQ(fast.fragments_begin, exact.fragments_begin) << where();
+                EXPECT_EQ(fast.must_samples, exact.must_samples) << where();
+                EXPECT_EQ(fast.either_samples, exact.either_samples) << where();
+                ++compared;
+            }
+        }
+    }
+    EXPECT_EQ(compared, 6 * leaves().cases.size());
+    EXPECT_GT(leaves().cases.size(), 2 * leaves().large);
+}
+
+// Some samples of a leaf, and for each of them a device that rounds the exact values once, and one
+// that is wrong in the last bits of one value: sometimes accepted, sometimes not.
+TEST(Oracle, JudgesValuesOfTheSuiteAsTheFastReferenceDoes) {
+    constexpr size_t kSamples = 3;
+    std::mt19937 rng(1);
+    size_t right = 0;
+    size_t wrong = 0;
+    for (const cases::Case& c : leaves().cases) {
+        if (!c.target.has_instruments) {
+            continue;
+        }
+        for (const Profile profile : cases::kProfiles) {
+            const ref::Expectation e = ref::expect(c, {}, profile);
+            ref::ValueReference values(c, {}, profile);
+            std::vector<size_t> written;
+            for (size_t i = 0; i < e.samples.size(); ++i) {
+                if (e.samples[i].writers_count > 0) {
+                    written.push_back(i);
+                }
+            }
+            std::shuffle(written.begin(), written.end(), rng);
+            written.resize(std::min(written.size(), kSamples));
+            for (const size_t index : written) {
+                const ref::SampleId id = ref::sample_at(c.target, index);
+                const uint32_t t = e.writers[e.samples[index].writers_begin];
+                const auto all = values.expected(t, id);
+                for (const int moved : {-1, 0, 1, 2, 3}) {
+                    auto device = all;
+                    if (moved >= 0 && !device.empty()) {
+                        ref::ExpectedValue& v = device[rng() % device.size()];
+                        const double most = std::max(v.factor, 1.0) * v.budget;
+                        v.nearest += std::ldexp(most, static_cast<int>(rng() % 4) - 2) *
+                                     (moved % 2 == 0 ? 1 : -1);
+                    }
+                    const ref::FragmentValues drawn = value_test::rounded(device);
+                    const ref::FragmentVerdict fast = values.judge(t, id, drawn);
+                    const ref::FragmentVerdict exact = values.judge_exact(t, id, drawn);
+                    const auto where = [&] {
+                        return c.id + " at " + std::string(to_string(profile)) + ", sample " +
+                               std::to_string(index) + ", triangle " + std::to_string(t);
+                    };
+                    ASSERT_EQ(fast.ok, exact.ok) << where();
+                    ASSERT_EQ(fast.mismatches.size(), exact.mismatches.size()) << where();
+                    for (size_t k = 0; k < fast.mismatches.size(); ++k) {
+                        EXPECT_EQ(fast.mismatches[k].quantity, exact.mismatches[k].quantity)
+                            << where();
+                        EXPECT_EQ(fast.mismatches[k].rule, exact.mismatches[k].rule) << where();
+                        EXPECT_EQ(fast.mismatches[k].level, exact.mismatches[k].level) << where();
+                    }
+                    (fast.ok ? right : wrong) += 1;
+                }
+            }
+        }
+    }
+    EXPECT_GT(right, wrong);
+    EXPECT_GT(wrong, right / 20);
+}
+
+}  // namespace

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// vkCmdBlitImage from an image with a known pattern to a cleared one, and the copy back.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "vk_harness/case_check.hpp"
+#include "vk_harness/memory/memory.hpp"
+
+namespace vk_harness {
+
+// Why the device cannot do a case's blit; nothing if it can.
+std::optional<Rejection> check_blit(const Capabilities& capabilities, const cases::Case& c);
+
+// The bytes of texels with these codes, one after the other, as VkFormat lays them out.
+std::vector<std::byte> encode_texels(cases::ColorFormat format,
+                                     const std::vector<std::array<uint32_t, 4>>& texels);
+
+// Images of one case's blit; they must live until the commands have run.
+class BlitImages {
+  public:
+    // The case has a blit. The source's texels are written to host memory here.
+    static Result<BlitImages> create(const Device& device, const cases::Case& c);
+
+    // Records the upload of the source, clearing of the destination, the blit, and, unless
+    // `readback` is null, the copy of the destination to byte `offset` of it.
+    void record(const Device& device, VkCommandBuffer commands, const cases::Case& c,
+                VkClearColorValue clear, VkBuffer readback, VkDeviceSize offset) const;
+
+    Guard* guard() const { return destination_.memory.guard.get(); }  // may be null
+
+  private:
+    struct PlainImage {
+        ImageMemory memory;  // freed after the image
+        Handle<VkImage> image;
+    };
+    static Result<PlainImage> make_image(const Device& device, cases::ColorFormat format,
+                                         uint32_t width, uint32_t height);
+
+    Buffer upload_;
+    PlainImage source_, destination_;
+};
+
+}  // namespace vk_harness

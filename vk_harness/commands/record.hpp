@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One case as commands: upload, draw, copy.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "vk_harness/commands/blit.hpp"
+#include "vk_harness/pipeline/pipeline_cache.hpp"
+#include "vk_harness/target/readback.hpp"
+#include "vk_harness/target/target.hpp"
+
+namespace vk_harness {
+
+// A draw with the place of its data in the vertex buffer, in bytes.
+struct DrawPlan {
+    const cases::Draw* draw = nullptr;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkDescriptorSet texture = VK_NULL_HANDLE;  // if an attribute asks for a level of detail
+    std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
+    DistancePlaces distances{};
+    VkDeviceSize indices = 0;
+    bool has_integer_color = false;  // the colour target's format holds integers
+    bool is_split = false;           // InstrumentLayout::split
+};
+
+struct CasePlan {
+    const cases::Case* test = nullptr;
+    size_t slot = 0;           // among the cases of the batch
+    uint32_t input_count = 0;  // case_check.hpp
+    std::vector<Attachment> attachments;
+    std::vector<const Image*> images;  // one an attachment
+    std::vector<DrawPlan> draws;
+    std::shared_ptr<BlitImages> blit;  // instead of images and draws
+    ReadbackLayout readback;
+};
+
+// Assigns the places of all vertices and indices from byte `begin` on; returns the end.
+VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin);
+// Writes them there, bits unchanged.
+void write_vertices(const CasePlan& plan, std::span<std::byte> memory);
+
+// Records clearing and drawing of a case. Afterwards its attachments are in the layout that
+// record_copies expects if `for_copies`.
+void record_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                  const CasePlan& plan, VkBuffer vertices, bool for_copies);
+
+// Records the copies of all samples to the read-back buffer. If the target is multisampled, `sets`
+// and `pipelines` hold one descriptor set and one compute pipeline an attachment, else nothing.
+void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
+                   VkPipelineLayout copy_layout, VkCommandBuffer commands, const CasePlan& plan,
+                   VkBuffer readback, std::span<const VkDescriptorSet> sets);
+
+}  // namespace vk_harness

@@ -1,0 +1,325 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/device/capabilities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "vk_harness/commands/viewports.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+std::string device_type_name(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated-gpu";
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete-gpu";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual-gpu";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "cpu";
+        default:
+            return "other";
+    }
+}
+
+std::string version_text(uint32_t version) {
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
+}
+
+bool has_device_extension(VkPhysicalDevice physical, const char* name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [name](const auto& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+// Largest size and sample counts of an optimally tiled 2D image; nothing if the device has no such
+// image.
+struct ImageLimits {
+    uint32_t width = 0, height = 0;
+    VkSampleCountFlags samples = 0;
+};
+ImageLimits image_limits(VkPhysicalDevice physical, VkFormat format, VkImageUsageFlags usage,
+                         VkImageCreateFlags flags) {
+    VkImageFormatProperties properties{};
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+        physical, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, flags, &properties);
+    if (result != VK_SUCCESS) {
+        return {};
+    }
+    return {properties.maxExtent.width, properties.maxExtent.height, properties.sampleCounts};
+}
+
+void require_format(Capabilities& c, VkFormat format, std::string_view name,
+                    VkFormatFeatureFlags needed, std::string_view purpose) {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
+    if ((properties.optimalTilingFeatures & needed) != needed) {
+        c.info.missing.push_back(
+            fmt::format("the device cannot use format {} as {}", name, purpose));
+    }
+}
+
+void query_properties(Capabilities& c, uint32_t index) {
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceIDProperties id{};
+    id.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES;
+    VkPhysicalDeviceMaintenance3Properties maintenance{};
+    maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    id.pNext = &maintenance;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &id;
+    VkPhysicalDeviceProperties first{};
+    vkGetPhysicalDeviceProperties(c.physical, &first);
+    if (first.apiVersion >= VK_API_VERSION_1_2) {
+        maintenance.pNext = &driver;
+    }
+    if (first.apiVersion >= VK_API_VERSION_1_1) {
+        vkGetPhysicalDeviceProperties2(c.physical, &properties);
+    }
+
+    DeviceInfo& info = c.info;
+    info.index = index;
+    info.name = first.deviceName;
+    info.driver_name = driver.driverName;
+    info.driver_info = driver.driverInfo;
+    for (const uint8_t byte : id.deviceUUID) {
+        info.uuid += fmt::format("{:02x}", byte);
+    }
+    info.vendor_id = first.vendorID;
+    info.device_id = first.deviceID;
+    info.api_version = first.apiVersion;
+    info.driver_version = first.driverVersion;
+    info.driver_id = static_cast<uint32_t>(driver.driverID);
+    info.device_type = device_type_name(first.deviceType);
+    c.limits = first.limits;
+    info.subpixel_bits = c.limits.subPixelPrecisionBits;
+    info.viewport_subpixel_bits = c.limits.viewportSubPixelBits;
+    info.interpolation_offset_bits = c.limits.subPixelInterpolationOffsetBits;
+    info.mipmap_bits = c.limits.mipmapPrecisionBits;
+    info.max_color_attachments =
+        std::min(c.limits.maxColorAttachments, c.limits.maxFragmentOutputAttachments);
+    vkGetPhysicalDeviceMemoryProperties(c.physical, &c.memory);
+    c.max_allocation = maintenance.maxMemoryAllocationSize;
+    for (uint32_t heap = 0; heap < c.memory.memoryHeapCount; ++heap) {
+        c.total_memory += c.memory.memoryHeaps[heap].size;
+    }
+}
+
+// Optional extensions of depth; each is asked for alone, since its structure may only be chained if
+// the device has the extension.
+void query_depth_features(Capabilities& c) {
+    const auto query = [&](void* chained) {
+        VkPhysicalDeviceFeatures2 features{};
+        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        features.pNext = chained;
+        vkGetPhysicalDeviceFeatures2(c.physical, &features);
+    };
+    if (has_device_extension(c.physical, VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME)) {
+        VkPhysicalDeviceDepthClipEnableFeaturesEXT clip{};
+        clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
+        query(&clip);
+        c.depth_clip_enable = clip.depthClipEnable == VK_TRUE;
+    }
+    c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
+}
+
+// Sample locations in sixteenths of a pixel, one grid cell a pixel.
+void query_sample_locations(Capabilities& c) {
+    c.has_standard_locations = c.limits.standardSampleLocations == VK_TRUE;
+    if (!has_device_extension(c.physical, VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME)) {
+        return;
+    }
+    VkPhysicalDeviceSampleLocationsPropertiesEXT locations{};
+    locations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLE_LOCATIONS_PROPERTIES_EXT;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &locations;
+    vkGetPhysicalDeviceProperties2(c.physical, &properties);
+    constexpr uint32_t kSixteenthBits = 4;
+    if (locations.sampleLocationSubPixelBits >= kSixteenthBits) {
+        c.location_counts = locations.sampleLocationSampleCounts;
+        c.location_range[0] = locations.sampleLocationCoordinateRange[0];
+        c.location_range[1] = locations.sampleLocationCoordinateRange[1];
+    }
+}
+
+void query_features(Capabilities& c) {
+    std::vector<std::string>& missing = c.info.missing;
+    if (c.info.api_version < VK_API_VERSION_1_3) {
+        missing.push_back(fmt::format("Vulkan 1.3 is needed, the device has {}",
+                                      version_text(c.info.api_version)));
+    } else {
+        VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
+        portability.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR;
+        VkPhysicalDeviceVulkan13Features features13{};
+        features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+        VkPhysicalDeviceFeatures2 features{};
+        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        features.pNext = &features13;
+        VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
+        barycentric.sType =
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
+        const auto ask = [&features](auto& structure) {
+            structure.pNext = features.pNext;
+            features.pNext = &structure;
+        };
+        c.portability_subset =
+            has_device_extension(c.physical, VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
+        if (c.portability_subset) {
+            ask(portability);
+        }
+        if (has_device_extension(c.physical, VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME)) {
+            ask(barycentric);
+        }
+        vkGetPhysicalDeviceFeatures2(c.physical, &features);
+        c.triangle_fans = !c.portability_subset || portability.triangleFans == VK_TRUE;
+        c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
+        c.depth_clamp = features.features.depthClamp == VK_TRUE;
+        c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
+        query_depth_features(c);
+        c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
+        query_sample_locations(c);
+        c.max_viewports = query_max_viewports(c.physical);
+        query_layers(c);
+        c.clip = query_clip_support(c.physical, has_device_extension);
+        c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
+        if (features13.dynamicRendering != VK_TRUE) {
+            missing.emplace_back("the device lacks the feature dynamicRendering");
+        }
+        if (features13.synchronization2 != VK_TRUE) {
+            missing.emplace_back("the device lacks the feature synchronization2");
+        }
+        if (features13.maintenance4 != VK_TRUE) {
+            missing.emplace_back("the device lacks the feature maintenance4");
+        }
+        if (features.features.independentBlend != VK_TRUE) {
+            missing.emplace_back("the device lacks the feature independentBlend");
+        }
+    }
+
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(c.physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(c.physical, &count, families.data());
+    const VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    const auto family = std::find_if(families.begin(), families.end(), [needed](const auto& f) {
+        return (f.queueFlags & needed) == needed && f.queueCount > 0;
+    });
+    if (family == families.end()) {
+        missing.emplace_back("the device has no queue for both graphics and compute");
+    } else {
+        c.queue_family = static_cast<uint32_t>(family - families.begin());
+    }
+}
+
+// With which sample counts narrow attachments can be drawn to and read back in targets as large as
+// those of kColorFormat; none if hits cannot be blended.
+VkSampleCountFlags narrow_sample_counts(const Capabilities& c, const ImageLimits& wide) {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(c.physical, kTwoNumbers, &properties);
+    constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
+                                             VK_FORMAT_FEATURE_TRANSFER_SRC_BIT |
+                                             VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+    const ImageLimits one =
+        image_limits(c.physical, kTwoNumbers,
+                     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
+    if ((properties.optimalTilingFeatures & kNeeded) != kNeeded || one.width < wide.width ||
+        one.height < wide.height) {
+        return 0;
+    }
+    const ImageLimits read = image_limits(
+        c.physical, kTwoNumbers, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT);
+    return VK_SAMPLE_COUNT_1_BIT | read.samples;
+}
+
+void query_targets(Capabilities& c) {
+    require_format(c, kColorFormat, "R32G32B32A32_SFLOAT",
+                   VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT,
+                   "a colour attachment that is read back");
+    require_format(c, kColorFormat, "R32G32B32A32_SFLOAT",
+                   VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+                   "a blended colour attachment, which counts hits");
+    require_format(
+        c, kDepthFormat, "D32_SFLOAT",
+        VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT,
+        "a depth attachment that is read back");
+    if (c.info.max_color_attachments < kFixedAttachments) {
+        c.info.missing.push_back(fmt::format("{} colour attachments are needed, the device has {}",
+                                             kFixedAttachments, c.info.max_color_attachments));
+    }
+
+    const ImageLimits color =
+        image_limits(c.physical, kColorFormat,
+                     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
+    const ImageLimits depth = image_limits(
+        c.physical, kDepthFormat,
+        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
+    const VkPhysicalDeviceLimits& l = c.limits;
+    c.max_width = std::min({l.maxImageDimension2D, l.maxFramebufferWidth, color.width, depth.width,
+                            l.maxViewportDimensions[0]});
+    c.max_height = std::min({l.maxImageDimension2D, l.maxFramebufferHeight, color.height,
+                             depth.height, l.maxViewportDimensions[1]});
+    c.info.max_target_size = std::min(c.max_width, c.max_height);
+
+    const ImageLimits color_samples = image_limits(
+        c.physical, kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+        VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT);
+    c.narrow_sample_counts = narrow_sample_counts(c, color);
+    const ImageLimits depth_samples =
+        image_limits(c.physical, kDepthFormat,
+                     VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, 0);
+    c.sample_counts = VK_SAMPLE_COUNT_1_BIT |
+                      (color_samples.samples & depth_samples.samples &
+                       l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts &
+                       l.sampledImageIntegerSampleCounts & l.sampledImageDepthSampleCounts);
+    c.location_counts &= c.sample_counts;
+}
+
+void query_depth_formats(Capabilities& c) {
+    const VkPhysicalDeviceLimits& l = c.limits;
+    for (size_t k = 0; k < c.depth_sample_counts.size(); ++k) {
+        const VkFormat format = depth_format(static_cast<cases::DepthFormat>(k));
+        VkFormatProperties properties{};
+        vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
+        const VkFormatFeatureFlags needed =
+            VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT;
+        c.depth_sample_counts.at(k) = 0;
+        if ((properties.optimalTilingFeatures & needed) != needed) {
+            continue;
+        }
+        const ImageLimits read = image_limits(
+            c.physical, format,
+            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, 0);
+        c.depth_sample_counts.at(k) =
+            VK_SAMPLE_COUNT_1_BIT |
+            (read.samples & l.framebufferDepthSampleCounts & l.sampledImageDepthSampleCounts);
+    }
+}
+
+}  // namespace
+
+Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index) {
+    Capabilities c;
+    c.physical = physical;
+    query_properties(c, index);
+    query_features(c);
+    query_targets(c);
+    query_depth_formats(c);
+    return c;
+}
+
+}  // namespace vk_harness

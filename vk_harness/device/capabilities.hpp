@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a physical device offers, and the formats that the harness draws to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "cases/model/case.hpp"
+#include "vk_harness/device/clip_support.hpp"
+#include "vk_harness/device/depth_bias_control.hpp"
+#include "vk_harness/device/instance.hpp"
+
+namespace vk_harness {
+
+// As far as the harness needs it.
+struct Capabilities {
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    DeviceInfo info;
+    VkPhysicalDeviceLimits limits{};
+    VkPhysicalDeviceMemoryProperties memory{};
+    uint32_t queue_family = 0;
+    uint32_t max_width = 0, max_height = 0;             // of a target
+    VkDeviceSize max_allocation = 0, total_memory = 0;  // bytes
+    VkSampleCountFlags sample_counts = 0;  // all attachments, drawn and read sample by sample
+    // VK_EXT_sample_locations; none of its counts without the extension.
+    VkSampleCountFlags location_counts = 0;
+    float location_range[2] = {0, 0};  // pixels
+    // Sample counts with which kTwoNumbers, blended, does what kColorFormat does.
+    VkSampleCountFlags narrow_sample_counts = 0;
+    bool has_standard_locations = false;  // standardSampleLocations
+    bool has_sample_shading = false;      // sampleRateShading
+    // By cases::DepthFormat: sample counts that can be drawn and read back; 0 if the device has not
+    // got the format.
+    std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};
+    bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
+    DepthBiasSupport depth_bias;
+    bool triangle_fans = true;
+    uint32_t max_viewports = 1;  // that gl_ViewportIndex can choose from
+    uint32_t max_layers = 1;     // of a target
+    bool layer_output = false;   // shaderOutputLayer: gl_Layer in a vertex shader
+    ClipSupport clip;
+    bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
+    bool portability_subset = false;
+};
+
+Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index);
+
+// Formats of the attachments (capture/capture.hpp).
+inline constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+inline constexpr VkFormat kDepthStencilFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
+constexpr VkFormat depth_format(cases::DepthFormat format) {
+    switch (format) {
+        case cases::DepthFormat::d24_unorm:
+            return VK_FORMAT_X8_D24_UNORM_PACK32;
+        case cases::DepthFormat::d16_unorm:
+            return VK_FORMAT_D16_UNORM;
+        case cases::DepthFormat::d32_float:
+            break;
+    }
+    return kDepthFormat;
+}
+// The format of attachments that hold two numbers a sample, if the device has it.
+inline constexpr VkFormat kTwoNumbers = VK_FORMAT_R32G32_SFLOAT;
+// Colour attachments before the attributes, at least: writer_and_hits, frag_coord.
+inline constexpr uint32_t kFixedAttachments = 2;
+
+}  // namespace vk_harness

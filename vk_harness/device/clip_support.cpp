@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/device/clip_support.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <glm/vec4.hpp>
+
+namespace vk_harness {
+
+ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_extension) {
+    ClipSupport out;
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    if (properties.apiVersion < VK_API_VERSION_1_1) {
+        return out;
+    }
+    ClipFeatures optional;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    optional.depth_clip_control.sType =
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT;
+    optional.provoking.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT;
+    VkPhysicalDeviceProvokingVertexPropertiesEXT modes{};
+    modes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_PROPERTIES_EXT;
+    if (has_extension(physical, VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME)) {
+        optional.depth_clip_control.pNext = features.pNext;
+        features.pNext = &optional.depth_clip_control;
+    }
+    if (has_extension(physical, VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) {
+        optional.provoking.pNext = features.pNext;
+        features.pNext = &optional.provoking;
+        VkPhysicalDeviceProperties2 chained{};
+        chained.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+        chained.pNext = &modes;
+        vkGetPhysicalDeviceProperties2(physical, &chained);
+    }
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+    const VkPhysicalDeviceLimits& limits = properties.limits;
+    if (features.features.shaderClipDistance == VK_TRUE) {
+        out.max_clip = limits.maxClipDistances;
+    }
+    if (features.features.shaderCullDistance == VK_TRUE) {
+        out.max_cull = limits.maxCullDistances;
+    }
+    out.max_combined = limits.maxCombinedClipAndCullDistances;
+    out.depth_clip_control = optional.depth_clip_control.depthClipControl == VK_TRUE;
+    out.last_provoking_vertex = optional.provoking.provokingVertexLast == VK_TRUE;
+    out.provoking_per_pipeline = modes.provokingVertexModePerPipeline == VK_TRUE;
+    return out;
+}
+
+void enable_clip_features(const ClipSupport& support, VkPhysicalDeviceFeatures2& features,
+                          std::vector<const char*>& extensions, ClipFeatures& chain) {
+    features.features.shaderClipDistance = support.max_clip > 0 ? VK_TRUE : VK_FALSE;
+    features.features.shaderCullDistance = support.max_cull > 0 ? VK_TRUE : VK_FALSE;
+    if (support.depth_clip_control) {
+        chain.depth_clip_control.sType =
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT;
+        chain.depth_clip_control.depthClipControl = VK_TRUE;
+        chain.depth_clip_control.pNext = features.pNext;
+        features.pNext = &chain.depth_clip_control;
+        extensions.push_back(VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME);
+    }
+    if (support.last_provoking_vertex) {
+        chain.provoking.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT;
+        chain.provoking.provokingVertexLast = VK_TRUE;
+        chain.provoking.pNext = features.pNext;
+        features.pNext = &chain.provoking;
+        extensions.push_back(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME);
+    }
+}
+
+std::optional<std::string> missing_clip_support(const ClipSupport& support, const cases::Case& c) {
+    bool has_first = false;
+    bool has_last = false;
+    for (const cases::Draw& draw : c.draws) {
+        const cases::ClipDistances& d = draw.distances;
+        if (d.clip_count > 0 && support.max_clip == 0) {
+            return "the device lacks the feature shaderClipDistance";
+        }
+        if (d.cull_count > 0 && support.max_cull == 0) {
+            return "the device lacks the feature shaderCullDistance";
+        }
+        if (d.clip_count > support.max_clip || d.cull_count > support.max_cull ||
+            d.clip_count + d.cull_count > support.max_combined) {
+            return fmt::format(
+                "a draw has {} clip and {} cull distances, the device allows {} and "
+                "{}, together {}",
+                d.clip_count, d.cull_count, support.max_clip, support.max_cull,
+                support.max_combined);
+        }
+        if (draw.depth.negative_one_to_one && !support.depth_clip_control) {
+            return "the device lacks the feature depthClipControl";
+        }
+        has_first = has_first || draw.provoking == cases::ProvokingVertex::first;
+        has_last = has_last || draw.provoking == cases::ProvokingVertex::last;
+    }
+    if (has_last && !support.last_provoking_vertex) {
+        return "the device lacks the feature provokingVertexLast";
+    }
+    if (has_first && has_last && !support.provoking_per_pipeline) {
+        return "the device has one provoking vertex mode for all draws (not "
+               "provokingVertexModePerPipeline)";
+    }
+    return std::nullopt;
+}
+
+VkDeviceSize place_distances(const cases::Draw& draw, VkDeviceSize begin, DistancePlaces& places) {
+    places[0] = begin;
+    begin += draw.distances.clip.size() * sizeof(glm::vec4);
+    places[1] = begin;
+    return begin + draw.distances.cull.size() * sizeof(glm::vec4);
+}
+
+void write_distances(const cases::Draw& draw, const DistancePlaces& places,
+                     std::span<std::byte> memory) {
+    const auto write = [&](VkDeviceSize offset, const std::vector<glm::vec4>& values) {
+        if (!values.empty()) {
+            std::memcpy(memory.data() + offset, values.data(), values.size() * sizeof(glm::vec4));
+        }
+    };
+    write(places[0], draw.distances.clip);
+    write(places[1], draw.distances.cull);
+}
+
+}  // namespace vk_harness

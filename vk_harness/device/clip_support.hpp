@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a device needs for clip and cull distances, depth clip control and the provoking vertex, and
+// the vertex inputs of distances.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "vk_harness/device/api.hpp"
+
+namespace vk_harness {
+
+// Bindings and locations of distances in capture.vert; attributes end before them.
+inline constexpr uint32_t kClipBinding = 5, kCullBinding = 6;
+
+struct ClipSupport {
+    uint32_t max_clip = 0, max_cull = 0, max_combined = 0;  // distances; 0 without the feature
+    bool depth_clip_control = false;                        // VK_EXT_depth_clip_control
+    bool last_provoking_vertex = false;   // VK_EXT_provoking_vertex, provokingVertexLast
+    bool provoking_per_pipeline = false;  // provokingVertexModePerPipeline
+};
+
+using HasExtension = bool (*)(VkPhysicalDevice, const char*);
+ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_extension);
+
+// Features to enable, as a chain that must outlive vkCreateDevice and must not be moved.
+struct ClipFeatures {
+    VkPhysicalDeviceDepthClipControlFeaturesEXT depth_clip_control{};
+    VkPhysicalDeviceProvokingVertexFeaturesEXT provoking{};
+};
+// Puts what is supported before `features`' chain, and the names of its extensions into the list.
+void enable_clip_features(const ClipSupport& support, VkPhysicalDeviceFeatures2& features,
+                          std::vector<const char*>& extensions, ClipFeatures& chain);
+
+// Why a case cannot be drawn: one sentence that names the feature; nothing if it can.
+std::optional<std::string> missing_clip_support(const ClipSupport& support, const cases::Case& c);
+
+// Where the arrays of a draw's distances lie in the vertex buffer, bytes: clip, cull.
+using DistancePlaces = std::array<VkDeviceSize, 2>;
+// Places them from `begin` on; returns the end.
+VkDeviceSize place_distances(const cases::Draw& draw, VkDeviceSize begin, DistancePlaces& places);
+void write_distances(const cases::Draw& draw, const DistancePlaces& places,
+                     std::span<std::byte> memory);
+
+}  // namespace vk_harness

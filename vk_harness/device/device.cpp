@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/device/device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <utility>
+
+#include "vk_harness/commands/viewports.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// Whether options.device means this device.
+bool names(const std::string& wanted, const DeviceInfo& info) {
+    if (wanted.empty()) {
+        return true;
+    }
+    const bool number = std::all_of(wanted.begin(), wanted.end(),
+                                    [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (number && wanted.size() < 9) {
+        return std::stoul(wanted) == info.index;
+    }
+    std::string digits = lower(wanted);
+    digits.erase(std::remove(digits.begin(), digits.end(), '-'), digits.end());
+    return digits == info.uuid || lower(info.name).find(lower(wanted)) != std::string::npos;
+}
+
+}  // namespace
+
+Result<Capabilities> choose_device(const Instance& instance, const Options& options) {
+    auto devices = instance.physical_devices();
+    if (!devices) {
+        return fail(devices.error());
+    }
+    Failure failure;
+    failure.stage = Stage::device;
+    for (uint32_t index = 0; index < devices->size(); ++index) {
+        Capabilities c = query_capabilities((*devices)[index], index);
+        const std::string label = fmt::format("device {} ({})", index, c.info.name);
+        if (!names(options.device, c.info)) {
+            failure.reasons.push_back(fmt::format("{}: not the device that was asked for", label));
+        } else if (!c.info.missing.empty()) {
+            failure.reasons.push_back(
+                fmt::format("{}: {}", label, fmt::join(c.info.missing, "; ")));
+        } else {
+            return c;
+        }
+    }
+    if (devices->empty()) {
+        failure.message =
+            "no Vulkan device was found; install a driver (Debian: mesa-vulkan-drivers) or set "
+            "VK_DRIVER_FILES";
+    } else if (options.device.empty()) {
+        failure.message = "no Vulkan device can run the cases";
+    } else {
+        failure.message = fmt::format(
+            "no usable Vulkan device is called '{}'; give an index, a part of the name, or a UUID",
+            options.device);
+    }
+    return fail(std::move(failure));
+}
+
+Result<std::vector<DeviceInfo>> list_devices(const Options& options) {
+    auto instance = Instance::create(options);
+    if (!instance) {
+        return fail(instance.error());
+    }
+    auto devices = instance->physical_devices();
+    if (!devices) {
+        return fail(devices.error());
+    }
+    std::vector<DeviceInfo> infos;
+    for (uint32_t index = 0; index < devices->size(); ++index) {
+        infos.push_back(query_capabilities((*devices)[index], index).info);
+    }
+    return infos;
+}
+
+Result<Device> Device::create(const Capabilities& capabilities) {
+    const float priority = 1.0F;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = capabilities.queue_family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+
+    VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
+    portability.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR;
+    portability.triangleFans = capabilities.triangle_fans ? VK_TRUE : VK_FALSE;
+    VkPhysicalDeviceVulkan13Features features13{};
+    features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    features13.dynamicRendering = VK_TRUE;
+    features13.synchronization2 = VK_TRUE;
+    features13.maintenance4 = VK_TRUE;  // outputs that the next stage does not read
+    VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
+    barycentric.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
+    barycentric.fragmentShaderBarycentric = VK_TRUE;
+    VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip{};
+    depth_clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
+    depth_clip.depthClipEnable = VK_TRUE;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &features13;
+    std::vector<const char*> extensions;
+    const auto enable = [&](const char* extension, auto& structure) {
+        structure.pNext = features.pNext;
+        features.pNext = &structure;
+        extensions.push_back(extension);
+    };
+    if (capabilities.portability_subset) {
+        enable(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
+    }
+    if (capabilities.depth_clip_enable) {
+        enable(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
+    }
+    if (capabilities.location_counts != 0) {
+        extensions.push_back(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);
+    }
+    if (capabilities.barycentrics) {
+        enable(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
+    }
+    features.features.independentBlend = VK_TRUE;
+    features.features.sampleRateShading = capabilities.has_sample_shading ? VK_TRUE : VK_FALSE;
+    features.features.depthClamp = capabilities.depth_clamp ? VK_TRUE : VK_FALSE;
+    features.features.depthBiasClamp = capabilities.depth_bias_clamp ? VK_TRUE : VK_FALSE;
+    features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
+
+    VkPhysicalDeviceVulkan12Features features12{};
+    enable_vertex_outputs(capabilities, features, features12);
+    ClipFeatures clip;
+    enable_clip_features(capabilities.clip, features, extensions, clip);
+    DepthBiasControlFeatures bias_control;
+    enable_depth_bias_control(capabilities.depth_bias, features, extensions, bias_control);
+
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &features;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+
+    Device device;
+    const VkResult result = vkCreateDevice(capabilities.physical, &info, nullptr, &device.device_);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::device, result, "vkCreateDevice"));
+    }
+    device.table_ = std::make_unique<VolkDeviceTable>();
+    volkLoadDeviceTable(device.table_.get(), device.device_);
+    device.capabilities_ = std::make_unique<Capabilities>(capabilities);
+    if (capabilities.depth_bias.control) {
+        device.set_depth_bias2_ = reinterpret_cast<SetDepthBias2>(
+            vkGetDeviceProcAddr(device.device_, "vkCmdSetDepthBias2EXT"));
+    }
+    device.vk().vkGetDeviceQueue(device.device_, capabilities.queue_family, 0, &device.queue_);
+    return device;
+}
+
+Device::Device(Device&& other) noexcept
+    : set_depth_bias2_(other.set_depth_bias2_),
+      device_(std::exchange(other.device_, VK_NULL_HANDLE)),
+      queue_(other.queue_),
+      table_(std::move(other.table_)),
+      capabilities_(std::move(other.capabilities_)) {}
+
+Device::~Device() {
+    if (device_ != VK_NULL_HANDLE) {
+        table_->vkDeviceWaitIdle(device_);
+        table_->vkDestroyDevice(device_, nullptr);
+    }
+}
+
+Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
+                                     VkBufferUsageFlags usage) {
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = size;
+    info.usage = usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    const VkResult result = device.vk().vkCreateBuffer(device.get(), &info, nullptr, &buffer);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkCreateBuffer"));
+    }
+    return Handle<VkBuffer>(device.get(), buffer, device.vk().vkDestroyBuffer);
+}
+
+}  // namespace vk_harness

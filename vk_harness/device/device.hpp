@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Physical devices, what they can do, and the one logical device that draws.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "vk_harness/device/capabilities.hpp"
+#include "vk_harness/device/instance.hpp"
+
+namespace vk_harness {
+
+// The device that options.device names ("" = the first usable one), or one reason for every device
+// that was rejected.
+Result<Capabilities> choose_device(const Instance& instance, const Options& options);
+
+class Device {
+  public:
+    static Result<Device> create(const Capabilities& capabilities);
+    Device(Device&& other) noexcept;
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+    Device& operator=(Device&&) = delete;
+    ~Device();
+
+    VkDevice get() const { return device_; }
+    VkQueue queue() const { return queue_; }
+    const VolkDeviceTable& vk() const { return *table_; }
+    const Capabilities& capabilities() const { return *capabilities_; }
+
+    // Null unless the device has depthBiasControl.
+    SetDepthBias2 set_depth_bias2() const { return set_depth_bias2_; }
+
+  private:
+    Device() = default;
+    SetDepthBias2 set_depth_bias2_ = nullptr;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    std::unique_ptr<VolkDeviceTable> table_;  // stable addresses: resources keep a pointer
+    std::unique_ptr<Capabilities> capabilities_;
+};
+
+// A buffer of the device, not bound to memory yet.
+Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
+                                     VkBufferUsageFlags usage);
+
+}  // namespace vk_harness

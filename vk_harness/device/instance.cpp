@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/device/instance.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace vk_harness {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/,
+                                          VkDebugUtilsMessageTypeFlagsEXT /*types*/,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                          void* user) {
+    static_cast<MessageLog*>(user)->add(data->pMessage != nullptr ? data->pMessage : "");
+    return VK_FALSE;
+}
+
+bool has_layer(const char* name) {
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    return std::any_of(layers.begin(), layers.end(), [name](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, name) == 0;
+    });
+}
+
+bool has_extension(const char* layer, const char* name) {
+    uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [name](const VkExtensionProperties& extension) {
+                           return std::strcmp(extension.extensionName, name) == 0;
+                       });
+}
+
+}  // namespace
+
+void MessageLog::add(std::string message) {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(std::move(message));
+}
+
+std::vector<std::string> MessageLog::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+}
+
+Result<Instance> Instance::create(const Options& options) {
+    if (auto loaded = load_vulkan(options); !loaded) {
+        return fail(loaded.error());
+    }
+    if (volkGetInstanceVersion() < VK_API_VERSION_1_1) {
+        Failure failure;
+        failure.stage = Stage::loader;
+        failure.message = "the Vulkan loader knows Vulkan 1.0 only; install a newer one";
+        return fail(std::move(failure));
+    }
+    Instance instance;
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions;
+    VkInstanceCreateFlags flags = 0;
+    if (has_extension(nullptr, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+        extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+        flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+    }
+
+    VkDebugUtilsMessengerCreateInfoEXT messenger{};
+    messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                                VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    messenger.pfnUserCallback = on_message;
+    messenger.pUserData = instance.messages_.get();
+    if (options.validation) {
+        if (!has_layer(kValidationLayer) ||
+            !has_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
+            Failure failure;
+            failure.stage = Stage::instance;
+            failure.vk_result = VK_ERROR_LAYER_NOT_PRESENT;
+            failure.message = std::string("the validation layer ") + kValidationLayer +
+                              " is not installed (Debian: vulkan-validationlayers)";
+            return fail(std::move(failure));
+        }
+        layers.push_back(kValidationLayer);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
+
+    VkApplicationInfo application{};
+    application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+    application.pApplicationName = "edgecase";
+    application.apiVersion = VK_API_VERSION_1_3;
+    VkInstanceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+    info.flags = flags;
+    info.pApplicationInfo = &application;
+    info.enabledLayerCount = static_cast<uint32_t>(layers.size());
+    info.ppEnabledLayerNames = layers.data();
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    const VkResult result = vkCreateInstance(&info, nullptr, &instance.instance_);
+    if (result != VK_SUCCESS) {
+        Failure failure = call_failure(Stage::instance, result, "vkCreateInstance");
+        if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
+            const char* chosen = std::getenv("VK_DRIVER_FILES");
+            chosen = chosen != nullptr ? chosen : std::getenv("VK_ICD_FILENAMES");
+            failure.message += chosen != nullptr
+                                   ? ": the loader could not use the driver that was chosen, '" +
+                                         std::string(chosen) + "'"
+                                   : ": the loader found no Vulkan driver; install one (Debian: "
+                                     "mesa-vulkan-drivers) or name its JSON file";
+        }
+        return fail(std::move(failure));
+    }
+    volkLoadInstanceOnly(instance.instance_);
+    if (options.validation) {
+        instance.destroy_messenger_ = vkDestroyDebugUtilsMessengerEXT;
+        const VkResult created = vkCreateDebugUtilsMessengerEXT(instance.instance_, &messenger,
+                                                                nullptr, &instance.messenger_);
+        if (created != VK_SUCCESS) {
+            return fail(call_failure(Stage::instance, created, "vkCreateDebugUtilsMessengerEXT"));
+        }
+    }
+    return instance;
+}
+
+Instance::Instance(Instance&& other) noexcept
+    : instance_(std::exchange(other.instance_, VK_NULL_HANDLE)),
+      messenger_(std::exchange(other.messenger_, VK_NULL_HANDLE)),
+      destroy_messenger_(other.destroy_messenger_),
+      messages_(std::move(other.messages_)) {}
+
+Instance::~Instance() {
+    if (messenger_ != VK_NULL_HANDLE) {
+        destroy_messenger_(instance_, messenger_, nullptr);
+    }
+    if (instance_ != VK_NULL_HANDLE) {
+        vkDestroyInstance(instance_, nullptr);
+    }
+}
+
+Result<std::vector<VkPhysicalDevice>> Instance::physical_devices() const {
+    uint32_t count = 0;
+    VkResult result = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
+    std::vector<VkPhysicalDevice> devices(count);
+    if (result == VK_SUCCESS && count > 0) {
+        result = vkEnumeratePhysicalDevices(instance_, &count, devices.data());
+        devices.resize(count);
+    }
+    if (result == VK_ERROR_INITIALIZATION_FAILED) {
+        return std::vector<VkPhysicalDevice>{};
+    }
+    if (result != VK_SUCCESS && result != VK_INCOMPLETE) {
+        return fail(call_failure(Stage::device, result, "vkEnumeratePhysicalDevices"));
+    }
+    return devices;
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+
+#include "vk_harness/device/api.hpp"
+
+namespace vk_harness {
+
+std::string_view to_string(Stage stage) {
+    switch (stage) {
+        case Stage::loader:
+            return "loader";
+        case Stage::instance:
+            return "instance";
+        case Stage::device:
+            return "device";
+        case Stage::shader:
+            return "shader";
+        case Stage::pipeline:
+            return "pipeline";
+        case Stage::memory:
+            return "memory";
+        case Stage::submit:
+            return "submit";
+        case Stage::readback:
+            return "readback";
+    }
+    return "unknown";
+}
+
+std::string result_name(VkResult result) {
+    switch (result) {
+        case VK_SUCCESS:
+            return "VK_SUCCESS";
+        case VK_NOT_READY:
+            return "VK_NOT_READY";
+        case VK_TIMEOUT:
+            return "VK_TIMEOUT";
+        case VK_INCOMPLETE:
+            return "VK_INCOMPLETE";
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return "VK_ERROR_OUT_OF_HOST_MEMORY";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+        case VK_ERROR_INITIALIZATION_FAILED:
+            return "VK_ERROR_INITIALIZATION_FAILED";
+        case VK_ERROR_DEVICE_LOST:
+            return "VK_ERROR_DEVICE_LOST";
+        case VK_ERROR_MEMORY_MAP_FAILED:
+            return "VK_ERROR_MEMORY_MAP_FAILED";
+        case VK_ERROR_LAYER_NOT_PRESENT:
+            return "VK_ERROR_LAYER_NOT_PRESENT";
+        case VK_ERROR_EXTENSION_NOT_PRESENT:
+            return "VK_ERROR_EXTENSION_NOT_PRESENT";
+        case VK_ERROR_FEATURE_NOT_PRESENT:
+            return "VK_ERROR_FEATURE_NOT_PRESENT";
+        case VK_ERROR_INCOMPATIBLE_DRIVER:
+            return "VK_ERROR_INCOMPATIBLE_DRIVER";
+        case VK_ERROR_TOO_MANY_OBJECTS:
+            return "VK_ERROR_TOO_MANY_OBJECTS";
+        case VK_ERROR_FORMAT_NOT_SUPPORTED:
+            return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+        case VK_ERROR_FRAGMENTED_POOL:
+            return "VK_ERROR_FRAGMENTED_POOL";
+        case VK_ERROR_OUT_OF_POOL_MEMORY:
+            return "VK_ERROR_OUT_OF_POOL_MEMORY";
+        case VK_ERROR_FRAGMENTATION:
+            return "VK_ERROR_FRAGMENTATION";
+        case VK_ERROR_UNKNOWN:
+            return "VK_ERROR_UNKNOWN";
+        default:
+            return "VkResult " + std::to_string(static_cast<int>(result));
+    }
+}
+
+Failure call_failure(Stage stage, VkResult result, std::string_view call) {
+    Failure failure;
+    failure.stage = stage;
+    failure.vk_result = static_cast<int>(result);
+    failure.message = std::string(call) + " failed with " + result_name(result);
+    return failure;
+}
+
+Result<void> load_vulkan(const Options& options) {
+    if (!options.icd_file.empty()) {
+        // The first name is read by loaders since 1.3.207, the second by older ones.
+        setenv("VK_DRIVER_FILES", options.icd_file.c_str(), 1);
+        setenv("VK_ICD_FILENAMES", options.icd_file.c_str(), 1);
+    }
+    const VkResult result = volkInitialize();
+    if (result != VK_SUCCESS) {
+        Failure failure;
+        failure.stage = Stage::loader;
+        failure.vk_result = static_cast<int>(result);
+        failure.message =
+            "the Vulkan loader libvulkan.so.1 was not found; install it (Debian: libvulkan1)";
+        return fail(std::move(failure));
+    }
+    return {};
+}
+
+}  // namespace vk_harness

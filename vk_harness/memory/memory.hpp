@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Buffers that the host maps, and attachments.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "vk_harness/memory/guard.hpp"
+
+namespace vk_harness {
+
+enum class HostAccess { write, read };
+
+// A buffer in host-visible memory, mapped as long as it lives. Memory for reading is host-cached
+// where the device has such memory: reading uncached memory is slower by an order of magnitude.
+class Buffer {
+  public:
+    Buffer() = default;
+    static Result<Buffer> create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
+                                 HostAccess access);
+
+    VkBuffer get() const { return buffer_.get(); }
+    VkDeviceSize size() const { return size_; }
+    std::span<std::byte> bytes() const { return {data_, static_cast<size_t>(size_)}; }
+    // Makes host writes visible to the device, or device writes to the host.
+    Result<void> flush() const;
+    Result<void> invalidate() const;
+
+  private:
+    const Device* device_ = nullptr;
+    Handle<VkDeviceMemory> memory_;  // freed after the buffer
+    Handle<VkBuffer> buffer_;
+    VkDeviceSize size_ = 0;
+    std::byte* data_ = nullptr;
+    bool coherent_ = true;
+};
+
+// Usage and flags of a colour attachment that is copied (one sample) or read sample by sample.
+VkImageUsageFlags color_usage(uint32_t samples);
+VkImageCreateFlags color_flags(uint32_t samples);
+
+// Memory that an image is bound to, with guards on both sides where the device lets an image share
+// its memory; the guard is freed first.
+struct ImageMemory {
+    Handle<VkDeviceMemory> memory;
+    std::unique_ptr<Guard> guard;  // may be null
+    VkDeviceSize size = 0;         // of it all
+};
+// Memory of its own for an image that is written to, bound to it.
+Result<ImageMemory> bind_guarded(const Device& device, VkImage image);
+
+// A colour or depth attachment.
+class Image {
+  public:
+    Image() = default;
+    // samples == 1: can be copied to a buffer. samples > 1: can be read sample by sample in a
+    // shader. `flags`: besides those that this needs.
+    // The views show all layers; those of several layers or samples are of an array.
+    static Result<Image> create(const Device& device, VkFormat format, VkExtent2D extent,
+                                uint32_t samples, uint32_t layers, VkImageCreateFlags flags = 0);
+
+    VkImage get() const { return image_.get(); }
+    VkImageView view() const { return view_.get(); }
+    // To read single samples: unsigned view of colour, a view of depth alone.
+    VkImageView sample_view() const { return bits_view_ ? bits_view_.get() : view_.get(); }
+    // To read single samples of the stencil, if there is one.
+    VkImageView stencil_view() const { return stencil_view_.get(); }
+    VkImageAspectFlags aspect() const { return aspect_; }  // all that it has
+    uint32_t layers() const { return layers_; }
+    VkDeviceSize memory_size() const { return memory_.size; }
+    Guard* guard() const { return memory_.guard.get(); }  // may be null
+
+  private:
+    ImageMemory memory_;
+    Handle<VkImage> image_;
+    Handle<VkImageView> view_;
+    Handle<VkImageView> bits_view_;
+    Handle<VkImageView> stencil_view_;
+    VkImageAspectFlags aspect_ = VK_IMAGE_ASPECT_COLOR_BIT;
+    uint32_t layers_ = 1;
+};
+
+// Memory of its own for an image that needs no host access, bound to it.
+Result<Handle<VkDeviceMemory>> bind_memory(const Device& device, VkImage image);
+
+}  // namespace vk_harness

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline/pipeline_cache.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "shaders/shaders.hpp"
+#include "vk_harness/pipeline/pipeline_state.hpp"
+#include "vk_harness/pipeline/shader_stage.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
+    VkPipelineShaderStageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage = stage;
+    info.module = module;
+    info.pName = "main";
+    return info;
+}
+
+Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStageFlags stage,
+                                             uint32_t bytes, VkDescriptorSetLayout set) {
+    const VkPushConstantRange range{stage, 0, bytes};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &range;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    const VkResult result =
+        device.vk().vkCreatePipelineLayout(device.get(), &info, nullptr, &layout);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::pipeline, result, "vkCreatePipelineLayout"));
+    }
+    return Handle<VkPipelineLayout>(device.get(), layout, device.vk().vkDestroyPipelineLayout);
+}
+
+Result<Handle<VkDescriptorSetLayout>> make_set_layout(
+    const Device& device, std::span<const VkDescriptorSetLayoutBinding> bindings) {
+    VkDescriptorSetLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    info.bindingCount = static_cast<uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    const VkResult result =
+        device.vk().vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::pipeline, result, "vkCreateDescriptorSetLayout"));
+    }
+    return Handle<VkDescriptorSetLayout>(device.get(), layout,
+                                         device.vk().vkDestroyDescriptorSetLayout);
+}
+
+}  // namespace
+
+Result<PipelineCache> PipelineCache::create(const Device& device) {
+    PipelineCache cache(device);
+    const VolkDeviceTable& vk = device.vk();
+
+    VkPipelineCacheCreateInfo cache_info{};
+    cache_info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+    VkPipelineCache handle = VK_NULL_HANDLE;
+    const VkResult result = vk.vkCreatePipelineCache(device.get(), &cache_info, nullptr, &handle);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::pipeline, result, "vkCreatePipelineCache"));
+    }
+    cache.cache_ = Handle<VkPipelineCache>(device.get(), handle, vk.vkDestroyPipelineCache);
+
+    const std::array<VkDescriptorSetLayoutBinding, 1> texture = {
+        {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+    auto texture_set = make_set_layout(device, texture);
+    if (!texture_set) {
+        return fail(texture_set.error());
+    }
+    cache.texture_set_layout_ = std::move(*texture_set);
+    auto layout = make_layout(device, kDrawStages, sizeof(shaders::DrawConstants),
+                              cache.texture_set_layout_.get());
+    if (!layout) {
+        return fail(layout.error());
+    }
+    cache.layout_ = std::move(*layout);
+
+    const std::array<VkDescriptorSetLayoutBinding, 2> copies = {
+        {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}}};
+    auto copy_set = make_set_layout(device, copies);
+    if (!copy_set) {
+        return fail(copy_set.error());
+    }
+    cache.copy_set_layout_ = std::move(*copy_set);
+    auto copy_layout = make_layout(device, VK_SHADER_STAGE_COMPUTE_BIT,
+                                   kCopyConstants * sizeof(uint32_t), cache.copy_set_layout_.get());
+    if (!copy_layout) {
+        return fail(copy_layout.error());
+    }
+    cache.copy_layout_ = std::move(*copy_layout);
+    return cache;
+}
+
+Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
+                                                    std::vector<InputChange> changes) {
+    std::pair key(code.data(), std::move(changes));
+    const auto found = modules_.find(key);
+    if (found != modules_.end()) {
+        return found->second.get();
+    }
+    auto changed = change_inputs(code, key.second);
+    if (!changed) {
+        Failure failure;
+        failure.stage = Stage::shader;
+        failure.message = changed.error();
+        return fail(std::move(failure));
+    }
+    VkShaderModuleCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    info.codeSize = changed->size() * sizeof(uint32_t);
+    info.pCode = changed->data();
+    VkShaderModule handle = VK_NULL_HANDLE;
+    const VkResult result =
+        device_->vk().vkCreateShaderModule(device_->get(), &info, nullptr, &handle);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::shader, result, "vkCreateShaderModule"));
+    }
+    modules_.emplace(std::move(key), Handle<VkShaderModule>(device_->get(), handle,
+                                                            device_->vk().vkDestroyShaderModule));
+    return handle;
+}
+
+Result<VkPipeline> PipelineCache::get(const PipelineKey& key) {
+    const auto found = pipelines_.find(key);
+    if (found != pipelines_.end()) {
+        return found->second.get();
+    }
+    auto pipeline = make_graphics(key);
+    if (!pipeline) {
+        return fail(pipeline.error());
+    }
+    return pipelines_.emplace(key, std::move(*pipeline)).first->second.get();
+}
+
+Result<VkPipeline> PipelineCache::get_copy(const Attachment& attachment) {
+    const std::span<const uint32_t> source =
+        shaders::copy_samples(attachment.is_depth(), attachment.sample_bytes / 4);
+    const auto found = copies_.find(source.data());
+    if (found != copies_.end()) {
+        return found->second.get();
+    }
+    auto code = shader_module(source);
+    if (!code) {
+        return fail(code.error());
+    }
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, *code);
+    info.layout = copy_layout_.get();
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    const VkResult result = device_->vk().vkCreateComputePipelines(device_->get(), cache_.get(), 1,
+                                                                   &info, nullptr, &pipeline);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::pipeline, result, "vkCreateComputePipelines"));
+    }
+    Handle<VkPipeline> owned(device_->get(), pipeline, device_->vk().vkDestroyPipeline);
+    return copies_.emplace(source.data(), std::move(owned)).first->second.get();
+}
+
+Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) {
+    auto vertex = shader_module(shaders::capture_vertex(vertex_variant(key)));
+    if (!vertex) {
+        return fail(vertex.error());
+    }
+    auto fragment =
+        shader_module(shaders::capture_fragment(fragment_variant(key)),
+                      input_changes(key, device_->capabilities().info.has_primitive_id));
+    if (!fragment) {
+        return fail(fragment.error());
+    }
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
+        stage_info(VK_SHADER_STAGE_VERTEX_BIT, *vertex),
+        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, *fragment)};
+    Specialization specialization;
+    specialize(key, specialization);
+    stages[1].pSpecializationInfo = &specialization.info;
+    VertexInputState vertex_input;
+    vertex_input_state(key, vertex_input);
+
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;  // the class; dynamic
+
+    ViewportState viewport;
+    viewport_state(key, viewport);
+
+    RasterizationState rasterization;
+    rasterization_state(key, rasterization);
+    MultisampleState multisample;
+    multisample_state(key, multisample);
+    const VkPipelineDepthStencilStateCreateInfo depth = depth_state(key);
+    ColorState color;
+    color_state(key, color);
+
+    const std::array<VkDynamicState, 11> dynamic_states = {
+        VK_DYNAMIC_STATE_BLEND_CONSTANTS,
+        VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
+        VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
+        VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
+        VK_DYNAMIC_STATE_DEPTH_BIAS,
+        VK_DYNAMIC_STATE_VIEWPORT,
+        VK_DYNAMIC_STATE_SCISSOR,
+        VK_DYNAMIC_STATE_CULL_MODE,
+        VK_DYNAMIC_STATE_FRONT_FACE,
+        VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
+        VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE};
+    VkPipelineDynamicStateCreateInfo dynamic{};
+    dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+    dynamic.dynamicStateCount = static_cast<uint32_t>(dynamic_states.size());
+    dynamic.pDynamicStates = dynamic_states.data();
+
+    VkPipelineRenderingCreateInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+    rendering.colorAttachmentCount = static_cast<uint32_t>(color.formats.size());
+    rendering.pColorAttachmentFormats = color.formats.data();
+    rendering.depthAttachmentFormat = key.has_stencil ? kDepthStencilFormat
+                                      : key.has_depth ? depth_format(key.depth_format)
+                                                      : VK_FORMAT_UNDEFINED;
+    rendering.stencilAttachmentFormat = key.has_stencil ? kDepthStencilFormat : VK_FORMAT_UNDEFINED;
+
+    VkGraphicsPipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    info.pNext = &rendering;
+    info.stageCount = static_cast<uint32_t>(stages.size());
+    info.pStages = stages.data();
+    info.pVertexInputState = &vertex_input.info;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport.info;
+    info.pRasterizationState = &rasterization.info;
+    info.pMultisampleState = &multisample.info;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &color.info;
+    info.pDynamicState = &dynamic;
+    info.layout = layout_.get();
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    const VkResult result = device_->vk().vkCreateGraphicsPipelines(device_->get(), cache_.get(), 1,
+                                                                    &info, nullptr, &pipeline);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::pipeline, result, "vkCreateGraphicsPipelines"));
+    }
+    return Handle<VkPipeline>(device_->get(), pipeline, device_->vk().vkDestroyPipeline);
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Graphics pipelines by the state that cannot be dynamic; pipelines that read single samples.
+#pragma once
+
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "vk_harness/pipeline/pipeline_key.hpp"
+#include "vk_harness/pipeline/spirv_variant.hpp"
+#include "vk_harness/target/attachments.hpp"
+
+namespace vk_harness {
+
+class PipelineCache {
+  public:
+    static Result<PipelineCache> create(const Device& device);
+
+    // The pipeline of that key, made at the first call.
+    Result<VkPipeline> get(const PipelineKey& key);
+    // The compute pipeline that copies the samples of an attachment to a buffer.
+    Result<VkPipeline> get_copy(const Attachment& attachment);
+
+    VkPipelineLayout layout() const { return layout_.get(); }
+    // Set 0 of a draw: binding 0, the texture whose level of detail is asked for.
+    VkDescriptorSetLayout texture_set_layout() const { return texture_set_layout_.get(); }
+    VkPipelineLayout copy_layout() const { return copy_layout_.get(); }
+    VkDescriptorSetLayout copy_set_layout() const { return copy_set_layout_.get(); }
+
+  private:
+    explicit PipelineCache(const Device& device) : device_(&device) {}
+    // The module `code`, embedded in the program, with changes to its inputs.
+    Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
+                                         std::vector<InputChange> changes = {});
+    Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
+
+    const Device* device_;
+    Handle<VkPipelineCache> cache_;
+    Handle<VkDescriptorSetLayout> texture_set_layout_;
+    Handle<VkPipelineLayout> layout_;
+    Handle<VkDescriptorSetLayout> copy_set_layout_;
+    Handle<VkPipelineLayout> copy_layout_;
+    // By the embedded code's address and the changes.
+    std::map<std::pair<const uint32_t*, std::vector<InputChange>>, Handle<VkShaderModule>> modules_;
+    std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
+    std::map<const uint32_t*, Handle<VkPipeline>> copies_;  // by the embedded code's address
+};
+
+// Stages that see shaders::DrawConstants.
+inline constexpr VkShaderStageFlags kDrawStages =
+    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+// Words of push constants: width, height, samples (compute stage).
+inline constexpr uint32_t kCopyConstants = 3;
+inline constexpr uint32_t kCopyGroupSize = 8;  // local size of copy_samples.comp
+
+}  // namespace vk_harness

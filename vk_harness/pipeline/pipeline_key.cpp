@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline/pipeline_key.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "cases/load/color.hpp"
+#include "vk_harness/case_check.hpp"
+#include "vk_harness/commands/viewports.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+AttributeKey attribute_key(const cases::Attribute& attribute) {
+    AttributeKey key;
+    key.interpolation = attribute.interpolation;
+    key.auxiliary = attribute.auxiliary;
+    key.source = attribute.source;
+    key.probe = attribute.probe;
+    return key;
+}
+
+ColorKey color_key(const cases::ColorTarget& target, const cases::ColorOutput& output) {
+    ColorKey key;
+    key.format = to_vulkan(target.format);
+    key.write_mask = output.write_mask;
+    if (output.blend) {
+        key.blends = true;
+        const cases::BlendEquation& c = output.blend->color;
+        const cases::BlendEquation& a = output.blend->alpha;
+        key.equation = {static_cast<uint8_t>(c.source),      static_cast<uint8_t>(c.destination),
+                        static_cast<uint8_t>(c.op),          static_cast<uint8_t>(a.source),
+                        static_cast<uint8_t>(a.destination), static_cast<uint8_t>(a.op)};
+    }
+    return key;
+}
+
+}  // namespace
+
+PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
+                         const InstrumentLayout& layout) {
+    PipelineKey key;
+    key.attribute_count = input_count(c);
+    key.samples = c.target.samples;
+    for (uint32_t k = 0; k < key.attribute_count; ++k) {
+        if (const cases::Attribute* attribute = input_attribute(c, draw, k)) {
+            key.attributes[k] = attribute_key(*attribute);
+        } else {
+            key.attributes[k].interpolation = cases::Interpolation::flat;
+        }
+    }
+    key.viewports = viewport_count(c);
+    key.viewport_index = key.viewports > 1;
+    key.layer = names_layers(c);
+    key.clip_count = draw.distances.clip_count;
+    key.cull_count = draw.distances.cull_count;
+    key.negative_one_to_one = draw.depth.negative_one_to_one;
+    key.provoking = draw.provoking;
+    key.writes_mask = draw.multisample.shader_mask.has_value();
+    key.sample_mask = draw.multisample.sample_mask;
+    if (draw.multisample.min_sample_shading) {
+        key.min_shading_bits = std::bit_cast<uint32_t>(*draw.multisample.min_sample_shading);
+    }
+    key.sample_locations = c.target.sample_locations;
+    key.masked = c.variation.masked;
+    key.depth_format = c.target.depth_format;
+    key.depth_clamp = draw.depth.clamp;
+    key.depth_clip = draw.depth.clip;
+    key.has_depth = c.target.has_depth;
+    key.has_stencil = c.target.has_stencil;
+    key.instruments = c.target.has_instruments;
+    key.layout = layout;
+    if (c.target.color) {
+        key.color = cases::is_integer(c.target.color->format) ? shaders::ColorKind::integer
+                                                              : shaders::ColorKind::number;
+        // Without instruments the only input is the colour.
+        key.color_attribute =
+            key.instruments ? draw.color.attribute : std::min(draw.color.attribute, int32_t{0});
+        key.color_target = color_key(*c.target.color, draw.color);
+    }
+    return key;
+}
+
+shaders::VertexVariant vertex_variant(const PipelineKey& key) {
+    return {key.attribute_count, key.clip_count, key.cull_count, key.layer, key.viewport_index};
+}
+
+shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
+    shaders::FragmentVariant v;
+    v.attributes = key.attribute_count;
+    v.mask_out = key.writes_mask;
+    v.color = key.color;
+    v.instruments = key.instruments;
+    v.split = key.layout.split;
+    v.pairs = key.layout.pairs;
+    for (const AttributeKey& attribute : key.attributes) {
+        switch (attribute.source) {
+            case cases::Source::vertex:
+                break;
+            case cases::Source::barycentric:
+                v.barycentrics = true;
+                break;
+            case cases::Source::sample_mask_in:
+                v.mask_in = true;
+                break;
+            case cases::Source::sample_id:
+            case cases::Source::sample_position:
+                v.sample = true;
+                break;
+        }
+        v.lod = v.lod || attribute.probe == cases::Probe::lod;
+        v.probes = v.probes ||
+                   (attribute.probe != cases::Probe::value && attribute.probe != cases::Probe::lod);
+    }
+    // The build compiles lod with the probes, and the sample built-ins with the mask (which changes
+    // nothing once there is sample shading).
+    v.probes = v.probes || v.lod;
+    v.mask_in = v.mask_in || v.sample;
+    return v;
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What distinguishes two pipelines. Topology, culling, facing, viewport and scissor are dynamic.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "shaders/shaders.hpp"
+#include "vk_harness/target/attachments.hpp"
+
+namespace vk_harness {
+
+// A fragment input and what is written of it; cases::Attribute without its values.
+struct AttributeKey {
+    cases::Interpolation interpolation = cases::Interpolation::smooth;
+    cases::Auxiliary auxiliary = cases::Auxiliary::none;
+    cases::Source source = cases::Source::vertex;
+    cases::Probe probe = cases::Probe::value;
+    friend auto operator<=>(const AttributeKey&, const AttributeKey&) = default;
+};
+
+// The colour target and how it is written.
+struct ColorKey {
+    VkFormat format = VK_FORMAT_UNDEFINED;  // UNDEFINED: there is none
+    bool blends = false;
+    std::array<uint8_t, 6> equation{};  // source, destination, op of colour, then of alpha
+    uint8_t write_mask = 0xf;
+    friend auto operator<=>(const ColorKey&, const ColorKey&) = default;
+};
+
+struct PipelineKey {
+    uint32_t attribute_count = 0;
+    std::array<AttributeKey, cases::kMaxAttributes> attributes{};  // unused ones: as constructed
+    uint32_t samples = 1;
+    // Vertex stage.
+    uint32_t clip_count = 0, cull_count = 0;
+    bool layer = false, viewport_index = false;
+    uint32_t viewports = 1;            // that are bound; viewport_index: more than one
+    bool negative_one_to_one = false;  // depth clip control
+    cases::ProvokingVertex provoking = cases::ProvokingVertex::first;
+    // Multisampling.
+    bool writes_mask = false;  // gl_SampleMask
+    uint32_t sample_mask = 0xffffffffU;
+    std::optional<uint32_t> min_shading_bits = {};  // of Multisample::min_sample_shading
+    std::vector<std::array<uint8_t, 2>> sample_locations = {};  // 1/16 pixel; empty: standard
+    // Depth; the test and the bias are dynamic.
+    cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
+    bool depth_clamp = false;
+    std::optional<bool> depth_clip = {};
+    bool has_depth = true;
+    bool has_stencil = false;
+    // Colour output.
+    shaders::ColorKind color = shaders::ColorKind::none;
+    int32_t color_attribute = -1;
+    bool instruments = true;
+    InstrumentLayout layout;
+    // Of cases::Variation.
+    uint32_t masked = 0;
+    ColorKey color_target;
+    friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
+};
+
+// The key of a draw's pipeline. A draw with fewer attributes than its case gets flat ones that are
+// constantly diff::kClearValue: what its fragments leave in those attachments.
+PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
+                         const InstrumentLayout& layout);
+
+// What the shaders have to be compiled for.
+shaders::VertexVariant vertex_variant(const PipelineKey& key);
+shaders::FragmentVariant fragment_variant(const PipelineKey& key);
+
+}  // namespace vk_harness

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline/pipeline_state.hpp"
+
+#include <bit>
+#include <utility>
+
+#include "vk_harness/device/sample_locations.hpp"
+
+namespace vk_harness {
+
+void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
+    // Binding and location 0: positions; 1..: attributes. Each is an array of its own.
+    for (uint32_t binding = 0; binding <= key.attribute_count; ++binding) {
+        state.bindings.push_back({binding, 16, VK_VERTEX_INPUT_RATE_VERTEX});
+        state.inputs.push_back({binding, binding, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
+    }
+    for (const auto& [count, binding] :
+         {std::pair(key.clip_count, kClipBinding), std::pair(key.cull_count, kCullBinding)}) {
+        if (count > 0) {
+            state.bindings.push_back({binding, 16, VK_VERTEX_INPUT_RATE_VERTEX});
+            state.inputs.push_back({binding, binding, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
+        }
+    }
+    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    state.info.vertexBindingDescriptionCount = static_cast<uint32_t>(state.bindings.size());
+    state.info.pVertexBindingDescriptions = state.bindings.data();
+    state.info.vertexAttributeDescriptionCount = static_cast<uint32_t>(state.inputs.size());
+    state.info.pVertexAttributeDescriptions = state.inputs.data();
+}
+
+void rasterization_state(const PipelineKey& key, RasterizationState& state) {
+    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    state.info.polygonMode = VK_POLYGON_MODE_FILL;
+    state.info.lineWidth = 1.0F;
+    state.info.depthClampEnable = key.depth_clamp ? VK_TRUE : VK_FALSE;
+    if (key.depth_clip) {
+        state.depth_clip.sType =
+            VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT;
+        state.depth_clip.depthClipEnable = *key.depth_clip ? VK_TRUE : VK_FALSE;
+        state.depth_clip.pNext = state.info.pNext;
+        state.info.pNext = &state.depth_clip;
+    }
+    if (key.provoking == cases::ProvokingVertex::last) {
+        state.provoking.sType =
+            VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT;
+        state.provoking.provokingVertexMode = VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT;
+        state.provoking.pNext = state.info.pNext;
+        state.info.pNext = &state.provoking;
+    }
+}
+
+void viewport_state(const PipelineKey& key, ViewportState& state) {
+    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+    state.info.viewportCount = key.viewports;
+    state.info.scissorCount = key.viewports;
+    if (key.negative_one_to_one) {
+        state.depth_clip_control.sType =
+            VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT;
+        state.depth_clip_control.negativeOneToOne = VK_TRUE;
+        state.info.pNext = &state.depth_clip_control;
+    }
+}
+
+void multisample_state(const PipelineKey& key, MultisampleState& state) {
+    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    state.info.rasterizationSamples = static_cast<VkSampleCountFlagBits>(key.samples);
+    state.sample_mask = key.sample_mask;
+    state.info.pSampleMask = &state.sample_mask;
+    state.info.sampleShadingEnable = key.min_shading_bits ? VK_TRUE : VK_FALSE;
+    state.info.minSampleShading = std::bit_cast<float>(key.min_shading_bits.value_or(0U));
+    state.places = sample_places(key.sample_locations);
+    state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
+    state.locations.sampleLocationsEnable = VK_TRUE;
+    state.locations.sampleLocationsInfo = sample_locations_info(state.places);
+    if (!state.places.empty()) {
+        state.info.pNext = &state.locations;
+    }
+}
+
+VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    if (!key.has_depth) {
+        return depth;
+    }
+    depth.depthTestEnable = VK_TRUE;  // without the test there is no depth write
+    if (key.has_stencil) {            // counts front faces up and back faces down
+        depth.stencilTestEnable = VK_TRUE;
+        depth.front.failOp = VK_STENCIL_OP_KEEP;
+        depth.front.depthFailOp = VK_STENCIL_OP_KEEP;
+        depth.front.passOp = VK_STENCIL_OP_INCREMENT_AND_WRAP;
+        depth.front.compareOp = VK_COMPARE_OP_ALWAYS;
+        depth.front.compareMask = 0xff;
+        depth.front.writeMask = 0xff;
+        depth.back = depth.front;
+        depth.back.passOp = VK_STENCIL_OP_DECREMENT_AND_WRAP;
+    }
+    // Compare operation and writes are dynamic.
+    return depth;
+}
+
+namespace {
+
+VkPipelineColorBlendAttachmentState blend_state(const ColorKey& key) {
+    VkPipelineColorBlendAttachmentState out{};
+    out.blendEnable = key.blends ? VK_TRUE : VK_FALSE;
+    out.srcColorBlendFactor = static_cast<VkBlendFactor>(key.equation[0]);
+    out.dstColorBlendFactor = static_cast<VkBlendFactor>(key.equation[1]);
+    out.colorBlendOp = static_cast<VkBlendOp>(key.equation[2]);
+    out.srcAlphaBlendFactor = static_cast<VkBlendFactor>(key.equation[3]);
+    out.dstAlphaBlendFactor = static_cast<VkBlendFactor>(key.equation[4]);
+    out.alphaBlendOp = static_cast<VkBlendOp>(key.equation[5]);
+    out.colorWriteMask = key.write_mask;  // bits as VkColorComponentFlagBits
+    return out;
+}
+
+}  // namespace
+
+namespace {
+
+constexpr uint8_t kNothing = 0, kRgb = 0x7, kAlpha = 0x8, kAll = 0xf;
+
+// Attachments of instruments in the order of attachments_of. `masked` counts the planes of a
+// capture: hits, writers, frag_coord, attributes.
+void instrument_states(const PipelineKey& key, ColorState& state) {
+    const auto add = [&state](VkFormat format, const ColorKey& blend) {
+        state.formats.push_back(format);
+        state.blends.push_back(blend_state(blend));
+    };
+    const auto is_masked = [&key](uint32_t plane) { return (key.masked >> plane & 1U) != 0; };
+    const auto replaced = [&is_masked](uint32_t plane) {
+        ColorKey out;
+        out.write_mask = is_masked(plane) ? kNothing : kAll;
+        return out;
+    };
+    ColorKey hits;  // are added
+    hits.blends = true;
+    const auto destination = key.layout.split ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
+    hits.equation = {VK_BLEND_FACTOR_ONE, static_cast<uint8_t>(destination),
+                     VK_BLEND_OP_ADD,     VK_BLEND_FACTOR_ONE,
+                     VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD};
+    if (key.layout.split) {
+        hits.write_mask = is_masked(0) ? kNothing : kAll;
+        add(kTwoNumbers, replaced(1));
+        add(kTwoNumbers, hits);
+        add(kTwoNumbers, replaced(2));
+        add(kTwoNumbers, replaced(2));
+    } else {
+        hits.write_mask = static_cast<uint8_t>((is_masked(0) ? kNothing : kAlpha) |
+                                               (is_masked(1) ? kNothing : kRgb));
+        add(kColorFormat, hits);
+        add(kColorFormat, replaced(2));
+    }
+    for (uint32_t k = 0; k < key.attribute_count; ++k) {
+        for (uint32_t half = 0; half < key.layout.attribute_attachments(); ++half) {
+            add(key.layout.attribute_format(k), replaced(3 + k));
+        }
+    }
+}
+
+}  // namespace
+
+void color_state(const PipelineKey& key, ColorState& state) {
+    state.formats.clear();
+    state.blends.clear();
+    if (key.instruments) {
+        instrument_states(key, state);
+    }
+    if (key.color_target.format != VK_FORMAT_UNDEFINED) {
+        state.blends.push_back(blend_state(key.color_target));
+        state.formats.push_back(key.color_target.format);
+    }
+    state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    state.info.attachmentCount = static_cast<uint32_t>(state.blends.size());
+    state.info.pAttachments = state.blends.data();
+}
+
+}  // namespace vk_harness

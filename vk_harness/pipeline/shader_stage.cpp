@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline/shader_stage.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace vk_harness {
+
+namespace {
+
+shaders::Choice choice_of(const AttributeKey& attribute) {
+    switch (attribute.source) {
+        case cases::Source::vertex:
+            break;
+        case cases::Source::barycentric:
+            return attribute.interpolation == cases::Interpolation::noperspective
+                       ? shaders::Choice::barycentric_linear
+                       : shaders::Choice::barycentric;
+        case cases::Source::sample_mask_in:
+            return shaders::Choice::sample_mask_in;
+        case cases::Source::sample_id:
+            return shaders::Choice::sample_id;
+        case cases::Source::sample_position:
+            return shaders::Choice::sample_position;
+    }
+    return static_cast<shaders::Choice>(attribute.probe);
+}
+static_assert(static_cast<uint32_t>(cases::Probe::lod) ==
+              static_cast<uint32_t>(shaders::Choice::last_probe));
+
+}  // namespace
+
+std::vector<InputChange> input_changes(const PipelineKey& key, bool has_primitive_id) {
+    std::vector<InputChange> changes;
+    if (has_primitive_id && key.instruments) {
+        InputChange change;
+        change.number = shaders::kPrimitiveLocation;
+        change.becomes_primitive_id = true;
+        changes.push_back(change);
+    }
+    for (uint32_t k = 0; k < key.attribute_count; ++k) {
+        const AttributeKey& attribute = key.attributes[k];
+        InputChange change;
+        change.number = 1 + k;
+        change.flat = attribute.interpolation == cases::Interpolation::flat;
+        change.no_perspective = attribute.interpolation == cases::Interpolation::noperspective;
+        change.centroid = attribute.auxiliary == cases::Auxiliary::centroid;
+        change.sample = attribute.auxiliary == cases::Auxiliary::sample;
+        if (attribute.source == cases::Source::barycentric) {
+            // The built-in is chosen by the interpolation; it is perspective or not by itself.
+            change.by = InputBy::built_in;
+            change.number = change.no_perspective ? kBuiltInBaryCoordNoPersp : kBuiltInBaryCoord;
+            change.no_perspective = false;
+        } else if (attribute.source != cases::Source::vertex) {
+            continue;
+        }
+        const bool is_change =
+            change.flat || change.no_perspective || change.centroid || change.sample;
+        // Several attributes may be the same built-in.
+        if (is_change && std::find(changes.begin(), changes.end(), change) == changes.end()) {
+            changes.push_back(change);
+        }
+    }
+    return changes;
+}
+
+void specialize(const PipelineKey& key, Specialization& out) {
+    const auto set = [&](uint32_t id, uint32_t word) {
+        out.entries.push_back(
+            {id, static_cast<uint32_t>(out.words.size() * sizeof word), sizeof word});
+        out.words.push_back(word);
+    };
+    for (uint32_t k = 0; k < key.attribute_count; ++k) {
+        set(k, static_cast<uint32_t>(choice_of(key.attributes[k])));
+    }
+    set(shaders::kColorAttributeConstant, std::bit_cast<uint32_t>(key.color_attribute));
+    out.info.mapEntryCount = static_cast<uint32_t>(out.entries.size());
+    out.info.pMapEntries = out.entries.data();
+    out.info.dataSize = out.words.size() * sizeof(uint32_t);
+    out.info.pData = out.words.data();
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline/spirv_variant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace vk_harness {
+
+namespace {
+
+// SPIR-V specification, sections 2.3 and 3.
+constexpr uint32_t kMagic = 0x07230203;
+constexpr uint32_t kHeaderWords = 5;
+enum Op : uint32_t {
+    kOpCapability = 17,
+    kOpVariable = 59,
+    kOpDecorate = 71,
+    kOpDecorationGroup = 73,
+    kOpGroupDecorate = 74,
+};
+enum Decoration : uint32_t {
+    kBuiltIn = 11,
+    kNoPerspective = 13,
+    kFlat = 14,
+    kCentroid = 16,
+    kSample = 17,
+    kLocation = 30,
+};
+enum Capability : uint32_t { kGeometry = 2, kSampleRateShading = 35 };
+constexpr uint32_t kStorageInput = 1;
+constexpr uint32_t kBuiltInPrimitiveId = 7;
+
+constexpr uint32_t first_word(uint32_t op, uint32_t words) {
+    return words << 16U | op;
+}
+
+struct Instruction {
+    uint32_t op = 0;
+    std::span<const uint32_t> words;  // the first one included
+};
+
+using Error = tl::unexpected<std::string>;
+
+tl::expected<std::vector<Instruction>, std::string> split(std::span<const uint32_t> module) {
+    if (module.size() < kHeaderWords || module[0] != kMagic) {
+        return Error("the module does not begin as SPIR-V of this machine's byte order");
+    }
+    const uint32_t version = module[1];
+    if ((version & 0xff0000ffU) != 0 || version >> 16U != 1 || (version >> 8U & 0xffU) > 6) {
+        return Error(fmt::format("the module's version 0x{:08x} is not 1.0 to 1.6", version));
+    }
+    if (module[4] != 0) {
+        return Error("the module's schema is not 0");
+    }
+    std::vector<Instruction> out;
+    size_t at = kHeaderWords;
+    while (at < module.size()) {
+        const uint32_t count = module[at] >> 16U;
+        const uint32_t op = module[at] & 0xffffU;
+        if (count == 0 || count > module.size() - at) {
+            return Error(fmt::format("the instruction at word {} runs over the module's end", at));
+        }
+        const uint32_t least = op == kOpVariable ? 4 : op == kOpDecorate ? 3 : 1;
+        if (count < least || (op == kOpCapability && count != 2)) {
+            return Error(fmt::format("the instruction at word {} is too short", at));
+        }
+        if (op == kOpDecorationGroup || op == kOpGroupDecorate) {
+            return Error("the module has decoration groups");
+        }
+        out.push_back({op, module.subspan(at, count)});
+        at += count;
+    }
+    return out;
+}
+
+// The instruction that decorates the Input variable with the number, its Location or BuiltIn.
+tl::expected<const Instruction*, std::string> find_input(std::span<const Instruction> code,
+                                                         const InputChange& change) {
+    const uint32_t decoration = change.by == InputBy::location ? kLocation : kBuiltIn;
+    const char* word = change.by == InputBy::location ? "location" : "built-in";
+    const Instruction* found = nullptr;
+    for (const Instruction& i : code) {
+        if (i.op != kOpDecorate || i.words[2] != decoration || i.words.size() != 4 ||
+            i.words[3] != change.number) {
+            continue;
+        }
+        const bool is_input = std::any_of(code.begin(), code.end(), [&](const Instruction& v) {
+            return v.op == kOpVariable && v.words[2] == i.words[1] && v.words[3] == kStorageInput;
+        });
+        if (!is_input) {
+            continue;
+        }
+        if (found != nullptr) {
+            return Error(fmt::format("two inputs of the module have {} {}", word, change.number));
+        }
+        found = &i;
+    }
+    if (found == nullptr) {
+        return Error(fmt::format("no input of the module has {} {}", word, change.number));
+    }
+    return found;
+}
+
+bool is_decorated(std::span<const Instruction> code, uint32_t id, uint32_t decoration) {
+    return std::any_of(code.begin(), code.end(), [&](const Instruction& i) {
+        return i.op == kOpDecorate && i.words[1] == id && i.words[2] == decoration;
+    });
+}
+
+// What a change adds behind, or puts in place of, the instruction that names the input.
+struct Edit {
+    const Instruction* at = nullptr;
+    uint32_t id = 0;
+    std::vector<uint32_t> decorations;
+    bool becomes_primitive_id = false;
+};
+
+tl::expected<Edit, std::string> plan_edit(std::span<const Instruction> code,
+                                          const InputChange& change) {
+    auto found = find_input(code, change);
+    if (!found) {
+        return Error(found.error());
+    }
+    if (change.becomes_primitive_id && change.by != InputBy::location) {
+        return Error("only an input with a location can become PrimitiveId");
+    }
+    Edit edit{*found, (*found)->words[1], {}, change.becomes_primitive_id};
+    for (const auto& [wanted, decoration] :
+         {std::pair{change.flat, kFlat}, std::pair{change.no_perspective, kNoPerspective},
+          std::pair{change.centroid, kCentroid}, std::pair{change.sample, kSample}}) {
+        if (wanted) {
+            edit.decorations.push_back(decoration);
+        }
+    }
+    // Flat excludes the other three, Centroid and Sample exclude each other.
+    const auto has = [&](uint32_t decoration) {
+        return is_decorated(code, edit.id, decoration) ||
+               std::count(edit.decorations.begin(), edit.decorations.end(), decoration) != 0;
+    };
+    const bool is_placed = has(kCentroid) || has(kSample);
+    if ((has(kFlat) && (has(kNoPerspective) || is_placed)) || (has(kCentroid) && has(kSample))) {
+        return Error(
+            fmt::format("the decorations of input {} contradict each other", change.number));
+    }
+    for (const uint32_t decoration : edit.decorations) {
+        if (is_decorated(code, edit.id, decoration)) {
+            return Error(
+                fmt::format("input {} has decoration {} already", change.number, decoration));
+        }
+    }
+    return edit;
+}
+
+}  // namespace
+
+tl::expected<std::vector<uint32_t>, std::string> change_inputs(
+    std::span<const uint32_t> module, std::span<const InputChange> changes) {
+    auto code = split(module);
+    if (!code) {
+        return Error(code.error());
+    }
+    std::vector<Edit> edits;
+    std::set<uint32_t> capabilities;
+    for (const InputChange& change : changes) {
+        auto edit = plan_edit(*code, change);
+        if (!edit) {
+            return Error(edit.error());
+        }
+        const bool is_second = std::any_of(edits.begin(), edits.end(),
+                                           [&](const Edit& other) { return other.id == edit->id; });
+        if (is_second) {
+            return Error(fmt::format("input {} is changed twice", change.number));
+        }
+        if (change.sample) {
+            capabilities.insert(kSampleRateShading);
+        }
+        if (change.becomes_primitive_id) {
+            capabilities.insert(kGeometry);
+        }
+        edits.push_back(*std::move(edit));
+    }
+    for (const Instruction& i : *code) {
+        if (i.op == kOpCapability) {
+            capabilities.erase(i.words[1]);
+        }
+    }
+
+    std::vector<uint32_t> out(module.begin(), module.begin() + kHeaderWords);
+    // Capabilities come first of all.
+    for (const uint32_t capability : capabilities) {
+        out.insert(out.end(), {first_word(kOpCapability, 2), capability});
+    }
+    for (const Instruction& i : *code) {
+        const auto edit =
+            std::find_if(edits.begin(), edits.end(), [&](const Edit& e) { return e.at == &i; });
+        if (edit == edits.end()) {
+            out.insert(out.end(), i.words.begin(), i.words.end());
+            continue;
+        }
+        if (edit->becomes_primitive_id) {
+            out.insert(out.end(),
+                       {first_word(kOpDecorate, 4), edit->id, kBuiltIn, kBuiltInPrimitiveId});
+        } else {
+            out.insert(out.end(), i.words.begin(), i.words.end());
+        }
+        for (const uint32_t decoration : edit->decorations) {
+            out.insert(out.end(), {first_word(kOpDecorate, 3), edit->id, decoration});
+        }
+    }
+    return out;
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/target/attachments.hpp"
+
+#include <algorithm>
+
+#include "capture/capture.hpp"
+#include "cases/load/color.hpp"
+#include "vk_harness/case_check.hpp"
+#include "vk_harness/target/readback.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+VkClearValue clear_color(float r, float g, float b, float a) {
+    VkClearValue clear{};
+    clear.color.float32[0] = r;
+    clear.color.float32[1] = g;
+    clear.color.float32[2] = b;
+    clear.color.float32[3] = a;
+    return clear;
+}
+
+VkClearValue clear_all(float value) {
+    return clear_color(value, value, value, value);
+}
+
+uint32_t texel_bytes(cases::ColorFormat format) {
+    switch (format) {
+        case cases::ColorFormat::r5g6b5_unorm:
+            return 2;
+        case cases::ColorFormat::rgba16_unorm:
+        case cases::ColorFormat::rgba16_float:
+            return 8;
+        case cases::ColorFormat::rgba32_float:
+            return 16;
+        default:
+            return 4;
+    }
+}
+
+Attachment color_attachment(const cases::ColorTarget& target) {
+    Attachment out;
+    out.role = Role::color;
+    out.format = to_vulkan(target.format);
+    out.texel_bytes = texel_bytes(target.format);
+    out.sample_bytes = std::max(out.texel_bytes, 4U);
+    if (is_integer(target.format)) {
+        for (int k = 0; k < 4; ++k) {
+            out.clear.color.uint32[k] = static_cast<uint32_t>(target.clear[k]);
+        }
+    } else {
+        out.clear = clear_color(target.clear.x, target.clear.y, target.clear.z, target.clear.w);
+    }
+    return out;
+}
+
+// What is resolved into is first cleared to something that is neither the clear value nor the same
+// as any drawn value everywhere, so that a resolve that never happens does not look like an older
+// one of the same case.
+void append_resolved(const cases::Target& target, std::vector<Attachment>& out) {
+    constexpr float kNeverResolved = 0.8125F;
+    if (diff::resolves_color(target)) {
+        Attachment a = color_attachment(*target.color);
+        a.role = Role::resolved_color;
+        if (is_integer(target.color->format)) {
+            a.clear.color.uint32[0] ^= 0x5aU;
+        } else {
+            a.clear = clear_all(kNeverResolved);
+        }
+        out.push_back(a);
+    }
+    if (diff::resolves_depth(target)) {
+        const auto depth = std::find_if(out.begin(), out.end(),
+                                        [](const auto& a) { return a.role == Role::depth; });
+        Attachment a = *depth;
+        a.role = Role::resolved_depth;
+        a.clear.depthStencil.depth = kNeverResolved;
+        out.push_back(a);
+    }
+}
+
+}  // namespace
+
+std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLayout& layout) {
+    std::vector<Attachment> out;
+    const bool other = c.variation.other_clears;
+    if (c.target.has_instruments) {
+        const float id = other ? kOtherClearIdAsFloat : kClearIdAsFloat;
+        const VkClearValue value = clear_all(other ? diff::kOtherClearValue : diff::kClearValue);
+        const float hits = other ? kOtherNoHits : kNoHits;
+        if (layout.split) {
+            out.push_back({Role::writer, kTwoNumbers, clear_all(id), 8, 8,
+                           std::max(static_cast<uint32_t>(c.draws.size()), 1U)});
+            out.push_back({Role::hits, kTwoNumbers, clear_all(hits), 8, 8});
+            out.push_back({Role::frag_xy, kTwoNumbers, value, 8, 8});
+            out.push_back({Role::frag_zw, kTwoNumbers, value, 8, 8});
+        } else {
+            out.push_back({Role::writer_and_hits, kColorFormat, clear_color(id, id, id, hits)});
+            out.push_back({Role::frag_coord, kColorFormat, value});
+        }
+        for (uint32_t k = 0; k < attribute_count(c); ++k) {
+            for (uint32_t half = 0; half < layout.attribute_attachments(); ++half) {
+                const uint32_t bytes = layout.numbers(k) * 4U;
+                out.push_back({half == 0 ? Role::attribute : Role::attribute_zw,
+                               layout.attribute_format(k), value, bytes, bytes});
+            }
+        }
+    }
+    if (c.target.color) {
+        out.push_back(color_attachment(*c.target.color));
+    }
+    if (c.target.has_depth) {
+        VkClearValue clear{};
+        clear.depthStencil = {
+            c.variation.other_depth_clear ? diff::kOtherClearDepth : c.target.depth_clear, 0};
+        const uint32_t texel = c.target.depth_format == cases::DepthFormat::d16_unorm ? 2 : 4;
+        const VkFormat format =
+            c.target.has_stencil ? kDepthStencilFormat : depth_format(c.target.depth_format);
+        out.push_back({Role::depth, format, clear, texel, 4});
+        if (c.target.has_stencil) {
+            out.push_back({Role::stencil, format, clear, 1, 4});
+        }
+    }
+    append_resolved(c.target, out);
+    return out;
+}
+
+uint32_t color_count(const std::vector<Attachment>& attachments) {
+    return static_cast<uint32_t>(
+        std::count_if(attachments.begin(), attachments.end(),
+                      [](const auto& a) { return a.role <= Role::color; }));
+}
+
+std::string attachment_name(const std::vector<Attachment>& attachments, size_t k) {
+    const auto attribute = [&] {
+        const auto before = std::count_if(
+            attachments.begin(), attachments.begin() + static_cast<ptrdiff_t>(k),
+            [role = attachments[k].role](const Attachment& a) { return a.role == role; });
+        return "attribute " + std::to_string(before);
+    };
+    switch (attachments[k].role) {
+        case Role::writer_and_hits:
+            return "writer and hits";
+        case Role::frag_coord:
+            return "frag_coord";
+        case Role::writer:
+            return "writer";
+        case Role::hits:
+            return "hits";
+        case Role::frag_xy:
+            return "frag_coord.xy";
+        case Role::frag_zw:
+            return "frag_coord.zw";
+        case Role::attribute:
+            return attribute();
+        case Role::attribute_zw:
+            return attribute() + ".zw";
+        case Role::color:
+            return "color";
+        case Role::depth:
+            return "depth";
+        case Role::stencil:
+            return "stencil";
+        case Role::resolved_color:
+            return "resolved color";
+        case Role::resolved_depth:
+            break;
+    }
+    return "resolved depth";
+}
+
+VkFormat to_vulkan(cases::ColorFormat format) {
+    switch (format) {
+        case cases::ColorFormat::rgba8_unorm:
+            return VK_FORMAT_R8G8B8A8_UNORM;
+        case cases::ColorFormat::bgra8_unorm:
+            return VK_FORMAT_B8G8R8A8_UNORM;
+        case cases::ColorFormat::rgba8_srgb:
+            return VK_FORMAT_R8G8B8A8_SRGB;
+        case cases::ColorFormat::rgb10a2_unorm:
+            return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
+        case cases::ColorFormat::r5g6b5_unorm:
+            return VK_FORMAT_R5G6B5_UNORM_PACK16;
+        case cases::ColorFormat::rgba16_unorm:
+            return VK_FORMAT_R16G16B16A16_UNORM;
+        case cases::ColorFormat::rgba16_float:
+            return VK_FORMAT_R16G16B16A16_SFLOAT;
+        case cases::ColorFormat::rgba32_float:
+            return VK_FORMAT_R32G32B32A32_SFLOAT;
+        case cases::ColorFormat::r32_float:
+            return VK_FORMAT_R32_SFLOAT;
+        case cases::ColorFormat::r32_uint:
+            return VK_FORMAT_R32_UINT;
+        case cases::ColorFormat::rgba8_uint:
+            break;
+    }
+    return VK_FORMAT_R8G8B8A8_UINT;
+}
+
+VkFormat bits_format(VkFormat format) {
+    switch (format) {
+        case VK_FORMAT_R5G6B5_UNORM_PACK16:
+            return VK_FORMAT_R16_UINT;
+        case VK_FORMAT_R16G16B16A16_UNORM:
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+        case kTwoNumbers:
+            return VK_FORMAT_R32G32_UINT;
+        case VK_FORMAT_R32G32B32A32_SFLOAT:
+            return VK_FORMAT_R32G32B32A32_UINT;
+        default:
+            return VK_FORMAT_R32_UINT;
+    }
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which attachments a case is drawn to: one list that images, pipelines, commands and read-back go
+// by.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "vk_harness/device/device.hpp"
+#include "vk_harness/target/instrument_layout.hpp"
+
+namespace vk_harness {
+
+enum class Role : uint8_t {
+    writer_and_hits,  // draw, primitive, provoking vertex; hits
+    frag_coord,
+    writer,  // split: packed_id of draw and primitive, provoking vertex
+    hits,
+    frag_xy,
+    frag_zw,
+    attribute,
+    attribute_zw,  // the second of a pair
+    color,
+    depth,
+    stencil,         // the other aspect of the depth attachment's image
+    resolved_color,  // single-sampled: what `color` and `depth` are resolved into
+    resolved_depth
+};
+
+struct Attachment {
+    Role role = Role::writer_and_hits;
+    VkFormat format = kColorFormat;
+    VkClearValue clear{};        // a value that no case can draw, capture/capture.hpp
+    uint32_t texel_bytes = 16;   // of a single-sampled copy
+    uint32_t sample_bytes = 16;  // of a sample in a multisampled copy: whole words
+    uint32_t draws = 1;          // of the case: what packed_id goes by
+    bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
+    bool is_resolved() const {
+        return role == Role::resolved_color || role == Role::resolved_depth;
+    }
+    // Its own sample count on a target of so many samples.
+    uint32_t samples_of(const cases::Target& target) const {
+        return is_resolved() ? 1 : target.samples;
+    }
+    // Bytes of one sample in read-back memory.
+    uint32_t copied_bytes(uint32_t samples) const {
+        return samples > 1 ? sample_bytes : texel_bytes;
+    }
+};
+
+// Hits are added in binary32, which holds every integer below 2^24, to one of two clear values,
+// which differ from each other, from a replaced or an uncleared value, and from no clear. In two
+// numbers, of front and back hits, up to 2^22 - 1 of either kind are told apart; as the alpha of
+// writer_and_hits, where a back hit adds kBackHit, up to kMaxPackedHits.
+inline constexpr float kNoHits = 0x1p23F;
+inline constexpr float kOtherNoHits = 0x1p23F + 0x1p22F;  // cases::Variation::other_clears
+inline constexpr float kBackHit = 2048.0F;                // as shaders/capture.frag adds it
+inline constexpr uint32_t kMaxPackedHits = 2047;
+
+// In the order of shader locations: writer_and_hits, frag_coord, or writer, hits, frag_xy, frag_zw
+// if the layout is split; attributes (or their pairs), color; then depth, which has no location,
+// stencil and what is resolved. Without instruments only color, if any, and depth, if any.
+std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLayout& layout = {});
+
+// How many of them are colour attachments.
+uint32_t color_count(const std::vector<Attachment>& attachments);
+
+// What a report calls attachment `k`: "depth", "attribute 1".
+std::string attachment_name(const std::vector<Attachment>& attachments, size_t k);
+
+VkFormat to_vulkan(cases::ColorFormat format);
+// The unsigned format through which single samples of a colour format are read, so that no bit can
+// change on the way.
+VkFormat bits_format(VkFormat format);
+
+}  // namespace vk_harness

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/target/instrument_layout.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "vk_harness/case_check.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+// Whether the third and the fourth number are +0 at every vertex, whatever the probe: +0 everywhere
+// has +0 as its value, its derivatives and their sums.
+bool has_two_numbers(const cases::Attribute& a) {
+    switch (a.source) {
+        case cases::Source::barycentric:
+            return false;
+        case cases::Source::sample_position:
+        case cases::Source::sample_mask_in:
+        case cases::Source::sample_id:
+            return true;
+        case cases::Source::vertex:
+            break;
+    }
+    return a.probe == cases::Probe::lod ||
+           std::all_of(a.values.begin(), a.values.end(), [](const glm::vec4& value) {
+               return std::bit_cast<uint32_t>(value.z) == 0 &&
+                      std::bit_cast<uint32_t>(value.w) == 0;
+           });
+}
+
+// A draw and a primitive of it are one number that binary32 holds (decode_packed_id), and the draw
+// and their number one push constant. No draw has more primitives than indices or vertices.
+bool ids_fit(const cases::Case& test) {
+    size_t most = 0;
+    for (const cases::Draw& draw : test.draws) {
+        most = std::max(most, draw.indices ? draw.indices->size() : draw.positions.size());
+    }
+    return test.draws.size() < 0x10000 &&
+           (most + 2) * std::max(test.draws.size(), size_t{1}) < kMaxId;
+}
+
+}  // namespace
+
+uint32_t InstrumentLayout::numbers(uint32_t attribute) const {
+    return pairs ? 2U : attribute < components.size() ? components.at(attribute) : 4U;
+}
+
+VkFormat InstrumentLayout::attribute_format(uint32_t attribute) const {
+    return numbers(attribute) == 2 ? kTwoNumbers : kColorFormat;
+}
+
+InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test) {
+    InstrumentLayout layout;
+    if (!test.target.has_instruments || !ids_fit(test) ||
+        (c.narrow_sample_counts & test.target.samples) == 0) {
+        return layout;
+    }
+    const uint32_t attributes = std::min(attribute_count(test), cases::kMaxAttributes);
+    bool has_wide = false;
+    for (uint32_t k = 0; k < attributes; ++k) {
+        const bool is_wide = std::any_of(test.draws.begin(), test.draws.end(), [k](const auto& d) {
+            return k < d.attributes.size() && !has_two_numbers(d.attributes[k]);
+        });
+        layout.components.at(k) = is_wide ? 4 : 2;
+        has_wide = has_wide || is_wide;
+    }
+    const uint32_t all = kSplitAttachments + attributes + (test.target.color ? 1 : 0);
+    const uint32_t limit = std::min(kMaxSplitAttachments, c.info.max_color_attachments);
+    layout.split = all <= limit;
+    layout.pairs = has_wide && all + attributes <= limit;
+    return layout;
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How wide the attachments are that a case's instruments (hits, writer, FragCoord, attributes) are
+// drawn to. A driver may compile the store of an attachment once a sample, and narrow ones cost it
+// far less: lavapipe takes about 40 ms for four numbers with four samples, under 5 ms for two.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+
+#include "cases/model/case.hpp"
+#include "vk_harness/device/device.hpp"
+
+namespace vk_harness {
+
+struct InstrumentLayout {
+    bool split = false;  // writer, hits and FragCoord as four attachments of two numbers
+    bool pairs = false;  // split: each attribute as two attachments of two numbers
+    // 2 or 4 by attribute: numbers that are drawn and read back; the others are 0 at every vertex
+    // and 0 in the capture. One number costs as much as two, and would be one shader more.
+    std::array<uint8_t, cases::kMaxAttributes> components = {4, 4, 4, 4};
+
+    // Numbers in an attribute's only attachment, or in either of its pair. 4 beyond the last
+    // attribute that a case may have.
+    uint32_t numbers(uint32_t attribute) const;
+    VkFormat attribute_format(uint32_t attribute) const;
+    uint32_t attribute_attachments() const { return pairs ? 2 : 1; }
+    friend auto operator<=>(const InstrumentLayout&, const InstrumentLayout&) = default;
+};
+
+inline constexpr uint32_t kSplitAttachments = 4;
+inline constexpr uint32_t kMaxSplitAttachments =
+    8;  // with attributes and colour: cmake/Shaders.cmake
+
+// The narrowest layout that the device has.
+InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test);
+
+}  // namespace vk_harness

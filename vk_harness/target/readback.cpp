@@ -1,0 +1,440 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/target/readback.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "vk_harness/case_check.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+// Depth as the capture holds it (capture/capture.hpp). Copied texels of D16 are 2 bytes and of
+// X8_D24 the low 24 bits of a word; with several samples a shader has written binary32.
+void decode_depth(const cases::Target& target, std::span<const std::byte> from, float* to) {
+    const size_t count = size_t{target.width} * target.rows() * target.samples;
+    const auto* words = reinterpret_cast<const uint32_t*>(from.data());
+    const auto poison_float = std::bit_cast<float>(diff::kPoison);
+    if (target.depth_format == cases::DepthFormat::d32_float) {
+        std::memcpy(to, words, count * sizeof(float));
+        return;
+    }
+    if (target.samples > 1) {
+        std::transform(words, words + count, to, [&](uint32_t word) {
+            return word == diff::kPoison
+                       ? poison_float
+                       : diff::nearest_depth_code(std::bit_cast<float>(word), target.depth_format);
+        });
+        return;
+    }
+    if (target.depth_format == cases::DepthFormat::d24_unorm) {
+        std::transform(words, words + count, to, [&](uint32_t word) {
+            return word == diff::kPoison
+                       ? poison_float
+                       : diff::depth_of_code(word & 0xffffffU, cases::DepthFormat::d24_unorm);
+        });
+        return;
+    }
+    // Half of the poison is a code like any other; a copy that never happened leaves it everywhere.
+    const auto* halves = reinterpret_cast<const uint16_t*>(from.data());
+    const bool is_copied = !std::all_of(words, words + (count + 1) / 2,
+                                        [](uint32_t word) { return word == diff::kPoison; });
+    std::transform(halves, halves + count, to, [&](uint16_t code) {
+        return is_copied ? diff::depth_of_code(code, cases::DepthFormat::d16_unorm) : poison_float;
+    });
+}
+
+// Whether some number of hits makes this of a clear value.
+bool is_hits(float sum) {
+    return sum >= kNoHits && sum < 2 * kNoHits;
+}
+
+// Of which of the two clear values; is_hits(sum).
+bool is_of_other_clear(float sum) {
+    return sum >= kOtherNoHits;
+}
+
+glm::vec4 hits_of(float front, float back, bool other) {
+    const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
+    return {front, back, guard, guard + front + back};
+}
+
+// Who wrote a sample and how often. The spare word is what a clear sample of that clear
+// value has, and kClearId where something was drawn (capture/capture.hpp).
+struct WriterAndHits {
+    diff::Writer writer;
+    glm::vec4 hits;
+};
+
+// `draws`: 0 if words are draw, primitive, vertex and hits, else packed_id, vertex and either hits.
+WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words, uint32_t draws) {
+    WriterAndHits out;
+    out.hits = draws == 0 ? decode_hits(words[3]) : decode_hits(words[2], words[3]);
+    const auto [draw, primitive] = draws == 0 ? std::pair(decode_id(words[0]), decode_id(words[1]))
+                                              : decode_packed_id(words[0], draws);
+    const bool is_clear = out.hits.x + out.hits.y < 1;
+    const uint32_t spare = std::bit_cast<uint32_t>(out.hits.z) == diff::kPoison ? diff::kPoison
+                           : out.hits.z < 0                                     ? kMalformedId
+                           : is_clear && out.hits.z > diff::kHitGuard ? diff::kOtherClearId
+                                                                      : diff::kClearId;
+    out.writer = {draw, primitive, decode_id(words[draws == 0 ? 2 : 1]), spare};
+    return out;
+}
+
+// Numbers of one attachment in read-back memory, `words` a sample.
+struct Words {
+    const uint32_t* first = nullptr;
+    uint32_t words = 4;
+    uint32_t at(size_t sample, uint32_t word) const { return first[sample * words + word]; }
+};
+
+// Two words of `ids` and the two of `hits` that follow or stand beside them. Neighbours mostly have
+// the same origin, so the last answer is kept.
+void decode_writers_and_hits(const Words& ids, const Words& hit_words, uint32_t draws, size_t count,
+                             glm::vec4* hits, diff::Writer* writers) {
+    const uint32_t first_hit = draws == 0 ? 2 : 0;
+    std::array<uint32_t, 4> last{};
+    WriterAndHits decoded = decode_writer_and_hits(last, draws);
+    for (size_t k = 0; k < count; ++k) {
+        const std::array<uint32_t, 4> words = {
+            ids.at(k, 0), ids.at(k, 1), hit_words.at(k, first_hit), hit_words.at(k, first_hit + 1)};
+        if (words != last) {
+            last = words;
+            decoded = decode_writer_and_hits(words, draws);
+        }
+        hits[k] = decoded.hits;
+        writers[k] = decoded.writer;
+    }
+}
+
+// The numbers of an attribute, `second` beginning with the third of them, and zeros: a clear sample
+// is clear and poison is poison in all four.
+void widen(const Words& first, const Words& second, size_t count, const VkClearValue& clear,
+           glm::vec4* to) {
+    const auto clear_word = std::bit_cast<uint32_t>(clear.color.float32[0]);
+    for (size_t k = 0; k < count; ++k) {
+        glm::vec4 value(0.0F);
+        bool is_clear = true;
+        bool is_poison = true;
+        for (uint32_t c = 0; c < first.words + second.words; ++c) {
+            const uint32_t word = c < first.words ? first.at(k, c) : second.at(k, c - first.words);
+            value[static_cast<int>(c)] = std::bit_cast<float>(word);
+            is_clear = is_clear && word == clear_word;
+            is_poison = is_poison && word == diff::kPoison;
+        }
+        to[k] = is_clear || is_poison ? glm::vec4(value.x) : value;
+    }
+}
+
+// Stencil as the capture holds it: copied texels are bytes, with several samples a shader has
+// written words. A quarter of the poison is a stencil like any other; a copy that never happened
+// leaves it everywhere.
+void decode_stencil(const cases::Target& target, std::span<const std::byte> from, uint32_t* to) {
+    const size_t count = size_t{target.width} * target.rows() * target.samples;
+    const auto* words = reinterpret_cast<const uint32_t*>(from.data());
+    if (target.samples > 1) {
+        std::copy(words, words + count, to);
+        return;
+    }
+    const bool is_copied = !std::all_of(words, words + (count + 3) / 4,
+                                        [](uint32_t word) { return word == diff::kPoison; });
+    std::transform(
+        from.begin(), from.begin() + static_cast<ptrdiff_t>(count), to,
+        [&](std::byte b) { return is_copied ? std::to_integer<uint32_t>(b) : diff::kPoison; });
+}
+
+// The shape of what a target is resolved into.
+cases::Target shape_of(const Attachment& attachment, const cases::Target& target) {
+    cases::Target shape = target;
+    shape.samples = attachment.samples_of(target);
+    return shape;
+}
+
+}  // namespace
+
+ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attachment>& attachments,
+                           VkDeviceSize begin, VkDeviceSize alignment) {
+    const VkDeviceSize pixels = VkDeviceSize{target.width} * target.rows();
+    const auto align = [alignment](VkDeviceSize offset) {
+        return (offset + alignment - 1) & ~(alignment - 1);
+    };
+    ReadbackLayout layout;
+    VkDeviceSize offset = align(begin);
+    for (const Attachment& attachment : attachments) {
+        layout.offset.push_back(offset);
+        const uint32_t samples = attachment.samples_of(target);
+        offset = align(offset + pixels * samples * attachment.copied_bytes(samples));
+    }
+    layout.end = offset;
+    return layout;
+}
+
+void poison(std::span<std::byte> memory) {
+    // Mapped memory is aligned to at least 64 bytes (minMemoryMapAlignment), offsets to 4.
+    auto* words = reinterpret_cast<uint32_t*>(memory.data());
+    std::fill(words, words + memory.size() / sizeof(uint32_t), diff::kPoison);
+}
+
+glm::vec4 decode_hits(uint32_t bits) {
+    const auto sum = std::bit_cast<float>(bits);
+    if (bits == diff::kPoison) {
+        return glm::vec4(sum);
+    }
+    if (!is_hits(sum)) {
+        return {0, 0, -1, sum};
+    }
+    // Every number of this range is an integer.
+    const float hits = sum - (is_of_other_clear(sum) ? kOtherNoHits : kNoHits);
+    const float back = std::floor(hits / kBackHit);
+    return hits_of(hits - back * kBackHit, back, is_of_other_clear(sum));
+}
+
+glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits) {
+    const auto front = std::bit_cast<float>(front_bits);
+    const auto back = std::bit_cast<float>(back_bits);
+    if (front_bits == diff::kPoison || back_bits == diff::kPoison) {
+        return glm::vec4(std::bit_cast<float>(diff::kPoison));
+    }
+    if (!is_hits(front) || !is_hits(back) || is_of_other_clear(front) != is_of_other_clear(back)) {
+        return {0, 0, -1, front};
+    }
+    const float none = is_of_other_clear(front) ? kOtherNoHits : kNoHits;
+    return hits_of(front - none, back - none, is_of_other_clear(front));
+}
+
+uint32_t decode_id(uint32_t bits) {
+    if (bits == diff::kPoison) {
+        return diff::kPoison;
+    }
+    const auto value = std::bit_cast<float>(bits);
+    if (value >= 0.0F && value < static_cast<float>(kMaxId)) {
+        const auto id = static_cast<uint32_t>(value);
+        return std::bit_cast<uint32_t>(static_cast<float>(id)) == bits ? id : kMalformedId;
+    }
+    if (bits == std::bit_cast<uint32_t>(kClearIdAsFloat)) {
+        return diff::kClearId;
+    }
+    if (bits == std::bit_cast<uint32_t>(kOtherClearIdAsFloat)) {
+        return diff::kOtherClearId;
+    }
+    return bits == std::bit_cast<uint32_t>(-2.0F) ? diff::kNoPrimitive : kMalformedId;
+}
+
+std::pair<uint32_t, uint32_t> decode_packed_id(uint32_t bits, uint32_t draws) {
+    const uint32_t id = decode_id(bits);
+    if (id >= kMaxId) {
+        const uint32_t both = id == diff::kNoPrimitive ? kMalformedId : id;
+        return {both, both};
+    }
+    const uint32_t row = id / draws;
+    if (row == 1) {
+        return {kMalformedId, kMalformedId};
+    }
+    return {id % draws, row == 0 ? diff::kNoPrimitive : row - 2};
+}
+
+diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes) {
+    std::array<uint32_t, 4> words{};
+    std::memcpy(words.data(), texel, bytes);
+    constexpr std::array<uint32_t, 4> kPoisonWords = {diff::kPoison, diff::kPoison, diff::kPoison,
+                                                      diff::kPoison};
+    if (std::memcmp(words.data(), kPoisonWords.data(), bytes) == 0) {
+        return kPoisonWords;
+    }
+    const auto bits = [&words](uint32_t first, uint32_t count) {
+        return words[first / 32] >> (first % 32) & ((1U << count) - 1);
+    };
+    switch (format) {  // Vulkan specification, "Format Definition": packed formats from bit 0 up
+        case cases::ColorFormat::rgba8_unorm:
+        case cases::ColorFormat::rgba8_srgb:
+        case cases::ColorFormat::rgba8_uint:
+            return {bits(0, 8), bits(8, 8), bits(16, 8), bits(24, 8)};
+        case cases::ColorFormat::bgra8_unorm:
+            return {bits(16, 8), bits(8, 8), bits(0, 8), bits(24, 8)};
+        case cases::ColorFormat::rgb10a2_unorm:
+            return {bits(0, 10), bits(10, 10), bits(20, 10), bits(30, 2)};
+        case cases::ColorFormat::r5g6b5_unorm:
+            return {bits(11, 5), bits(5, 6), bits(0, 5), 0};
+        case cases::ColorFormat::rgba16_unorm:
+        case cases::ColorFormat::rgba16_float:
+            return {bits(0, 16), bits(16, 16), bits(32, 16), bits(48, 16)};
+        case cases::ColorFormat::rgba32_float:
+            return words;
+        case cases::ColorFormat::r32_float:
+        case cases::ColorFormat::r32_uint:
+            break;
+    }
+    return {words[0], 0, 0, 0};
+}
+
+namespace {
+
+void decode_color(const cases::Target& target, const Attachment& attachment,
+                  const std::byte* memory, diff::ColorCodes* to) {
+    const size_t count = size_t{target.width} * target.rows() * target.samples;
+    const uint32_t step = attachment.copied_bytes(target.samples);
+    for (size_t k = 0; k < count; ++k) {
+        to[k] = decode_texel(target.color->format, memory + k * step, step);
+    }
+}
+
+}  // namespace
+
+namespace {
+
+// Where the planes of a capture go that are decoded together.
+struct InstrumentPlanes {
+    glm::vec4* hits = nullptr;
+    diff::Writer* writers = nullptr;
+    glm::vec4* frag_coord = nullptr;
+};
+
+Words words_of(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
+               std::span<const std::byte> memory, size_t attachment) {
+    return {reinterpret_cast<const uint32_t*>(memory.data() + layout.offset[attachment]),
+            attachments[attachment].sample_bytes / 4};
+}
+
+// The planes that attachment k begins: hits and writers, or FragCoord.
+void decode_instrument(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
+                       std::span<const std::byte> memory, size_t count, size_t k,
+                       const InstrumentPlanes& to) {
+    const auto words = [&](size_t attachment) {
+        return words_of(attachments, layout, memory, attachment);
+    };
+    switch (attachments[k].role) {
+        case Role::writer_and_hits:
+            decode_writers_and_hits(words(k), words(k), 0, count, to.hits, to.writers);
+            break;
+        case Role::writer:  // then hits
+            decode_writers_and_hits(words(k), words(k + 1), attachments[k].draws, count, to.hits,
+                                    to.writers);
+            break;
+        case Role::frag_coord:
+            std::memcpy(to.frag_coord, words(k).first, count * sizeof(glm::vec4));
+            break;
+        case Role::frag_xy: {  // then frag_zw
+            const auto* xy = reinterpret_cast<const float*>(words(k).first);
+            const auto* zw = reinterpret_cast<const float*>(words(k + 1).first);
+            for (size_t s = 0; s < count; ++s) {
+                to.frag_coord[s] = {xy[2 * s], xy[2 * s + 1], zw[2 * s], zw[2 * s + 1]};
+            }
+            break;
+        }
+        default:
+            break;
+    }
+}
+
+// The plane that attachment k begins.
+void decode_attribute(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
+                      std::span<const std::byte> memory, size_t count, size_t k, glm::vec4* to) {
+    const Words first = words_of(attachments, layout, memory, k);
+    const bool is_pair =
+        k + 1 < attachments.size() && attachments[k + 1].role == Role::attribute_zw;
+    if (first.words == 4) {
+        std::memcpy(to, first.first, count * sizeof(glm::vec4));
+    } else {
+        widen(first, is_pair ? words_of(attachments, layout, memory, k + 1) : Words{nullptr, 0},
+              count, attachments[k].clear, to);
+    }
+}
+
+}  // namespace
+
+diff::Capture read_capture(const cases::Target& target, const std::vector<Attachment>& attachments,
+                           bool has_primitive, const ReadbackLayout& layout,
+                           std::span<const std::byte> memory) {
+    diff::Capture capture;
+    capture.target = target;
+    capture.has_primitive = has_primitive;
+    const size_t count = capture.sample_count();
+    for (size_t k = 0; k < attachments.size(); ++k) {
+        const VkDeviceSize at = layout.offset[k];
+        switch (attachments[k].role) {
+            case Role::attribute: {
+                std::vector<glm::vec4>& plane = capture.attributes[capture.attribute_count++];
+                plane.resize(count);
+                decode_attribute(attachments, layout, memory, count, k, plane.data());
+                break;
+            }
+            case Role::color:
+                capture.color.resize(count);
+                decode_color(target, attachments[k], memory.data() + at, capture.color.data());
+                break;
+            case Role::depth:
+                capture.depth.resize(count);
+                decode_depth(target, memory.subspan(at), capture.depth.data());
+                break;
+            case Role::stencil:
+                capture.stencil.resize(count);
+                decode_stencil(target, memory.subspan(at), capture.stencil.data());
+                break;
+            case Role::resolved_color:
+                capture.resolved_color.resize(size_t{target.width} * target.rows());
+                decode_color(shape_of(attachments[k], target), attachments[k], memory.data() + at,
+                             capture.resolved_color.data());
+                break;
+            case Role::resolved_depth:
+                capture.resolved_depth.resize(size_t{target.width} * target.rows());
+                decode_depth(shape_of(attachments[k], target), memory.subspan(at),
+                             capture.resolved_depth.data());
+                break;
+            default:
+                capture.hits.resize(count);
+                capture.writers.resize(count);
+                capture.frag_coord.resize(count);
+                decode_instrument(
+                    attachments, layout, memory, count, k,
+                    {capture.hits.data(), capture.writers.data(), capture.frag_coord.data()});
+                break;
+        }
+    }
+    return capture;
+}
+
+void read_planes(const cases::Target& target, const std::vector<Attachment>& attachments,
+                 const ReadbackLayout& layout, std::span<const std::byte> memory,
+                 std::span<std::byte> planes) {
+    std::byte* to = planes.data();
+    const size_t samples = size_t{target.width} * target.rows() * target.samples;
+    InstrumentPlanes instruments;
+    if (target.has_instruments) {
+        instruments.hits = reinterpret_cast<glm::vec4*>(to);
+        to += samples * sizeof(glm::vec4);
+        instruments.writers = reinterpret_cast<diff::Writer*>(to);
+        to += samples * sizeof(diff::Writer);
+        instruments.frag_coord = reinterpret_cast<glm::vec4*>(to);
+        to += samples * sizeof(glm::vec4);
+    }
+    for (size_t k = 0; k < attachments.size(); ++k) {
+        const Attachment& attachment = attachments[k];
+        const cases::Target shape = shape_of(attachment, target);
+        const size_t count = size_t{shape.width} * shape.rows() * shape.samples;
+        const std::byte* from = memory.data() + layout.offset[k];
+        if (attachment.role == Role::color || attachment.role == Role::resolved_color) {
+            decode_color(shape, attachment, from, reinterpret_cast<diff::ColorCodes*>(to));
+            to += count * sizeof(diff::ColorCodes);
+        } else if (attachment.is_depth()) {
+            decode_depth(shape, memory.subspan(layout.offset[k]), reinterpret_cast<float*>(to));
+            to += count * sizeof(float);
+        } else if (attachment.role == Role::stencil) {
+            decode_stencil(target, memory.subspan(layout.offset[k]),
+                           reinterpret_cast<uint32_t*>(to));
+            to += count * sizeof(uint32_t);
+        } else if (attachment.role == Role::attribute) {
+            decode_attribute(attachments, layout, memory, count, k,
+                             reinterpret_cast<glm::vec4*>(to));
+            to += count * sizeof(glm::vec4);
+        } else {
+            decode_instrument(attachments, layout, memory, count, k, instruments);
+        }
+    }
+}
+
+}  // namespace vk_harness

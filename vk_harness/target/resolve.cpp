@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/target/resolve.hpp"
+
+#include <fmt/format.h>
+
+#include "capture/capture.hpp"
+#include "cases/load/color.hpp"
+#include "vk_harness/memory/memory.hpp"
+#include "vk_harness/target/attachments.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+VkResolveModeFlagBits to_vulkan(cases::Resolve mode) {
+    switch (mode) {
+        case cases::Resolve::none:
+            break;
+        case cases::Resolve::sample_zero:
+            return VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
+        case cases::Resolve::average:
+            return VK_RESOLVE_MODE_AVERAGE_BIT;
+        case cases::Resolve::min:
+            return VK_RESOLVE_MODE_MIN_BIT;
+        case cases::Resolve::max:
+            return VK_RESOLVE_MODE_MAX_BIT;
+    }
+    return VK_RESOLVE_MODE_NONE;
+}
+
+}  // namespace
+
+std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
+                                                      const cases::Target& t) {
+    const auto has_image = [&c](VkFormat format, VkImageUsageFlags usage, uint32_t samples) {
+        VkImageFormatProperties image{};
+        return vkGetPhysicalDeviceImageFormatProperties(c.physical, format, VK_IMAGE_TYPE_2D,
+                                                        VK_IMAGE_TILING_OPTIMAL, usage, 0,
+                                                        &image) == VK_SUCCESS &&
+               (image.sampleCounts & samples) != 0;
+    };
+    if (t.has_stencil) {
+        const VkImageUsageFlags read =
+            t.samples > 1 ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+        if (!has_image(kDepthStencilFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read,
+                       t.samples) ||
+            (c.limits.framebufferStencilSampleCounts & t.samples) == 0 ||
+            (t.samples > 1 && (c.limits.sampledImageStencilSampleCounts & t.samples) == 0)) {
+            return (fmt::format(
+                "the device cannot draw to and read back format D32_SFLOAT_S8_UINT with {} "
+                "sample(s)",
+                t.samples));
+        }
+    }
+    if (diff::resolves_color(t) && !has_image(to_vulkan(t.color->format), color_usage(1), 1)) {
+        return (fmt::format("the device cannot resolve into the colour format {}",
+                            cases::name_of(t.color->format)));
+    }
+    if (!diff::resolves_depth(t)) {
+        return std::nullopt;
+    }
+    VkPhysicalDeviceDepthStencilResolveProperties resolve{};
+    resolve.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_STENCIL_RESOLVE_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &resolve;
+    vkGetPhysicalDeviceProperties2(c.physical, &properties);
+    const auto mode = static_cast<VkResolveModeFlags>(to_vulkan(t.depth_resolve));
+    if ((resolve.supportedDepthResolveModes & mode) == 0) {
+        return (fmt::format("the device does not resolve depth by {}",
+                            mode == VK_RESOLVE_MODE_AVERAGE_BIT ? "AVERAGE"
+                            : mode == VK_RESOLVE_MODE_MIN_BIT   ? "MIN"
+                            : mode == VK_RESOLVE_MODE_MAX_BIT   ? "MAX"
+                                                                : "SAMPLE_ZERO"));
+    }
+    // A stencil beside it is not resolved: one of the two modes is NONE.
+    if (t.has_stencil && resolve.independentResolveNone != VK_TRUE) {
+        return std::string(
+            "the device does not resolve depth without stencil "
+            "(independentResolveNone)");
+    }
+    return std::nullopt;
+}
+
+void resolve_into(VkImageView view, VkImageLayout layout, cases::Resolve mode,
+                  VkRenderingAttachmentInfo& from) {
+    from.resolveMode = to_vulkan(mode);
+    from.resolveImageView = view;
+    from.resolveImageLayout = layout;
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Planes beside the instruments: what colour and depth are resolved into, and a stencil.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cases/model/case.hpp"
+#include "vk_harness/device/device.hpp"
+
+namespace vk_harness {
+
+// What the device lacks for them, as a sentence; nothing if it can draw them all.
+std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
+                                                      const cases::Target& t);
+
+// Has the attachment `from` resolved into `view` at the end of rendering.
+void resolve_into(VkImageView view, VkImageLayout layout, cases::Resolve mode,
+                  VkRenderingAttachmentInfo& from);
+
+}  // namespace vk_harness
