@@ -4,7 +4,7 @@
 
 #include "cases/model/derive.hpp"
 
-namespace diff {
+namespace capture {
 
 Capture blank_capture(const cases::Case& c) {
     Capture out;
@@ -24,4 +24,4 @@ Capture blank_capture(const cases::Case& c) {
     return out;
 }
 
-}  // namespace diff
+}  // namespace capture

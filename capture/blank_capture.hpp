@@ -4,10 +4,10 @@
 
 #include "capture/capture.hpp"
 
-namespace diff {
+namespace capture {
 
 // The instruments' planes of a case in which nothing was drawn: no hits, no writers, clear values.
 // Colour, stencil and resolved planes are empty.
 Capture blank_capture(const cases::Case& c);
 
-}  // namespace diff
+}  // namespace capture

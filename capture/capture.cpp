@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace diff {
+namespace capture {
 
 namespace {
 
@@ -112,4 +112,4 @@ SampleState sample_state(const CaptureView& capture, size_t index) {
     return written ? SampleState::drawn : SampleState::inconsistent;
 }
 
-}  // namespace diff
+}  // namespace capture

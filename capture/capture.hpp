@@ -19,7 +19,7 @@
 
 #include "cases/model/case.hpp"
 
-namespace diff {
+namespace capture {
 
 // Attachments are cleared to values that no case can draw (kMaxAttributeMagnitude is smaller), and
 // read-back memory is filled with the poison first: 'not drawn', 'drawn with zero' and 'not copied'
@@ -245,4 +245,4 @@ SampleState sample_state(const CaptureView& capture, size_t index);
 // either neighbour of UNORM.
 bool is_clear_depth(const cases::Target& target, float depth);
 
-}  // namespace diff
+}  // namespace capture

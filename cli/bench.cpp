@@ -23,7 +23,7 @@
 #include "cli/prepare/suite.hpp"
 #include "diff/verdict.hpp"
 #include "run/worker/backend.hpp"
-#include "vk_harness/harness.hpp"
+#include "vk_harness/public/harness.hpp"
 
 extern char** environ;
 
@@ -166,7 +166,7 @@ void time_reference(const std::vector<cases::Case>& cases, Figures& figures) {
         if (c.blit) {
             continue;  // texels, not triangles
         }
-        const diff::Capture capture = draw_by_reference(c);
+        const capture::Capture capture = rasterizers::draw_by_reference(c);
         Clock::time_point begin = Clock::now();
         const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
         figures.reference += seconds_since(begin);

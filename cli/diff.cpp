@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "capture/exchange/plane_files.hpp"
+#include "cases/base/printable.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -20,6 +21,7 @@
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
 #include "run/judge.hpp"
+#include "run/process/pool.hpp"
 #include "run/process/signal_fd.hpp"
 
 namespace cli {
@@ -49,27 +51,27 @@ struct Work {
 void judge_folder(CaseRecord& record, std::vector<std::string>& skipped, const cases::Case& c,
                   const Work& work) {
     const auto begin = Time::now();
-    const fs::path folder = fs::path(work.options.captures) / folder_of(c.id);
+    const fs::path folder = fs::path(work.options.captures) / capture::folder_of(c.id);
     const auto say = [&](Status status, const std::string& reason) {
         record.status = status;
         record.reason = reason;
     };
-    if (const std::string wrong = check_before_running(c); !wrong.empty()) {
+    if (const std::string wrong = run::check_before_running(c); !wrong.empty()) {
         say(Status::error, wrong);
         return;
     }
-    const cases::Expected<ReadPlanes> read = read_planes(folder, c);
+    const cases::Expected<capture::ReadPlanes> read = capture::read_planes(folder, c);
     record.attempts = 1;
     if (!read) {
         say(Status::error, read.error().message);
     } else if (!read->unsupported.empty()) {
-        say(Status::unsupported, "the renderer says: " + report::printable(read->unsupported));
+        say(Status::unsupported, "the renderer says: " + cases::printable(read->unsupported));
     } else if (read->planes.is_empty()) {
         say(Status::not_run, "no plane was delivered in '" + folder.string() + "'");
         record.attempts = 0;
     } else {
-        judge_delivered(record, c, read->planes, work.limits, work.options.run.profile,
-                        work.options.run.capture);
+        run::judge_delivered(record, c, read->planes, work.limits, work.options.run.profile,
+                             work.options.run.capture);
         if (record.status == Status::pass || record.status == Status::fail) {
             skipped = diff::not_judged(c, read->planes);
             std::string list;
@@ -88,7 +90,7 @@ std::vector<std::string> unknown_folders(const fs::path& captures,
                                          const std::vector<std::string>& ids) {
     std::set<std::string> known;
     for (const std::string& id : ids) {
-        known.insert(folder_of(id));
+        known.insert(capture::folder_of(id));
     }
     std::set<std::string> unknown;
     std::error_code error;
@@ -121,14 +123,14 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
     }
     std::vector<std::string> folders;
     for (const std::string& id : ids) {
-        folders.push_back(folder_of(id));
+        folders.push_back(capture::folder_of(id));
     }
     const std::string nearest = cases::nearest_name(unknown.front(), folders);
     const std::string more =
         unknown.size() == 1 ? "" : " and " + std::to_string(unknown.size() - 1) + " more";
     return tl::unexpected(
         stop_with(report::kExitInvalidFile,
-                  "'" + report::printable((fs::path(options.captures) / unknown.front()).string()) +
+                  "'" + cases::printable((fs::path(options.captures) / unknown.front()).string()) +
                       "'" + more + " belongs to no case of the suite" +
                       (nearest.empty() ? "; folders have the names that 'edgecase export' writes"
                                        : "; did you mean '" + nearest + "'?")));
@@ -140,17 +142,18 @@ std::string host_name() {
     return std::string(name.sysname) + " " + name.release + " " + name.machine;
 }
 
-using ExpectedById = std::map<std::string, ExpectationLine>;
+using ExpectedById = std::map<std::string, run::ExpectationLine>;
 
 // What the expectation files say of the selected cases; their names go into the header.
 OrStop<ExpectedById> expectations_of(const RunOptions& options, const Selection& selection,
                                      report::Run& header) {
-    const OrStop<std::vector<ExpectationFile>> files =
+    const OrStop<std::vector<run::ExpectationFile>> files =
         find_expectations(options, selection.root, header.device);
     if (!files) {
         return tl::unexpected(files.error());
     }
-    const auto expected = resolve_expectations(*files, selection.suite_ids, selection.whole_suite);
+    const auto expected =
+        run::resolve_expectations(*files, selection.suite_ids, selection.whole_suite);
     if (!expected) {
         Stop stop{report::kExitInvalidFile, {}};
         for (const cases::Error& error : expected.error()) {
@@ -158,7 +161,7 @@ OrStop<ExpectedById> expectations_of(const RunOptions& options, const Selection&
         }
         return tl::unexpected(stop);
     }
-    for (const ExpectationFile& file : *files) {
+    for (const run::ExpectationFile& file : *files) {
         header.expectation_file +=
             (header.expectation_file.empty() ? "" : ", ") + file.path.string();
     }
@@ -185,7 +188,7 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     header.device.subpixel_bits = options.subpixel_bits;
     header.device.has_primitive_id = true;
     for (const cases::Case& c : selection.cases) {
-        header.cases.push_back(make_record(c));
+        header.cases.push_back(run::make_record(c));
         header.cases.back().rerun = diff_line(program, options, c.id);
     }
     return header;
@@ -269,7 +272,7 @@ int conclude(const DiffOptions& options, const fs::path& folder, const std::stri
 }  // namespace
 
 int diff_command(const Program& program, const DiffOptions& options) {
-    SignalFd signals;
+    run::SignalFd signals;
     const RunOptions& o = options.run;
     const OrStop<Selection> selection = select_cases(program, o);
     if (!selection) {
@@ -306,7 +309,7 @@ int diff_command(const Program& program, const DiffOptions& options) {
     size_t done = 0, unexpected = 0;
     Progress progress(o.quiet ? ProgressStyle::none : o.progress, selection->cases.size());
     std::vector<std::vector<std::string>> not_judged(selection->cases.size());
-    Pool pool(std::max(1U, std::thread::hardware_concurrency()));
+    run::Pool pool(std::max(1U, std::thread::hardware_concurrency()));
     for (size_t k = 0; k < selection->cases.size(); ++k) {
         const cases::Case& c = selection->cases[k];
         CaseRecord& record = header.cases[k];

@@ -11,11 +11,12 @@
 #include <sstream>
 #include <utility>
 
+#include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "cli/prepare/suite.hpp"
-#include "report/text/reports.hpp"
+#include "report/files/json.hpp"
 #include "run/process/manifest.hpp"
 
 namespace cli {
@@ -31,8 +32,8 @@ std::string value_of(const char* variable) {
 }
 
 // The manifests that the loader looks at, and the variable that chose them, if any.
-std::vector<Manifest> find_manifests(const std::string& icd, const std::string& icd_from,
-                                     std::string& chosen_by) {
+std::vector<run::Manifest> find_manifests(const std::string& icd, const std::string& icd_from,
+                                          std::string& chosen_by) {
     std::vector<fs::path> places;
     const auto add_list = [&](const std::string& list, const std::string& below) {
         std::istringstream in(list);
@@ -65,12 +66,12 @@ std::vector<Manifest> find_manifests(const std::string& icd, const std::string& 
         add_list(home + "/.local/share", "vulkan/icd.d");
         add_list(data.empty() ? "/usr/local/share:/usr/share" : data, "vulkan/icd.d");
     }
-    std::vector<Manifest> manifests;
+    std::vector<run::Manifest> manifests;
     for (const fs::path& place : places) {
         std::error_code ignored;
         if (!fs::is_directory(place, ignored)) {
             if (!chosen_by.empty()) {
-                manifests.push_back(read_manifest(place));
+                manifests.push_back(run::read_manifest(place));
             }
             continue;
         }
@@ -82,7 +83,7 @@ std::vector<Manifest> find_manifests(const std::string& icd, const std::string& 
         }
         std::sort(files.begin(), files.end());
         for (const fs::path& file : files) {
-            manifests.push_back(read_manifest(file));
+            manifests.push_back(run::read_manifest(file));
         }
     }
     return manifests;
@@ -134,7 +135,7 @@ struct Diagnosis {
     std::vector<Part> parts;
 
     std::string chosen_by;
-    std::vector<Manifest> manifests;
+    std::vector<run::Manifest> manifests;
     std::vector<vk_harness::DeviceInfo> devices;
     std::vector<std::string> problems;
     std::vector<std::string> advice;
@@ -164,16 +165,16 @@ enum class Question { devices, chosen };
 // Lists the devices, or starts the one that the options choose.
 cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& options,
                                  Question question, Diagnosis& d) {
-    SignalFd signals;
+    run::SignalFd signals;
     const auto start =
-        question == Question::devices ? WorkerClient::start_listing : WorkerClient::start;
-    cases::Expected<WorkerClient> client =
+        question == Question::devices ? run::WorkerClient::start_listing : run::WorkerClient::start;
+    cases::Expected<run::WorkerClient> client =
         start(worker_command(program), worker_options(options),
               std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)));
     if (!client) {
         return tl::unexpected(client.error());
     }
-    const std::optional<WorkerEvent> answer = wait_for_answer(*client, signals);
+    const std::optional<run::WorkerEvent> answer = run::wait_for_answer(*client, signals);
     if (!answer) {
         return tl::unexpected(cases::Error{{}, "interrupted"});
     }
@@ -197,7 +198,7 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
                failure != nullptr) {
         d.usable = false;
         add_failure(d, *failure);
-    } else if (const auto* death = std::get_if<Death>(&*answer); death != nullptr) {
+    } else if (const auto* death = std::get_if<run::Death>(&*answer); death != nullptr) {
         d.usable = false;
         const Stop stop = explain_death(*death);
         d.problems.insert(d.problems.end(), stop.lines.begin(), stop.lines.end());
@@ -209,14 +210,15 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
 cases::Expected<void> ask(const Program& program, const DeviceOptions& options, Diagnosis& d) {
     const bool is_driver = options.renderer.empty();
     if (is_driver) {
-        for (const Manifest& m : d.manifests) {
+        for (const run::Manifest& m : d.manifests) {
             if (!m.problem.empty()) {
                 d.problems.push_back("the driver manifest " + m.file + " " + m.problem);
             }
         }
         const auto listed = ask_worker(program, options, Question::devices, d);
-        for (const Manifest& m : d.manifests) {
-            if (const std::string why = d.devices.empty() ? load_problem(m) : ""; !why.empty()) {
+        for (const run::Manifest& m : d.manifests) {
+            if (const std::string why = d.devices.empty() ? run::load_problem(m) : "";
+                !why.empty()) {
                 d.problems.push_back("the driver library " + m.library + " does not load: " + why);
             }
         }
@@ -229,7 +231,7 @@ cases::Expected<void> ask(const Program& program, const DeviceOptions& options, 
 
 Json to_json(const Diagnosis& d) {
     Json manifests = Json::array();
-    for (const Manifest& m : d.manifests) {
+    for (const run::Manifest& m : d.manifests) {
         manifests.push_back({{"file", m.file}, {"library", m.library}, {"problem", m.problem}});
     }
     Json devices = Json::array();
@@ -263,11 +265,11 @@ Json to_json(const Diagnosis& d) {
 
 void print(const Diagnosis& d, const DeviceOptions& options) {
     const auto line = [](const std::string& text) {
-        std::printf("%s\n", report::printable(text).c_str());
+        std::printf("%s\n", cases::printable(text).c_str());
     };
     line("Driver manifests" +
          (d.chosen_by.empty() ? std::string() : " (chosen by " + d.chosen_by + ")"));
-    for (const Manifest& m : d.manifests) {
+    for (const run::Manifest& m : d.manifests) {
         line("  " + m.file + (m.library.empty() ? "" : " -> " + m.library) +
              (m.problem.empty() ? "" : ": " + m.problem));
     }

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -33,7 +34,7 @@ Stop invalid(const cases::Errors& errors) {
 // Form, statuses and dates of a file, and that its lines fit the suite and each other.
 int show(const Program& program, const ExpectOptions& options) {
     const std::string& name = options.file;
-    const auto file = load_expectations(name);
+    const auto file = run::load_expectations(name);
     if (!file) {
         return report_stop(invalid(file.error()));
     }
@@ -45,11 +46,11 @@ int show(const Program& program, const ExpectOptions& options) {
     for (const cases::Case& c : suite->cases) {
         ids.push_back(c.id);
     }
-    if (const auto resolved = resolve_expectations({*file}, ids, true); !resolved) {
+    if (const auto resolved = run::resolve_expectations({*file}, ids, true); !resolved) {
         return report_stop(invalid(resolved.error()));
     }
     std::array<size_t, report::kStatuses> count{};
-    for (const ExpectationLine& line : file->lines) {
+    for (const run::ExpectationLine& line : file->lines) {
         ++count.at(static_cast<size_t>(line.status));
     }
     std::printf("%s: %zu expectation%s", name.c_str(), file->lines.size(),
@@ -62,14 +63,14 @@ int show(const Program& program, const ExpectOptions& options) {
     }
     std::printf("; for %s%s%s\n", file->device_glob.c_str(), file->driver_regex.empty() ? "" : ", ",
                 file->driver_regex.c_str());
-    const cases::Errors past = past_lines(*file);
+    const cases::Errors past = run::past_lines(*file);
     for (const cases::Error& error : past) {
         std::fprintf(stderr, "%s\n", cases::to_string(error).c_str());
     }
     return past.empty() ? report::kExitOk : report::kExitUnexpected;
 }
 
-OrStop<UpdateWords> check_words(const ExpectOptions& options) {
+OrStop<run::UpdateWords> check_words(const ExpectOptions& options) {
     if (options.bug.find_first_of(" \t\n") != std::string::npos || options.bug == "-" ||
         options.bug.starts_with('#')) {
         return tl::unexpected(stop_with(
@@ -80,12 +81,13 @@ OrStop<UpdateWords> check_words(const ExpectOptions& options) {
     if (options.reason.find('\n') != std::string::npos) {
         return tl::unexpected(stop_with(report::kExitUsage, "--reason must be one line"));
     }
-    if (!options.until.empty() && (!is_date(options.until) || options.until < today_utc())) {
+    if (!options.until.empty() &&
+        (!run::is_date(options.until) || options.until < run::today_utc())) {
         return tl::unexpected(
             stop_with(report::kExitUsage,
                       "--until: '" + options.until + "' is no day to come; write YYYY-MM-DD"));
     }
-    return UpdateWords{options.bug, options.reason, options.until};
+    return run::UpdateWords{options.bug, options.reason, options.until};
 }
 
 cases::Expected<void> replace_file(const fs::path& file, const std::string& text) {
@@ -110,15 +112,15 @@ std::string sentence(const std::vector<std::string>& ids) {
     return text + (ids.size() > 3 ? " and " + std::to_string(ids.size() - 3) + " more" : "");
 }
 
-OrStop<Update> make_update(const Program& program, const ExpectOptions& options,
-                           const UpdateWords& words, std::string& before) {
+OrStop<run::Update> make_update(const Program& program, const ExpectOptions& options,
+                                const run::UpdateWords& words, std::string& before) {
     const cases::Expected<report::Run> run = report::load_journal(options.update);
     if (!run) {
         return tl::unexpected(
             stop_with(report::kExitInvalidFile, "--update: " + cases::to_string(run.error())));
     }
     std::error_code none;
-    std::string text = new_expectation_file(*run);
+    std::string text = run::new_expectation_file(*run);
     if (fs::exists(options.file, none)) {
         std::ifstream in(options.file, std::ios::binary);
         std::ostringstream all;
@@ -130,7 +132,7 @@ OrStop<Update> make_update(const Program& program, const ExpectOptions& options,
         }
         before = text = all.str();
     }
-    const auto file = parse_expectations(text, options.file, today_utc());
+    const auto file = run::parse_expectations(text, options.file, run::today_utc());
     if (!file) {
         return tl::unexpected(invalid(file.error()));
     }
@@ -151,7 +153,7 @@ OrStop<Update> make_update(const Program& program, const ExpectOptions& options,
     for (const cases::Case& c : loaded->cases) {
         ids.push_back(c.id);
     }
-    return update_expectations(text, *file, *run, ids, words);
+    return run::update_expectations(text, *file, *run, ids, words);
 }
 
 }  // namespace
@@ -160,12 +162,12 @@ int expect_command(const Program& program, const ExpectOptions& options) {
     if (options.update.empty()) {
         return show(program, options);
     }
-    const OrStop<UpdateWords> words = check_words(options);
+    const OrStop<run::UpdateWords> words = check_words(options);
     if (!words) {
         return report_stop(words.error());
     }
     std::string before;
-    const OrStop<Update> update = make_update(program, options, *words, before);
+    const OrStop<run::Update> update = make_update(program, options, *words, before);
     if (!update) {
         return report_stop(update.error());
     }
@@ -177,10 +179,10 @@ int expect_command(const Program& program, const ExpectOptions& options) {
                           "); give --bug REFERENCE, so that each says where it is followed up"));
     }
     for (const std::string& change : update->changes) {
-        std::printf("%s\n", report::printable(change).c_str());
+        std::printf("%s\n", cases::printable(change).c_str());
     }
     for (const std::string& note : update->notes) {
-        std::printf("note: %s\n", report::printable(note).c_str());
+        std::printf("note: %s\n", cases::printable(note).c_str());
     }
     const bool same = update->text == before;
     std::printf("%s: %zu removed, %zu changed, %zu added, %zu kept%s\n", options.file.c_str(),

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cases/model/rule.hpp"
+#include "cases/model/sample.hpp"
 #include "diff/verdict.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -88,7 +89,7 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
 // The sample's surroundings, one character a pixel (its sample of the same number): what each must
 // be, with the sample in brackets.
 std::string drawing(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
-                    ref::SampleId sample) {
+                    cases::SampleId sample) {
     constexpr uint32_t kRadius = 6;  // pixels
     constexpr uint64_t kMaxPixels = uint64_t{1} << 20;
     if (uint64_t{c.target.width} * c.target.height > kMaxPixels) {
@@ -173,7 +174,7 @@ std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& s
 }
 
 std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
-                         ref::SampleId sample) {
+                         cases::SampleId sample) {
     std::string text = fmt::format("{}\n    {}\n", c.id, c.description);
     if (c.blit) {
         return text + fmt::format("\ntexel ({}, {}): {}\n", sample.x, sample.y,
@@ -188,7 +189,7 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     }
     text +=
         fmt::format("\n{}, sample {} at ({}, {}); profile {}, {} subpixel bits\n",
-                    diff::pixel_text(c.target, sample), sample.sample, ref::to_text(s.position.x),
+                    cases::pixel_text(c.target, sample), sample.sample, ref::to_text(s.position.x),
                     ref::to_text(s.position.y), to_string(profile), limits.subpixel_bits);
     if (!s.in_layer) {
         text += "    no draw goes to this layer\n";

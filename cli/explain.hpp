@@ -18,7 +18,7 @@ namespace cli {
 // rule, the class under the profile, how many hits are allowed, and the exact values there. Needs
 // no device.
 std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases::Profile profile,
-                         ref::SampleId sample);
+                         cases::SampleId sample);
 
 // A rule as docs/rules.md tells it: title, profile, text, anchors, code, and the cases that name it
 // (their ids, without matrix parts).

@@ -42,12 +42,15 @@ int export_command(const Program& program, const ExportOptions& options) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const size_t k : suite->selected) {
         const cases::Case& c = suite->cases[k];
-        const std::string name = folder_of(c.id);
-        if (auto written = write_below(folder / (name + ".json"), export_case(c)); !written) {
+        const std::string name = capture::folder_of(c.id);
+        if (auto written = write_below(folder / (name + ".json"), capture::export_case(c));
+            !written) {
             return report_stop({report::kExitUsage, {written.error().message}});
         }
-        list.push_back(
-            {{"id", c.id}, {"file", name + ".json"}, {"folder", name}, {"needs", needs_of(c)}});
+        list.push_back({{"id", c.id},
+                        {"file", name + ".json"},
+                        {"folder", name},
+                        {"needs", capture::needs_of(c)}});
     }
     const nlohmann::ordered_json index = {{"schema", "edgecase-export-1"},
                                           {"tool", {{"name", "edgecase"}, {"version", kVersion}}},

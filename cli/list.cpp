@@ -18,6 +18,7 @@
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
 #include "run/judge.hpp"
+#include "run/process/pool.hpp"
 
 namespace cli {
 
@@ -70,7 +71,7 @@ nlohmann::ordered_json to_json(const cases::Case& c) {
 // What is wrong with one case beyond its file's form: its picture, its rules, its control samples.
 cases::Errors check_case(const cases::Case& c) {
     cases::Errors errors;
-    if (const std::string wrong = check_before_running(c); !wrong.empty()) {
+    if (const std::string wrong = run::check_before_running(c); !wrong.empty()) {
         errors.push_back({c.expected_hits ? c.expected_hits->where : c.where, c.id + ": " + wrong});
     }
     for (const std::string& rule : c.rules) {
@@ -108,15 +109,15 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
             continue;
         }
         ++count;
-        const auto file = load_expectations(entry.path());
+        const auto file = run::load_expectations(entry.path());
         if (!file) {
             errors.insert(errors.end(), file.error().begin(), file.error().end());
             continue;
         }
-        if (const auto resolved = resolve_expectations({*file}, ids, true); !resolved) {
+        if (const auto resolved = run::resolve_expectations({*file}, ids, true); !resolved) {
             errors.insert(errors.end(), resolved.error().begin(), resolved.error().end());
         }
-        const cases::Errors past = past_lines(*file);
+        const cases::Errors past = run::past_lines(*file);
         errors.insert(errors.end(), past.begin(), past.end());
     }
     return errors;
@@ -173,7 +174,7 @@ int lint_command(const Program& program, const LintOptions& options) {
         return code;
     }
     std::vector<cases::Errors> found(suite->selected.size());
-    Pool pool(std::thread::hardware_concurrency());
+    run::Pool pool(std::thread::hardware_concurrency());
     for (size_t k = 0; k < found.size(); ++k) {
         pool.submit(
             [&, k] {

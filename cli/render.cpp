@@ -28,7 +28,7 @@ struct Reference {
     ref::Expectation expectation;
     ref::ValueReference values;
 
-    ref::SampleId id(size_t index) const { return ref::sample_at(c.target, index); }
+    cases::SampleId id(size_t index) const { return cases::sample_at(c.target, index); }
 };
 
 const char* class_name(const ref::HitBounds& hits) {
@@ -73,11 +73,11 @@ std::string to_json(Reference& r) {
         if (s.hits.total_max == 0) {
             continue;
         }
-        const ref::SampleId id = r.id(index);
+        const cases::SampleId id = r.id(index);
         Json writers = Json::array();
         for (uint32_t k = 0; k < s.writers_count; ++k) {
             const uint32_t t = e.writers[s.writers_begin + k];
-            const ref::Triangle& triangle = e.triangles[t];
+            const cases::Triangle& triangle = e.triangles[t];
             writers.push_back({{"triangle", t},
                                {"draw", triangle.draw},
                                {"primitive", triangle.primitive},
@@ -111,7 +111,7 @@ std::string to_json(Reference& r) {
 
 // Channels a sample: fewest and most hits, then the exact values of the last writer rounded to
 // binary32; NaN where there is none.
-report::Image values_image(Reference& r) {
+capture::Image values_image(Reference& r) {
     const cases::Target& target = r.c.target;
     const ref::Expectation& e = r.expectation;
     std::vector<std::string> quantities;
@@ -129,7 +129,7 @@ report::Image values_image(Reference& r) {
             }
         }
     }
-    report::Image image{target.width, target.rows(), {}, {}};  // layers stacked
+    capture::Image image{target.width, target.rows(), {}, {}};  // layers stacked
     const size_t per_sample = 2 + quantities.size();
     for (uint32_t s = 0; s < target.samples; ++s) {
         const std::string prefix = target.samples > 1 ? "sample" + std::to_string(s) + "." : "";
@@ -158,9 +158,9 @@ report::Image values_image(Reference& r) {
 }
 
 // To look at: white must be covered, black must not, grey may; the samples of a pixel are averaged.
-report::Image coverage_image(const Reference& r) {
+capture::Image coverage_image(const Reference& r) {
     const cases::Target& target = r.c.target;
-    report::Image image{target.width, target.rows(), {"R", "G", "B"}, {}};
+    capture::Image image{target.width, target.rows(), {"R", "G", "B"}, {}};
     for (size_t pixel = 0; pixel < size_t{target.width} * target.rows(); ++pixel) {
         float sum = 0;
         for (uint32_t s = 0; s < target.samples; ++s) {
@@ -215,8 +215,8 @@ int render_command(const Program& program, const RenderOptions& options) {
     const cases::Expected<void> written =
         extension == ".json"
             ? write_text(options.output, drawing->json)
-            : report::write_image(options.output,
-                                  extension == ".png" ? drawing->picture : drawing->values);
+            : capture::write_image(options.output,
+                                   extension == ".png" ? drawing->picture : drawing->values);
     if (!written) {
         return report_stop({report::kExitInternal, {cases::to_string(written.error())}});
     }

@@ -6,8 +6,8 @@
 #include <regex>
 #include <variant>
 
-#include "cli/command_line.hpp"
 #include "cli/commands.hpp"
+#include "cli/options/parse.hpp"
 #include "cli/prepare/ci.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -15,6 +15,7 @@
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
 #include "run/process/manifest.hpp"
+#include "run/process/pool.hpp"
 
 namespace cli {
 
@@ -54,11 +55,11 @@ cases::Expected<void> make_folder(const fs::path& folder) {
 }
 
 // Checks every hand-drawn picture, on all cores, before a device is asked.
-void check_pictures(std::vector<PlannedCase>& plan) {
-    Pool pool(std::thread::hardware_concurrency());
-    for (PlannedCase& c : plan) {
+void check_pictures(std::vector<run::PlannedCase>& plan) {
+    run::Pool pool(std::thread::hardware_concurrency());
+    for (run::PlannedCase& c : plan) {
         if (c.data.expected_hits) {
-            pool.submit([&c] { c.error = check_before_running(c.data); }, [] {});
+            pool.submit([&c] { c.error = run::check_before_running(c.data); }, [] {});
         }
     }
     while (pool.outstanding() > 0) {
@@ -127,8 +128,8 @@ int conclude(const Prepared& p, std::FILE* console, const report::ConsoleStyle& 
     return overrides ? report::kExitInternal : code;
 }
 
-LoopConfig loop_config(const Program& program, const RunOptions& options) {
-    LoopConfig config;
+run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
+    run::LoopConfig config;
     config.command = worker_command(program);
     config.worker = worker_options(options.device);
     config.icd_from = options.device.icd_from;
@@ -142,8 +143,8 @@ LoopConfig loop_config(const Program& program, const RunOptions& options) {
     return config;
 }
 
-int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerClient worker,
-                 SignalFd& signals) {
+int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
+                 run::WorkerClient worker, run::SignalFd& signals) {
     const bool resumed = !p.header.device.name.empty();
     const RunOptions& options = p.options;
     check_pictures(p.plan);
@@ -151,8 +152,8 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
     if (!first) {
         Stop stop = first.error();
         const std::string& icd = options.device.icd;
-        const Manifest manifest = icd.empty() ? Manifest{} : read_manifest(icd);
-        if (const std::string why = load_problem(manifest); !why.empty()) {
+        const run::Manifest manifest = icd.empty() ? run::Manifest{} : run::read_manifest(icd);
+        if (const std::string why = run::load_problem(manifest); !why.empty()) {
             stop.lines.push_back("  the driver library '" + manifest.library +
                                  "' does not load: " + why);
         }
@@ -176,7 +177,7 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
     if (auto applied = apply_expectations(p); !applied) {
         return report_stop(applied.error());
     }
-    for (PlannedCase& c : p.plan) {
+    for (run::PlannedCase& c : p.plan) {
         c.rerun = rerun_line(program, options, c.data.id);
         c.explain = explain_line(program, options, c.data.id, device.subpixel_bits);
     }
@@ -237,15 +238,15 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
         std::fputs(text.c_str(), console);
         std::fflush(console);
     };
-    const Clock::time_point begin = Clock::now();
-    RunLoop loop(config, p.plan, *journal, signals, on_record,
-                 [&](size_t done) { progress.show(done, unexpected); });
-    const RunLoop::End end = loop.run(std::move(first->client), first->device);
+    const run::Clock::time_point begin = run::Clock::now();
+    run::RunLoop loop(config, p.plan, *journal, signals, on_record,
+                      [&](size_t done) { progress.show(done, unexpected); });
+    const run::RunLoop::End end = loop.run(std::move(first->client), first->device);
     progress.clear();
 
     Run& header = p.header;
     header.ended = utc_now(false);
-    header.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    header.seconds += std::chrono::duration<double>(run::Clock::now() - begin).count();
     header.interrupted = end.interrupted;
     std::string failure = end.failure;
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
@@ -257,11 +258,11 @@ int run_prepared(const Program& program, Prepared& p, LoopConfig config, WorkerC
 }  // namespace
 
 int run_command(const Program& program, const RunOptions& options) {
-    SignalFd signals;
+    run::SignalFd signals;
     const bool resumes = !options.resume.empty();
     // The driver's start takes as long as reading the suite, so both are done at once. What is
     // wrong with the suite is told first all the same.
-    std::optional<OrStop<WorkerClient>> worker;
+    std::optional<OrStop<run::WorkerClient>> worker;
     if (!resumes) {
         worker.emplace(start_first_worker(loop_config(program, options)));
     }
@@ -270,7 +271,7 @@ int run_command(const Program& program, const RunOptions& options) {
     if (!prepared) {
         return report_stop(prepared.error());
     }
-    const LoopConfig config = loop_config(program, prepared->options);
+    const run::LoopConfig config = loop_config(program, prepared->options);
     if (!worker) {
         worker.emplace(start_first_worker(config));
     }

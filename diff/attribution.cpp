@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cases/model/sample.hpp"
 #include "ref/expectation/explain.hpp"
 
 namespace diff {
@@ -115,8 +116,8 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
 
 // Why a sample was written last by a triangle that must not cover it; nothing if one of those that
 // may have written it may.
-std::optional<Cause> cause_of_stray_writer(const ref::SampleExplanation& s,
-                                           const std::function<bool(const ref::Triangle&)>& wrote) {
+std::optional<Cause> cause_of_stray_writer(
+    const ref::SampleExplanation& s, const std::function<bool(const cases::Triangle&)>& wrote) {
     ref::SampleExplanation writers = s;
     std::erase_if(writers.triangles, [&](const auto& t) { return !wrote(t.triangle); });
     if (writers.triangles.empty() ||
@@ -269,7 +270,7 @@ const ref::Expectation& Attribution::at(cases::Profile profile) {
 }
 
 size_t Attribution::index_of(const Finding& finding) const {
-    return ref::index_of(case_.target, place_of(finding));
+    return cases::index_of(case_.target, place_of(finding));
 }
 
 void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
@@ -285,7 +286,7 @@ void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
 }
 
 void Attribution::attribute_writer(Finding& finding,
-                                   const std::function<bool(const ref::Triangle&)>& wrote) {
+                                   const std::function<bool(const cases::Triangle&)>& wrote) {
     const size_t index = index_of(finding);
     finding.level = expectation_.profile;
     for (const cases::Profile profile : cases::kProfiles) {
@@ -347,7 +348,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     if (explained_ >= explains_ && earlier != like_.end()) {
         finding.rule = earlier->second.rule;
         finding.quantity = earlier->second.quantity;
-        finding.why = "as at " + pixel_text(case_.target, place_of(earlier->second));
+        finding.why = "as at " + cases::pixel_text(case_.target, place_of(earlier->second));
         return;
     }
     explain_hits(finding, asked, front + back);

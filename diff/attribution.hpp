@@ -38,7 +38,8 @@ class Attribution {
     // sample last, and sets level; rule and why as well where a looser profile allows it (a tie's
     // owner or a snapping, not the order of drawing) or where these triangles must not cover the
     // sample in the first place.
-    void attribute_writer(Finding& finding, const std::function<bool(const ref::Triangle&)>& wrote);
+    void attribute_writer(Finding& finding,
+                          const std::function<bool(const cases::Triangle&)>& wrote);
 
     // The expectation of the case at a profile not stricter than the asked one.
     const ref::Expectation& at(cases::Profile profile);

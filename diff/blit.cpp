@@ -34,7 +34,7 @@ std::string show(const TexelCodes& codes, cases::ColorFormat format) {
 
 class BlitComparison {
   public:
-    BlitComparison(const cases::Case& c, Profile profile, const CaptureView& capture)
+    BlitComparison(const cases::Case& c, Profile profile, const capture::CaptureView& capture)
         : case_(c), reference_(c), capture_(capture) {
         verdict_.profile = profile;
         verdict_.level = profile;
@@ -66,7 +66,7 @@ class BlitComparison {
     void judge(uint32_t x, uint32_t y) {
         const size_t index = size_t{y} * case_.target.width + x;
         const TexelCodes& got = capture_.color[index];
-        if (sample_state(capture_, index) == SampleState::not_copied) {
+        if (capture::sample_state(capture_, index) == capture::SampleState::not_copied) {
             verdict_.error = fmt::format(
                 "texel ({}, {}) was not copied from the device: it still holds the read-back "
                 "memory's fill pattern",
@@ -115,13 +115,13 @@ class BlitComparison {
 
     const cases::Case& case_;
     ref::BlitReference reference_;
-    const CaptureView& capture_;
+    const capture::CaptureView& capture_;
     Verdict verdict_;
 };
 
 }  // namespace
 
-Verdict compare_blit(const cases::Case& c, Profile profile, const CaptureView& capture) {
+Verdict compare_blit(const cases::Case& c, Profile profile, const capture::CaptureView& capture) {
     return BlitComparison(c, profile, capture).run();
 }
 

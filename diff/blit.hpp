@@ -10,6 +10,7 @@ namespace diff {
 
 // Judges the colour plane of a capture of a case with a blit. A texel inside the destination region
 // counts as hit if it does not hold the clear value any more.
-Verdict compare_blit(const cases::Case& c, cases::Profile profile, const CaptureView& capture);
+Verdict compare_blit(const cases::Case& c, cases::Profile profile,
+                     const capture::CaptureView& capture);
 
 }  // namespace diff

@@ -38,7 +38,7 @@ std::optional<ref::ColorWitness> ColorComparison::witness_of(size_t index,
     return witness;
 }
 
-std::optional<Finding> ColorComparison::judge(size_t index, ref::SampleId id,
+std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
                                               std::optional<uint32_t> writer) {
     const std::optional<ref::ColorWitness> witness = witness_of(index, writer);
     const ref::ColorVerdict verdict =
@@ -73,7 +73,7 @@ cases::Profile ColorComparison::loosest_wrong(
     return expectation_.profile;
 }
 
-Finding ColorComparison::finding_of(size_t index, ref::SampleId id,
+Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
                                     const ref::ColorVerdict& verdict,
                                     const std::optional<ref::ColorWitness>& witness) {
     Finding finding;

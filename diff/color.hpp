@@ -19,7 +19,7 @@ class ColorComparison {
   public:
     // All must outlive this object; the case has a colour target.
     ColorComparison(const cases::Case& c, const ref::Expectation& expectation,
-                    const CaptureView& capture, Attribution& attribution)
+                    const capture::CaptureView& capture, Attribution& attribution)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
@@ -29,7 +29,7 @@ class ColorComparison {
 
     // The finding at a sample that was drawn, if any. `writer`: with instruments, the triangle that
     // wrote last (any value if there are no hits).
-    std::optional<Finding> judge(size_t index, ref::SampleId id, std::optional<uint32_t> writer);
+    std::optional<Finding> judge(size_t index, cases::SampleId id, std::optional<uint32_t> writer);
 
     // How often a sample was hit, as far as its colour tells: 0 if it holds what it was cleared to.
     // For pictures of targets without instruments.
@@ -41,12 +41,12 @@ class ColorComparison {
     // are asked first: what is wrong there needs no expectation of the profiles in between.
     cases::Profile loosest_wrong(const std::function<bool(ref::ColorReference&)>& is_wrong);
     std::optional<ref::ColorWitness> witness_of(size_t index, std::optional<uint32_t> writer) const;
-    Finding finding_of(size_t index, ref::SampleId id, const ref::ColorVerdict& verdict,
+    Finding finding_of(size_t index, cases::SampleId id, const ref::ColorVerdict& verdict,
                        const std::optional<ref::ColorWitness>& witness);
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
-    const CaptureView& capture_;
+    const capture::CaptureView& capture_;
     Attribution& attribution_;
     ref::color::Unit unit_;
     ref::color::Color cleared_;

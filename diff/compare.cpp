@@ -21,7 +21,7 @@ namespace {
 class Comparison {
   public:
     Comparison(const cases::Case& c, const ref::Expectation& expectation,
-               const CaptureView& capture, const ref::ValueSelection& selection)
+               const capture::CaptureView& capture, const ref::ValueSelection& selection)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
@@ -80,7 +80,7 @@ class Comparison {
   private:
     // Why there is nothing to judge; empty if there is.
     std::string unusable() const {
-        if (capture_.target != case_.target || !has_all_planes(capture_)) {
+        if (capture_.target != case_.target || !capture::has_all_planes(capture_)) {
             return fmt::format(
                 "the capture has another size than the case's {}x{} target with {} sample(s){}",
                 case_.target.width, case_.target.height, case_.target.samples,
@@ -103,11 +103,11 @@ class Comparison {
         return {};
     }
 
-    void judge_sample(size_t index, ref::SampleId id) {
+    void judge_sample(size_t index, cases::SampleId id) {
         const ref::SampleExpectation& expected = expectation_.samples[index];
         const ref::HitBounds& bounds = expected.hits;
-        const SampleState state = sample_state(capture_, index);
-        if (state == SampleState::clear && bounds == ref::HitBounds{} && !color_) {
+        const capture::SampleState state = capture::sample_state(capture_, index);
+        if (state == capture::SampleState::clear && bounds == ref::HitBounds{} && !color_) {
             ++verdict_.compared_samples;  // marks and hits are zero already
             return;
         }
@@ -119,19 +119,19 @@ class Comparison {
         }
         ++verdict_.compared_samples;
 
-        if (!case_.target.has_instruments && state == SampleState::drawn) {
+        if (!case_.target.has_instruments && state == capture::SampleState::drawn) {
             verdict_.device_hits[index] = color_->hits_for_pictures(index);
             judge_color(index, id, std::nullopt);
             return;
         }
         switch (state) {
-            case SampleState::not_copied:
+            case capture::SampleState::not_copied:
                 verdict_.error = fmt::format(
                     "sample {} of {} was not copied from the device: it still holds the read-back "
                     "memory's fill pattern",
-                    id.sample, pixel_text(case_.target, id));
+                    id.sample, cases::pixel_text(case_.target, id));
                 return;
-            case SampleState::inconsistent: {
+            case capture::SampleState::inconsistent: {
                 Finding finding = finding_at(FindingKind::value, case_.target, id);
                 finding.rule = "write.consistent";
                 finding.level = cases::Profile::vulkan;
@@ -143,8 +143,8 @@ class Comparison {
                 add(std::move(finding));
                 return;
             }
-            case SampleState::clear:
-            case SampleState::drawn:
+            case capture::SampleState::clear:
+            case capture::SampleState::drawn:
                 break;
         }
 
@@ -168,7 +168,7 @@ class Comparison {
         }
     }
 
-    void judge_fragment(size_t index, ref::SampleId id) {
+    void judge_fragment(size_t index, cases::SampleId id) {
         LastFragment::Outcome outcome = last_fragment_.judge(index, id);
         if (outcome.finding) {
             add(std::move(*outcome.finding));
@@ -179,8 +179,8 @@ class Comparison {
         verdict_.compared_values += outcome.compared_values;
         if (outcome.worst_ratio > verdict_.worst_ratio) {
             verdict_.worst_ratio = outcome.worst_ratio;
-            verdict_.worst_quantity =
-                fmt::format("{} at {}", outcome.worst_quantity, sample_text(case_.target, id));
+            verdict_.worst_quantity = fmt::format("{} at {}", outcome.worst_quantity,
+                                                  cases::sample_text(case_.target, id));
         }
         verdict_.raise_error(index, outcome.worst_ratio);
         judge_color(index, id, outcome.triangle);
@@ -189,7 +189,7 @@ class Comparison {
         }
     }
 
-    void judge_color(size_t index, ref::SampleId id, std::optional<uint32_t> writer) {
+    void judge_color(size_t index, cases::SampleId id, std::optional<uint32_t> writer) {
         if (!color_) {
             return;
         }
@@ -235,7 +235,7 @@ class Comparison {
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
-    const CaptureView& capture_;
+    const capture::CaptureView& capture_;
     Attribution attribution_;
     ref::ValueReference values_;
     ref::ValueSelection selection_;
@@ -248,12 +248,13 @@ class Comparison {
 }  // namespace
 
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const CaptureView& capture) {
+                const capture::CaptureView& capture) {
     return Comparison(c, expectation, capture, {}).run();
 }
 
 Verdict compare_selected(const cases::Case& c, const ref::Expectation& expectation,
-                         const CaptureView& capture, const ref::ValueSelection& selection) {
+                         const capture::CaptureView& capture,
+                         const ref::ValueSelection& selection) {
     return Comparison(c, expectation, capture, selection).run();
 }
 

@@ -36,7 +36,7 @@ PlaneWords words_of(std::span<const T> plane) {
             sizeof(T) / sizeof(uint32_t)};
 }
 
-std::array<PlaneWords, kPlanes> planes_of(const CaptureView& capture) {
+std::array<PlaneWords, kPlanes> planes_of(const capture::CaptureView& capture) {
     std::array<PlaneWords, kPlanes> planes;
     planes[0] = words_of(capture.hits);
     planes[1] = words_of(capture.writers);
@@ -59,29 +59,34 @@ uint32_t clear_word(uint32_t plane, uint32_t word, const cases::Variation& varia
     const bool other = variation.other_clears;
     switch (plane) {
         case 0:
-            return std::bit_cast<uint32_t>(word < 2 ? 0.0F : other ? kOtherHitGuard : kHitGuard);
+            return std::bit_cast<uint32_t>(word < 2 ? 0.0F
+                                           : other  ? capture::kOtherHitGuard
+                                                    : capture::kHitGuard);
         case 1:
-            return other ? kOtherClearId : kClearId;
+            return other ? capture::kOtherClearId : capture::kClearId;
         case kDepthPlane:
-            return std::bit_cast<uint32_t>(variation.other_depth_clear ? kOtherClearDepth
-                                                                       : kClearDepth);
+            return std::bit_cast<uint32_t>(variation.other_depth_clear ? capture::kOtherClearDepth
+                                                                       : capture::kClearDepth);
         default:
-            return std::bit_cast<uint32_t>(other ? kOtherClearValue : kClearValue);
+            return std::bit_cast<uint32_t>(other ? capture::kOtherClearValue
+                                                 : capture::kClearValue);
     }
 }
 
 // What the variation makes of a word of the case's own rendering. Binary32 holds hit counts and
 // their guards exactly, so moving a guard moves every count by as much.
-uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, SampleState state,
+uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, capture::SampleState state,
                      const cases::Variation& variation) {
     if (plane == kDepthPlane && !variation.other_depth_clear && !variation.masks_depth) {
         return base;  // whatever the case clears depth to
     }
-    if (is_masked(variation, plane) || (state == SampleState::clear && plane != kColorPlane)) {
+    if (is_masked(variation, plane) ||
+        (state == capture::SampleState::clear && plane != kColorPlane)) {
         return clear_word(plane, word, variation);
     }
     if (plane == 0 && word >= 2 && variation.other_clears) {
-        return std::bit_cast<uint32_t>(std::bit_cast<float>(base) + (kOtherHitGuard - kHitGuard));
+        return std::bit_cast<uint32_t>(std::bit_cast<float>(base) +
+                                       (capture::kOtherHitGuard - capture::kHitGuard));
     }
     return base;
 }
@@ -91,13 +96,14 @@ uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, SampleState s
 bool may_be_clear_depth(uint32_t plane, uint32_t base, uint32_t got,
                         const cases::Variation& variation) {
     return plane == kDepthPlane && variation.other_depth_clear &&
-           base == std::bit_cast<uint32_t>(kClearDepth) &&
-           got == std::bit_cast<uint32_t>(kOtherClearDepth);
+           base == std::bit_cast<uint32_t>(capture::kClearDepth) &&
+           got == std::bit_cast<uint32_t>(capture::kOtherClearDepth);
 }
 
 // Which plane of the case's own rendering a plane of the derived one is held against; kPlanes:
 // none.
-uint32_t original_of(uint32_t plane, const CaptureView& base, const cases::Derivation& derivation) {
+uint32_t original_of(uint32_t plane, const capture::CaptureView& base,
+                     const cases::Derivation& derivation) {
     const bool is_attribute = plane >= 3 && plane < kDepthPlane;
     if (!is_attribute || plane - 3 < base.attribute_count) {
         return plane;
@@ -108,7 +114,7 @@ uint32_t original_of(uint32_t plane, const CaptureView& base, const cases::Deriv
 
 class BitComparison {
   public:
-    BitComparison(const CaptureView& base, const CaptureView& derived,
+    BitComparison(const capture::CaptureView& base, const capture::CaptureView& derived,
                   const cases::Derivation& derivation)
         : base_(base),
           variation_(derivation.variation),
@@ -131,8 +137,8 @@ class BitComparison {
             return std::move(result_);
         }
         for (size_t sample = 0; sample < count; ++sample) {
-            const SampleState state = sample_state(base_, sample);
-            if (state == SampleState::clear || state == SampleState::drawn) {
+            const capture::SampleState state = capture::sample_state(base_, sample);
+            if (state == capture::SampleState::clear || state == capture::SampleState::drawn) {
                 compare_sample(sample, state);
             } else {
                 --result_.compared;
@@ -152,7 +158,7 @@ class BitComparison {
         return true;
     }
 
-    void compare_sample(size_t sample, SampleState state) {
+    void compare_sample(size_t sample, capture::SampleState state) {
         for (uint32_t p = 0; p < kPlanes; ++p) {
             for (uint32_t w = 0; is_compared_[p] && w < ours_[p].words; ++w) {
                 const uint32_t base = ours_[p].at(sample, w);
@@ -170,7 +176,7 @@ class BitComparison {
         }
     }
 
-    const CaptureView& base_;
+    const capture::CaptureView& base_;
     const cases::Variation& variation_;
     std::array<PlaneWords, kPlanes> ours_, theirs_;
     std::array<bool, kPlanes> is_compared_{};
@@ -214,10 +220,11 @@ std::string show_bits(uint32_t plane, uint32_t bits) {
 }
 
 template <class T>
-void vary_plane(std::vector<T>& plane, uint32_t id, std::span<const SampleState> states,
+void vary_plane(std::vector<T>& plane, uint32_t id, std::span<const capture::SampleState> states,
                 const cases::Variation& variation) {
     for (size_t sample = 0; sample < plane.size(); ++sample) {
-        if (states[sample] != SampleState::clear && states[sample] != SampleState::drawn) {
+        if (states[sample] != capture::SampleState::clear &&
+            states[sample] != capture::SampleState::drawn) {
             continue;
         }
         std::array<uint32_t, sizeof(T) / sizeof(uint32_t)> words{};
@@ -231,15 +238,15 @@ void vary_plane(std::vector<T>& plane, uint32_t id, std::span<const SampleState>
 
 }  // namespace
 
-Consistency compare_bits(const CaptureView& base, const CaptureView& derived,
+Consistency compare_bits(const capture::CaptureView& base, const capture::CaptureView& derived,
                          const cases::Derivation& derivation) {
     return BitComparison(base, derived, derivation).run();
 }
 
-void vary(Capture& capture, const cases::Variation& variation) {
-    std::vector<SampleState> states(capture.sample_count());
+void vary(capture::Capture& capture, const cases::Variation& variation) {
+    std::vector<capture::SampleState> states(capture.sample_count());
     for (size_t sample = 0; sample < states.size(); ++sample) {
-        states[sample] = sample_state(capture, sample);
+        states[sample] = capture::sample_state(capture, sample);
     }
     vary_plane(capture.hits, 0, states, variation);
     vary_plane(capture.writers, 1, states, variation);
@@ -275,7 +282,7 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
         }
         for (const Difference& difference : found[k].differences) {
             Finding finding = finding_at(FindingKind::value, c.target,
-                                         ref::sample_at(c.target, difference.sample));
+                                         cases::sample_at(c.target, difference.sample));
             finding.rule = rule->id;
             finding.level = rule->profile;
             finding.quantity = fmt::format("{}, {}", plane_name(difference.plane, difference.word),

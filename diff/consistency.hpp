@@ -40,12 +40,12 @@ struct Consistency {
 
 // `base` is the case as it stands, `derived` what cases::derive() drew. Samples of `base` that
 // contradict themselves or were not copied are passed over: compare() reports them.
-Consistency compare_bits(const CaptureView& base, const CaptureView& derived,
+Consistency compare_bits(const capture::CaptureView& base, const capture::CaptureView& derived,
                          const cases::Derivation& derivation);
 
 // Makes a capture of a case into what the variation should have drawn (fakes in tests, and the
 // reference as a device).
-void vary(Capture& capture, const cases::Variation& variation);
+void vary(capture::Capture& capture, const cases::Variation& variation);
 
 // Adds the differences to a verdict, one finding a sample, as far as the verdict's profile demands
 // the rules. `found` holds one result a derivation.

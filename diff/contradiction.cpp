@@ -15,8 +15,8 @@ bool same_bits(float a, float b) {
 }
 
 bool is_clear(const glm::vec4& v) {
-    return same_bits(v.x, kClearValue) && same_bits(v.y, kClearValue) &&
-           same_bits(v.z, kClearValue) && same_bits(v.w, kClearValue);
+    return same_bits(v.x, capture::kClearValue) && same_bits(v.y, capture::kClearValue) &&
+           same_bits(v.z, capture::kClearValue) && same_bits(v.w, capture::kClearValue);
 }
 
 std::string drawn_text(const glm::vec4& v) {
@@ -24,11 +24,11 @@ std::string drawn_text(const glm::vec4& v) {
 }
 
 std::string id_text(uint32_t id) {
-    return id == kClearId ? "none" : fmt::format("{}", id);
+    return id == capture::kClearId ? "none" : fmt::format("{}", id);
 }
 
-std::string drawn_text(const Writer& w, bool has_primitive) {
-    if (w == Writer{}) {
+std::string drawn_text(const capture::Writer& w, bool has_primitive) {
+    if (w == capture::Writer{}) {
         return "nothing drawn";
     }
     std::string text = "draw " + id_text(w.draw);
@@ -36,16 +36,16 @@ std::string drawn_text(const Writer& w, bool has_primitive) {
         text += ", triangle " + id_text(w.primitive);
     }
     text += ", provoking vertex " + id_text(w.provoking_vertex);
-    return w.spare == kClearId ? text : fmt::format("{}, spare number {}", text, w.spare);
+    return w.spare == capture::kClearId ? text : fmt::format("{}, spare number {}", text, w.spare);
 }
 
 }  // namespace
 
-std::string contradiction_text(const CaptureView& capture, size_t index) {
+std::string contradiction_text(const capture::CaptureView& capture, size_t index) {
     const glm::vec4& hits = capture.hits[index];
     // The last two count along, from kHitGuard on, so that a broken clear or blend is seen.
-    const bool holds =
-        same_bits(hits.z, kHitGuard) && same_bits(hits.w, kHitGuard + hits.x + hits.y);
+    const bool holds = same_bits(hits.z, capture::kHitGuard) &&
+                       same_bits(hits.w, capture::kHitGuard + hits.x + hits.y);
     const bool is_hit = hits.x + hits.y > 0;
     std::string text = !holds ? fmt::format(
                                     "hit counter ({}, {}, {}, {}), which no fragments "
@@ -59,14 +59,16 @@ std::string contradiction_text(const CaptureView& capture, size_t index) {
             text += fmt::format("; {}: {}", name, said);
         }
     };
-    const Writer& w = capture.writers[index];
-    const bool has_writer = w.draw != kClearId && w.provoking_vertex != kClearId &&
-                            w.primitive != kClearId && w.spare == kClearId;
-    add(is_hit ? has_writer : w != Writer{}, "writer", drawn_text(w, capture.has_primitive));
+    const capture::Writer& w = capture.writers[index];
+    const bool has_writer = w.draw != capture::kClearId &&
+                            w.provoking_vertex != capture::kClearId &&
+                            w.primitive != capture::kClearId && w.spare == capture::kClearId;
+    add(is_hit ? has_writer : w != capture::Writer{}, "writer",
+        drawn_text(w, capture.has_primitive));
     add(!is_clear(capture.frag_coord[index]), "FragCoord", drawn_text(capture.frag_coord[index]));
     if (!capture.depth.empty() && !is_hit) {  // a draw need not write depth
         const float depth = capture.depth[index];
-        const bool is_drawn = !is_clear_depth(capture.target, depth);
+        const bool is_drawn = !capture::is_clear_depth(capture.target, depth);
         add(is_drawn, "depth", is_drawn ? fmt::format("{}", depth) : "nothing drawn");
     }
     for (uint32_t a = 0; a < capture.attribute_count && !is_hit; ++a) {  // nor all attributes

@@ -13,6 +13,6 @@ namespace diff {
 
 // "hits 193 front, 0 back; writer: nothing drawn": the hit counter, then the planes that disagree
 // with it. The sample's state is `inconsistent`.
-std::string contradiction_text(const CaptureView& capture, size_t index);
+std::string contradiction_text(const capture::CaptureView& capture, size_t index);
 
 }  // namespace diff

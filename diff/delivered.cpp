@@ -23,10 +23,10 @@ constexpr const char* kEmptyPasses =
     "coverage or hits";
 
 bool is_clear(float v) {
-    return std::bit_cast<uint32_t>(v) == std::bit_cast<uint32_t>(kClearValue);
+    return std::bit_cast<uint32_t>(v) == std::bit_cast<uint32_t>(capture::kClearValue);
 }
 
-ref::ValueSelection selection_of(const Delivered& planes) {
+ref::ValueSelection selection_of(const capture::Delivered& planes) {
     ref::ValueSelection selection;
     selection.frag_coord = !planes.frag_coord.empty();
     selection.depth = !planes.depth.empty();
@@ -36,8 +36,8 @@ ref::ValueSelection selection_of(const Delivered& planes) {
     return selection;
 }
 
-bool has_instrument_planes(const Delivered& planes) {
-    Delivered others = planes;
+bool has_instrument_planes(const capture::Delivered& planes) {
+    capture::Delivered others = planes;
     others.color.clear();
     return !others.is_empty();
 }
@@ -66,7 +66,8 @@ cases::Case with_color_only(const cases::Case& c) {
 // Fills in what was not delivered.
 class Completion {
   public:
-    Completion(const cases::Case& c, const ref::Expectation& expectation, const Delivered& planes)
+    Completion(const cases::Case& c, const ref::Expectation& expectation,
+               const capture::Delivered& planes)
         : case_(c),
           expectation_(expectation),
           planes_(planes),
@@ -75,8 +76,8 @@ class Completion {
         values_.judge_only(selection_);
     }
 
-    Capture run() {
-        out_ = blank_capture(case_);
+    capture::Capture run() {
+        out_ = capture::blank_capture(case_);
         const size_t count = out_.sample_count();
         for (size_t index = 0; index < count; ++index) {
             complete(index);
@@ -100,38 +101,39 @@ class Completion {
         const ref::HitBounds& bounds = expectation_.samples[index].hits;
         const bool covered = is_covered(index);
         const auto [front, back] = covered ? hits_of(index, bounds) : std::pair(0U, 0U);
-        out_.hits[index] = {static_cast<float>(front), static_cast<float>(back), kHitGuard,
-                            kHitGuard + static_cast<float>(front + back)};
+        out_.hits[index] = {static_cast<float>(front), static_cast<float>(back), capture::kHitGuard,
+                            capture::kHitGuard + static_cast<float>(front + back)};
         if (!covered) {
             // Contradictions between the two stay: the comparison tells of them.
-            if (!planes_.draws.empty() && planes_.draws[index] != kClearId) {
+            if (!planes_.draws.empty() && planes_.draws[index] != capture::kClearId) {
                 out_.writers[index] = {planes_.draws[index], planes_.primitives[index], 0,
-                                       kClearId};
+                                       capture::kClearId};
             }
             return;
         }
-        const bool is_unwritten = !planes_.draws.empty() && planes_.draws[index] == kClearId;
+        const bool is_unwritten =
+            !planes_.draws.empty() && planes_.draws[index] == capture::kClearId;
         const ref::FragmentValues values = values_of(index);
         out_.frag_coord[index] = values.frag_coord;
         out_.depth[index] = values.depth;
         for (uint32_t a = 0; a < out_.attribute_count; ++a) {
             out_.attributes.at(a)[index] = values.attributes.at(a);
         }
-        out_.writers[index] = is_unwritten ? Writer{} : writer_of(index, values);
+        out_.writers[index] = is_unwritten ? capture::Writer{} : writer_of(index, values);
     }
 
     // What the planes say of a sample's coverage, the most telling one first.
     bool is_covered(size_t index) {
-        if (planes_.detail != HitDetail::none) {
+        if (planes_.detail != capture::HitDetail::none) {
             const uint32_t back =
-                planes_.detail == HitDetail::faces ? planes_.back[index] : uint32_t{0};
+                planes_.detail == capture::HitDetail::faces ? planes_.back[index] : uint32_t{0};
             return planes_.front[index] + back > 0;
         }
         if (!planes_.draws.empty()) {
-            return planes_.draws[index] != kClearId;
+            return planes_.draws[index] != capture::kClearId;
         }
         const bool is_depth_clear =
-            planes_.depth.empty() || is_clear_depth(case_.target, planes_.depth[index]);
+            planes_.depth.empty() || capture::is_clear_depth(case_.target, planes_.depth[index]);
         bool all_clear =
             is_depth_clear && (planes_.frag_coord.empty() || is_clear(planes_.frag_coord[index].x));
         for (const auto& attribute : planes_.attributes) {
@@ -151,10 +153,10 @@ class Completion {
     }
 
     std::pair<uint32_t, uint32_t> hits_of(size_t index, const ref::HitBounds& bounds) const {
-        if (planes_.detail == HitDetail::faces) {
+        if (planes_.detail == capture::HitDetail::faces) {
             return {planes_.front[index], planes_.back[index]};
         }
-        const bool is_counted = planes_.detail == HitDetail::total;
+        const bool is_counted = planes_.detail == capture::HitDetail::total;
         const uint32_t least = is_counted ? planes_.front[index] : std::max(1U, bounds.total_min);
         const uint32_t most = is_counted ? least : std::max(least, bounds.total_max);
         for (uint32_t total = least; total <= std::min(most, bounds.total_max); ++total) {
@@ -181,7 +183,7 @@ class Completion {
         return values;
     }
 
-    ref::SampleId id_of(size_t index) const { return ref::sample_at(case_.target, index); }
+    cases::SampleId id_of(size_t index) const { return cases::sample_at(case_.target, index); }
 
     // Of the triangles that may have written last, are the delivered writer's and fit `accept`:
     // the one that explains the values best, the last of equals.
@@ -193,7 +195,7 @@ class Completion {
         std::optional<ref::FragmentVerdict> best_verdict;
         for (uint32_t k = 0; k < expected.writers_count; ++k) {
             const uint32_t t = expectation_.writers[expected.writers_begin + k];
-            const ref::Triangle& triangle = expectation_.triangles[t];
+            const cases::Triangle& triangle = expectation_.triangles[t];
             const bool is_delivered =
                 planes_.draws.empty() || (planes_.draws[index] == triangle.draw &&
                                           planes_.primitives[index] == triangle.primitive);
@@ -215,16 +217,17 @@ class Completion {
         return best;
     }
 
-    Writer writer_of(size_t index, const ref::FragmentValues& values) {
+    capture::Writer writer_of(size_t index, const ref::FragmentValues& values) {
         if (const auto t = best_writer(index, values, [](uint32_t) { return true; })) {
-            const ref::Triangle& triangle = expectation_.triangles[*t];
-            return {triangle.draw, triangle.primitive, triangle.provoking, kClearId};
+            const cases::Triangle& triangle = expectation_.triangles[*t];
+            return {triangle.draw, triangle.primitive, triangle.provoking, capture::kClearId};
         }
         if (planes_.draws.empty()) {
-            return {0, 0, 0, kClearId};  // no triangle may be here: the hits are told of
+            return {0, 0, 0, capture::kClearId};  // no triangle may be here: the hits are told of
         }
-        Writer writer{planes_.draws[index], planes_.primitives[index], 0, kClearId};
-        for (const ref::Triangle& t : expectation_.triangles) {
+        capture::Writer writer{planes_.draws[index], planes_.primitives[index], 0,
+                               capture::kClearId};
+        for (const cases::Triangle& t : expectation_.triangles) {
             if (t.draw == writer.draw && t.primitive == writer.primitive) {
                 writer.provoking_vertex = t.provoking;
             }
@@ -234,23 +237,23 @@ class Completion {
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
-    const Delivered& planes_;
+    const capture::Delivered& planes_;
     ref::ValueReference values_;
     ref::ValueSelection selection_;
-    Capture out_;
+    capture::Capture out_;
 };
 
 Verdict compare_instruments(const cases::Case& c, const ref::Expectation& expectation,
-                            const Delivered& planes) {
+                            const capture::Delivered& planes) {
     const cases::Case plain = with_instruments(c);
-    const Capture capture = Completion(plain, expectation, planes).run();
+    const capture::Capture capture = Completion(plain, expectation, planes).run();
     return compare_selected(plain, expectation, capture, selection_of(planes));
 }
 
 Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,
-                      const std::vector<ColorCodes>& color) {
+                      const std::vector<capture::ColorCodes>& color) {
     const cases::Case plain = with_color_only(c);
-    Capture capture;
+    capture::Capture capture;
     capture.target = plain.target;
     capture.attribute_count = cases::attributes_of(plain);
     capture.color = color;
@@ -283,15 +286,15 @@ void join(Verdict& to, const Verdict& from) {
 }
 
 // The same planes of a picture in which nothing is drawn.
-Delivered cleared(const cases::Case& c, const Delivered& planes) {
-    Delivered out = planes;
+capture::Delivered cleared(const cases::Case& c, const capture::Delivered& planes) {
+    capture::Delivered out = planes;
     std::fill(out.depth.begin(), out.depth.end(),
               c.target.depth_format == cases::DepthFormat::d32_float
                   ? c.target.depth_clear
-                  : nearest_depth(c.target.depth_clear, c.target.depth_format));
-    std::fill(out.frag_coord.begin(), out.frag_coord.end(), glm::vec4(kClearValue));
+                  : capture::nearest_depth(c.target.depth_clear, c.target.depth_format));
+    std::fill(out.frag_coord.begin(), out.frag_coord.end(), glm::vec4(capture::kClearValue));
     for (auto& attribute : out.attributes) {
-        std::fill(attribute.begin(), attribute.end(), glm::vec4(kClearValue));
+        std::fill(attribute.begin(), attribute.end(), glm::vec4(capture::kClearValue));
     }
     if (!out.color.empty()) {
         const ref::color::Unit unit{c.target.color->format, cases::Profile::direct3d};
@@ -302,15 +305,15 @@ Delivered cleared(const cases::Case& c, const Delivered& planes) {
 
 // Whether a picture in which nothing is drawn would pass as well, given the planes of one.
 bool may_be_empty(const cases::Case& c, const ref::Expectation& expectation,
-                  const Delivered& empty) {
+                  const capture::Delivered& empty) {
     if (!empty.color.empty()) {
         const cases::Case plain = with_color_only(c);
         ref::ColorReference reference(plain, expectation);
         for (size_t index = 0; index < empty.color.size(); ++index) {
             const size_t pixel = index / c.target.samples;
-            const ref::SampleId id{static_cast<uint32_t>(pixel % c.target.width),
-                                   static_cast<uint32_t>(pixel / c.target.width),
-                                   static_cast<uint32_t>(index % c.target.samples)};
+            const cases::SampleId id{static_cast<uint32_t>(pixel % c.target.width),
+                                     static_cast<uint32_t>(pixel / c.target.width),
+                                     static_cast<uint32_t>(index % c.target.samples)};
             if (!reference.explains(index, id, empty.color[index], std::nullopt)) {
                 return false;
             }
@@ -321,7 +324,7 @@ bool may_be_empty(const cases::Case& c, const ref::Expectation& expectation,
 }
 
 Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation,
-                       const Delivered& planes) {
+                       const capture::Delivered& planes) {
     if (planes.color.empty()) {
         return compare_instruments(c, expectation, planes);
     }
@@ -334,7 +337,7 @@ Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation
     return verdict;
 }
 
-std::string names_of(const Delivered& planes) {
+std::string names_of(const capture::Delivered& planes) {
     std::string names;
     const auto add = [&names](bool is_there, const std::string& name) {
         names += is_there ? (names.empty() ? "" : ", ") + name : "";
@@ -350,14 +353,7 @@ std::string names_of(const Delivered& planes) {
 
 }  // namespace
 
-bool Delivered::is_empty() const {
-    return detail == HitDetail::none && draws.empty() && frag_coord.empty() && depth.empty() &&
-           color.empty() &&
-           std::all_of(attributes.begin(), attributes.end(),
-                       [](const auto& plane) { return plane.empty(); });
-}
-
-std::vector<std::string> not_judged(const cases::Case& c, const Delivered& planes) {
+std::vector<std::string> not_judged(const cases::Case& c, const capture::Delivered& planes) {
     std::vector<std::string> words;
     const auto add = [&words](bool is_missing, const std::string& word) {
         if (is_missing) {
@@ -365,9 +361,10 @@ std::vector<std::string> not_judged(const cases::Case& c, const Delivered& plane
         }
     };
     if (!c.blit) {
-        add(planes.detail == HitDetail::none || planes.detail == HitDetail::coverage,
+        add(planes.detail == capture::HitDetail::none ||
+                planes.detail == capture::HitDetail::coverage,
             "number of hits");
-        add(planes.detail != HitDetail::faces, "faces");
+        add(planes.detail != capture::HitDetail::faces, "faces");
         add(planes.draws.empty(), "writer");
         add(planes.frag_coord.empty(), "FragCoord");
         add(c.target.has_depth && planes.depth.empty(), "depth");
@@ -376,8 +373,8 @@ std::vector<std::string> not_judged(const cases::Case& c, const Delivered& plane
         }
         add(c.target.color && planes.color.empty(), "color");
         add(c.target.has_stencil, "stencil");
-        add(resolves_color(c.target), "resolved color");
-        add(resolves_depth(c.target), "resolved depth");
+        add(capture::resolves_color(c.target), "resolved color");
+        add(capture::resolves_depth(c.target), "resolved depth");
         add(has_pixel_rules(c) && !selection_of(planes).is_all(), "number of invocations");
     }
     add(!c.relations.empty(), "relations");
@@ -385,10 +382,10 @@ std::vector<std::string> not_judged(const cases::Case& c, const Delivered& plane
 }
 
 Verdict compare_delivered(const cases::Case& c, const ref::Expectation& expectation,
-                          const Delivered& planes) {
+                          const capture::Delivered& planes) {
     Verdict verdict = compare_planes(c, expectation, planes);
     // Coverage, hits and writers say themselves what is covered.
-    if (verdict.ok() && planes.detail == HitDetail::none && planes.draws.empty() &&
+    if (verdict.ok() && planes.detail == capture::HitDetail::none && planes.draws.empty() &&
         may_be_empty(c, expectation, cleared(c, planes))) {
         verdict.error = fmt::format(kEmptyPasses, names_of(planes));
     }

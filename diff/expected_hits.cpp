@@ -18,11 +18,11 @@ std::string check_expected_hits(const cases::Case& c) {
     const std::vector<std::string>& rows = c.expected_hits->rows;
     for (size_t row = 0; row < rows.size(); ++row) {
         const auto picture = static_cast<uint32_t>(row / c.target.height);
-        ref::SampleId id{0, static_cast<uint32_t>(row % c.target.height),
-                         picture % c.target.samples, picture / c.target.samples};
+        cases::SampleId id{0, static_cast<uint32_t>(row % c.target.height),
+                           picture % c.target.samples, picture / c.target.samples};
         for (size_t x = 0; x < c.target.width; ++x) {
             id.x = static_cast<uint32_t>(x);
-            const ref::HitBounds& b = e.samples[ref::index_of(c.target, id)].hits;
+            const ref::HitBounds& b = e.samples[cases::index_of(c.target, id)].hits;
             const char drawn = rows[row][x];
             const char reference = b.total_min != b.total_max ? '?'
                                    : b.total_min == 0         ? '.'
@@ -30,7 +30,7 @@ std::string check_expected_hits(const cases::Case& c) {
                                                               : '#';
             if (drawn != reference) {
                 return fmt::format("the picture has '{}' at {}, the reference says {} hit(s)",
-                                   drawn, sample_text(c.target, id), to_text(b));
+                                   drawn, cases::sample_text(c.target, id), to_text(b));
             }
         }
     }

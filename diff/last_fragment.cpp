@@ -9,9 +9,9 @@
 
 namespace diff {
 
-LastFragment::Outcome LastFragment::judge(size_t index, ref::SampleId id) {
+LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
     const ref::SampleExpectation& expected = expectation_.samples[index];
-    const Writer& writer = capture_.writers[index];
+    const capture::Writer& writer = capture_.writers[index];
     ref::FragmentValues device;
     device.frag_coord = capture_.frag_coord[index];
     device.depth = capture_.depth.empty() ? 0.0F : capture_.depth[index];
@@ -57,7 +57,7 @@ LastFragment::Outcome LastFragment::judge(size_t index, ref::SampleId id) {
     return out;
 }
 
-Finding LastFragment::value_finding(ref::SampleId id, ref::ValueMismatch mismatch,
+Finding LastFragment::value_finding(cases::SampleId id, ref::ValueMismatch mismatch,
                                     uint32_t t) const {
     Finding finding = finding_at(FindingKind::value, case_.target, id);
     finding.rule = std::move(mismatch.rule);
@@ -75,10 +75,10 @@ Finding LastFragment::value_finding(ref::SampleId id, ref::ValueMismatch mismatc
 
 // Depth where the last writer did not write it: some fragment's of those that may have been the
 // last to do so, or the clear value.
-std::optional<Finding> LastFragment::judge_older_depth(ref::SampleId id,
+std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
                                                        const ref::SampleExpectation& expected,
                                                        const ref::FragmentValues& device) {
-    if (expected.depth_may_be_clear && is_clear_depth(case_.target, device.depth)) {
+    if (expected.depth_may_be_clear && capture::is_clear_depth(case_.target, device.depth)) {
         return std::nullopt;
     }
     Finding finding = finding_at(FindingKind::value, case_.target, id);
@@ -103,12 +103,12 @@ std::optional<Finding> LastFragment::judge_older_depth(ref::SampleId id,
     return finding;
 }
 
-bool LastFragment::wrote(const Writer& writer, const ref::Triangle& t) const {
+bool LastFragment::wrote(const capture::Writer& writer, const cases::Triangle& t) const {
     return writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
            (!capture_.has_primitive || writer.primitive == t.primitive);
 }
 
-bool LastFragment::is_provoking(const Writer& writer) const {
+bool LastFragment::is_provoking(const capture::Writer& writer) const {
     return std::any_of(expectation_.triangles.begin(), expectation_.triangles.end(),
                        [&](const auto& t) {
                            return t.draw == writer.draw && t.provoking == writer.provoking_vertex;
@@ -121,14 +121,14 @@ const char* LastFragment::provoking_rule(uint32_t draw) const {
     return is_last ? "provoking.last" : "provoking.first";
 }
 
-Finding LastFragment::writer_finding(ref::SampleId id, const Writer& writer,
+Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& writer,
                                      const ref::SampleExpectation& expected) {
     Finding finding = finding_at(FindingKind::order, case_.target, id);
     finding.rule = "order.primitive";
     finding.why = "another triangle than the last one that may cover the sample wrote it";
     std::string allowed;
     for (uint32_t k = 0; k < std::min(expected.writers_count, 4U); ++k) {
-        const ref::Triangle& t =
+        const cases::Triangle& t =
             expectation_.triangles[expectation_.writers[expected.writers_begin + k]];
         allowed += fmt::format("{}draw {} primitive {} (provoking vertex {})",
                                k == 0 ? "" : ", or ", t.draw, t.primitive, t.provoking);
@@ -149,7 +149,7 @@ Finding LastFragment::writer_finding(ref::SampleId id, const Writer& writer,
     finding.expected = allowed;
     if (finding.rule == "order.primitive") {
         attribution_.attribute_writer(finding,
-                                      [&](const ref::Triangle& t) { return wrote(writer, t); });
+                                      [&](const cases::Triangle& t) { return wrote(writer, t); });
     } else {
         finding.level = cases::Profile::vulkan;
     }

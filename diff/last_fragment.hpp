@@ -13,10 +13,10 @@
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
+#include "cases/model/sample.hpp"
 #include "diff/attribution.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/number/sample.hpp"
 #include "ref/value/value.hpp"
 
 namespace diff {
@@ -33,7 +33,7 @@ class LastFragment {
   public:
     // All must outlive this object; `values` judges what `selection` says.
     LastFragment(const cases::Case& c, const ref::Expectation& expectation,
-                 const CaptureView& capture, const ref::ValueSelection& selection,
+                 const capture::CaptureView& capture, const ref::ValueSelection& selection,
                  Attribution& attribution, ref::ValueReference& values)
         : case_(c),
           expectation_(expectation),
@@ -54,22 +54,22 @@ class LastFragment {
     };
 
     // Judges a sample that was hit as often as it may be; `index` is that of `id`.
-    Outcome judge(size_t index, ref::SampleId id);
+    Outcome judge(size_t index, cases::SampleId id);
 
   private:
-    bool wrote(const Writer& writer, const ref::Triangle& t) const;
-    bool is_provoking(const Writer& writer) const;
+    bool wrote(const capture::Writer& writer, const cases::Triangle& t) const;
+    bool is_provoking(const capture::Writer& writer) const;
     const char* provoking_rule(uint32_t draw) const;
-    Finding value_finding(ref::SampleId id, ref::ValueMismatch mismatch, uint32_t t) const;
-    std::optional<Finding> judge_older_depth(ref::SampleId id,
+    Finding value_finding(cases::SampleId id, ref::ValueMismatch mismatch, uint32_t t) const;
+    std::optional<Finding> judge_older_depth(cases::SampleId id,
                                              const ref::SampleExpectation& expected,
                                              const ref::FragmentValues& device);
-    Finding writer_finding(ref::SampleId id, const Writer& writer,
+    Finding writer_finding(cases::SampleId id, const capture::Writer& writer,
                            const ref::SampleExpectation& expected);
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
-    const CaptureView& capture_;
+    const capture::CaptureView& capture_;
     const ref::ValueSelection& selection_;
     Attribution& attribution_;
     ref::ValueReference& values_;

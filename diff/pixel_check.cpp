@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "ref/number/sample.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/value/fragment/quantities.hpp"
 #include "ref/value/places.hpp"
 
@@ -20,16 +20,17 @@ namespace {
 
 // The samples of a pixel that one triangle wrote last.
 struct Fragment {
-    const ref::Triangle* triangle = nullptr;
+    const cases::Triangle* triangle = nullptr;
     std::vector<uint32_t> samples;
 };
 
-const ref::Triangle* triangle_of(const ref::Expectation& e, const CaptureView& capture,
-                                 const ref::SampleExpectation& expected, const Writer& writer) {
+const cases::Triangle* triangle_of(const ref::Expectation& e, const capture::CaptureView& capture,
+                                   const ref::SampleExpectation& expected,
+                                   const capture::Writer& writer) {
     // Without gl_PrimitiveID triangles with the same provoking vertex cannot be told apart.
-    const ref::Triangle* found = nullptr;
+    const cases::Triangle* found = nullptr;
     for (uint32_t k = 0; k < expected.writers_count; ++k) {
-        const ref::Triangle& t = e.triangles[e.writers[expected.writers_begin + k]];
+        const cases::Triangle& t = e.triangles[e.writers[expected.writers_begin + k]];
         if (writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
             (!capture.has_primitive || writer.primitive == t.primitive)) {
             if (found != nullptr) {
@@ -41,15 +42,16 @@ const ref::Triangle* triangle_of(const ref::Expectation& e, const CaptureView& c
     return found;
 }
 
-std::vector<Fragment> fragments_of(const ref::Expectation& e, const CaptureView& capture,
+std::vector<Fragment> fragments_of(const ref::Expectation& e, const capture::CaptureView& capture,
                                    size_t first) {
     std::vector<Fragment> out;
     for (uint32_t s = 0; s < capture.target.samples; ++s) {
         const size_t index = first + s;
-        if (sample_state(capture, index) != SampleState::drawn) {
+        if (capture::sample_state(capture, index) != capture::SampleState::drawn) {
             continue;
         }
-        const ref::Triangle* t = triangle_of(e, capture, e.samples[index], capture.writers[index]);
+        const cases::Triangle* t =
+            triangle_of(e, capture, e.samples[index], capture.writers[index]);
         if (t == nullptr) {
             continue;
         }
@@ -64,8 +66,8 @@ std::vector<Fragment> fragments_of(const ref::Expectation& e, const CaptureView&
     return out;
 }
 
-Finding finding_of(const cases::Target& target, ref::SampleId pixel, uint32_t s,
-                   const ref::Triangle& t) {
+Finding finding_of(const cases::Target& target, cases::SampleId pixel, uint32_t s,
+                   const cases::Triangle& t) {
     pixel.sample = s;
     Finding finding = finding_at(FindingKind::value, target, pixel);
     finding.level = cases::Profile::vulkan;
@@ -74,13 +76,14 @@ Finding finding_of(const cases::Target& target, ref::SampleId pixel, uint32_t s,
 }
 
 bool has_distinct_locations(const cases::Target& target) {
-    const auto locations = ref::sample_locations(target);
+    const auto locations = cases::sample_locations(target);
     return std::set<std::array<uint8_t, 2>>(locations.begin(), locations.end()).size() ==
            locations.size();
 }
 
-std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureView& capture,
-                                         const Fragment& f, size_t first, ref::SampleId pixel) {
+std::optional<Finding> check_invocations(const cases::Draw& draw,
+                                         const capture::CaptureView& capture, const Fragment& f,
+                                         size_t first, cases::SampleId pixel) {
     const uint32_t least = ref::value::least_invocations(draw, capture.target.samples);
     const auto rate = ref::value::shading_rate(draw, capture.target.samples);
     const bool is_on =
@@ -108,9 +111,9 @@ std::optional<Finding> check_invocations(const cases::Draw& draw, const CaptureV
 }
 
 // gl_SampleMaskIn of two samples: of one invocation, or without a common sample.
-std::optional<Finding> check_masks(const cases::Draw& draw, const CaptureView& capture,
+std::optional<Finding> check_masks(const cases::Draw& draw, const capture::CaptureView& capture,
                                    const Fragment& f, size_t first, uint32_t attribute,
-                                   ref::SampleId pixel) {
+                                   cases::SampleId pixel) {
     const bool is_one =
         ref::value::shading_rate(draw, capture.target.samples) == ref::value::ShadingRate::fragment;
     const auto mask_of = [&](uint32_t s) -> uint32_t {
@@ -150,10 +153,10 @@ bool has_pixel_rules(const cases::Case& c) {
 }
 
 std::vector<Finding> check_pixel(const cases::Case& c, const ref::Expectation& expectation,
-                                 const CaptureView& capture, ref::SampleId pixel) {
+                                 const capture::CaptureView& capture, cases::SampleId pixel) {
     std::vector<Finding> out;
     pixel.sample = 0;
-    const size_t first = ref::index_of(c.target, pixel);
+    const size_t first = cases::index_of(c.target, pixel);
     for (const Fragment& f : fragments_of(expectation, capture, first)) {
         const cases::Draw& draw = c.draws[f.triangle->draw];
         // Devices may make several fragments of the pieces of a clipped triangle.

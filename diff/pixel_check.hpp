@@ -23,6 +23,6 @@ bool has_pixel_rules(const cases::Case& c);
 // invocations a fragment; FragCoord.xy is a sample of its invocation) and "Built-In Variables"
 // (SampleMask: each covered sample is set in exactly one invocation).
 std::vector<Finding> check_pixel(const cases::Case& c, const ref::Expectation& expectation,
-                                 const CaptureView& capture, ref::SampleId pixel);
+                                 const capture::CaptureView& capture, cases::SampleId pixel);
 
 }  // namespace diff

@@ -131,12 +131,13 @@ std::optional<Finding> judge_number(const std::vector<double>& samples, double g
     return finding;
 }
 
-ColorCodes average_codes(std::span<const ColorCodes> samples, cases::ColorFormat format) {
-    ColorCodes out{};
+capture::ColorCodes average_codes(std::span<const capture::ColorCodes> samples,
+                                  cases::ColorFormat format) {
+    capture::ColorCodes out{};
     for (uint32_t k = 0; k < out.size(); ++k) {
         const ComponentKind kind = cases::component_of(format, k).kind;
         double sum = 0;
-        for (const ColorCodes& sample : samples) {
+        for (const capture::ColorCodes& sample : samples) {
             sum += number_of(kind, sample.at(k));
         }
         const double mean = sum / static_cast<double>(samples.size());
@@ -150,7 +151,8 @@ ColorCodes average_codes(std::span<const ColorCodes> samples, cases::ColorFormat
 
 class Judge {
   public:
-    Judge(const CaptureView& capture, Profile profile, const std::function<void(Finding)>& add)
+    Judge(const capture::CaptureView& capture, Profile profile,
+          const std::function<void(Finding)>& add)
         : capture_(capture), target_(capture.target), profile_(profile), add_(add) {}
 
     std::string run() {
@@ -172,29 +174,30 @@ class Judge {
         const size_t first = pixel * target_.samples;
         if (target_.has_stencil) {
             for (uint32_t s = 0; s < target_.samples; ++s) {
-                if (capture_.stencil[first + s] == kPoison) {
+                if (capture_.stencil[first + s] == capture::kPoison) {
                     return false;
                 }
                 judge_stencil(pixel, s);
             }
         }
-        if (resolves_color(target_)) {
-            const ColorCodes& resolved = capture_.resolved_color[pixel];
-            if (resolved == ColorCodes{kPoison, kPoison, kPoison, kPoison}) {
+        if (capture::resolves_color(target_)) {
+            const capture::ColorCodes& resolved = capture_.resolved_color[pixel];
+            if (resolved == capture::ColorCodes{capture::kPoison, capture::kPoison,
+                                                capture::kPoison, capture::kPoison}) {
                 return false;
             }
             for (uint32_t k = 0; k < resolved.size(); ++k) {
                 judge_color(pixel, k, resolved.at(k));
             }
         }
-        if (resolves_depth(target_)) {
+        if (capture::resolves_depth(target_)) {
             const float resolved = capture_.resolved_depth[pixel];
-            if (std::bit_cast<uint32_t>(resolved) == kPoison) {
+            if (std::bit_cast<uint32_t>(resolved) == capture::kPoison) {
                 return false;
             }
             const auto depths = capture_.depth.subspan(first, target_.samples);
             // UNORM depth is compared by codes: floats of codes are no multiples of each other.
-            const double steps = depth_steps(target_.depth_format);
+            const double steps = capture::depth_steps(target_.depth_format);
             const auto scaled = [steps](float z) {
                 return steps > 0 ? std::round(static_cast<double>(z) * steps)
                                  : static_cast<double>(z);
@@ -217,7 +220,7 @@ class Judge {
             return;
         }
         std::vector<double> samples;
-        for (const ColorCodes& codes :
+        for (const capture::ColorCodes& codes :
              capture_.color.subspan(pixel * target_.samples, target_.samples)) {
             samples.push_back(number_of(kind, codes.at(component)));
         }
@@ -228,7 +231,7 @@ class Judge {
     void report(std::optional<Finding> finding, size_t pixel, std::string quantity) {
         if (finding) {
             const uint32_t sample = finding->sample;
-            place(*finding, target_, ref::sample_at(target_, pixel * target_.samples + sample));
+            place(*finding, target_, cases::sample_at(target_, pixel * target_.samples + sample));
             finding->quantity = std::move(quantity);
             add_(std::move(*finding));
         }
@@ -236,8 +239,8 @@ class Judge {
 
     void judge_stencil(size_t pixel, uint32_t sample) {
         const size_t index = pixel * target_.samples + sample;
-        const SampleState state = sample_state(capture_, index);
-        if (state != SampleState::clear && state != SampleState::drawn) {
+        const capture::SampleState state = capture::sample_state(capture_, index);
+        if (state != capture::SampleState::clear && state != capture::SampleState::drawn) {
             return;
         }
         const glm::vec4& hits = capture_.hits[index];
@@ -259,7 +262,7 @@ class Judge {
         report(std::move(finding), pixel, "stencil");
     }
 
-    const CaptureView& capture_;
+    const capture::CaptureView& capture_;
     const cases::Target& target_;
     Profile profile_;
     const std::function<void(Finding)>& add_;
@@ -272,16 +275,17 @@ uint32_t stencil_of(const glm::vec4& hits) {
     return (static_cast<uint32_t>(hits.x) - static_cast<uint32_t>(hits.y)) & 0xffU;
 }
 
-std::string judge_dependent_planes(const CaptureView& capture, Profile profile,
+std::string judge_dependent_planes(const capture::CaptureView& capture, Profile profile,
                                    const std::function<void(Finding)>& add) {
     const cases::Target& target = capture.target;
-    if (!target.has_stencil && !resolves_color(target) && !resolves_depth(target)) {
+    if (!target.has_stencil && !capture::resolves_color(target) &&
+        !capture::resolves_depth(target)) {
         return {};
     }
     return Judge(capture, profile, add).run();
 }
 
-void add_dependent_planes(Capture& capture) {
+void add_dependent_planes(capture::Capture& capture) {
     const cases::Target& target = capture.target;
     const size_t pixels = size_t{target.width} * target.rows();
     if (target.has_stencil) {
@@ -289,7 +293,7 @@ void add_dependent_planes(Capture& capture) {
         std::transform(capture.hits.begin(), capture.hits.end(), capture.stencil.begin(),
                        stencil_of);
     }
-    capture.resolved_color.resize(resolves_color(target) ? pixels : 0);
+    capture.resolved_color.resize(capture::resolves_color(target) ? pixels : 0);
     for (size_t pixel = 0; pixel < capture.resolved_color.size(); ++pixel) {
         const auto samples =
             std::span(capture.color).subspan(pixel * target.samples, target.samples);
@@ -297,7 +301,7 @@ void add_dependent_planes(Capture& capture) {
                                             ? average_codes(samples, target.color->format)
                                             : samples.front();
     }
-    capture.resolved_depth.resize(resolves_depth(target) ? pixels : 0);
+    capture.resolved_depth.resize(capture::resolves_depth(target) ? pixels : 0);
     for (size_t pixel = 0; pixel < capture.resolved_depth.size(); ++pixel) {
         const auto depths =
             std::span(capture.depth).subspan(pixel * target.samples, target.samples);
@@ -307,10 +311,11 @@ void add_dependent_planes(Capture& capture) {
             sum += sample;
         }
         const double mean = sum / target.samples;
-        const double steps = depth_steps(target.depth_format);
-        const auto average = steps > 0 ? depth_of_code(static_cast<uint32_t>(mean * steps + 0.5),
-                                                       target.depth_format)
-                                       : static_cast<float>(mean);
+        const double steps = capture::depth_steps(target.depth_format);
+        const auto average = steps > 0
+                                 ? capture::depth_of_code(static_cast<uint32_t>(mean * steps + 0.5),
+                                                          target.depth_format)
+                                 : static_cast<float>(mean);
         capture.resolved_depth[pixel] =
             target.depth_resolve == Resolve::average
                 ? average

@@ -18,11 +18,11 @@ uint32_t stencil_of(const glm::vec4& hits);
 // Judges the stencil (rule stencil.count) and what was resolved (resolve.select, resolve.average at
 // `profile`) and hands each finding to `add`. Returns why there is nothing to judge, or "": planes
 // that were not copied. Samples whose attachments contradict each other are left out.
-std::string judge_dependent_planes(const CaptureView& capture, cases::Profile profile,
+std::string judge_dependent_planes(const capture::CaptureView& capture, cases::Profile profile,
                                    const std::function<void(Finding)>& add);
 
 // Fills these planes of a capture from its others, as a device that is right does; averages are
 // rounded to nearest.
-void add_dependent_planes(Capture& capture);
+void add_dependent_planes(capture::Capture& capture);
 
 }  // namespace diff

@@ -6,14 +6,15 @@
 
 namespace diff {
 
-void add_stray_writes(const cases::Case& c, std::span<const StrayWrite> writes, Verdict& verdict) {
+void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite> writes,
+                      Verdict& verdict) {
     const cases::Target& t = c.target;
-    for (const StrayWrite& w : writes) {
+    for (const capture::StrayWrite& w : writes) {
         const std::string_view side = w.is_before ? "before" : "after";
         Finding finding = finding_at(
             FindingKind::value, t,
-            w.is_before ? ref::SampleId{0, 0, 0, 0}
-                        : ref::SampleId{t.width - 1, t.height - 1, t.samples - 1, t.layers - 1});
+            w.is_before ? cases::SampleId{0, 0, 0, 0}
+                        : cases::SampleId{t.width - 1, t.height - 1, t.samples - 1, t.layers - 1});
         finding.rule = "write.outside";
         finding.level = cases::Profile::vulkan;
         finding.quantity = fmt::format("memory {} {}", side, w.attachment);

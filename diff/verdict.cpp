@@ -29,16 +29,6 @@ SampleMark mark_of(FindingKind kind) {
 
 }  // namespace
 
-std::string pixel_text(const cases::Target& target, const ref::SampleId& id) {
-    const std::string layer = target.layers > 1 ? fmt::format("layer {}, ", id.layer) : "";
-    return fmt::format("{}pixel ({}, {})", layer, id.x, id.y);
-}
-
-std::string sample_text(const cases::Target& target, const ref::SampleId& id) {
-    return pixel_text(target, id) +
-           (target.samples > 1 ? fmt::format(", sample {}", id.sample) : std::string());
-}
-
 std::string_view to_string(FindingKind kind) {
     switch (kind) {
         case FindingKind::missing:
@@ -62,8 +52,8 @@ void Verdict::raise_error(size_t index, double ratio) {
 }
 
 void Verdict::add(Finding finding, const cases::Target& target) {
-    const ref::SampleId id = place_of(finding);
-    const size_t index = ref::index_of(target, id);
+    const cases::SampleId id = place_of(finding);
+    const size_t index = cases::index_of(target, id);
     if (finding.kind == FindingKind::value && finding.ratio > 0) {
         raise_error(index, finding.ratio);
     }

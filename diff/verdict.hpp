@@ -14,8 +14,8 @@
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
-#include "ref/number/sample.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/value/value.hpp"
 
@@ -46,10 +46,10 @@ struct Finding {
 };
 
 // Where a finding is.
-inline ref::SampleId place_of(const Finding& finding) {
+inline cases::SampleId place_of(const Finding& finding) {
     return {finding.x, finding.y, finding.sample, finding.layer.value_or(0)};
 }
-inline void place(Finding& finding, const cases::Target& target, const ref::SampleId& id) {
+inline void place(Finding& finding, const cases::Target& target, const cases::SampleId& id) {
     finding.x = id.x;
     finding.y = id.y;
     finding.sample = id.sample;
@@ -57,17 +57,13 @@ inline void place(Finding& finding, const cases::Target& target, const ref::Samp
         finding.layer = id.layer;
     }
 }
-inline Finding finding_at(FindingKind kind, const cases::Target& target, const ref::SampleId& id) {
+inline Finding finding_at(FindingKind kind, const cases::Target& target,
+                          const cases::SampleId& id) {
     Finding finding;
     finding.kind = kind;
     place(finding, target, id);
     return finding;
 }
-// "pixel (3, 4)", of a target with several layers "layer 1, pixel (3, 4)".
-std::string pixel_text(const cases::Target& target, const ref::SampleId& id);
-// As pixel_text, of a target with several samples "pixel (3, 4), sample 2".
-std::string sample_text(const cases::Target& target, const ref::SampleId& id);
-
 // What the comparison saw at a sample, for pictures: one byte a sample.
 enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value, order };
 
@@ -105,12 +101,12 @@ struct Verdict {
 };
 // Judges a capture. A case without any sample that must be hit is an error, never a pass.
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const CaptureView& capture);
+                const capture::CaptureView& capture);
 
 // As compare, but of the values only those selected are judged. Nothing is said of how many
 // invocations a fragment had unless all are.
 Verdict compare_selected(const cases::Case& c, const ref::Expectation& expectation,
-                         const CaptureView& capture, const ref::ValueSelection& selection);
+                         const capture::CaptureView& capture, const ref::ValueSelection& selection);
 
 // Checks the hand-drawn picture of a case against the reference (profile direct3d, 8 subpixel
 // bits). Empty if it agrees or the case has none; else one sentence with the first pixel that

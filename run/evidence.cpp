@@ -12,7 +12,7 @@
 #include "ref/value/value.hpp"
 #include "run/picture.hpp"
 
-namespace cli {
+namespace run {
 
 namespace {
 
@@ -32,22 +32,22 @@ std::vector<size_t> chosen_samples(const Window& window, const cases::Target& ta
     std::set<std::string> rules;
     for (const diff::Finding& f : verdict.findings) {
         if (rules.insert(f.rule).second) {
-            choose(ref::index_of(target, diff::place_of(f)), report::kMaxEvidence);
+            choose(cases::index_of(target, diff::place_of(f)), report::kMaxEvidence);
         }
     }
     for (const diff::Finding& f : verdict.findings) {
-        choose(ref::index_of(target, diff::place_of(f)), report::kMaxEvidence * 3 / 4);
+        choose(cases::index_of(target, diff::place_of(f)), report::kMaxEvidence * 3 / 4);
     }
     const std::vector<size_t> wrong = chosen;
     for (const size_t index : wrong) {
-        ref::SampleId id = ref::sample_at(target, index);
+        cases::SampleId id = cases::sample_at(target, index);
         const uint32_t y0 = std::max(id.y, 1U) - 1;
         const uint32_t y1 = std::min(id.y + 1, target.height - 1);
         const uint32_t x0 = std::max(id.x, 1U) - 1;
         const uint32_t x1 = std::min(id.x + 1, target.width - 1);
         for (id.y = y0; id.y <= y1; ++id.y) {
             for (id.x = x0; id.x <= x1; ++id.x) {
-                choose(ref::index_of(target, id), report::kMaxEvidence);
+                choose(cases::index_of(target, id), report::kMaxEvidence);
             }
         }
     }
@@ -103,14 +103,14 @@ Plane plane_of(const std::string& quantity) {
 class EvidenceMaker {
   public:
     EvidenceMaker(const cases::Case& c, const ref::Expectation& expectation,
-                  const diff::CaptureView& capture, const ref::Limits& limits)
+                  const capture::CaptureView& capture, const ref::Limits& limits)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
           values_(c, limits, expectation.profile) {}
 
     SampleEvidence at(size_t index) {
-        const ref::SampleId id = ref::sample_at(case_.target, index);
+        const cases::SampleId id = cases::sample_at(case_.target, index);
         const ref::SampleExpectation& expected = expectation_.samples[index];
         SampleEvidence e;
         e.x = id.x;
@@ -122,8 +122,8 @@ class EvidenceMaker {
         }
         const glm::vec4& hits = capture_.hits[index];
         e.hits = fmt::format("{} front, {} back", hits.x, hits.y);
-        const diff::Writer& writer = capture_.writers[index];
-        const bool drawn = diff::sample_state(capture_, index) == diff::SampleState::drawn;
+        const capture::Writer& writer = capture_.writers[index];
+        const bool drawn = capture::sample_state(capture_, index) == capture::SampleState::drawn;
         if (drawn) {
             e.writer = capture_.has_primitive
                            ? fmt::format("triangle {} of draw {}", writer.primitive, writer.draw)
@@ -135,7 +135,7 @@ class EvidenceMaker {
         bool is_writer = false;
         for (uint32_t k = 0; k < expected.writers_count && !is_writer; ++k) {
             triangle = expectation_.writers[expected.writers_begin + k];
-            const ref::Triangle& t = expectation_.triangles[*triangle];
+            const cases::Triangle& t = expectation_.triangles[*triangle];
             is_writer = drawn && writer.draw == t.draw && writer.provoking_vertex == t.provoking &&
                         (!capture_.has_primitive || writer.primitive == t.primitive);
         }
@@ -148,7 +148,7 @@ class EvidenceMaker {
     }
 
   private:
-    void add(SampleEvidence& e, const ref::ExpectedValue& v, uint32_t triangle, ref::SampleId id,
+    void add(SampleEvidence& e, const ref::ExpectedValue& v, uint32_t triangle, cases::SampleId id,
              std::optional<size_t> drawn) {
         const Plane plane = plane_of(v.quantity);
         if (plane.kind == Plane::Kind::none) {
@@ -198,14 +198,14 @@ class EvidenceMaker {
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
-    const diff::CaptureView& capture_;
+    const capture::CaptureView& capture_;
     ref::ValueReference values_;
 };
 
 }  // namespace
 
 void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
-                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits) {
     const Window window(verdict, c.target);
     record.pictures = cut_pictures(window, c, verdict, capture);
@@ -213,7 +213,7 @@ void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff:
 }
 
 void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
-                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits) {
     keep_pictures(record, c, verdict, expectation, capture, limits);
     const Window window(verdict, c.target);
@@ -226,4 +226,4 @@ void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff:
     }
 }
 
-}  // namespace cli
+}  // namespace run

@@ -12,18 +12,18 @@
 #include "ref/position/limits.hpp"
 #include "report/record/run.hpp"
 
-namespace cli {
+namespace run {
 
 // Fills pictures and geometry of the record of a case with draws or a blit; planes that the capture
 // lacks are left out. `expectation` is empty for a blit.
 void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
-                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits);
 
 // Fills pictures, geometry and evidence of the record of a case with draws or a blit. `expectation`
 // is empty for a blit.
 void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
-                   const ref::Expectation& expectation, const diff::CaptureView& capture,
+                   const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits);
 
-}  // namespace cli
+}  // namespace run

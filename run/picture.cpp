@@ -10,11 +10,11 @@
 
 #include "cases/load/color.hpp"
 #include "ref/blit/blit.hpp"
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/position/position.hpp"
 
-namespace cli {
+namespace run {
 
 using report::Geometry;
 using report::Pictures;
@@ -56,7 +56,7 @@ uint8_t shown(uint32_t code, cases::ComponentFormat format) {
 }
 
 // Outline of what clipping leaves of a triangle, for the eye alone.
-std::vector<double> clipped_piece(const cases::Draw& draw, const ref::Triangle& t,
+std::vector<double> clipped_piece(const cases::Draw& draw, const cases::Triangle& t,
                                   cases::Profile profile) {
     std::vector<double> piece;
     const ref::ClipVolume volume = ref::clip_volume_of(draw);
@@ -70,7 +70,7 @@ std::vector<double> clipped_piece(const cases::Draw& draw, const ref::Triangle& 
     return piece;
 }
 
-Shape shape_of(const cases::Draw& draw, const ref::Triangle& t, const ref::Limits& limits,
+Shape shape_of(const cases::Draw& draw, const cases::Triangle& t, const ref::Limits& limits,
                cases::Profile profile) {
     Shape shape;
     shape.draw = t.draw;
@@ -131,7 +131,7 @@ bool Window::meets(int64_t x0, int64_t y0, int64_t x1, int64_t y1) const {
 }
 
 Pictures cut_pictures(const Window& window, const cases::Case& c, const diff::Verdict& verdict,
-                      const diff::CaptureView& capture) {
+                      const capture::CaptureView& capture) {
     Pictures p = window.frame();
     const bool has_errors = std::any_of(verdict.error_ratios.begin(), verdict.error_ratios.end(),
                                         [](float ratio) { return ratio >= 0; });
@@ -143,7 +143,7 @@ Pictures cut_pictures(const Window& window, const cases::Case& c, const diff::Ve
     double low = HUGE_VAL, high = -HUGE_VAL;
     const auto is_drawn_depth = [&](size_t k) {
         return k < capture.depth.size() && std::isfinite(capture.depth[k]) &&
-               !diff::is_clear_depth(c.target, capture.depth[k]);
+               !capture::is_clear_depth(c.target, capture.depth[k]);
     };
     window.for_each([&](uint32_t, uint32_t, uint32_t, size_t k) {
         put(p.expected_hits, verdict.expected_hits, k);
@@ -194,7 +194,7 @@ Geometry geometry_of(const Window& window, const cases::Case& c, const ref::Limi
     g.width = c.target.width;
     g.height = c.target.rows();
     g.samples = c.target.samples;
-    for (const auto& at : ref::sample_locations(c.target)) {
+    for (const auto& at : cases::sample_locations(c.target)) {
         g.sample_locations.push_back(at);
     }
     if (c.blit) {
@@ -208,7 +208,7 @@ Geometry geometry_of(const Window& window, const cases::Case& c, const ref::Limi
             {draw.scissor.x, draw.scissor.y, draw.scissor.width, draw.scissor.height});
     }
     g.triangle_total = expectation.triangles.size();
-    for (const ref::Triangle& t : expectation.triangles) {
+    for (const cases::Triangle& t : expectation.triangles) {
         if (g.triangles.size() == report::kMaxShapes) {
             break;
         }
@@ -227,4 +227,4 @@ Geometry geometry_of(const Window& window, const cases::Case& c, const ref::Limi
     return g;
 }
 
-}  // namespace cli
+}  // namespace run

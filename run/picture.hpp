@@ -13,7 +13,7 @@
 #include "ref/position/limits.hpp"
 #include "report/record/run.hpp"
 
-namespace cli {
+namespace run {
 
 // The window of a target that pictures show; its layers are stacked, y is a row of the stack.
 class Window {
@@ -43,10 +43,10 @@ class Window {
 };
 
 report::Pictures cut_pictures(const Window& window, const cases::Case& c,
-                              const diff::Verdict& verdict, const diff::CaptureView& capture);
+                              const diff::Verdict& verdict, const capture::CaptureView& capture);
 
 // `expectation` is empty for a blit.
 report::Geometry geometry_of(const Window& window, const cases::Case& c, const ref::Limits& limits,
                              const ref::Expectation& expectation);
 
-}  // namespace cli
+}  // namespace run

@@ -8,10 +8,12 @@
 #include <memory>
 #include <utility>
 
+#include "capture/checksum.hpp"
+#include "cases/base/checksum.hpp"
 #include "cases/model/derive.hpp"
 #include "report/text/sentences.hpp"
 
-namespace cli {
+namespace run {
 
 using report::CaseRecord;
 using report::Status;
@@ -26,7 +28,7 @@ constexpr int kProgressMs = 200;
 std::vector<uint64_t> all_bytes(const std::vector<PlannedCase>& cases) {
     std::vector<uint64_t> bytes;
     for (const PlannedCase& c : cases) {
-        bytes.push_back(capture_bytes(c.data));
+        bytes.push_back(capture::capture_bytes(c.data));
     }
     return bytes;
 }
@@ -155,7 +157,7 @@ void RunLoop::feed(Slot& slot) {
     for (const size_t k : slot.batch->cases) {
         check(journal_.write_begin(cases_[k].data.id, schedule_.attempts(k)));
         batch.push_back(&cases_[k].data);
-        bytes += capture_bytes(cases_[k].data);
+        bytes += capture::capture_bytes(cases_[k].data);
     }
     slot.answered.assign(batch.size(), false);
     slot.since = Clock::now();
@@ -261,13 +263,14 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
         settle(k, std::move(record));
         return;
     }
-    const uint64_t bits = result.bits ^ checksum(FrameType::result, encode_findings(result));
+    const uint64_t bits = result.bits ^ cases::checksum(static_cast<uint64_t>(FrameType::result),
+                                                        encode_findings(result));
     switch (schedule_.drawn(k, bits)) {
         case Schedule::Drawn::judge: {
             auto record = std::make_shared<CaseRecord>(fresh_record(k));
             record->messages = rendered.messages;
-            record->bits = hex(result.bits);
-            const uint64_t bytes = capture_bytes(cases_[k].data);
+            record->bits = cases::hex(result.bits);
+            const uint64_t bytes = capture::capture_bytes(cases_[k].data);
             judging_bytes_ += bytes;
             pool_.submit(
                 [this, k, view = result.view, consistency = std::move(result.consistency),
@@ -405,4 +408,4 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     on_record_(record);
 }
 
-}  // namespace cli
+}  // namespace run

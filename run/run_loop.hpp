@@ -18,11 +18,12 @@
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
 #include "run/judge.hpp"
+#include "run/process/pool.hpp"
 #include "run/process/signal_fd.hpp"
 #include "run/schedule.hpp"
 #include "run/worker/worker_client.hpp"
 
-namespace cli {
+namespace run {
 
 // One case of a run.
 struct PlannedCase {
@@ -108,4 +109,4 @@ class RunLoop {
     End end_;
 };
 
-}  // namespace cli
+}  // namespace run

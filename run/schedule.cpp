@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace cli {
+namespace run {
 
 using report::Status;
 
@@ -164,4 +164,4 @@ std::vector<Schedule::Released> Schedule::release() {
     return released;
 }
 
-}  // namespace cli
+}  // namespace run

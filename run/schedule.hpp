@@ -23,7 +23,7 @@
 
 #include "report/record/run.hpp"
 
-namespace cli {
+namespace run {
 
 struct Batch {
     std::vector<size_t> cases;
@@ -115,4 +115,4 @@ class Schedule {
     std::vector<Group> groups_;
 };
 
-}  // namespace cli
+}  // namespace run

@@ -10,8 +10,10 @@
 #include "cases/load/color.hpp"
 #include "vk_harness/commands/blit.hpp"
 #include "vk_harness/commands/viewports.hpp"
+#include "vk_harness/device/format.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
 #include "vk_harness/target/resolve.hpp"
+#include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target.hpp"
 
 namespace vk_harness {
@@ -87,7 +89,8 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
         return unsupported(fmt::format("the target has {} x {} pixels, the device allows {} x {}",
                                        t.width, t.height, c.max_width, c.max_height));
     }
-    if (t.layers == 0 || (t.layers > 1 && (diff::resolves_color(t) || diff::resolves_depth(t)))) {
+    if (t.layers == 0 ||
+        (t.layers > 1 && (capture::resolves_color(t) || capture::resolves_depth(t)))) {
         return invalid("a target has at least one layer, and one that is resolved only one");
     }
     if (t.layers > c.max_layers) {
@@ -389,32 +392,6 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         return unsupported(std::move(*missing));
     }
     return check_target(capabilities, c);
-}
-
-uint32_t input_count(const cases::Case& c) {
-    if (c.target.has_instruments) {
-        return attribute_count(c);
-    }
-    return std::any_of(c.draws.begin(), c.draws.end(),
-                       [](const cases::Draw& draw) { return draw.color.attribute >= 0; })
-               ? 1
-               : 0;
-}
-
-const cases::Attribute* input_attribute(const cases::Case& c, const cases::Draw& draw,
-                                        uint32_t input) {
-    const int64_t index = c.target.has_instruments ? int64_t{input} : draw.color.attribute;
-    return index >= 0 && index < std::ssize(draw.attributes)
-               ? &draw.attributes[static_cast<size_t>(index)]
-               : nullptr;
-}
-
-uint32_t attribute_count(const cases::Case& c) {
-    size_t count = 0;
-    for (const cases::Draw& draw : c.draws) {
-        count = std::max(count, draw.attributes.size());
-    }
-    return static_cast<uint32_t>(count);
 }
 
 }  // namespace vk_harness

@@ -6,6 +6,7 @@
 
 #include "cases/load/color.hpp"
 #include "vk_harness/case_check.hpp"
+#include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 
@@ -48,9 +49,10 @@ std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan) {
 }
 
 // Of the damage, what lies beside the case's attachments.
-std::vector<diff::StrayWrite> stray_writes(const CasePlan& plan,
-                                           std::span<const GuardDamage> damage, size_t renderings) {
-    std::vector<diff::StrayWrite> out;
+std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
+                                              std::span<const GuardDamage> damage,
+                                              size_t renderings) {
+    std::vector<capture::StrayWrite> out;
     for (const auto& [guard, name] : guards_of(plan)) {
         for (const GuardDamage& found : damage) {
             if (found.guard == guard) {
@@ -238,7 +240,7 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
             const bool has_primitive = device_->capabilities().info.has_primitive_id;
             Rendered& result = results[plan.slot];
             if (store) {
-                const uint64_t bytes = diff::plane_bytes(target, attribute_count(*plan.test));
+                const uint64_t bytes = capture::plane_bytes(target, attribute_count(*plan.test));
                 result.placed = store(plan.slot, bytes);
             }
             if (result.placed.empty()) {

@@ -14,11 +14,11 @@
 #include "capture/capture.hpp"
 #include "capture/exchange/plane_files.hpp"
 #include "cases/load/blit.hpp"
+#include "cases/model/sample.hpp"
+#include "cases/model/triangle.hpp"
 #include "cases/model/words.hpp"
-#include "ref/number/sample.hpp"
-#include "ref/position/triangle.hpp"
 
-namespace cli {
+namespace capture {
 
 namespace {
 
@@ -123,11 +123,12 @@ Json color_json(const cases::ColorOutput& c) {
     return out;
 }
 
-Json draw_json(const cases::Draw& d, const std::vector<ref::Triangle>& triangles, bool has_color) {
+Json draw_json(const cases::Draw& d, const std::vector<cases::Triangle>& triangles,
+               bool has_color) {
     Vectors positions = vectors(d.positions, 4);
     // Number k of these is gl_PrimitiveID k.
     Json assembled = Json::array(), provoking = Json::array();
-    for (const ref::Triangle& t : triangles) {
+    for (const cases::Triangle& t : triangles) {
         assembled.push_back(t.vertex);
         provoking.push_back(t.provoking);
     }
@@ -181,7 +182,7 @@ Json draw_json(const cases::Draw& d, const std::vector<ref::Triangle>& triangles
 
 Json target_json(const cases::Target& t) {
     Json locations = Json::array();
-    for (const std::array<uint8_t, 2>& at : ref::sample_locations(t)) {
+    for (const std::array<uint8_t, 2>& at : cases::sample_locations(t)) {
         locations.push_back({at[0] / 16.0, at[1] / 16.0});
     }
     Json out = {{"width", t.width},
@@ -230,7 +231,7 @@ Json planes_json(const cases::Case& c) {
         } else if (spec.name == "depth") {
             clear = number(c.target.depth_clear);
         } else if (spec.kind == PlaneKind::value) {
-            clear = number(diff::kClearValue);
+            clear = number(kClearValue);
         } else if (spec.kind == PlaneKind::code) {
             clear = nullptr;
         }
@@ -345,7 +346,7 @@ std::vector<std::string> needs_of(const cases::Case& c) {
               "depth-format");
     needs.add(c.target.has_stencil, "stencil");
     needs.add(c.target.color.has_value(), "color");
-    needs.add(diff::resolves_color(c.target) || diff::resolves_depth(c.target), "resolve");
+    needs.add(resolves_color(c.target) || resolves_depth(c.target), "resolve");
     for (const cases::Draw& d : c.draws) {
         needs.add_draw(d, c.target);
     }
@@ -353,8 +354,8 @@ std::vector<std::string> needs_of(const cases::Case& c) {
 }
 
 std::string export_case(const cases::Case& c) {
-    std::vector<std::vector<ref::Triangle>> triangles(c.draws.size());
-    for (const ref::Triangle& t : ref::assemble(c)) {
+    std::vector<std::vector<cases::Triangle>> triangles(c.draws.size());
+    for (const cases::Triangle& t : cases::assemble(c)) {
         triangles.at(t.draw).push_back(t);
     }
     Json draws = Json::array();
@@ -390,4 +391,4 @@ std::string export_case(const cases::Case& c) {
     return text + "\n}\n";
 }
 
-}  // namespace cli
+}  // namespace capture

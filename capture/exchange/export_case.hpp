@@ -9,7 +9,7 @@
 
 #include "cases/model/case.hpp"
 
-namespace cli {
+namespace capture {
 
 // What a renderer has to be able to do beyond triangles from lists, one sample a pixel, w = 1, the
 // whole target as viewport and scissor, both faces, no depth test: words of
@@ -19,4 +19,4 @@ std::vector<std::string> needs_of(const cases::Case& c);
 // The text of the file, with a line feed at its end.
 std::string export_case(const cases::Case& c);
 
-}  // namespace cli
+}  // namespace capture

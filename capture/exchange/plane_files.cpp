@@ -13,14 +13,13 @@
 
 #include "capture/capture.hpp"
 #include "capture/exchange/plane_numbers.hpp"
+#include "cases/base/printable.hpp"
 #include "cases/load/color.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/selector.hpp"
-#include "diff/verdict.hpp"
-#include "ref/number/sample.hpp"
-#include "report/text/reports.hpp"
 
-namespace cli {
+namespace capture {
 
 namespace fs = std::filesystem;
 
@@ -37,7 +36,7 @@ bool is_same(double a, double b) {
 }
 
 std::string quoted(const fs::path& file) {
-    return "'" + report::printable(file.string()) + "'";
+    return "'" + cases::printable(file.string()) + "'";
 }
 
 std::vector<std::string> components(uint32_t count) {
@@ -142,8 +141,8 @@ class Placement {
 
 // Where an entry lies, in words: "pixel (3, 4)", "sample 1 of pixel (3, 4)".
 std::string place(const cases::Target& target, size_t index) {
-    const ref::SampleId id = ref::sample_at(target, index);
-    const std::string at = diff::pixel_text(target, id);
+    const cases::SampleId id = cases::sample_at(target, index);
+    const std::string at = cases::pixel_text(target, id);
     return target.samples == 1 ? at : fmt::format("sample {} of {}", id.sample, at);
 }
 
@@ -239,14 +238,14 @@ class Reader {
 
     // Into the planes; what is wrong with a number, if anything.
     std::string keep(const PlaneSpec& spec, const PlaneNumbers& from) {
-        diff::Delivered& to = out_.planes;
+        Delivered& to = out_.planes;
         switch (spec.kind) {
             case PlaneKind::mask:
-                to.detail = diff::HitDetail::coverage;
+                to.detail = HitDetail::coverage;
                 return keep_whole(from, 0, to.front, [&](double v) { return mask(from, v); });
             case PlaneKind::count: {
                 const bool by_face = from.channels == 2;
-                to.detail = by_face ? diff::HitDetail::faces : diff::HitDetail::total;
+                to.detail = by_face ? HitDetail::faces : HitDetail::total;
                 std::string wrong = keep_whole(from, 0, to.front, count);
                 return wrong.empty() && by_face ? keep_whole(from, 1, to.back, count) : wrong;
             }
@@ -264,7 +263,7 @@ class Reader {
                 const auto z = static_cast<float>(from.at(at_.in_file(k), 0));
                 to.depth.push_back(case_.target.depth_format == cases::DepthFormat::d32_float
                                        ? z
-                                       : diff::nearest_depth_code(z, case_.target.depth_format));
+                                       : nearest_depth_code(z, case_.target.depth_format));
             }
             return {};
         }
@@ -301,7 +300,7 @@ class Reader {
         const bool is_none = is_same(v, -1) || is_same(v, 0xffffffffU);
         const bool fits = is_none || (v >= 0 && v < 0xfff00000U && is_same(v, std::floor(v)));
         return {
-            is_none ? diff::kClearId
+            is_none ? kClearId
             : fits  ? static_cast<uint32_t>(v)
                     : 0U,
             fits ? nullptr : "writers are whole numbers from 0 on, or -1 where nothing was drawn"};
@@ -322,9 +321,9 @@ class Reader {
     }
 
     std::string keep_codes(const PlaneNumbers& from) {
-        std::vector<diff::ColorCodes>& to = out_.planes.color;
+        std::vector<ColorCodes>& to = out_.planes.color;
         for (size_t k = 0; k < at_.count(); ++k) {
-            diff::ColorCodes codes{};
+            ColorCodes codes{};
             for (uint32_t c = 0; c < codes.size(); ++c) {
                 const uint32_t bits = cases::component_of(case_.target.color->format, c).bits;
                 if (from.largest > 0 && bits != 0 &&
@@ -353,4 +352,4 @@ cases::Expected<ReadPlanes> read_planes(const fs::path& folder, const cases::Cas
     return Reader(folder, c).run();
 }
 
-}  // namespace cli
+}  // namespace capture

@@ -14,11 +14,11 @@
 #include <string_view>
 #include <vector>
 
+#include "capture/delivered.hpp"
 #include "cases/base/error.hpp"
 #include "cases/model/case.hpp"
-#include "diff/delivered.hpp"
 
-namespace cli {
+namespace capture {
 
 enum class PlaneKind : uint8_t {
     mask,   // 0, or the largest number of the format (1, 255, 1.0)
@@ -49,11 +49,11 @@ std::string folder_of(const std::string& id);
 inline constexpr std::string_view kUnsupportedFile = "unsupported.txt";
 
 struct ReadPlanes {
-    diff::Delivered planes;   // empty: nothing was delivered
+    Delivered planes;         // empty: nothing was delivered
     std::string unsupported;  // the reason in kUnsupportedFile
 };
 // What lies in the folder. Errors, one sentence each: a file that is no plane of the case, two
 // files of a plane, another size, what its kind does not allow.
 cases::Expected<ReadPlanes> read_planes(const std::filesystem::path& folder, const cases::Case& c);
 
-}  // namespace cli
+}  // namespace capture

@@ -16,9 +16,9 @@
 
 #include "capture/exchange/plane_files.hpp"
 #include "capture/image/image.hpp"
-#include "report/text/reports.hpp"
+#include "cases/base/printable.hpp"
 
-namespace cli {
+namespace capture {
 
 namespace fs = std::filesystem;
 
@@ -29,7 +29,7 @@ tl::unexpected<cases::Error> failure(std::string sentence) {
 }
 
 std::string quoted(const fs::path& file) {
-    return "'" + report::printable(file.string()) + "'";
+    return "'" + cases::printable(file.string()) + "'";
 }
 
 std::string size_text(const cases::Target& target) {
@@ -84,7 +84,7 @@ cases::Expected<PlaneNumbers> read_raw(const fs::path& file, const std::string& 
 
 // Which channel of the image is channel k of the plane: by the plane's own names, by those of
 // colours or coordinates, or else by order.
-std::vector<size_t> channels_of(const report::Image& image, const PlaneSpec& spec) {
+std::vector<size_t> channels_of(const Image& image, const PlaneSpec& spec) {
     const auto lower = [](std::string name) {
         std::transform(name.begin(), name.end(), name.begin(),
                        [](unsigned char c) { return std::tolower(c); });
@@ -112,7 +112,7 @@ std::vector<size_t> channels_of(const report::Image& image, const PlaneSpec& spe
 }
 
 // A picture in grey may have been written as one of three or four channels.
-bool is_grey(const report::Image& image) {
+bool is_grey(const Image& image) {
     const size_t channels = image.channels.size();
     for (size_t k = 0; k < image.pixels.size(); k += channels) {
         for (size_t c = 1; c < 3; ++c) {
@@ -135,7 +135,7 @@ std::string wrong_channels(const fs::path& file, size_t count, const PlaneSpec& 
 
 cases::Expected<PlaneNumbers> read_picture(const fs::path& file, const PlaneSpec& spec,
                                            const cases::Target& target) {
-    const cases::Expected<report::Image> image = report::read_image(file);
+    const cases::Expected<Image> image = read_image(file);
     if (!image) {
         return tl::unexpected(image.error());
     }
@@ -198,4 +198,4 @@ cases::Expected<PlaneNumbers> read_numbers(const fs::path& file, const PlaneSpec
     return is_raw ? read_raw(file, ending, spec, target) : read_picture(file, spec, target);
 }
 
-}  // namespace cli
+}  // namespace capture

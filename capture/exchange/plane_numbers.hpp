@@ -11,7 +11,7 @@
 #include "cases/base/error.hpp"
 #include "cases/model/case.hpp"
 
-namespace cli {
+namespace capture {
 
 struct PlaneSpec;
 
@@ -29,4 +29,4 @@ struct PlaneNumbers {
 cases::Expected<PlaneNumbers> read_numbers(const std::filesystem::path& file, const PlaneSpec& spec,
                                            const cases::Target& target);
 
-}  // namespace cli
+}  // namespace capture

@@ -10,9 +10,9 @@
 #include <system_error>
 
 #include "capture/image/image_io/image_io.hpp"
-#include "report/text/reports.hpp"
+#include "cases/base/printable.hpp"
 
-namespace report {
+namespace capture {
 
 namespace {
 
@@ -77,12 +77,12 @@ cases::Expected<void> check_format(const std::filesystem::path& file, size_t cha
     if (extension != ".exr" && extension != ".png" && extension != ".tif") {
         return failure(
             fmt::format("cannot tell the format of {} by its ending; use .exr, .png or .tif",
-                        printable(file.string())));
+                        cases::printable(file.string())));
     }
     if (extension == ".png" && channels > 4) {
         return failure(
             fmt::format("{} would need {} channels, and a PNG file holds at most 4; use .exr",
-                        printable(file.string()), channels));
+                        cases::printable(file.string()), channels));
     }
     return {};
 }
@@ -129,8 +129,8 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
                               1};
     std::array<char, 1024> error{};
     if (module->write(file.c_str(), &plain, error.data(), error.size()) != 0) {
-        return failure(
-            fmt::format("cannot write {}: {}", printable(file.string()), printable(error.data())));
+        return failure(fmt::format("cannot write {}: {}", cases::printable(file.string()),
+                                   cases::printable(error.data())));
     }
     return {};
 }
@@ -146,10 +146,10 @@ cases::Expected<Image> read_image(const std::filesystem::path& file) {
     Image image;
     std::array<char, 1024> error{};
     if (module->read(file.c_str(), keep, &image, error.data(), error.size()) != 0) {
-        return failure(
-            fmt::format("cannot read {}: {}", printable(file.string()), printable(error.data())));
+        return failure(fmt::format("cannot read {}: {}", cases::printable(file.string()),
+                                   cases::printable(error.data())));
     }
     return image;
 }
 
-}  // namespace report
+}  // namespace capture

@@ -12,7 +12,7 @@
 
 #include "cases/base/error.hpp"
 
-namespace report {
+namespace capture {
 
 struct Image {
     uint32_t width = 0, height = 0;
@@ -29,4 +29,4 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
 // multiplied by alpha.
 cases::Expected<Image> read_image(const std::filesystem::path& file);
 
-}  // namespace report
+}  // namespace capture

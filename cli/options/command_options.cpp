@@ -44,8 +44,10 @@ const std::map<std::string, std::string>& shell_names() {
 const std::map<std::string, ProgressStyle> kProgressNames = {{"auto", ProgressStyle::automatic},
                                                              {"plain", ProgressStyle::plain},
                                                              {"none", ProgressStyle::none}};
-const std::map<std::string, KeepPictures> kCaptureNames = {
-    {"failed", KeepPictures::failed}, {"all", KeepPictures::all}, {"none", KeepPictures::none}};
+const std::map<std::string, run::KeepPictures> kCaptureNames = {
+    {"failed", run::KeepPictures::failed},
+    {"all", run::KeepPictures::all},
+    {"none", run::KeepPictures::none}};
 
 // What 'render' takes: no driver.
 const std::map<std::string, std::string>& drawing_names() {

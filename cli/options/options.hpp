@@ -58,7 +58,7 @@ struct RunOptions {
     uint32_t retries = 1;
     std::string output;
     std::string json, junit, html;
-    KeepPictures capture = KeepPictures::failed;
+    run::KeepPictures capture = run::KeepPictures::failed;
     bool quiet = false, verbose = false;
     When color = When::automatic;
     ProgressStyle progress = ProgressStyle::automatic;

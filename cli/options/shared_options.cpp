@@ -31,7 +31,7 @@ const std::map<std::string, When>& when_names() {
 const std::map<std::string, std::string>& renderer_names() {
     static const std::map<std::string, std::string> kNames = [] {
         std::map<std::string, std::string> names = {{"vulkan", ""}, {"reference", "reference"}};
-        for (const ref::algorithms::Device& device : ref::algorithms::all_devices()) {
+        for (const rasterizers::Device& device : rasterizers::all_devices()) {
             names.emplace(device.name, device.name);
         }
         return names;

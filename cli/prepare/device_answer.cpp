@@ -5,13 +5,13 @@
 #include <sstream>
 #include <utility>
 
-#include "report/text/reports.hpp"
+#include "cases/base/printable.hpp"
 #include "run/process/manifest.hpp"
 
 namespace cli {
 
-WorkerOptions worker_options(const DeviceOptions& options) {
-    WorkerOptions worker;
+run::WorkerOptions worker_options(const DeviceOptions& options) {
+    run::WorkerOptions worker;
     worker.vulkan.device = options.device;
     worker.vulkan.icd_file = options.icd;
     worker.vulkan.validation = options.validation;
@@ -20,13 +20,13 @@ WorkerOptions worker_options(const DeviceOptions& options) {
 }
 
 Stop explain_failure(const vk_harness::Failure& failure) {
-    Stop stop{report::kExitDevice, {report::printable(failure.message)}};
+    Stop stop{report::kExitDevice, {cases::printable(failure.message)}};
     if (failure.vk_result != 0) {
         stop.lines.push_back("  VkResult " + std::to_string(failure.vk_result) + " at stage '" +
                              std::string(vk_harness::to_string(failure.stage)) + "'");
     }
     for (const std::string& reason : failure.reasons) {
-        stop.lines.push_back("  " + report::printable(reason));
+        stop.lines.push_back("  " + cases::printable(reason));
     }
     if (failure.stage <= vk_harness::Stage::device) {
         stop.lines.emplace_back("  'edgecase doctor' says what is installed and what is missing");
@@ -34,10 +34,10 @@ Stop explain_failure(const vk_harness::Failure& failure) {
     return stop;
 }
 
-Stop explain_death(const Death& death) {
+Stop explain_death(const run::Death& death) {
     Stop stop{report::kExitDevice,
               {"no device: " + describe(death) + "; the driver or its environment is broken"}};
-    std::istringstream lines(report::printable(death.output));
+    std::istringstream lines(cases::printable(death.output));
     size_t count = 0;
     for (std::string line; count < 20 && std::getline(lines, line); ++count) {
         stop.lines.push_back("  " + line);
@@ -46,23 +46,23 @@ Stop explain_death(const Death& death) {
     return stop;
 }
 
-OrStop<WorkerClient> start_first_worker(const LoopConfig& config) {
+OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config) {
     const std::string& icd = config.worker.vulkan.icd_file;
     if (!icd.empty() && config.worker.renderer.empty()) {
-        if (const std::string wrong = check_manifest(icd, config.icd_from); !wrong.empty()) {
+        if (const std::string wrong = run::check_manifest(icd, config.icd_from); !wrong.empty()) {
             return tl::unexpected(Stop{report::kExitDevice, {wrong}});
         }
     }
-    cases::Expected<WorkerClient> client =
-        WorkerClient::start(config.command, config.worker, config.timeout);
+    cases::Expected<run::WorkerClient> client =
+        run::WorkerClient::start(config.command, config.worker, config.timeout);
     if (!client) {
         return tl::unexpected(Stop{report::kExitInternal, {client.error().message}});
     }
     return std::move(*client);
 }
 
-OrStop<ReadyWorker> await_first_worker(WorkerClient client, SignalFd& signals) {
-    const std::optional<WorkerEvent> answer = wait_for_answer(client, signals);
+OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, run::SignalFd& signals) {
+    const std::optional<run::WorkerEvent> answer = run::wait_for_answer(client, signals);
     if (!answer) {
         return tl::unexpected(
             Stop{report::kExitInterrupted, {"interrupted before any case was run"}});
@@ -73,7 +73,7 @@ OrStop<ReadyWorker> await_first_worker(WorkerClient client, SignalFd& signals) {
     if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer); failure != nullptr) {
         return tl::unexpected(explain_failure(*failure));
     }
-    if (const auto* death = std::get_if<Death>(&*answer); death != nullptr) {
+    if (const auto* death = std::get_if<run::Death>(&*answer); death != nullptr) {
         return tl::unexpected(explain_death(*death));
     }
     return tl::unexpected(

@@ -12,19 +12,19 @@
 
 namespace cli {
 
-WorkerOptions worker_options(const DeviceOptions& options);
+run::WorkerOptions worker_options(const DeviceOptions& options);
 
 struct ReadyWorker {
-    WorkerClient client;
+    run::WorkerClient client;
     vk_harness::DeviceInfo device;
 };
 // Starts the first worker, which then gets its device ready while the parent does something else.
-OrStop<WorkerClient> start_first_worker(const LoopConfig& config);
+OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config);
 // Waits until it is ready. Errors: no or wrong device (5), interrupted (130).
-OrStop<ReadyWorker> await_first_worker(WorkerClient client, SignalFd& signals);
+OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, run::SignalFd& signals);
 
 // What a failed start looks like to the user.
 Stop explain_failure(const vk_harness::Failure& failure);
-Stop explain_death(const Death& death);
+Stop explain_death(const run::Death& death);
 
 }  // namespace cli

@@ -12,9 +12,9 @@
 
 #include "cases/load/color.hpp"
 #include "cases/model/derive.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/color/texel.hpp"
-#include "ref/number/sample.hpp"
 #include "report/record/run.hpp"
 #include "run/worker/backend.hpp"
 
@@ -44,7 +44,7 @@ struct Value {
     float value = 0;
 };
 
-std::vector<Value> values_at(const cases::Case& c, const diff::Capture& capture, size_t index) {
+std::vector<Value> values_at(const cases::Case& c, const capture::Capture& capture, size_t index) {
     static constexpr std::string_view kNames = "xyzw";
     std::vector<Value> out;
     const auto add = [&out](const std::string& name, const glm::vec4& v, uint32_t components) {
@@ -67,18 +67,18 @@ std::vector<Value> values_at(const cases::Case& c, const diff::Capture& capture,
     return out;
 }
 
-bool is_hit(const diff::Capture& capture, size_t index) {
+bool is_hit(const capture::Capture& capture, size_t index) {
     return capture.hits[index].x + capture.hits[index].y > 0;
 }
 
-std::string drawing_json(const cases::Case& c, const diff::Capture& capture,
+std::string drawing_json(const cases::Case& c, const capture::Capture& capture,
                          const std::string& renderer) {
     Json samples = Json::array();
     for (size_t index = 0; index < capture.sample_count(); ++index) {
         if (!is_hit(capture, index)) {
             continue;
         }
-        const ref::SampleId at = ref::sample_at(c.target, index);
+        const cases::SampleId at = cases::sample_at(c.target, index);
         Json values = Json::object();
         for (const Value& v : values_at(c, capture, index)) {
             values[v.name] = number(v.value);
@@ -105,8 +105,8 @@ std::string drawing_json(const cases::Case& c, const diff::Capture& capture,
                  {"samples", std::move(samples)}});
 }
 
-report::Image drawing_values(const cases::Case& c, const diff::Capture& capture) {
-    report::Image image{c.target.width, c.target.rows(), {}, {}};  // layers stacked
+capture::Image drawing_values(const cases::Case& c, const capture::Capture& capture) {
+    capture::Image image{c.target.width, c.target.rows(), {}, {}};  // layers stacked
     for (uint32_t s = 0; s < c.target.samples; ++s) {
         const std::string prefix = c.target.samples > 1 ? fmt::format("sample{}.", s) : "";
         for (const char* name : {"front", "back", "draw", "primitive"}) {
@@ -118,7 +118,7 @@ report::Image drawing_values(const cases::Case& c, const diff::Capture& capture)
     }
     for (size_t index = 0; index < capture.sample_count(); ++index) {
         const bool hit = is_hit(capture, index);
-        const diff::Writer& writer = capture.writers[index];
+        const capture::Writer& writer = capture.writers[index];
         image.pixels.push_back(capture.hits[index].x);
         image.pixels.push_back(capture.hits[index].y);
         image.pixels.push_back(hit ? static_cast<float>(writer.draw) : kNothing);
@@ -131,8 +131,8 @@ report::Image drawing_values(const cases::Case& c, const diff::Capture& capture)
 }
 
 // White where all samples of a pixel were hit, black where none was.
-report::Image drawing_picture(const cases::Case& c, const diff::Capture& capture) {
-    report::Image image{c.target.width, c.target.rows(), {"R", "G", "B"}, {}};
+capture::Image drawing_picture(const cases::Case& c, const capture::Capture& capture) {
+    capture::Image image{c.target.width, c.target.rows(), {"R", "G", "B"}, {}};
     for (size_t first = 0; first < capture.sample_count(); first += c.target.samples) {
         float sum = 0;
         for (uint32_t s = 0; s < c.target.samples; ++s) {
@@ -158,15 +158,16 @@ OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) 
     cases::Case whole = c;
     whole.target.has_instruments = true;
     whole.target.has_depth = true;
-    const ref::algorithms::Device* algorithm = ref::algorithms::find_device(renderer);
+    const rasterizers::Device* algorithm = rasterizers::find_device(renderer);
     if (algorithm != nullptr) {
-        if (const std::string reason = ref::algorithms::unsupported_reason(c); !reason.empty()) {
+        if (const std::string reason = rasterizers::unsupported_reason(c); !reason.empty()) {
             return tl::unexpected(
                 Stop{report::kExitUsage, {"'" + renderer + "' cannot draw the case: " + reason}});
         }
     }
-    const diff::Capture capture =
-        algorithm != nullptr ? draw_by_algorithm(whole, *algorithm) : draw_by_reference(whole);
+    const capture::Capture capture = algorithm != nullptr
+                                         ? rasterizers::draw_by_algorithm(whole, *algorithm)
+                                         : rasterizers::draw_by_reference(whole);
     return Drawing{drawing_json(c, capture, renderer), drawing_values(c, capture),
                    drawing_picture(c, capture)};
 }

@@ -16,8 +16,8 @@ namespace cli {
 // One picture in the three forms that "render" writes.
 struct Drawing {
     std::string json;
-    report::Image values;   // as many channels as there are values
-    report::Image picture;  // to look at: R, G, B in 0..1
+    capture::Image values;   // as many channels as there are values
+    capture::Image picture;  // to look at: R, G, B in 0..1
 };
 
 // What `renderer` draws of a case with draws: "reference", or an algorithm. Planes that the case

@@ -17,6 +17,9 @@
 #include <future>
 
 #include "cli/prepare/ci.hpp"
+#include "report/files/json.hpp"
+#include "report/files/junit.hpp"
+#include "report/page/html.hpp"
 #include "run/process/frame.hpp"
 #include "run/process/process.hpp"
 
@@ -38,13 +41,13 @@ cases::Error system_error(const std::string& file) {
 cases::Expected<void> write_text(const std::string& file, const std::string& text) {
     if (file == "-") {
         std::fflush(stdout);
-        if (!write_all(STDOUT_FILENO, text)) {
+        if (!run::write_all(STDOUT_FILENO, text)) {
             return tl::unexpected(system_error("standard output"));
         }
         return {};
     }
-    Fd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (!fd.is_open() || !write_all(fd.get(), text)) {
+    run::Fd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!fd.is_open() || !run::write_all(fd.get(), text)) {
         return tl::unexpected(system_error(file));
     }
     if (::close(fd.release()) != 0) {  // some file systems tell of a full disk only now

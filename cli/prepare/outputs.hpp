@@ -12,7 +12,7 @@
 #include "cases/base/error.hpp"
 #include "cli/options/options.hpp"
 #include "report/record/run.hpp"
-#include "report/text/reports.hpp"
+#include "report/text/console.hpp"
 
 namespace cli {
 

@@ -9,8 +9,9 @@
 #include <map>
 #include <set>
 
+#include "cases/base/checksum.hpp"
 #include "cases/model/selector.hpp"
-#include "cli/command_line.hpp"
+#include "cli/options/parse.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
@@ -33,11 +34,11 @@ std::string host_name() {
 // A fault that no case can show looks like a runner that does not see it.
 void warn_of_idle_faults(const std::vector<std::string>& ids) {
     const char* list = std::getenv("EDGECASE_FAULT");
-    const auto faults = parse_faults(list != nullptr ? list : "");
+    const auto faults = run::parse_faults(list != nullptr ? list : "");
     if (!faults) {
         return;  // the worker says so
     }
-    for (const Fault& fault : *faults) {
+    for (const run::Fault& fault : *faults) {
         if (fault.glob != "**" && std::none_of(ids.begin(), ids.end(), [&](const std::string& id) {
                 return cases::glob_matches(fault.glob, id);
             })) {
@@ -110,7 +111,7 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
                                             "the run cannot go on: its case '" + record.id +
                                                 "' is no longer in the suite; start a new run"));
         }
-        PlannedCase planned;
+        run::PlannedCase planned;
         planned.data = *found->second;
         planned.alone = cut_off.contains(record.id);
         p.plan.push_back(std::move(planned));
@@ -137,14 +138,14 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     header.seed = options.seed;
     std::error_code ignored;
     header.suite_root = fs::absolute(p.selection.root, ignored).lexically_normal().string();
-    header.suite_hash = hex(suite_hash(p.selection.root));
+    header.suite_hash = cases::hex(suite_hash(p.selection.root));
     header.shard = options.shard.index;
     header.shards = options.shard.count;
     header.jobs = options.jobs;
     for (cases::Case& c : p.selection.cases) {
-        header.cases.push_back(make_record(c));
+        header.cases.push_back(run::make_record(c));
         header.cases.back().rerun = rerun_line(program, options, c.id);
-        PlannedCase planned;
+        run::PlannedCase planned;
         planned.data = std::move(c);
         p.plan.push_back(std::move(planned));
     }
@@ -154,13 +155,13 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
 }
 
 OrStop<std::monostate> apply_expectations(Prepared& p) {
-    const OrStop<std::vector<ExpectationFile>> files =
+    const OrStop<std::vector<run::ExpectationFile>> files =
         find_expectations(p.options, p.selection.root, p.header.device);
     if (!files) {
         return tl::unexpected(files.error());
     }
     std::vector<std::string> ids = p.selection.suite_ids;
-    const auto expected = resolve_expectations(*files, ids, p.selection.whole_suite);
+    const auto expected = run::resolve_expectations(*files, ids, p.selection.whole_suite);
     if (!expected) {
         Stop stop{report::kExitInvalidFile, {}};
         for (const cases::Error& error : expected.error()) {
@@ -168,13 +169,13 @@ OrStop<std::monostate> apply_expectations(Prepared& p) {
         }
         return tl::unexpected(stop);
     }
-    for (PlannedCase& c : p.plan) {
+    for (run::PlannedCase& c : p.plan) {
         if (const auto found = expected->find(c.data.id); found != expected->end()) {
             c.expected = found->second;
         }
     }
     p.header.expectation_file.clear();
-    for (const ExpectationFile& file : *files) {
+    for (const run::ExpectationFile& file : *files) {
         p.header.expectation_file +=
             (p.header.expectation_file.empty() ? "" : ", ") + file.path.string();
     }

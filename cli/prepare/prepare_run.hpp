@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "cli/commands.hpp"
+#include "cli/options/program.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "report/record/run.hpp"
 #include "run/run_loop.hpp"
@@ -20,7 +20,7 @@ namespace cli {
 struct Prepared {
     RunOptions options;
     Selection selection;
-    std::vector<PlannedCase> plan;  // the cases still to be run
+    std::vector<run::PlannedCase> plan;  // the cases still to be run
     std::filesystem::path folder;
     report::Run header;
 };

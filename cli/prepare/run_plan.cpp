@@ -93,10 +93,10 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     return selection;
 }
 
-OrStop<std::vector<ExpectationFile>> find_expectations(const RunOptions& options,
-                                                       const fs::path& suite_root,
-                                                       const report::Device& device) {
-    std::vector<ExpectationFile> found;
+OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& options,
+                                                            const fs::path& suite_root,
+                                                            const report::Device& device) {
+    std::vector<run::ExpectationFile> found;
     if (options.no_expect) {
         return found;
     }
@@ -114,7 +114,7 @@ OrStop<std::vector<ExpectationFile>> find_expectations(const RunOptions& options
         std::sort(paths.begin(), paths.end());
     }
     for (const fs::path& path : paths) {
-        cases::ExpectedAll<ExpectationFile> file = load_expectations(path);
+        cases::ExpectedAll<run::ExpectationFile> file = run::load_expectations(path);
         if (!file) {
             Stop stop{report::kExitInvalidFile, {}};
             for (const cases::Error& error : file.error()) {

@@ -35,9 +35,9 @@ struct Selection {
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
 
 // The expectation files of --expect, or those beside the suite that fit the device.
-OrStop<std::vector<ExpectationFile>> find_expectations(const RunOptions& options,
-                                                       const std::filesystem::path& suite_root,
-                                                       const report::Device& device);
+OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& options,
+                                                            const std::filesystem::path& suite_root,
+                                                            const report::Device& device);
 
 // The words of a command on one case that repeat how this run was set up, quoted for a shell.
 std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id);

@@ -81,13 +81,6 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
 
 }  // namespace
 
-int report_stop(const Stop& stop) {
-    for (const std::string& line : stop.lines) {
-        std::fprintf(stderr, "edgecase: %s\n", line.c_str());
-    }
-    return stop.exit_code;
-}
-
 OrStop<fs::path> find_suite_root(const Program& program, const std::string& option) {
     if (!option.empty()) {
         if (is_folder(option)) {

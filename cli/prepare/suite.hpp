@@ -6,30 +6,15 @@
 
 #include <filesystem>
 #include <string>
-#include <tl/expected.hpp>
 #include <vector>
 
 #include "cases/load/loader.hpp"
 #include "cases/model/case.hpp"
 #include "cli/options/options.hpp"
 #include "cli/options/program.hpp"
+#include "cli/options/stop.hpp"
 
 namespace cli {
-
-// Why a command cannot go on: lines for stderr and its exit code.
-struct Stop {
-    int exit_code = 0;
-    std::vector<std::string> lines;
-};
-template <class T>
-using OrStop = tl::expected<T, Stop>;
-
-inline Stop stop_with(int exit_code, const std::string& line) {
-    return {exit_code, {line}};
-}
-
-// Prints the lines, each after "edgecase: ", and returns the exit code.
-int report_stop(const Stop& stop);
 
 // --suite, else EDGECASE_SUITE, else "cases/suite" in a folder above the program, else the source
 // tree that the program was built from.

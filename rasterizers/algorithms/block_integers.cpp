@@ -7,21 +7,21 @@
 
 #include "rasterizers/algorithms/edge.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 namespace {
 
-int bit_length(Int128 v) {
+int bit_length(ref::Int128 v) {
     int bits = 0;
-    for (Int128 rest = v < 0 ? -v : v; rest != 0; rest >>= 1) {
+    for (ref::Int128 rest = v < 0 ? -v : v; rest != 0; rest >>= 1) {
         ++bits;
     }
     return bits;
 }
 
 // v / 2^shift to nearest, ties upwards. An arithmetic shift rounds down.
-Int128 shift_to_nearest(Int128 v, int shift) {
-    return shift == 0 ? v : (v + (Int128{1} << (shift - 1))) >> shift;
+ref::Int128 shift_to_nearest(ref::Int128 v, int shift) {
+    return shift == 0 ? v : (v + (ref::Int128{1} << (shift - 1))) >> shift;
 }
 
 }  // namespace
@@ -74,15 +74,15 @@ std::array<float, 3> block_w_products(const std::array<float, 3>& w, int n) {
 
 NineTerms nine_terms(const Corners& t, const Point& first_sample, const Block& products, int bits) {
     NineTerms out;
-    Int128 largest = 0;
+    ref::Int128 largest = 0;
     for (size_t k = 0; k < 3; ++k) {
         const Point& a = t[(k + 1) % 3];
         const Point& b = t[(k + 2) % 3];
         // alpha and beta of a step of one pixel, and the area at the first sample instead of gamma.
-        out.step_x[k] = Int128{products.q[k]} * ((a.y - b.y) * kPixel);
-        out.step_y[k] = Int128{products.q[k]} * ((b.x - a.x) * kPixel);
-        out.first[k] = Int128{products.q[k]} * edge_function(a, b, first_sample);
-        for (const Int128 v : {out.step_x[k], out.step_y[k], out.first[k]}) {
+        out.step_x[k] = ref::Int128{products.q[k]} * ((a.y - b.y) * kPixel);
+        out.step_y[k] = ref::Int128{products.q[k]} * ((b.x - a.x) * kPixel);
+        out.first[k] = ref::Int128{products.q[k]} * edge_function(a, b, first_sample);
+        for (const ref::Int128 v : {out.step_x[k], out.step_y[k], out.first[k]}) {
             largest = std::max(largest, v < 0 ? -v : v);
         }
     }
@@ -91,31 +91,31 @@ NineTerms nine_terms(const Corners& t, const Point& first_sample, const Block& p
     }
     out.shift = std::max(0, bit_length(largest) - bits);
     for (auto* terms : {&out.step_x, &out.step_y, &out.first}) {
-        for (Int128& v : *terms) {
+        for (ref::Int128& v : *terms) {
             v = shift_to_nearest(v, out.shift);
         }
     }
     return out;
 }
 
-std::array<Int128, 3> at_pixel(const NineTerms& terms, int64_t k, int64_t l) {
-    std::array<Int128, 3> out{};
+std::array<ref::Int128, 3> at_pixel(const NineTerms& terms, int64_t k, int64_t l) {
+    std::array<ref::Int128, 3> out{};
     for (size_t i = 0; i < 3; ++i) {
         out[i] = terms.first[i] + k * terms.step_x[i] + l * terms.step_y[i];
     }
     return out;
 }
 
-std::array<int64_t, 3> quantised_barycentrics(const std::array<Int128, 3>& numerators, int n) {
-    const Int128 sum = numerators[0] + numerators[1] + numerators[2];
+std::array<int64_t, 3> quantised_barycentrics(const std::array<ref::Int128, 3>& numerators, int n) {
+    const ref::Int128 sum = numerators[0] + numerators[1] + numerators[2];
     std::array<int64_t, 3> out{};
     for (size_t i = 0; i < 3; ++i) {
         // Floor of (2 N 2^n + sum) / (2 sum).
-        const Int128 a = (numerators[i] << (n + 1)) + sum;
-        const Int128 b = 2 * sum;
+        const ref::Int128 a = (numerators[i] << (n + 1)) + sum;
+        const ref::Int128 b = 2 * sum;
         out[i] = static_cast<int64_t>(a / b - (a % b < 0 ? 1 : 0));
     }
     return out;
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

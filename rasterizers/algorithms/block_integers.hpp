@@ -28,7 +28,7 @@
 #include "rasterizers/algorithms/raster.hpp"
 #include "ref/number/edge_function.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 inline constexpr int kMaxBlockBits = 31;
 
@@ -52,8 +52,8 @@ std::array<float, 3> block_w_products(const std::array<float, 3>& w, int n);
 // and an area of 61 needs 92 bits; with m bits a term needs m and its multiples m + 15 on the
 // largest target.
 struct NineTerms {
-    std::array<Int128, 3> step_x{}, step_y{}, first{};  // in units of 2^shift
-    int shift = 0;                                      // r
+    std::array<ref::Int128, 3> step_x{}, step_y{}, first{};  // in units of 2^shift
+    int shift = 0;                                           // r
 };
 static_assert(kMaxBlockBits + 61 < 127);
 
@@ -63,9 +63,9 @@ NineTerms nine_terms(const Corners& clockwise, const Point& first_sample, const 
 
 // N^_i, k pixels right of and l below the first, by l + k additions. In a device each step is one
 // addition; here the same integer is had by a product.
-std::array<Int128, 3> at_pixel(const NineTerms& terms, int64_t k, int64_t l);
+std::array<ref::Int128, 3> at_pixel(const NineTerms& terms, int64_t k, int64_t l);
 
 // Equation 5 rounded to integers of n bits: b'_i 2^n. `numerators` must have a positive sum.
-std::array<int64_t, 3> quantised_barycentrics(const std::array<Int128, 3>& numerators, int n);
+std::array<int64_t, 3> quantised_barycentrics(const std::array<ref::Int128, 3>& numerators, int n);
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

@@ -8,7 +8,7 @@
 
 #include "rasterizers/algorithms/raster.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 template <class T>
 struct Gradient {
@@ -38,4 +38,4 @@ Gradient<T> brown_gradient(const Corners& t, const std::array<T, 3>& q,
     return out;
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

@@ -8,17 +8,17 @@
 
 #include "rasterizers/algorithms/block_integers.hpp"
 #include "rasterizers/algorithms/edge.hpp"
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/position/position.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 namespace {
 
-constexpr Limits kLimits{kSubpixelBits};
-constexpr int64_t kFixedPerUnit = kFixedOne / kPixel;
+constexpr ref::Limits kLimits{kSubpixelBits};
+constexpr int64_t kFixedPerUnit = ref::kFixedOne / kPixel;
 
-Point to_point(const FixedPoint& p) {
+Point to_point(const ref::FixedPoint& p) {
     return {p.x / kFixedPerUnit, p.y / kFixedPerUnit};  // exact: a multiple of the grid
 }
 
@@ -49,7 +49,7 @@ PixelRect pixels_of(const cases::Draw& d, const cases::Target& target, const Poi
 // Everything of a triangle that its fragments need.
 class Shader {
   public:
-    Shader(const cases::Draw& draw, const Triangle& triangle, const Corners& corners,
+    Shader(const cases::Draw& draw, const cases::Triangle& triangle, const Corners& corners,
            const Device& device)
         : draw_(draw), triangle_(triangle), corners_(corners), device_(device) {
         std::array<float, 3> w{};
@@ -64,7 +64,7 @@ class Shader {
     }
 
     // Values at the pixel's centre (Direct3D 11), depth at the sample.
-    void shade(uint32_t i, uint32_t j, const Point& sample, FragmentValues& out) const {
+    void shade(uint32_t i, uint32_t j, const Point& sample, ref::FragmentValues& out) const {
         const Areas areas = areas_at(corners_, sample_of(i, j, {kPixel / 2, kPixel / 2}));
         const float inv_w = device_.linear(areas, inv_w_);
         const float z = device_.linear(areas, z_);
@@ -102,7 +102,7 @@ class Shader {
     }
 
     const cases::Draw& draw_;
-    const Triangle& triangle_;
+    const cases::Triangle& triangle_;
     const Corners& corners_;
     const Device& device_;
     Values inv_w_{}, z_{};
@@ -171,15 +171,15 @@ std::string unsupported_reason(const cases::Case& c) {
             return "the algorithms interpolate plain vertex attributes only";
         }
     }
-    for (const Triangle& t : assemble(c)) {
+    for (const cases::Triangle& t : assemble(c)) {
         const cases::Draw& d = c.draws[t.draw];
         for (const uint32_t v : t.vertex) {
             const glm::vec4& p = d.positions[v];
-            if (!is_projectable(p) || std::fabs(p.w) < 0x1p-126F || p.z < 0 || p.z > p.w) {
+            if (!ref::is_projectable(p) || std::fabs(p.w) < 0x1p-126F || p.z < 0 || p.z > p.w) {
                 return "the algorithms do not clip: a vertex lies before the near or behind the "
                        "far plane";
             }
-            const std::optional<FixedPoint> at = snap_nearest(p, d.viewport, kLimits);
+            const std::optional<ref::FixedPoint> at = ref::snap_nearest(p, d.viewport, kLimits);
             if (!at || std::abs(at->x / kFixedPerUnit) > kMaxCoordinate ||
                 std::abs(at->y / kFixedPerUnit) > kMaxCoordinate) {
                 return "the algorithms do not clip: a vertex lies beyond their guard band of 2^21 "
@@ -192,11 +192,12 @@ std::string unsupported_reason(const cases::Case& c) {
 
 std::vector<DrawnSample> draw(const cases::Case& c, const Device& device) {
     std::vector<DrawnSample> out(size_t{c.target.width} * c.target.height * c.target.samples);
-    for (const Triangle& t : assemble(c)) {
+    for (const cases::Triangle& t : assemble(c)) {
         const cases::Draw& d = c.draws[t.draw];
         Corners corners;
         for (size_t k = 0; k < 3; ++k) {
-            corners[k] = to_point(*snap_nearest(d.positions[t.vertex[k]], d.viewport, kLimits));
+            corners[k] =
+                to_point(*ref::snap_nearest(d.positions[t.vertex[k]], d.viewport, kLimits));
         }
         const Side side = side_of(d, corners);
         if (side == Side::none) {
@@ -207,7 +208,7 @@ std::vector<DrawnSample> draw(const cases::Case& c, const Device& device) {
             if (!is_in_mask(d.multisample, s)) {
                 continue;
             }
-            const Point offset = to_point(sample_position(0, 0, s, c.target));
+            const Point offset = to_point(ref::sample_position(0, 0, s, c.target));
             Picture picture;
             device.scan(corners, pixels_of(d, c.target, offset), offset, picture);
             for (const Span& span : picture.spans) {
@@ -226,4 +227,4 @@ std::vector<DrawnSample> draw(const cases::Case& c, const Device& device) {
     return out;
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

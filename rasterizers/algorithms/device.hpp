@@ -16,7 +16,7 @@
 #include "rasterizers/algorithms/raster.hpp"
 #include "ref/value/value.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 struct Device {
     std::string_view name;
@@ -36,12 +36,12 @@ std::string unsupported_reason(const cases::Case& c);
 
 struct DrawnSample {
     uint32_t front = 0, back = 0;  // hits
-    Triangle last;                 // the triangle that wrote last, if there were hits
-    FragmentValues values;
+    cases::Triangle last;          // the triangle that wrote last, if there were hits
+    ref::FragmentValues values;
 };
 
 // Samples as in a capture, [(j * width + i) * samples + s]. Only for cases without an
 // unsupported_reason().
 std::vector<DrawnSample> draw(const cases::Case& c, const Device& device);
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

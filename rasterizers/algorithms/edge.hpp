@@ -10,7 +10,7 @@
 
 #include "rasterizers/algorithms/raster.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 // E_ab(p) = (b-a) x (p-a): positive to the right of a->b on screen (Giesen, with y down). |E| <
 // 2^61.
@@ -103,4 +103,4 @@ class RowWriter {
     Picture& out_;
 };
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

@@ -4,7 +4,7 @@
 
 #include "rasterizers/algorithms/edge.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 namespace {
 
@@ -50,4 +50,4 @@ bool covers_in_float(const Corners& t, const Point& p) {
     return true;
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

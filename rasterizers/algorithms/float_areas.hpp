@@ -14,7 +14,7 @@
 #include "rasterizers/algorithms/interpolation.hpp"
 #include "rasterizers/algorithms/raster.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 inline constexpr int64_t kMaxFloatCoordinate = int64_t{1} << (15 + kSubpixelBits);
 static_assert(kMaxFloatCoordinate <= int64_t{1} << 23, "differences fit 24 bits");
@@ -37,4 +37,4 @@ float two_multiplies(const FloatAreas& areas, const Values& z);
 // Coverage of a clockwise triangle from the signs of the computed areas, ties by the top-left rule.
 bool covers_in_float(const Corners& clockwise, const Point& p);
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

@@ -7,7 +7,7 @@
 
 #include "rasterizers/algorithms/edge.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 namespace {
 
@@ -79,4 +79,4 @@ float brown(const Areas& areas, const std::array<float, 3>& q, const Values& val
     return a[0] / sum * values[0] + a[1] / sum * values[1] + a[2] / sum * values[2];
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

@@ -13,7 +13,7 @@
 
 #include "rasterizers/algorithms/raster.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 // Signed doubled areas of P with the edges opposite the vertices; they add up to `whole`, which is
 // positive. S15.16 square pixels, |.| < 2^61.
@@ -58,4 +58,4 @@ std::array<float, 3> w_products(const std::array<float, 3>& w);
 //   |error| <= g(12) sum |b'_i u_i|     inside the triangle.
 float brown(const Areas& areas, const std::array<float, 3>& q, const Values& values);
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

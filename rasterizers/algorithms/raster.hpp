@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 inline constexpr int kSubpixelBits = 8;
 inline constexpr int64_t kPixel = int64_t{1} << kSubpixelBits;
@@ -101,4 +101,4 @@ struct NamedScan {
 };
 std::span<const NamedScan> all_scans();
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

@@ -4,7 +4,7 @@
 // The scans that evaluate edge functions pixel by pixel.
 #include "rasterizers/algorithms/edge.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 void scan_incremental(const Corners& triangle, const PixelRect& rect, const Point& offset,
                       Picture& out) {
@@ -196,4 +196,4 @@ std::span<const NamedScan> all_scans() {
     return kScans;
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

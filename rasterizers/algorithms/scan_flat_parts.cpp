@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rasterizers/algorithms/edge.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 namespace {
 
@@ -101,4 +101,4 @@ void scan_flat_parts(const Corners& triangle, const PixelRect& rect, const Point
     part(middle, bottom);  // flat top
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rasterizers/algorithms/edge.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 namespace {
 
@@ -106,4 +106,4 @@ void scan_tiles(const Corners& triangle, const PixelRect& rect, const Point& off
     }
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers

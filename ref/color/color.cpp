@@ -93,7 +93,7 @@ std::vector<ColorReference::Sequence> ColorReference::allowed(
     return out;
 }
 
-const color::Source& ColorReference::source_of(uint32_t triangle, SampleId id) {
+const color::Source& ColorReference::source_of(uint32_t triangle, cases::SampleId id) {
     const uint32_t draw = expectation_.triangles[triangle].draw;
     const int32_t attribute = case_.draws[draw].color.attribute;
     if (attribute < 0) {
@@ -125,7 +125,8 @@ bool ColorReference::replaces(uint32_t triangle, bool masked) const {
     return !output.blend && (!masked || output.write_mask == 0xf);
 }
 
-color::Source ColorReference::source_of(uint32_t triangle, SampleId id, const glm::vec4* written) {
+color::Source ColorReference::source_of(uint32_t triangle, cases::SampleId id,
+                                        const glm::vec4* written) {
     const bool is_captured = written != nullptr && output_of(triangle).attribute >= 0 &&
                              !glm::any(glm::isnan(*written)) && !glm::any(glm::isinf(*written));
     return is_captured ? point_source(*written) : source_of(triangle, id);
@@ -138,7 +139,7 @@ bool ColorReference::is_flat(uint32_t triangle) const {
                                 cases::Interpolation::flat;
 }
 
-color::ColorMemory::Node& ColorReference::left_by(const Sequence& sequence, SampleId id,
+color::ColorMemory::Node& ColorReference::left_by(const Sequence& sequence, cases::SampleId id,
                                                   const glm::vec4* last, bool masked) {
     // Nothing is left of what a fragment replaces.
     size_t first = sequence.size();
@@ -173,7 +174,7 @@ color::ColorMemory::Node& ColorReference::left_by(const Sequence& sequence, Samp
     return *node;
 }
 
-std::optional<bool> ColorReference::may_write(uint32_t triangle, SampleId id,
+std::optional<bool> ColorReference::may_write(uint32_t triangle, cases::SampleId id,
                                               const glm::vec4* written,
                                               const std::array<uint32_t, 4>& codes) {
     const color::Source source = source_of(triangle, id, written);
@@ -193,7 +194,7 @@ std::optional<bool> ColorReference::may_write(uint32_t triangle, SampleId id,
     return is_known ? std::optional(true) : std::nullopt;
 }
 
-bool ColorReference::leaves(const Sequence& sequence, SampleId id, const glm::vec4* last,
+bool ColorReference::leaves(const Sequence& sequence, cases::SampleId id, const glm::vec4* last,
                             const std::array<uint32_t, 4>& codes) {
     if (!sequence.empty() && replaces(sequence.back(), true)) {
         if (const std::optional<bool> may = may_write(sequence.back(), id, last, codes)) {
@@ -222,12 +223,13 @@ std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmaske
                                : store_rule(cases::component_of(unit_.format, 0).kind));
 }
 
-bool ColorReference::explains(size_t index, SampleId id, const std::array<uint32_t, 4>& codes,
+bool ColorReference::explains(size_t index, cases::SampleId id,
+                              const std::array<uint32_t, 4>& codes,
                               const std::optional<ColorWitness>& witness) {
     return explains(allowed(index, witness), id, codes, witness);
 }
 
-bool ColorReference::explains(const std::vector<Sequence>& sets, SampleId id,
+bool ColorReference::explains(const std::vector<Sequence>& sets, cases::SampleId id,
                               const std::array<uint32_t, 4>& codes,
                               const std::optional<ColorWitness>& witness) {
     const glm::vec4* last = witness ? witness->written : nullptr;
@@ -249,7 +251,8 @@ bool ColorReference::is_as_before(const Accepted& accepted, size_t index,
            std::equal(hits.begin(), hits.end(), accepted.hits.begin(), accepted.hits.end());
 }
 
-ColorVerdict ColorReference::judge(size_t index, SampleId id, const std::array<uint32_t, 4>& codes,
+ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
+                                   const std::array<uint32_t, 4>& codes,
                                    const std::optional<ColorWitness>& witness) {
     ColorVerdict verdict;
     Accepted& accepted = accepted_[hits_at(index).empty() ? 0 : 1];
@@ -329,7 +332,7 @@ ColorVerdict ColorReference::judge(size_t index, SampleId id, const std::array<u
     return verdict;
 }
 
-std::array<uint32_t, 4> ColorReference::codes(size_t index, SampleId id,
+std::array<uint32_t, 4> ColorReference::codes(size_t index, cases::SampleId id,
                                               const std::optional<ColorWitness>& witness) {
     const std::vector<Sequence> sets = allowed(index, witness);
     const glm::vec4* last = witness ? witness->written : nullptr;
@@ -338,7 +341,7 @@ std::array<uint32_t, 4> ColorReference::codes(size_t index, SampleId id,
 
 // Equal z and w = 1 at all vertices, in a viewport of depths 0 to 1: the depth is z itself.
 bool ColorReference::is_constant_depth(uint32_t triangle, float depth) const {
-    const Triangle& t = expectation_.triangles[triangle];
+    const cases::Triangle& t = expectation_.triangles[triangle];
     const cases::Draw& draw = case_.draws[t.draw];
     const auto same = [](float a, float b) {
         return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
@@ -350,7 +353,7 @@ bool ColorReference::is_constant_depth(uint32_t triangle, float depth) const {
            });
 }
 
-bool ColorReference::explains_depth(size_t index, SampleId id, float depth, float clear) {
+bool ColorReference::explains_depth(size_t index, cases::SampleId id, float depth, float clear) {
     // Only the plain write is judged here; depth tests, bias and clamping need the instruments.
     const bool is_plain = std::all_of(case_.draws.begin(), case_.draws.end(),
                                       [](const auto& d) { return d.depth == cases::DepthState{}; });

@@ -52,19 +52,19 @@ class ColorReference {
     ColorReference(const cases::Case& c, const Expectation& expectation);
 
     // `index`: of the sample. `witness`: nothing if the target has no instruments.
-    ColorVerdict judge(size_t index, SampleId id, const std::array<uint32_t, 4>& codes,
+    ColorVerdict judge(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
                        const std::optional<ColorWitness>& witness);
     // As judge, the kinds ok and open alone: is there an allowed set of fragments that explains it?
-    bool explains(size_t index, SampleId id, const std::array<uint32_t, 4>& codes,
+    bool explains(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
                   const std::optional<ColorWitness>& witness);
     // Codes that are allowed: of the first allowed set of fragments; of the clear colour if there
     // is none.
-    std::array<uint32_t, 4> codes(size_t index, SampleId id,
+    std::array<uint32_t, 4> codes(size_t index, cases::SampleId id,
                                   const std::optional<ColorWitness>& witness);
     // Whether depth may be what the last of an allowed set of fragments left, for targets without
     // instruments; `clear`: what it holds where nothing was drawn. Only for D32 and draws that
     // write depth without a test, bias or clamp; true otherwise.
-    bool explains_depth(size_t index, SampleId id, float depth, float clear);
+    bool explains_depth(size_t index, cases::SampleId id, float depth, float clear);
 
     // More open fragments at a sample than this are not tried out.
     static constexpr size_t kMaxOpen = 10;
@@ -75,29 +75,29 @@ class ColorReference {
     using Sequence = std::vector<uint32_t>;  // triangles in drawing order
     std::span<const PossibleHit> hits_at(size_t index) const;
     std::vector<Sequence> allowed(size_t index, const std::optional<ColorWitness>& witness) const;
-    bool explains(const std::vector<Sequence>& sets, SampleId id,
+    bool explains(const std::vector<Sequence>& sets, cases::SampleId id,
                   const std::array<uint32_t, 4>& codes, const std::optional<ColorWitness>& witness);
     const cases::ColorOutput& output_of(uint32_t triangle) const;
     // Whether the fragment writes all components, whatever was there.
     bool replaces(uint32_t triangle, bool masked) const;
-    const color::Source& source_of(uint32_t triangle, SampleId id);
+    const color::Source& source_of(uint32_t triangle, cases::SampleId id);
     // What the fragment wrote; `written`, if that was captured.
-    color::Source source_of(uint32_t triangle, SampleId id, const glm::vec4* written);
+    color::Source source_of(uint32_t triangle, cases::SampleId id, const glm::vec4* written);
     // Whether what it writes is one colour, or one for every triangle.
     bool is_flat(uint32_t triangle) const;
     // What the fragments leave, until the next call; `masked` false: with every write mask full.
-    color::ColorMemory::Node& left_by(const Sequence& sequence, SampleId id, const glm::vec4* last,
-                                      bool masked = true);
-    const color::Color& color_of(const Sequence& sequence, SampleId id, const glm::vec4* last,
-                                 bool masked = true) {
+    color::ColorMemory::Node& left_by(const Sequence& sequence, cases::SampleId id,
+                                      const glm::vec4* last, bool masked = true);
+    const color::Color& color_of(const Sequence& sequence, cases::SampleId id,
+                                 const glm::vec4* last, bool masked = true) {
         return left_by(sequence, id, last, masked).color;
     }
     // Whether the fragments may leave the codes.
-    bool leaves(const Sequence& sequence, SampleId id, const glm::vec4* last,
+    bool leaves(const Sequence& sequence, cases::SampleId id, const glm::vec4* last,
                 const std::array<uint32_t, 4>& codes);
     // The same where the last fragment replaces what was there, in binary64; nothing where only
     // rationals tell.
-    std::optional<bool> may_write(uint32_t triangle, SampleId id, const glm::vec4* written,
+    std::optional<bool> may_write(uint32_t triangle, cases::SampleId id, const glm::vec4* written,
                                   const std::array<uint32_t, 4>& codes);
     // Which rule is broken by a wrong colour; `is_as_unmasked`: it is right but for a write mask.
     std::string rule_of(const Sequence& sequence, bool is_as_unmasked) const;
@@ -110,7 +110,7 @@ class ColorReference {
     ValueReference values_;
     std::vector<color::Source> constants_;       // by draw, of those with a constant colour
     std::map<uint32_t, color::Source> sources_;  // by triangle, of the sample at hand
-    SampleId at_;
+    cases::SampleId at_;
     color::ColorMemory memory_;        // of fragments that are_flat
     color::ColorMemory::Node beyond_;  // what it does not remember: computed last
 

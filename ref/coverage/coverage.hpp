@@ -18,9 +18,9 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/triangle.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
-#include "ref/position/triangle.hpp"
 
 namespace ref {
 

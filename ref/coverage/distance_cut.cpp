@@ -28,7 +28,6 @@
 #include <cmath>
 
 #include "ref/number/plane_budget.hpp"
-#include "ref/value/value.hpp"
 
 namespace ref {
 

@@ -59,7 +59,7 @@ void axis_window(float origin, float extent, cases::Profile profile, Range& zone
 
 struct Source {
     const cases::Draw& draw;
-    const Triangle& triangle;
+    const cases::Triangle& triangle;
     const Limits& limits;
     cases::Profile profile;
     VertexBoxes& boxes;
@@ -228,7 +228,7 @@ void apply_facing(TriangleSetup& t, const AreaSigns& signs, const cases::Draw& d
 }
 
 // "discarded if ... negative for all of the vertices".
-bool is_culled_by_distance(const cases::Draw& draw, const Triangle& triangle) {
+bool is_culled_by_distance(const cases::Draw& draw, const cases::Triangle& triangle) {
     for (uint32_t k = 0; k < draw.distances.cull_count; ++k) {
         if (std::all_of(triangle.vertex.begin(), triangle.vertex.end(), [&](uint32_t v) {
                 return draw.distances.cull[v][static_cast<glm::vec4::length_type>(k)] < 0;
@@ -281,7 +281,7 @@ Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile p
     return w;
 }
 
-TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limits& limits,
+TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, const Limits& limits,
                      cases::Profile profile, VertexBoxes& boxes, const Window& window) {
     const cases::Draw& draw = c.draws[triangle.draw];
     TriangleSetup t;

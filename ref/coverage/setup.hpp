@@ -18,13 +18,13 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
 #include "ref/number/edge_function.hpp"
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
-#include "ref/position/triangle.hpp"
 
 namespace ref {
 
@@ -179,7 +179,7 @@ class VertexBoxes {
 // The window of a draw.
 Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile profile);
 
-TriangleSetup set_up(const cases::Case& c, const Triangle& triangle, const Limits& limits,
+TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, const Limits& limits,
                      cases::Profile profile, VertexBoxes& boxes, const Window& window);
 
 // A position in the middle of a box, on no grid.

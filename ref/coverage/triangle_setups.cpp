@@ -18,7 +18,7 @@ bool has_sample(int64_t low, int64_t high, int64_t offset) {
 
 }  // namespace
 
-TriangleSetups::TriangleSetups(const cases::Case& c, const std::vector<Triangle>& triangles,
+TriangleSetups::TriangleSetups(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
                                const Limits& limits, cases::Profile profile)
     : case_(c),
       triangles_(triangles),
@@ -36,7 +36,7 @@ TriangleSetups::TriangleSetups(const cases::Case& c, const std::vector<Triangle>
 
 const TriangleSetup& TriangleSetups::operator[](uint32_t t) {
     if (slot_[t] == kUnknown || slot_[t] == kForgotten) {
-        const Triangle& triangle = triangles_[t];
+        const cases::Triangle& triangle = triangles_[t];
         kept_.push_back(
             set_up(case_, triangle, limits_, profile_, boxes_, windows_[triangle.draw]));
         if (slot_[t] == kUnknown) {
@@ -54,7 +54,7 @@ void TriangleSetups::forget_last(uint32_t t) {
 }
 
 bool TriangleSetups::may_touch_a_sample(uint32_t t) {
-    const Triangle& triangle = triangles_[t];
+    const cases::Triangle& triangle = triangles_[t];
     const cases::Draw& draw = case_.draws[triangle.draw];
     if (draw.distances.clip_count > 0) {
         return true;  // what clip distances cut off is snapped anew

@@ -11,16 +11,16 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/triangle.hpp"
 #include "ref/coverage/setup.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/position/triangle.hpp"
 
 namespace ref {
 
 class TriangleSetups {
   public:
     // Keeps references to the case and its assembled triangles.
-    TriangleSetups(const cases::Case& c, const std::vector<Triangle>& triangles,
+    TriangleSetups(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
                    const Limits& limits, cases::Profile profile);
 
     // The set-up of triangle t, made when first asked for; valid as long as this object, or until
@@ -43,7 +43,7 @@ class TriangleSetups {
     static constexpr uint32_t kUnknown = 0, kForgotten = 0xffffffffU;
 
     const cases::Case& case_;
-    const std::vector<Triangle>& triangles_;
+    const std::vector<cases::Triangle>& triangles_;
     Limits limits_;
     cases::Profile profile_;
     VertexBoxes boxes_;

@@ -71,7 +71,7 @@ struct DepthTest::Impl {
     };
 
     const cases::Case& c;
-    const std::vector<Triangle>& triangles;
+    const std::vector<cases::Triangle>& triangles;
     Limits limits;
     cases::Profile profile;
     bool exact_only;
@@ -83,7 +83,7 @@ struct DepthTest::Impl {
     FixedPoint at;       // the sample whose spans are kept
     uint64_t stamp = 1;  // counts samples
 
-    Impl(const cases::Case& the_case, const std::vector<Triangle>& the_triangles,
+    Impl(const cases::Case& the_case, const std::vector<cases::Triangle>& the_triangles,
          const Limits& the_limits, cases::Profile the_profile, bool exact)
         : c(the_case),
           triangles(the_triangles),
@@ -175,8 +175,8 @@ struct DepthTest::Impl {
 
     // Of triangle `next`, drawn after `first`.
     Relation relation(uint32_t first, uint32_t next) {
-        const Triangle& a = triangles[first];
-        const Triangle& b = triangles[next];
+        const cases::Triangle& a = triangles[first];
+        const cases::Triangle& b = triangles[next];
         const cases::Draw& da = c.draws[a.draw];
         const cases::Draw& db = c.draws[b.draw];
         for (size_t k = 0; k < 3; ++k) {
@@ -292,7 +292,7 @@ struct DepthTest::Impl {
     }
 };
 
-DepthTest::DepthTest(const cases::Case& c, const std::vector<Triangle>& triangles,
+DepthTest::DepthTest(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
                      const Limits& limits, cases::Profile profile, bool exact_only)
     : impl_(std::make_unique<Impl>(c, triangles, limits, profile, exact_only)) {}
 DepthTest::~DepthTest() = default;

@@ -29,9 +29,9 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
-#include "ref/number/sample.hpp"
+#include "cases/model/triangle.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/position/triangle.hpp"
 
 namespace ref {
 
@@ -60,8 +60,8 @@ struct DepthResolution {
 class DepthTest {
   public:
     // `exact_only`: rationals alone, for the oracle.
-    DepthTest(const cases::Case& c, const std::vector<Triangle>& triangles, const Limits& limits,
-              cases::Profile profile, bool exact_only);
+    DepthTest(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
+              const Limits& limits, cases::Profile profile, bool exact_only);
     ~DepthTest();
     DepthTest(DepthTest&&) noexcept;
 

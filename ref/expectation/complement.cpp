@@ -56,7 +56,7 @@ bool are_complementary(const cases::Draw& a, const cases::Draw& b) {
            same_bits(da.clip, db.clip, true);
 }
 
-bool is_cut(const cases::Draw& draw, const Triangle& t) {
+bool is_cut(const cases::Draw& draw, const cases::Triangle& t) {
     for (uint32_t k = 0; k < draw.distances.clip_count; ++k) {
         bool has_negative = false;
         bool has_positive = false;
@@ -75,7 +75,7 @@ bool is_cut(const cases::Draw& draw, const Triangle& t) {
 }  // namespace
 
 std::vector<Complement> complements_of(const cases::Case& c,
-                                       const std::vector<Triangle>& triangles) {
+                                       const std::vector<cases::Triangle>& triangles) {
     // Triangles of a draw stand together.
     std::vector<uint32_t> first(c.draws.size() + 1, static_cast<uint32_t>(triangles.size()));
     for (uint32_t t = static_cast<uint32_t>(triangles.size()); t-- > 0;) {

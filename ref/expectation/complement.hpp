@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
-#include "ref/position/triangle.hpp"
+#include "cases/model/triangle.hpp"
 
 namespace ref {
 
@@ -29,6 +29,6 @@ struct Complement {
 // For each triangle; empty if no two draws of the case are complementary. Only triangles that a
 // plane cuts have a partner: one of its distances is negative at a vertex and positive at another.
 std::vector<Complement> complements_of(const cases::Case& c,
-                                       const std::vector<Triangle>& triangles);
+                                       const std::vector<cases::Triangle>& triangles);
 
 }  // namespace ref

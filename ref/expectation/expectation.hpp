@@ -11,9 +11,9 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/position/triangle.hpp"
 
 namespace ref {
 
@@ -53,7 +53,7 @@ struct Expectation {
     Limits limits;
     cases::Profile profile = cases::Profile::direct3d;
     cases::Target target;
-    std::vector<Triangle> triangles;         // drawing order
+    std::vector<cases::Triangle> triangles;  // drawing order
     std::vector<SampleExpectation> samples;  // by index_of, sample.hpp
     std::vector<uint32_t> writers;
     std::vector<uint32_t> depth_writers;

@@ -15,7 +15,7 @@ namespace {
 
 // The triangle alone, seen through a scissor of one pixel: what the reference then says of that
 // pixel is the class of this triangle.
-cases::Case alone(const cases::Case& c, const Triangle& t, SampleId sample) {
+cases::Case alone(const cases::Case& c, const cases::Triangle& t, cases::SampleId sample) {
     const cases::Draw& draw = c.draws[t.draw];
     cases::Draw single;
     single.positions = {draw.positions[t.vertex[0]], draw.positions[t.vertex[1]],
@@ -107,7 +107,7 @@ void explain_distances(const cases::Case& single, const Limits& limits, cases::P
 }
 
 // Rough screen distance test that decides which triangles an explanation mentions at all.
-bool is_near(const cases::Draw& draw, const Triangle& t, FixedPoint p) {
+bool is_near(const cases::Draw& draw, const cases::Triangle& t, FixedPoint p) {
     double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL;
     for (const uint32_t v : t.vertex) {
         const glm::vec4& clip = draw.positions[v];
@@ -215,7 +215,7 @@ std::string depth_text(DepthOutcome outcome, DepthReason reason, std::string_vie
 }
 
 // The depth test of every triangle that may cover the sample.
-void explain_depth(const cases::Case& c, const std::vector<Triangle>& triangles,
+void explain_depth(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
                    const Limits& limits, cases::Profile profile, SampleExplanation& out) {
     if (!DepthTest::is_needed(c)) {
         return;
@@ -279,7 +279,7 @@ std::string to_text(int64_t fixed) {
 }
 
 SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cases::Profile profile,
-                                 SampleId sample) {
+                                 cases::SampleId sample) {
     SampleExplanation result;
     result.position = sample_position(sample.x, sample.y, sample.sample, c.target);
     const size_t index = index_of(c.target, sample);
@@ -313,9 +313,9 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
     const Expectation whole = expect(window, limits, profile);
     result.expectation = whole.samples[index];
 
-    const std::vector<Triangle> triangles = assemble(c);
+    const std::vector<cases::Triangle> triangles = assemble(c);
     for (uint32_t i = 0; i < triangles.size(); ++i) {
-        const Triangle& t = triangles[i];
+        const cases::Triangle& t = triangles[i];
         const cases::Draw& draw = c.draws[t.draw];
         if (!is_near(draw, t, result.position)) {
             continue;

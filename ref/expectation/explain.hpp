@@ -14,12 +14,12 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
 #include "ref/depth/depth_test.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
-#include "ref/position/triangle.hpp"
 #include "ref/value/value.hpp"
 
 namespace ref {
@@ -37,7 +37,7 @@ struct EdgeExplanation {
 
 struct TriangleExplanation {
     uint32_t index = 0;  // into assemble(case)
-    Triangle triangle;
+    cases::Triangle triangle;
     Coverage coverage =
         Coverage::must_not;              // under the asked profile, scissor and culling included
     bool culled = false;                 // faces away for every allowed position
@@ -74,7 +74,7 @@ struct SampleExplanation {
 
 // Explains a sample of a case. Layer, pixel and sample must lie inside the target.
 SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cases::Profile profile,
-                                 SampleId sample);
+                                 cases::SampleId sample);
 
 // A fixed-point coordinate as a decimal fraction or "p/q" when that is shorter: "10.5", "2753/256".
 std::string to_text(int64_t fixed);

@@ -52,7 +52,7 @@ void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t least, uint32
 }  // namespace
 
 Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
-                     const std::vector<Triangle>& triangles, TriangleSetups& setups,
+                     const std::vector<cases::Triangle>& triangles, TriangleSetups& setups,
                      Predicates predicates, DepthTest* depth)
     : case_(c),
       profile_(profile),
@@ -66,7 +66,7 @@ Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
 bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
                           std::vector<Side>& sides) {
     const TriangleSetup& setup = setups_[hit.triangle];
-    const Triangle& triangle = triangles_[hit.triangle];
+    const cases::Triangle& triangle = triangles_[hit.triangle];
     if (setup.kind != TriangleSetup::Kind::outlines || setup.orientation == 0 ||
         setup.may_be_culled || !setup.window.may_write(sample_) || !setup.window.must_touch(p)) {
         return false;

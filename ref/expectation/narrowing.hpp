@@ -26,13 +26,13 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/triangle.hpp"
 #include "ref/coverage/setup.hpp"
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/depth/depth_test.hpp"
 #include "ref/expectation/complement.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/vertex_numbers.hpp"
-#include "ref/position/triangle.hpp"
 
 namespace ref {
 
@@ -74,8 +74,9 @@ inline void add_fragments(Expectation& out, const cases::Case& c, std::span<cons
 
 class Narrowing {
   public:
-    Narrowing(const cases::Case& c, cases::Profile profile, const std::vector<Triangle>& triangles,
-              TriangleSetups& setups, Predicates predicates, DepthTest* depth);
+    Narrowing(const cases::Case& c, cases::Profile profile,
+              const std::vector<cases::Triangle>& triangles, TriangleSetups& setups,
+              Predicates predicates, DepthTest* depth);
 
     // Bounds for sample `s` of a pixel, at p, from the triangles that must or may cover it, in
     // drawing order; appends the triangles that may have written last, and those whose depth may be
@@ -125,7 +126,7 @@ class Narrowing {
     // The triangles with an edge between two vertices, of those that may touch a sample at all (the
     // others have no band that contains one).
     std::span<const EdgeOwner> triangles_at(uint64_t edge);
-    uint64_t edge_number(const Triangle& triangle, uint32_t edge);
+    uint64_t edge_number(const cases::Triangle& triangle, uint32_t edge);
     // Adds the edges of a hit near p; false if p lies where no rule fixes anything.
     bool add_sides(const FixedPoint& p, const Hit& hit, uint32_t member, std::vector<Side>& sides);
     // The number of the members that cover p, or -1 if it depends on the outline used.
@@ -135,7 +136,7 @@ class Narrowing {
 
     const cases::Case& case_;
     cases::Profile profile_;
-    const std::vector<Triangle>& triangles_;
+    const std::vector<cases::Triangle>& triangles_;
     TriangleSetups& setups_;
     Predicates predicates_;
     uint32_t sample_ = 0;                  // of the pixel, the one at hand

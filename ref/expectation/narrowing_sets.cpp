@@ -24,7 +24,7 @@ uint32_t root_of(std::vector<uint32_t>& parent, uint32_t m) {
 
 }  // namespace
 
-uint64_t Narrowing::edge_number(const Triangle& triangle, uint32_t edge) {
+uint64_t Narrowing::edge_number(const cases::Triangle& triangle, uint32_t edge) {
     const uint32_t a = vertex_numbers_.of(triangle.draw, triangle.vertex[edge]);
     const uint32_t b = vertex_numbers_.of(triangle.draw, triangle.vertex[(edge + 1) % 3]);
     return uint64_t{std::min(a, b)} << 32U | std::max(a, b);

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 
 namespace ref {
 

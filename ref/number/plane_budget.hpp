@@ -10,11 +10,40 @@
 // sum beta_i h_i: h = f gives N of a smooth value, h = 1 gives D = 1/w, h = w f a linear value.
 #pragma once
 
+#include <gmpxx.h>
+
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "cases/model/profile.hpp"
 #include "ref/number/ball.hpp"
+
+namespace ref {
+
+// Accepted error in units of the budget. Measured maxima of every driver stand in
+// docs/precision.md.
+inline constexpr int kBudgetFactor = 2;  // K of practice and direct3d
+
+// Budgets that are proven to hold to first order for the evaluations of docs/precision.md.
+inline constexpr int kProvenFactor = 8;
+
+// K of a profile. At vulkan an operation may be wrong by about 1 part in 10^5
+// (value::kVulkanRoundoff) instead of u = 2^-24 (value::kUnitRoundoff), of which the budget is
+// made, and K is the proven factor: 8 x 10^-5 / u, about 1342.
+inline mpq_class exact_budget_factor(cases::Profile profile) {
+    constexpr int64_t kParts = 100000;
+    constexpr int64_t kUnits = 1 << 24;
+    return profile == cases::Profile::vulkan ? mpq_class(kProvenFactor * kUnits) / kParts
+                                             : mpq_class(kBudgetFactor);
+}
+// Rounded, for texts.
+inline double budget_factor(cases::Profile profile) {
+    return exact_budget_factor(profile).get_d();
+}
+
+}  // namespace ref
 
 namespace ref::value {
 

@@ -12,7 +12,7 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/position/limits.hpp"
 
 namespace ref {

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "cases/model/profile.hpp"
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/position/limits.hpp"
 
 namespace ref {

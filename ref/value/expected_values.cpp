@@ -24,20 +24,21 @@ using value::Kind;
 using value::nominal_depth;
 using value::Quantity;
 
-ValueRange ValueReference::range(uint32_t t, SampleId sample, int32_t attribute,
+ValueRange ValueReference::range(uint32_t t, cases::SampleId sample, int32_t attribute,
                                  uint32_t component) {
     std::array<ValueRange, 4> out;
     add_ranges(t, sample, attribute, std::array{component}, out);
     return out.at(component);
 }
 
-std::array<ValueRange, 4> ValueReference::ranges(uint32_t t, SampleId sample, int32_t attribute) {
+std::array<ValueRange, 4> ValueReference::ranges(uint32_t t, cases::SampleId sample,
+                                                 int32_t attribute) {
     std::array<ValueRange, 4> out;
     add_ranges(t, sample, attribute, std::array{0U, 1U, 2U, 3U}, out);
     return out;
 }
 
-void ValueReference::add_ranges(uint32_t t, SampleId sample, int32_t attribute,
+void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, int32_t attribute,
                                 std::span<const uint32_t> components,
                                 std::array<ValueRange, 4>& out) {
     const value::Primitive& primitive = impl_->load(t).primitive;
@@ -112,7 +113,7 @@ void ValueReference::add_ranges(uint32_t t, SampleId sample, int32_t attribute,
     }
 }
 
-std::vector<ExpectedValue> ValueReference::expected(uint32_t t, SampleId sample) {
+std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId sample) {
     const value::Primitive& primitive = impl_->load(t).primitive;
     std::vector<ExpectedValue> out;
     if (!primitive.is_finite) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/value/reference.hpp"
 #include "ref/value/sample_values.hpp"
 
@@ -21,8 +21,9 @@ using value::is_plain_depth;
 using value::Kind;
 using value::Quantity;
 
-void ValueReference::Impl::judge_samples(uint32_t t, SampleId id, const FragmentValues& device,
-                                         bool exact_only, FragmentVerdict& out) {
+void ValueReference::Impl::judge_samples(uint32_t t, cases::SampleId id,
+                                         const FragmentValues& device, bool exact_only,
+                                         FragmentVerdict& out) {
     std::array<std::optional<value::Fragment>, std::size(cases::kProfiles)> fragments;
     for (const Quantity& q : quantities_of(t)) {
         if (!value::is_sample_kind(q.kind) || !selection.has(q.attribute)) {
@@ -67,7 +68,7 @@ void tell_worst(const value::WorstError& worst, FragmentVerdict& out) {
 
 }  // namespace
 
-bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues& device,
+bool ValueReference::Impl::filter(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                   FragmentVerdict& out) {
     const value::Loaded& triangle = load_filters(t);
     const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
@@ -96,7 +97,7 @@ bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues&
         value::WorstError snapped;
         if (accepts(triangle.snapped, snapped) && (!is_decided || snapped.ratio < worst.ratio)) {
             is_decided = true;
-            out.basis = Basis::snapped;
+            out.basis = BasisKind::snapped;
             worst = snapped;
         }
     }
@@ -104,8 +105,8 @@ bool ValueReference::Impl::filter(uint32_t t, SampleId id, const FragmentValues&
     return is_decided;
 }
 
-FragmentVerdict ValueReference::Impl::judge(uint32_t t, SampleId id, const FragmentValues& device,
-                                            bool exact_only) {
+FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
+                                            const FragmentValues& device, bool exact_only) {
     FragmentVerdict out;
     const value::Loaded& triangle = load(t);
     if (!triangle.primitive.is_finite) {
@@ -170,13 +171,13 @@ void ValueReference::judge_briefly() {
     impl_->is_brief = true;
 }
 
-FragmentVerdict ValueReference::judge(uint32_t t, SampleId sample, const FragmentValues& device,
-                                      FragmentPart part) {
+FragmentVerdict ValueReference::judge(uint32_t t, cases::SampleId sample,
+                                      const FragmentValues& device, FragmentPart part) {
     impl_->part = part;
     return impl_->judge(t, sample, device, false);
 }
 
-FragmentVerdict ValueReference::judge_exact(uint32_t t, SampleId sample,
+FragmentVerdict ValueReference::judge_exact(uint32_t t, cases::SampleId sample,
                                             const FragmentValues& device, FragmentPart part) {
     impl_->part = part;
     return impl_->judge(t, sample, device, true);

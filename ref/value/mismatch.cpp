@@ -87,7 +87,7 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
     out.mismatches.push_back(std::move(m));
 }
 
-std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, SampleId id,
+std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId id,
                                                      const FragmentValues& device, Profile at) {
     const std::vector<size_t> only = asked(t, at);
     if (at == Profile::vulkan && !only.empty()) {
@@ -111,7 +111,7 @@ std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, SampleId id,
 // The loosest profile at which each failing value is wrong, given that one basis has to explain all
 // values of the fragment. A looser profile may blame values that this one does not (they fit the
 // basis that explains most); if it blames none of those that are left, they share its level.
-std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, SampleId id,
+std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId id,
                                                      const FragmentValues& device,
                                                      const std::vector<size_t>& failing) {
     std::vector<Profile> levels(failing.size(), profile);
@@ -141,7 +141,7 @@ std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, SampleId id,
     return levels;
 }
 
-void ValueReference::Impl::describe(uint32_t t, SampleId id, const FragmentValues& device,
+void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                     const value::WideVerdict& verdict, FragmentVerdict& out) {
     const value::Primitive& primitive = load(t).primitive;
     const std::vector<Quantity>& all = quantities_of(t);

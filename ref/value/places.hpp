@@ -17,32 +17,19 @@
 #include "cases/model/profile.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 #include "ref/value/fragment/fragment_coverage.hpp"
+#include "ref/value/fragment/shading_rate.hpp"
 #include "ref/value/value.hpp"
 
 namespace ref::value {
 
-// How often the fragment shader runs for a fragment (Vulkan specification, "Sample Shading").
-enum class ShadingRate : uint8_t {
-    fragment,   // sample shading is off
-    may_split,  // an input is decorated with Sample, which "may" turn it on
-    some,       // it is on, with fewer invocations than samples required
-    sample,     // one invocation a sample is required
-};
-ShadingRate shading_rate(const cases::Draw& draw, uint32_t samples);
-
-// The fewest invocations that a fragment must have.
-uint32_t least_invocations(const cases::Draw& draw, uint32_t samples);
-
 // What the places of one fragment depend on.
 struct Fragment {
-    SampleId id;
+    cases::SampleId id;
     const cases::Target* target = nullptr;
     const cases::Draw* draw = nullptr;
     PixelCoverage coverage;                // only if an input is decorated with Centroid
     std::vector<Point<mpq_class>> region;  // likewise: pixel and primitive
 };
-
-bool has_centroid(const cases::Draw& draw);
 
 // The alternatives, the likeliest first.
 template <class T>

@@ -96,7 +96,7 @@ struct ValueReference::Impl {
     const cases::Case& c;
     Limits limits;
     Profile profile;
-    std::vector<Triangle> triangles;
+    std::vector<cases::Triangle> triangles;
     std::vector<std::vector<Quantity>> quantities;  // by draw
     std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
     std::deque<uint32_t> order;                     // of the loaded ones, oldest first
@@ -108,7 +108,7 @@ struct ValueReference::Impl {
     uint32_t text_triangle = 0;
     std::optional<value::Basis<mpq_class>> text_basis;
     uint32_t range_triangle = 0;
-    SampleId range_id;
+    cases::SampleId range_id;
     std::vector<value::Evaluation<Ball>> range_places;
     FragmentPart part = FragmentPart::all;  // of the fragment being judged
     bool is_brief = false;                  // judge_briefly
@@ -178,7 +178,7 @@ struct ValueReference::Impl {
     }
 
     // Where the fragment is, and what a profile says of its coverage if anything depends on it.
-    value::Fragment fragment(uint32_t t, SampleId id, Profile at, bool is_exact = false) {
+    value::Fragment fragment(uint32_t t, cases::SampleId id, Profile at, bool is_exact = false) {
         value::Fragment f = covered_fragment(t, id, at, is_exact);
         if (at != Profile::direct3d && c.target.samples > 1 && value::has_centroid(*f.draw)) {
             f.region = coverage_at(at).region(t, id.x, id.y);
@@ -187,7 +187,7 @@ struct ValueReference::Impl {
     }
 
     // The same without the part of the pixel that lies in the primitive, which takes rationals.
-    value::Fragment covered_fragment(uint32_t t, SampleId id, Profile at, bool is_exact) {
+    value::Fragment covered_fragment(uint32_t t, cases::SampleId id, Profile at, bool is_exact) {
         value::Fragment f;
         f.id = id;
         f.target = &c.target;
@@ -203,12 +203,12 @@ struct ValueReference::Impl {
         return f;
     }
 
-    value::ProbePlace probe_place(uint32_t t, SampleId id, Profile at) const {
+    value::ProbePlace probe_place(uint32_t t, cases::SampleId id, Profile at) const {
         return {id, &c.target, &c.draws[triangles[t].draw], limits, at};
     }
 
     // Whether one of the two nominal bases is proven to explain all numbers of the fragment.
-    bool filter(uint32_t t, SampleId id, const FragmentValues& device, FragmentVerdict& out);
+    bool filter(uint32_t t, cases::SampleId id, const FragmentValues& device, FragmentVerdict& out);
 
     // The unsnapped basis in rationals, for texts; the last one is kept.
     const value::Basis<mpq_class>& exact_basis(uint32_t t) {
@@ -255,7 +255,7 @@ struct ValueReference::Impl {
     }
 
     // Where the fragment's inputs may be evaluated at the profile; the last answer is kept.
-    const std::vector<value::Evaluation<Ball>>& places_of_range(uint32_t t, SampleId id) {
+    const std::vector<value::Evaluation<Ball>>& places_of_range(uint32_t t, cases::SampleId id) {
         if (range_places.empty() || range_triangle != t || !(range_id == id)) {
             range_places = value::evaluations<Ball>(fragment(t, id, profile), profile);
             range_triangle = t;
@@ -264,10 +264,11 @@ struct ValueReference::Impl {
         return range_places;
     }
 
-    value::WideVerdict wide(uint32_t t, SampleId id, const FragmentValues& device, Profile at) {
+    value::WideVerdict wide(uint32_t t, cases::SampleId id, const FragmentValues& device,
+                            Profile at) {
         const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
-            return {true, true, ref::Basis::unsnapped, {}, {}, {}};
+            return {true, true, ref::BasisKind::unsnapped, {}, {}, {}};
         }
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
@@ -290,15 +291,15 @@ struct ValueReference::Impl {
     }
 
     // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
-    std::vector<size_t> failing_at(uint32_t t, SampleId id, const FragmentValues& device,
+    std::vector<size_t> failing_at(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                    Profile at);
 
     // The oracle: rationals only, no filter.
-    value::WideVerdict wide_exact(uint32_t t, SampleId id, const FragmentValues& device,
+    value::WideVerdict wide_exact(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                   Profile at) {
         const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
-            return {true, true, ref::Basis::unsnapped, {}, {}, {}};
+            return {true, true, ref::BasisKind::unsnapped, {}, {}, {}};
         }
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
@@ -311,13 +312,14 @@ struct ValueReference::Impl {
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
                     FragmentVerdict& out) const;
-    void judge_samples(uint32_t t, SampleId id, const FragmentValues& device, bool exact_only,
-                       FragmentVerdict& out);
-    std::vector<Profile> levels_of(uint32_t t, SampleId id, const FragmentValues& device,
+    void judge_samples(uint32_t t, cases::SampleId id, const FragmentValues& device,
+                       bool exact_only, FragmentVerdict& out);
+    std::vector<Profile> levels_of(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                    const std::vector<size_t>& failing);
-    void describe(uint32_t t, SampleId id, const FragmentValues& device,
+    void describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
                   const value::WideVerdict& verdict, FragmentVerdict& out);
-    FragmentVerdict judge(uint32_t t, SampleId id, const FragmentValues& device, bool exact_only);
+    FragmentVerdict judge(uint32_t t, cases::SampleId id, const FragmentValues& device,
+                          bool exact_only);
 };
 
 }  // namespace ref

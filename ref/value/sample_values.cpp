@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 
 namespace ref::value {
 

@@ -24,42 +24,13 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
-#include "ref/number/sample.hpp"
+#include "cases/model/triangle.hpp"
+#include "ref/number/fixed_point.hpp"
+#include "ref/number/plane_budget.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/position/triangle.hpp"
+#include "ref/value/fragment/fragment.hpp"
 
 namespace ref {
-
-// Accepted error in units of the budget. Measured maxima of every driver stand in
-// docs/precision.md.
-inline constexpr int kBudgetFactor = 2;  // K of practice and direct3d
-
-// Budgets that are proven to hold to first order for the evaluations of docs/precision.md.
-inline constexpr int kProvenFactor = 8;
-
-// K of a profile. At vulkan an operation may be wrong by about 1 part in 10^5
-// (value::kVulkanRoundoff) instead of u = 2^-24 (value::kUnitRoundoff), of which the budget is
-// made, and K is the proven factor: 8 x 10^-5 / u, about 1342.
-inline mpq_class exact_budget_factor(cases::Profile profile) {
-    constexpr int64_t kParts = 100000;
-    constexpr int64_t kUnits = 1 << 24;
-    return profile == cases::Profile::vulkan ? mpq_class(kProvenFactor * kUnits) / kParts
-                                             : mpq_class(kBudgetFactor);
-}
-// Rounded, for texts.
-inline double budget_factor(cases::Profile profile) {
-    return exact_budget_factor(profile).get_d();
-}
-
-// What the device drew at one sample.
-struct FragmentValues {
-    glm::vec4 frag_coord{};
-    float depth = 0;
-    std::array<glm::vec4, cases::kMaxAttributes> attributes{};
-};
-
-// From what the device may have set up its planes.
-enum class Basis : uint8_t { unsnapped, snapped, clipped_piece };
 
 // One value that no basis explains.
 struct ValueMismatch {
@@ -73,8 +44,8 @@ struct ValueMismatch {
 
 struct FragmentVerdict {
     bool ok = true;
-    Basis basis = Basis::unsnapped;  // the basis that explains the fragment best
-    double worst_ratio = 0;          // largest |error| / budget over its values under that basis
+    BasisKind basis = BasisKind::unsnapped;  // the basis that explains the fragment best
+    double worst_ratio = 0;  // largest |error| / budget over its values under that basis
     // The value that has it, as in ValueMismatch; empty if none has an error. Refers to the
     // ValueReference.
     std::string_view worst_quantity;
@@ -97,8 +68,6 @@ struct ValueRange {
     bool is_promised = false;  // false: nothing is claimed of the value
     double low = 0, high = 0;
 };
-inline constexpr int32_t kDepthAttribute = -2;
-
 // The values that somebody delivered; the others of a FragmentValues mean nothing then.
 struct ValueSelection {
     bool frag_coord = true, depth = true;
@@ -113,11 +82,11 @@ struct ValueSelection {
     friend bool operator==(const ValueSelection&, const ValueSelection&) = default;
 };
 
-// Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
 // Which values of a fragment are judged: the depth plane may hold an older fragment than the
 // others, if the last one does not write depth.
 enum class FragmentPart : uint8_t { all, all_but_depth, depth };
 
+// Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
 class ValueReference {
   public:
     ValueReference(const cases::Case& c, const Limits& limits, cases::Profile profile);
@@ -132,24 +101,24 @@ class ValueReference {
     void judge_briefly();
 
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
-    FragmentVerdict judge(uint32_t t, SampleId sample, const FragmentValues& device,
+    FragmentVerdict judge(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                           FragmentPart part = FragmentPart::all);
 
     // The oracle: the same question answered by rationals alone, without any filter. Slow.
-    FragmentVerdict judge_exact(uint32_t t, SampleId sample, const FragmentValues& device,
+    FragmentVerdict judge_exact(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                                 FragmentPart part = FragmentPart::all);
 
     // The exact values of triangle t at a sample, unsnapped basis.
-    std::vector<ExpectedValue> expected(uint32_t t, SampleId sample);
+    std::vector<ExpectedValue> expected(uint32_t t, cases::SampleId sample);
 
     // What component `component` of an attribute (index into Draw::attributes, or kDepthAttribute)
     // may be; a point if it is flat. Components beyond the attribute's are 0.
-    ValueRange range(uint32_t t, SampleId sample, int32_t attribute, uint32_t component);
+    ValueRange range(uint32_t t, cases::SampleId sample, int32_t attribute, uint32_t component);
     // The same of all components, in less time than one after another.
-    std::array<ValueRange, 4> ranges(uint32_t t, SampleId sample, int32_t attribute);
+    std::array<ValueRange, 4> ranges(uint32_t t, cases::SampleId sample, int32_t attribute);
 
   private:
-    void add_ranges(uint32_t t, SampleId sample, int32_t attribute,
+    void add_ranges(uint32_t t, cases::SampleId sample, int32_t attribute,
                     std::span<const uint32_t> components, std::array<ValueRange, 4>& out);
     struct Impl;
     std::unique_ptr<Impl> impl_;

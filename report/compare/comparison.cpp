@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "cases/base/printable.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -110,10 +111,10 @@ std::string picture_detail(const CaseRecord& a, const CaseRecord& b, const std::
 // What a bad result is known by: "1 missing of 64 samples, tie.top-left [direct3d]".
 std::string short_reason(const CaseRecord& record) {
     if (record.findings.empty()) {
-        return record.signal.empty() ? why_it_happened(record) : printable(record.signal);
+        return record.signal.empty() ? why_it_happened(record) : cases::printable(record.signal);
     }
     const diff::Finding& f = leading_finding(record);
-    return printable(
+    return cases::printable(
         fmt::format("{}, {} [{}]", counts_text(record), f.rule, cases::to_string(f.level)));
 }
 

@@ -13,7 +13,7 @@
 
 #include "cases/base/error.hpp"
 #include "report/record/run.hpp"
-#include "report/text/reports.hpp"
+#include "report/text/console.hpp"
 
 namespace report {
 

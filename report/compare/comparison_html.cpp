@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cases/base/printable.hpp"
 #include "report/compare/comparison.hpp"
 #include "report/journal/picture_codec.hpp"
 #include "report/page/page_parts.hpp"
@@ -100,7 +101,7 @@ Json data_of(const std::vector<NamedRun>& runs, const Comparison& comparison,
         for (const CaseRecord* record : c.records) {
             results.push_back(result_of(record));
         }
-        Json one{{"id", printable(c.id)},
+        Json one{{"id", cases::printable(c.id)},
                  {"change", to_string(c.change)},
                  {"results", std::move(results)},
                  {"detail", c.detail}};
@@ -130,7 +131,7 @@ Json data_of(const std::vector<NamedRun>& runs, const Comparison& comparison,
 std::string table(const Comparison& comparison) {
     std::string text = "<table><thead><tr><th scope=\"col\">change</th>";
     for (const std::string& letter : comparison.letters) {
-        text += fmt::format("<th scope=\"col\">{}</th>", markup(letter));
+        text += fmt::format("<th scope=\"col\">{}</th>", cases::markup(letter));
     }
     text += "<th scope=\"col\">case</th><th scope=\"col\">detail</th></tr></thead><tbody>\n";
     for (const ComparedCase& c : comparison.cases) {
@@ -142,7 +143,8 @@ std::string table(const Comparison& comparison) {
             text += fmt::format("<td>{}</td>",
                                 record == nullptr ? "-" : to_string(actual_status(*record)));
         }
-        text += fmt::format("<td>{}</td><td>{}</td></tr>\n", markup(c.id), markup(c.detail));
+        text += fmt::format("<td>{}</td><td>{}</td></tr>\n", cases::markup(c.id),
+                            cases::markup(c.detail));
     }
     return text + "</tbody></table>";
 }
@@ -153,15 +155,16 @@ std::string comparison_html(const std::vector<NamedRun>& runs, const Comparison&
                             const std::vector<std::string>& reports) {
     std::string title = "edgecase:", script;
     for (size_t k = 0; k < runs.size(); ++k) {
-        title += fmt::format("{} {}", k == 0 ? "" : " and", printable(runs[k].run.device.name));
+        title +=
+            fmt::format("{} {}", k == 0 ? "" : " and", cases::printable(runs[k].run.device.name));
     }
     for (const std::string_view part : kScripts) {
         script += part;
     }
     const PageField fields[] = {
-        {"{{TITLE}}", markup(title)},
+        {"{{TITLE}}", cases::markup(title)},
         {"{{CSS}}", std::string(page_style())},
-        {"{{VERDICT}}", markup(exit_words(comparison))},
+        {"{{VERDICT}}", cases::markup(exit_words(comparison))},
         {"{{TABLE}}", table(comparison)},
         {"{{DATA}}", script_data(data_of(runs, comparison, reports))},
         {"{{SCRIPT}}", script},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/printable.hpp"
 #include "report/compare/comparison.hpp"
 #include "report/journal/record_codec.hpp"
 #include "report/text/sentences.hpp"
@@ -119,11 +120,11 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
     std::string text;
     for (size_t k = 0; k < runs.size(); ++k) {
         const Run& run = runs[k].run;
-        text += fmt::format("{}  {}  {}  {} {}  {} subpixel bits  profile {}  {} cases\n",
-                            comparison.letters[k], printable(runs[k].folder),
-                            printable(run.device.name), printable(run.device.driver_name),
-                            printable(run.device.driver_info), run.device.subpixel_bits,
-                            cases::to_string(run.profile), run.cases.size());
+        text += fmt::format(
+            "{}  {}  {}  {} {}  {} subpixel bits  profile {}  {} cases\n", comparison.letters[k],
+            cases::printable(runs[k].folder), cases::printable(run.device.name),
+            cases::printable(run.device.driver_name), cases::printable(run.device.driver_info),
+            run.device.subpixel_bits, cases::to_string(run.profile), run.cases.size());
     }
     for (const std::string& remark : comparison.remarks) {
         text += "note: " + remark + "\n";
@@ -161,7 +162,7 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
             for (const CaseRecord* record : c.records) {
                 text += fmt::format("{:<{}}  ", status_word(record), column);
             }
-            text += printable(c.id) + (c.detail.empty() ? "" : "   " + c.detail) + '\n';
+            text += cases::printable(c.id) + (c.detail.empty() ? "" : "   " + c.detail) + '\n';
             if (style.verbose) {
                 text += picture(c, comparison.letters, style);
             }
@@ -177,9 +178,9 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
 Json compared_run(const NamedRun& run, const Comparison& comparison, size_t index) {
     const Device& device = run.run.device;
     return Json{{"name", comparison.letters[index]},
-                {"folder", printable(run.folder)},
-                {"device", printable(device.name)},
-                {"driver", printable(device.driver_name + " " + device.driver_info)},
+                {"folder", cases::printable(run.folder)},
+                {"device", cases::printable(device.name)},
+                {"driver", cases::printable(device.driver_name + " " + device.driver_info)},
                 {"subpixel_bits", device.subpixel_bits}};
 }
 
@@ -188,9 +189,9 @@ std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison&
     for (size_t k = 0; k < runs.size(); ++k) {
         const Run& run = runs[k].run;
         Json json = compared_run(runs[k], comparison, k);
-        json["tool_version"] = printable(run.tool_version);
-        json["suite_hash"] = printable(run.suite_hash);
-        json["started"] = printable(run.started);
+        json["tool_version"] = cases::printable(run.tool_version);
+        json["suite_hash"] = cases::printable(run.suite_hash);
+        json["started"] = cases::printable(run.started);
         json["cases"] = run.cases.size();
         list.push_back(std::move(json));
     }
@@ -208,11 +209,11 @@ std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison&
             results.push_back(record == nullptr
                                   ? Json(nullptr)
                                   : Json{{"status", to_string(actual_status(*record))},
-                                         {"bits", printable(record->bits)},
-                                         {"hit_bits", printable(record->hit_bits)},
+                                         {"bits", cases::printable(record->bits)},
+                                         {"hit_bits", cases::printable(record->hit_bits)},
                                          {"worst_ratio", encode_number(record->worst_ratio)}});
         }
-        cases.push_back(Json{{"id", printable(c.id)},
+        cases.push_back(Json{{"id", cases::printable(c.id)},
                              {"change", to_string(c.change)},
                              {"results", results},
                              {"detail", c.detail}});

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/printable.hpp"
 #include "report/text/causes.hpp"
-#include "report/text/reports.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -38,7 +38,7 @@ std::string file_in(const fs::path& base, const Run& run, const std::string& fil
 // ':' and ','.
 std::string command_text(std::string_view bytes, bool is_property) {
     std::string text;
-    for (const char c : printable(bytes)) {
+    for (const char c : cases::printable(bytes)) {
         if (c == '%' || c == '\r' || c == '\n' || (is_property && (c == ':' || c == ','))) {
             text += fmt::format("%{:02X}", static_cast<unsigned char>(c));
         } else {
@@ -51,7 +51,7 @@ std::string command_text(std::string_view bytes, bool is_property) {
 // Text in a cell of a Markdown table.
 std::string cell(std::string_view bytes) {
     std::string text;
-    for (const char c : markup(bytes)) {
+    for (const char c : cases::markup(bytes)) {
         switch (c) {
             case '\n':
             case '\t':
@@ -77,7 +77,7 @@ std::string cell(std::string_view bytes) {
 // A command in an indented block, where Markdown changes nothing.
 std::string command_block(const CaseRecord& record) {
     const auto one_line = [](const std::string& bytes) {
-        std::string text = printable(bytes);
+        std::string text = cases::printable(bytes);
         std::replace(text.begin(), text.end(), '\n', ' ');
         return text;
     };
@@ -204,13 +204,13 @@ std::string to_gitlab(const Run& run, const fs::path& base) {
                                      ? record.signal
                                      : std::string(diff::to_string(leading_finding(record).kind));
         issues.push_back(Json{
-            {"description",
-             printable(record.id + ": " + what_happened(record) + ". " + why_it_happened(record))},
-            {"check_name", printable(rule)},
+            {"description", cases::printable(record.id + ": " + what_happened(record) + ". " +
+                                             why_it_happened(record))},
+            {"check_name", cases::printable(rule)},
             {"fingerprint", fingerprint(record.id + '\n' + std::string(to_string(record.status)) +
                                         '\n' + rule + '\n' + kind)},
             {"severity", severity_of(record)},
-            {"location", Json{{"path", printable(file_in(base, run, record.file))},
+            {"location", Json{{"path", cases::printable(file_in(base, run, record.file))},
                               {"lines", Json{{"begin", std::max(record.line, 1U)}}}}},
         });
     }

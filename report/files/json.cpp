@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "report/files/json.hpp"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "cases/base/printable.hpp"
 #include "report/journal/json_object.hpp"
 #include "report/journal/picture_codec.hpp"
 #include "report/journal/record_codec.hpp"
 #include "report/text/causes.hpp"
-#include "report/text/reports.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -21,7 +23,7 @@ namespace {
 Json texts(const std::vector<std::string>& list) {
     Json json = Json::array();
     for (const std::string& entry : list) {
-        json.push_back(printable(entry));
+        json.push_back(cases::printable(entry));
     }
     return json;
 }
@@ -29,7 +31,7 @@ Json texts(const std::vector<std::string>& list) {
 Json device_json(Device d) {
     for (std::string* text :
          {&d.name, &d.driver_name, &d.driver_info, &d.uuid, &d.type, &d.api_version}) {
-        *text = printable(*text);
+        *text = cases::printable(*text);
     }
     return encode_device(d);
 }
@@ -40,13 +42,13 @@ Json finding_json(const diff::Finding& f) {
         sample["layer"] = *f.layer;
     }
     return object_of({{"kind", diff::to_string(f.kind)},
-                      {"rule", printable(f.rule)},
+                      {"rule", cases::printable(f.rule)},
                       {"level", cases::to_string(f.level)},
                       {"sample", std::move(sample)},
-                      {"quantity", printable(f.quantity)},
-                      {"expected", printable(f.expected)},
-                      {"got", printable(f.got)},
-                      {"why", printable(f.why)},
+                      {"quantity", cases::printable(f.quantity)},
+                      {"expected", cases::printable(f.expected)},
+                      {"got", cases::printable(f.got)},
+                      {"why", cases::printable(f.why)},
                       {"ratio", encode_number(f.ratio)}});
 }
 
@@ -92,25 +94,25 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         }
     }
     return object_of({
-        {"id", printable(r.id)},
-        {"file", printable(r.file)},
+        {"id", cases::printable(r.id)},
+        {"file", cases::printable(r.file)},
         {"line", r.line},
-        {"description", printable(r.description)},
+        {"description", cases::printable(r.description)},
         {"status", to_string(r.status)},
         {"profile", cases::to_string(profile)},
         {"rules", texts(r.rules)},
         {"links", texts(r.links)},
         {"expected", r.expected ? Json(to_string(*r.expected)) : Json(nullptr)},
-        {"bug", printable(r.bug)},
-        {"expectation", printable(r.expectation)},
-        {"expired", printable(r.expired)},
+        {"bug", cases::printable(r.bug)},
+        {"expectation", cases::printable(r.expectation)},
+        {"expired", cases::printable(r.expired)},
         {"actual", to_string(actual_status(r))},
-        {"bits", printable(r.bits)},
-        {"hit_bits", printable(r.hit_bits)},
-        {"reason", printable(r.reason)},
-        {"step", printable(r.step)},
-        {"signal", printable(r.signal)},
-        {"stderr", printable(r.stderr_text)},
+        {"bits", cases::printable(r.bits)},
+        {"hit_bits", cases::printable(r.hit_bits)},
+        {"reason", cases::printable(r.reason)},
+        {"step", cases::printable(r.step)},
+        {"signal", cases::printable(r.signal)},
+        {"stderr", cases::printable(r.stderr_text)},
         {"messages", texts(r.messages)},
         {"seconds", encode_number(r.seconds)},
         {"attempts", r.attempts},
@@ -125,29 +127,29 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"compared_samples", r.compared_samples},
         {"compared_values", r.compared_values},
         {"worst_ratio", encode_number(r.worst_ratio)},
-        {"worst_quantity", printable(r.worst_quantity)},
+        {"worst_quantity", cases::printable(r.worst_quantity)},
         {"pictures", std::move(pictures)},
-        {"rerun", printable(r.rerun)},
-        {"explain", printable(r.explain)},
+        {"rerun", cases::printable(r.rerun)},
+        {"explain", cases::printable(r.explain)},
     });
 }
 
 Json run_json(const Run& run) {
     Json environment = Json::object();
     for (const auto& [name, value] : run.environment) {
-        environment[printable(name)] = printable(value);
+        environment[cases::printable(name)] = cases::printable(value);
     }
     return Json{
         {"arguments", texts(run.arguments)},
         {"environment", environment},
-        {"started", printable(run.started)},
-        {"ended", run.ended.empty() ? Json(nullptr) : Json(printable(run.ended))},
+        {"started", cases::printable(run.started)},
+        {"ended", run.ended.empty() ? Json(nullptr) : Json(cases::printable(run.ended))},
         {"seconds", encode_number(run.seconds)},
-        {"host", printable(run.host)},
+        {"host", cases::printable(run.host)},
         {"seed", run.seed},
-        {"suite_root", printable(run.suite_root)},
-        {"suite_hash", printable(run.suite_hash)},
-        {"expectation_file", printable(run.expectation_file)},
+        {"suite_root", cases::printable(run.suite_root)},
+        {"suite_hash", cases::printable(run.suite_hash)},
+        {"expectation_file", cases::printable(run.expectation_file)},
         {"shard", run.shard},
         {"shards", run.shards},
         {"jobs", run.jobs},
@@ -161,13 +163,13 @@ Json causes_json(const Run& run) {
     for (const Cause& cause : causes(run)) {
         Json json{
             {"status", to_string(cause.status)},
-            {"family", printable(cause.family)},
-            {"rule", printable(cause.rule)},
-            {"kind", printable(cause.kind)},
+            {"family", cases::printable(cause.family)},
+            {"rule", cases::printable(cause.rule)},
+            {"kind", cases::printable(cause.kind)},
             {"level", cause.rule.empty() ? Json(nullptr) : Json(cases::to_string(cause.level))},
             {"cases", Json::array()}};
         for (const CaseRecord* record : cause.cases) {
-            json["cases"].push_back(printable(record->id));
+            json["cases"].push_back(cases::printable(record->id));
         }
         list.push_back(std::move(json));
     }
@@ -190,15 +192,15 @@ std::string to_json(const Run& run) {
     const CaseRecord* worst = worst_case(run);
     const Json json{
         {"schema", "edgecase-results-1"},
-        {"tool", Json{{"name", "edgecase"}, {"version", printable(run.tool_version)}}},
+        {"tool", Json{{"name", "edgecase"}, {"version", cases::printable(run.tool_version)}}},
         {"profile", cases::to_string(run.profile)},
         {"run", run_json(run)},
         {"device", device_json(run.device)},
         {"totals", total},
         {"worst", worst == nullptr ? Json(nullptr)
                                    : Json{{"ratio", encode_number(worst->worst_ratio)},
-                                          {"quantity", printable(worst->worst_quantity)},
-                                          {"case", printable(worst->id)}}},
+                                          {"quantity", cases::printable(worst->worst_quantity)},
+                                          {"case", cases::printable(worst->id)}}},
         {"causes", causes_json(run)},
         {"cases", std::move(list)},
     };

@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "report/files/junit.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "report/text/reports.hpp"
+#include "cases/base/printable.hpp"
+#include "report/text/console.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -17,7 +20,7 @@ constexpr size_t kMaxOutput = 64 * 1024;  // bytes of a driver's output, head an
 // Attribute value: parsers turn a bare newline or tab into a space (section 3.3.3).
 std::string attribute(std::string_view bytes) {
     std::string text;
-    for (const char c : markup(bytes)) {
+    for (const char c : cases::markup(bytes)) {
         if (c == '\n') {
             text += "&#10;";
         } else if (c == '\t') {
@@ -122,10 +125,11 @@ std::string test_case(const CaseRecord& record) {
         const std::string_view tag = element == Element::failure ? "failure" : "error";
         text += fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n", tag,
                             to_string(record.status), attribute(what + "\n" + why),
-                            markup(body_of(record)));
+                            cases::markup(body_of(record)));
     }
     if (!record.stderr_text.empty()) {
-        text += fmt::format("      <system-err>{}</system-err>\n", markup(cut(record.stderr_text)));
+        text += fmt::format("      <system-err>{}</system-err>\n",
+                            cases::markup(cut(record.stderr_text)));
     }
     return text + "    </testcase>\n";
 }

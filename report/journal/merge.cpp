@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "report/text/reports.hpp"
+#include "cases/base/printable.hpp"
 
 namespace report {
 
@@ -49,10 +49,10 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
             const std::string a = common.text(first.run);
             const std::string b = common.text(part.run);
             if (a != b) {
-                return failure(
-                    fmt::format("{} is '{}' in {} and '{}' in {}; only parts of one run "
-                                "can be merged, use 'edgecase compare' for different ones",
-                                common.what, printable(a), first.name, printable(b), part.name));
+                return failure(fmt::format(
+                    "{} is '{}' in {} and '{}' in {}; only parts of one run "
+                    "can be merged, use 'edgecase compare' for different ones",
+                    common.what, cases::printable(a), first.name, cases::printable(b), part.name));
             }
         }
     }
@@ -63,7 +63,7 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
             if (!fresh) {
                 return failure(
                     fmt::format("the case '{}' is in {} and in {}; give each job its own --shard",
-                                printable(record.id), at->second->name, part.name));
+                                cases::printable(record.id), at->second->name, part.name));
             }
         }
     }

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "cases/base/utf8.hpp"
 #include "report/journal/evidence_codec.hpp"
 #include "report/journal/json_object.hpp"
 #include "report/journal/picture_codec.hpp"
-#include "report/text/utf8.hpp"
 
 namespace report {
 
@@ -155,7 +155,7 @@ diff::Finding decode_finding(const Json& json) {
 }  // namespace
 
 Json encode_text(std::string_view bytes) {
-    if (is_utf8(bytes)) {
+    if (cases::is_utf8(bytes)) {
         return std::string(bytes);
     }
     return Json{{"bytes", base64_encode(bytes)}};

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "report/page/html.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/printable.hpp"
 #include "report/page/page_data.hpp"
 #include "report/page/page_parts.hpp"
-#include "report/text/reports.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -45,7 +47,7 @@ constexpr std::string_view kScripts[] = {
 };
 
 std::string fact(std::string_view name, const std::string& value) {
-    return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, markup(value));
+    return value.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, cases::markup(value));
 }
 
 std::string key_fact(std::string_view name, const std::string& value) {
@@ -62,10 +64,10 @@ std::string title_of(const Run& run) {
 
 std::string header(const Run& run) {
     const Device& d = run.device;
-    std::string text =
-        fmt::format("<h1>{}</h1>\n", markup(d.name.empty() ? std::string("no device") : d.name));
-    text +=
-        fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n", markup(exit_text(run)));
+    std::string text = fmt::format(
+        "<h1>{}</h1>\n", cases::markup(d.name.empty() ? std::string("no device") : d.name));
+    text += fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n",
+                        cases::markup(exit_text(run)));
     text += key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info);
     text += key_fact("Vulkan", d.api_version);
     text += key_fact("subpixel bits", fmt::format("{}", d.subpixel_bits));
@@ -85,10 +87,10 @@ std::string header(const Run& run) {
     text += fact("expectations", run.expectation_file);
     text += "</dl><pre>";
     for (const auto& [name, value] : run.environment) {
-        text += markup(name + "=" + value) + "\n";
+        text += cases::markup(name + "=" + value) + "\n";
     }
     for (size_t k = 0; k < run.arguments.size(); ++k) {
-        text += (k > 0 ? " " : "") + markup(run.arguments[k]);
+        text += (k > 0 ? " " : "") + cases::markup(run.arguments[k]);
     }
     return text + "</pre></details>";
 }
@@ -100,9 +102,10 @@ std::string table(const Run& run) {
         "<th scope=\"col\">case</th><th scope=\"col\">what</th></tr></thead><tbody>\n";
     for (const CaseRecord& r : run.cases) {
         const std::string what = what_happened(r);
-        text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", to_string(r.status),
-                            markup(r.id), markup(what),
-                            is_expected(r.status) ? "" : "<br>" + markup(why_it_happened(r)));
+        text +=
+            fmt::format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>\n", to_string(r.status),
+                        cases::markup(r.id), cases::markup(what),
+                        is_expected(r.status) ? "" : "<br>" + cases::markup(why_it_happened(r)));
     }
     return text + "</tbody></table>";
 }
@@ -119,7 +122,7 @@ std::string script() {
 std::string page_of(const Run& run, size_t part, std::vector<size_t>& left_out) {
     const std::string part_text = part > 1 ? fmt::format(" (part {})", part) : "";
     const PageField fields[] = {
-        {"{{TITLE}}", markup(title_of(run)) + part_text},
+        {"{{TITLE}}", cases::markup(title_of(run)) + part_text},
         {"{{CSS}}", std::string(page_style())},
         {"{{HEADER}}", header(run)},
         {"{{TABLE}}", table(run)},

@@ -9,10 +9,10 @@
 #include <set>
 #include <unordered_map>
 
+#include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
 #include "report/journal/evidence_codec.hpp"
 #include "report/journal/record_codec.hpp"
-#include "report/text/reports.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -34,7 +34,7 @@ class Strings {
     size_t number_of(const std::string& bytes) {
         const auto [it, is_new] = numbers_.try_emplace(bytes, list_.size());
         if (is_new) {
-            list_.push_back(printable(bytes));
+            list_.push_back(cases::printable(bytes));
         }
         return it->second;
     }
@@ -47,13 +47,13 @@ class Strings {
 
 void put(Json& json, const char* key, const std::string& bytes) {
     if (!bytes.empty()) {
-        json[key] = printable(bytes);
+        json[key] = cases::printable(bytes);
     }
 }
 
 void put(Json& json, const char* key, const std::vector<std::string>& list) {
     for (const std::string& entry : list) {
-        json[key].push_back(printable(entry));
+        json[key].push_back(cases::printable(entry));
     }
 }
 
@@ -92,7 +92,7 @@ std::string signature(const CaseRecord& r) {
 }
 
 Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
-    Json json{{"id", printable(r.id)}, {"status", to_string(r.status)}, {"line", r.line}};
+    Json json{{"id", cases::printable(r.id)}, {"status", to_string(r.status)}, {"line", r.line}};
     const std::string what = what_happened(r);
     json["what"] = what.empty() && r.status != Status::pass ? why_it_happened(r) : what;
     put(json, "file", r.file);
@@ -117,8 +117,8 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
             Json::array({r.compared_samples, r.must_samples, r.either_samples, r.compared_values});
     }
     if (r.compared_values > 0) {
-        json["worst"] = Json::array(
-            {encode_number(r.worst_ratio), ratio_text(r.worst_ratio), printable(r.worst_quantity)});
+        json["worst"] = Json::array({encode_number(r.worst_ratio), ratio_text(r.worst_ratio),
+                                     cases::printable(r.worst_quantity)});
     }
     if (!r.findings.empty()) {
         json["finding_total"] = finding_total(r);
@@ -176,12 +176,12 @@ std::vector<size_t> add_evidence(const Run& run, Json& list) {
         Json values = Json::array();
         for (SampleEvidence e : run.cases[k].evidence) {
             for (std::string* text : {&e.writer, &e.allowed, &e.hits}) {
-                *text = printable(*text);
+                *text = cases::printable(*text);
             }
             for (SampleValue& v : e.values) {
-                v.quantity = printable(v.quantity);
-                v.exact = printable(v.exact);
-                v.also = printable(v.also);
+                v.quantity = cases::printable(v.quantity);
+                v.exact = cases::printable(v.exact);
+                v.also = cases::printable(v.also);
             }
             values.push_back(encode_evidence(e));
         }

@@ -12,8 +12,8 @@
 #include <tuple>
 #include <utility>
 
+#include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
-#include "report/text/reports.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -127,7 +127,7 @@ std::string cause_title(const Cause& cause) {
     }
     text += fmt::format(" in {}, {} {}", cause.family, cause.cases.size(),
                         cause.cases.size() == 1 ? "case" : "cases");
-    text = printable(text);
+    text = cases::printable(text);
     std::replace(text.begin(), text.end(), '\n', ' ');
     std::replace(text.begin(), text.end(), '\t', ' ');
     return text;

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "report/text/console.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "report/text/reports.hpp"
+#include "cases/base/printable.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/wrap.hpp"
 
@@ -129,7 +131,7 @@ std::string ascii_picture(const CaseRecord& record, const ConsoleStyle& style) {
 }
 
 std::string or_unknown(const std::string& text) {
-    return text.empty() ? "unknown" : printable(text);
+    return text.empty() ? "unknown" : cases::printable(text);
 }
 
 }  // namespace
@@ -138,12 +140,13 @@ std::string console_header(const Run& run, const ConsoleStyle& style) {
     const Device& d = run.device;
     // Captures of another renderer have no Vulkan.
     const bool is_other = d.type == "other" && d.api_version.empty();
-    std::string text = fmt::format(
-        "{}  {}  {}{}{}{}  {} subpixel bits  profile {}  seed {}",
-        painted("edgecase " + or_unknown(run.tool_version), "1", style), or_unknown(d.name),
-        or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ", printable(d.driver_info),
-        is_other ? std::string() : "  Vulkan " + or_unknown(d.api_version), d.subpixel_bits,
-        cases::to_string(run.profile), run.seed);
+    std::string text =
+        fmt::format("{}  {}  {}{}{}{}  {} subpixel bits  profile {}  seed {}",
+                    painted("edgecase " + or_unknown(run.tool_version), "1", style),
+                    or_unknown(d.name), or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ",
+                    cases::printable(d.driver_info),
+                    is_other ? std::string() : "  Vulkan " + or_unknown(d.api_version),
+                    d.subpixel_bits, cases::to_string(run.profile), run.seed);
     std::replace(text.begin(), text.end(), '\n', ' ');
     text += '\n';
     return style.wrap ? wrapped(text, style.width) : text;
@@ -152,17 +155,17 @@ std::string console_header(const Run& run, const ConsoleStyle& style) {
 std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
     std::string text = fmt::format(
         "{} {}   {}\n", painted(upper(to_string(record.status)), color_of(record.status), style),
-        printable(record.id), what_happened(record));
+        cases::printable(record.id), what_happened(record));
     text += fmt::format("{}{}\n", kIndent, why_it_happened(record));
-    text += fmt::format("{}rerun: {}\n", kIndent, printable(record.rerun));
+    text += fmt::format("{}rerun: {}\n", kIndent, cases::printable(record.rerun));
     if (!record.explain.empty()) {
-        text += fmt::format("{}explain: {}\n", kIndent, printable(record.explain));
+        text += fmt::format("{}explain: {}\n", kIndent, cases::printable(record.explain));
     }
     const bool is_outdated = record.status == Status::xpass || record.status == Status::improved;
     if (is_outdated && !record.expectation.empty() && !style.folder.empty()) {
         const std::string file = record.expectation.substr(0, record.expectation.rfind(':'));
         text += fmt::format("{}update: edgecase expect --update {} {}\n", kIndent,
-                            printable(style.folder), printable(file));
+                            cases::printable(style.folder), cases::printable(file));
     }
     if (style.verbose) {
         text += ascii_picture(record, style);
@@ -191,11 +194,12 @@ std::string console_summary(const Run& run, const std::string& report_path,
         text +=
             fmt::format("largest accepted error {} budgets{}{} in {}\n",
                         ratio_text(worst->worst_ratio), worst->worst_quantity.empty() ? "" : ", ",
-                        printable(worst->worst_quantity), printable(worst->id));
+                        cases::printable(worst->worst_quantity), cases::printable(worst->id));
     }
     const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
-    text += report_path.empty() ? exit + '\n'
-                                : fmt::format("report {}    {}\n", printable(report_path), exit);
+    text += report_path.empty()
+                ? exit + '\n'
+                : fmt::format("report {}    {}\n", cases::printable(report_path), exit);
     return style.wrap ? wrapped(text, style.width) : text;
 }
 

@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/text/reports.hpp"
+#include "cases/base/printable.hpp"
 
 namespace report {
 
 namespace {
 
 std::string last_line(const std::string& bytes) {
-    const std::string text = printable(bytes);
+    const std::string text = cases::printable(bytes);
     const size_t end = text.find_last_not_of("\n\t ");
     if (end == std::string::npos) {
         return {};
@@ -25,7 +25,7 @@ std::string last_line(const std::string& bytes) {
 }
 
 std::string one_line(const std::string& bytes) {
-    std::string text = printable(bytes);
+    std::string text = cases::printable(bytes);
     std::replace(text.begin(), text.end(), '\n', ' ');
     std::replace(text.begin(), text.end(), '\t', ' ');
     return text;

@@ -6,7 +6,7 @@
 
 #include "run/expected/expectation_file.hpp"
 
-namespace cli {
+namespace run {
 
 bool is_date(std::string_view s) {
     if (s.size() != 10) {
@@ -46,4 +46,4 @@ std::string today_utc() {
     return text.data();
 }
 
-}  // namespace cli
+}  // namespace run

@@ -11,10 +11,10 @@
 #include <sstream>
 #include <utility>
 
+#include "cases/base/printable.hpp"
 #include "cases/model/selector.hpp"
-#include "report/text/reports.hpp"
 
-namespace cli {
+namespace run {
 
 using cases::Error;
 using cases::Errors;
@@ -99,7 +99,7 @@ class Parser {
 
   private:
     void fail(std::string message) {
-        errors_.push_back({{file_.path.string(), line_, 1}, report::printable(message)});
+        errors_.push_back({{file_.path.string(), line_, 1}, cases::printable(message)});
     }
 
     void parse_line(std::string_view line) {
@@ -389,4 +389,4 @@ bool skips(const ExpectationLine& line) {
     return line.status == report::Status::skip && !line.is_past;
 }
 
-}  // namespace cli
+}  // namespace run

@@ -16,7 +16,7 @@
 #include "cases/model/profile.hpp"
 #include "report/record/run.hpp"
 
-namespace cli {
+namespace run {
 
 // A version bound of the header: ">=22.3".
 struct VersionBound {
@@ -82,4 +82,4 @@ bool is_date(std::string_view s);
 // Today in UTC, YYYY-MM-DD.
 std::string today_utc();
 
-}  // namespace cli
+}  // namespace run

@@ -7,11 +7,11 @@
 #include <map>
 #include <set>
 
+#include "cases/base/printable.hpp"
 #include "cases/model/selector.hpp"
-#include "report/text/reports.hpp"
 #include "report/text/sentences.hpp"
 
-namespace cli {
+namespace run {
 
 using report::CaseRecord;
 using report::Status;
@@ -50,7 +50,7 @@ std::string with_word(const std::string& line, size_t k, const std::string& word
 }
 
 std::string one_line(const std::string& text) {
-    std::string line = report::printable(text);
+    std::string line = cases::printable(text);
     std::replace(line.begin(), line.end(), '\n', ' ');
     std::replace(line.begin(), line.end(), '\t', ' ');
     return line;
@@ -280,4 +280,4 @@ std::string new_expectation_file(const report::Run& run) {
     return text + "   profile: " + std::string(cases::to_string(run.profile)) + "\n";
 }
 
-}  // namespace cli
+}  // namespace run

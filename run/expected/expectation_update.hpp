@@ -13,7 +13,7 @@
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
 
-namespace cli {
+namespace run {
 
 struct UpdateWords {
     std::string bug;     // of new lines; empty: not known
@@ -43,4 +43,4 @@ Update update_expectations(std::string_view text, const ExpectationFile& file,
 // A file without expectations for the device, driver version and profile of a run.
 std::string new_expectation_file(const report::Run& run);
 
-}  // namespace cli
+}  // namespace run

@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <cstring>
 
-namespace cli {
+#include "cases/base/checksum.hpp"
+
+namespace run {
 
 namespace {
 
@@ -26,43 +28,9 @@ static_assert(sizeof(Header) == 32);
 
 }  // namespace
 
-uint64_t checksum(FrameType type, std::string_view payload) {
-    constexpr uint64_t kPrime = 0x100000001b3U;
-    // FNV alone never carries high bits of a word downwards.
-    const auto add = [](uint64_t lane, uint64_t word_or_lane) {
-        lane = (lane ^ word_or_lane) * kPrime;
-        return lane ^ (lane >> 29);
-    };
-    // Four sums side by side, because each step waits for the last; every step is a bijection of
-    // the sum, so one changed word always changes the result.
-    constexpr uint64_t kBasis = 0xcbf29ce484222325U;
-    uint64_t a = kBasis ^ static_cast<uint64_t>(type);
-    uint64_t b = kBasis + 1;
-    uint64_t c = kBasis + 2;
-    uint64_t d = kBasis + 3;
-    const char* const data = payload.data();
-    const auto word = [data](size_t offset) {
-        uint64_t w = 0;
-        std::memcpy(&w, data + offset, sizeof w);
-        return w;
-    };
-    size_t at = 0;
-    for (; at + 32 <= payload.size(); at += 32) {
-        a = add(a, word(at));
-        b = add(b, word(at + 8));
-        c = add(c, word(at + 16));
-        d = add(d, word(at + 24));
-    }
-    uint64_t sum = add(add(add(a, b), c), d);
-    for (; at < payload.size(); ++at) {
-        sum = add(sum, static_cast<unsigned char>(payload[at]));
-    }
-    return sum ^ payload.size();
-}
-
 std::string encode_frame(FrameType type, std::string_view payload) {
     const Header header{kMagic, static_cast<uint64_t>(type), payload.size(),
-                        checksum(type, payload)};
+                        cases::checksum(static_cast<uint64_t>(type), payload)};
     std::string bytes;
     bytes.reserve(sizeof header + payload.size());
     std::array<char, sizeof header> raw{};
@@ -90,7 +58,7 @@ std::optional<Frame> FrameReader::next() {
     Frame frame;
     frame.type = static_cast<FrameType>(header.type);
     frame.payload = buffer_.substr(begin_ + sizeof header, header.length);
-    if (checksum(frame.type, frame.payload) != header.sum) {
+    if (cases::checksum(static_cast<uint64_t>(frame.type), frame.payload) != header.sum) {
         malformed_ = true;
         return std::nullopt;
     }
@@ -119,4 +87,4 @@ bool write_all(int fd, std::string_view bytes) {
     return true;
 }
 
-}  // namespace cli
+}  // namespace run

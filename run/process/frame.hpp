@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace cli {
+namespace run {
 
 enum class FrameType : uint32_t {
     configure = 1,  // parent -> worker: which renderer and device
@@ -31,9 +31,6 @@ struct Frame {
     FrameType type = FrameType::step;
     std::string payload;
 };
-
-// 64-bit checksum of a frame's type and payload (FNV-1a over 8-byte words, four lanes).
-uint64_t checksum(FrameType type, std::string_view payload);
 
 std::string encode_frame(FrameType type, std::string_view payload);
 
@@ -57,4 +54,4 @@ class FrameReader {
 // Writes everything, whatever EINTR and short writes do. False if the other end is gone.
 bool write_all(int fd, std::string_view bytes);
 
-}  // namespace cli
+}  // namespace run

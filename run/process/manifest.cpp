@@ -17,7 +17,7 @@
 #include "run/process/frame.hpp"
 #include "run/process/process.hpp"
 
-namespace cli {
+namespace run {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -97,4 +97,4 @@ std::string check_manifest(const std::string& file, const std::string& from) {
                      "; 'edgecase doctor' lists those installed";
 }
 
-}  // namespace cli
+}  // namespace run

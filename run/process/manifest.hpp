@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace cli {
+namespace run {
 
 struct Manifest {
     std::string file, library, problem;  // problem: "cannot be read: ..."; empty if there is none
@@ -24,4 +24,4 @@ std::string load_problem(const Manifest& manifest);
 // that is there; else empty.
 std::string check_manifest(const std::string& file, const std::string& from);
 
-}  // namespace cli
+}  // namespace run

@@ -15,9 +15,7 @@
 #include <ctime>
 #include <utility>
 
-#include "run/worker/worker.hpp"
-
-namespace cli {
+namespace run {
 
 void HeadAndTail::add(std::string_view bytes) {
     constexpr size_t kHalf = kLimit / 2;
@@ -191,4 +189,4 @@ ExitStatus kill_and_reap(pid_t pid, int grace_ms) {
     return {false, WEXITSTATUS(status)};
 }
 
-}  // namespace cli
+}  // namespace run

@@ -13,7 +13,12 @@
 
 #include "cases/base/error.hpp"
 
-namespace cli {
+namespace run {
+
+// Descriptors of a worker.
+inline constexpr int kRequestFd = 3;
+inline constexpr int kResultFd = 4;
+inline constexpr int kSharedFd = 5;  // memory for captures, may be closed
 
 // Keeps the first and the last half of what would be more than kLimit bytes.
 class HeadAndTail {
@@ -68,4 +73,4 @@ cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int
 // given `grace_ms` to do so, and its own status is told.
 ExitStatus kill_and_reap(pid_t pid, int grace_ms);
 
-}  // namespace cli
+}  // namespace run

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace cli {
+namespace run {
 
 std::shared_ptr<SharedMemory> SharedMemory::create() {
     const Fd low(::memfd_create("edgecase captures", MFD_CLOEXEC | MFD_ALLOW_SEALING));
@@ -97,4 +97,4 @@ void SharedWriter::lock() {
     next_ = end_;
 }
 
-}  // namespace cli
+}  // namespace run

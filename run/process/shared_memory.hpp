@@ -14,7 +14,7 @@
 
 #include "run/process/process.hpp"
 
-namespace cli {
+namespace run {
 
 // A part of the memory; it can be written to again when every copy of the pointer is gone.
 struct Region {
@@ -65,4 +65,4 @@ class SharedWriter {
     uint64_t begin_ = 0, next_ = 0, end_ = 0;
 };
 
-}  // namespace cli
+}  // namespace run

@@ -9,11 +9,9 @@
 
 #include <utility>
 
-namespace cli {
+namespace run {
 
 namespace {
-
-constexpr int kPollMs = 200;
 
 sigset_t run_signals() {
     sigset_t set;
@@ -46,19 +44,4 @@ bool SignalFd::has_come() {
     return come_;
 }
 
-std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals) {
-    for (;;) {
-        std::vector<pollfd> fds{{signals.fd(), POLLIN, 0}};
-        client.add_poll(fds);
-        ::poll(fds.data(), fds.size(), kPollMs);
-        if (signals.has_come()) {
-            client.kill();
-            return std::nullopt;
-        }
-        for (WorkerEvent& event : client.advance()) {
-            return std::move(event);
-        }
-    }
-}
-
-}  // namespace cli
+}  // namespace run

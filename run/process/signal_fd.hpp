@@ -4,12 +4,9 @@
 // Signals that end a run, and waiting for a worker without missing them.
 #pragma once
 
-#include <optional>
-
 #include "run/process/process.hpp"
-#include "run/worker/worker_client.hpp"
 
-namespace cli {
+namespace run {
 
 // Delivered signals as a descriptor. Signals are blocked while it lives, so construct it before any
 // thread.
@@ -28,7 +25,4 @@ class SignalFd {
     bool come_ = false;
 };
 
-// Waits until a starting worker has said what it is. Nothing if a signal came.
-std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals);
-
-}  // namespace cli
+}  // namespace run

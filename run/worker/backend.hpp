@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "rasterizers/algorithms/device.hpp"
+#include "rasterizers/captures.hpp"
 #include "run/worker/message.hpp"
-#include "vk_harness/harness.hpp"
+#include "vk_harness/public/harness.hpp"
 
-namespace cli {
+namespace run {
 
 class Backend {
   public:
@@ -26,11 +26,4 @@ class Backend {
 
 vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options);
 
-// Draws a case as the reference expects it: of several allowed answers the first, values rounded to
-// binary32. No driver is involved; a perfect device of 8 subpixel bits.
-diff::Capture draw_by_reference(const cases::Case& c);
-
-// Draws a case as an algorithm does; only without a ref::algorithms::unsupported_reason().
-diff::Capture draw_by_algorithm(const cases::Case& c, const ref::algorithms::Device& device);
-
-}  // namespace cli
+}  // namespace run

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace cli {
+namespace run {
 
 class ByteWriter {
   public:
@@ -112,4 +112,4 @@ class ByteReader {
     bool failed_ = false;
 };
 
-}  // namespace cli
+}  // namespace run

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace cli {
+namespace run {
 
 using vk_harness::Rendered;
 
@@ -24,11 +24,12 @@ struct Round {
 
 }  // namespace
 
-diff::CaptureView view_of(const Rendered& rendered) {
-    const diff::Capture& c = rendered.capture;
-    return rendered.placed.empty() ? diff::CaptureView(c)
-                                   : diff::view_planes(c.target, c.has_primitive, c.attribute_count,
-                                                       rendered.placed.data());
+capture::CaptureView view_of(const Rendered& rendered) {
+    const capture::Capture& c = rendered.capture;
+    return rendered.placed.empty()
+               ? capture::CaptureView(c)
+               : capture::view_planes(c.target, c.has_primitive, c.attribute_count,
+                                      rendered.placed.data());
 }
 
 std::vector<RenderedCase> render_with_derived(
@@ -104,4 +105,4 @@ std::vector<RenderedCase> render_with_derived(
     return results;
 }
 
-}  // namespace cli
+}  // namespace run

@@ -11,7 +11,7 @@
 #include "diff/consistency.hpp"
 #include "run/worker/backend.hpp"
 
-namespace cli {
+namespace run {
 
 // A case's own rendering, and what its derived ones differ in, one result a derivation.
 struct RenderedCase {
@@ -29,6 +29,6 @@ std::vector<RenderedCase> render_with_derived(
     const std::function<void(size_t, vk_harness::Rendered&)>& damage = {});
 
 // The capture of a drawn case, wherever its planes lie.
-diff::CaptureView view_of(const vk_harness::Rendered& rendered);
+capture::CaptureView view_of(const vk_harness::Rendered& rendered);
 
-}  // namespace cli
+}  // namespace run

@@ -12,7 +12,7 @@
 
 #include "cases/model/selector.hpp"
 
-namespace cli {
+namespace run {
 
 namespace {
 
@@ -124,4 +124,4 @@ void commit(FaultKind kind) {
     }
 }
 
-}  // namespace cli
+}  // namespace run

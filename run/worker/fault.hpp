@@ -12,7 +12,7 @@
 
 #include "cases/base/error.hpp"
 
-namespace cli {
+namespace run {
 
 enum class FaultKind {
     segv,           // dies while a batch with a matching case is drawn
@@ -48,4 +48,4 @@ bool has_fault(const std::vector<Fault>& faults, FaultKind kind, std::string_vie
 // Carries out segv, abort, hang, oom and exit0; the others do nothing here.
 void commit(FaultKind kind);
 
-}  // namespace cli
+}  // namespace run

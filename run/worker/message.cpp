@@ -7,7 +7,7 @@
 #include "cases/wire/case_bytes.hpp"
 #include "run/worker/bytes.hpp"
 
-namespace cli {
+namespace run {
 
 using vk_harness::DeviceInfo;
 using vk_harness::Failure;
@@ -197,9 +197,9 @@ bool get(ByteReader& in, std::vector<diff::Consistency>& consistency) {
 // Two sides of every attachment, in the case's rendering and in each derived one.
 constexpr size_t kMaxStrayWrites = 4096;
 
-void put(ByteWriter& out, const std::vector<diff::StrayWrite>& writes) {
+void put(ByteWriter& out, const std::vector<capture::StrayWrite>& writes) {
     out.value(uint64_t{writes.size()});
-    for (const diff::StrayWrite& w : writes) {
+    for (const capture::StrayWrite& w : writes) {
         out.text(w.attachment);
         out.value(uint8_t{w.is_before});
         out.value(w.distance);
@@ -210,13 +210,13 @@ void put(ByteWriter& out, const std::vector<diff::StrayWrite>& writes) {
     }
 }
 
-bool get(ByteReader& in, std::vector<diff::StrayWrite>& writes) {
+bool get(ByteReader& in, std::vector<capture::StrayWrite>& writes) {
     uint64_t count = 0;
     if (!in.value(count) || count > kMaxStrayWrites) {
         return false;
     }
     writes.resize(count);
-    for (diff::StrayWrite& w : writes) {
+    for (capture::StrayWrite& w : writes) {
         uint8_t is_before = 0;
         in.text(w.attachment);
         in.value(is_before);
@@ -251,11 +251,11 @@ std::string encode_findings(const CaseResult& result) {
 
 std::string encode_result(const CaseResult& result) {
     const Rendered& r = result.rendered;
-    const diff::Capture& c = r.capture;
+    const capture::Capture& c = r.capture;
     ByteWriter out;
     out.reserve(256 + (c.hits.empty() && c.color.empty()
                            ? 0
-                           : diff::plane_bytes(c.target, c.attribute_count)));
+                           : capture::plane_bytes(c.target, c.attribute_count)));
     out.value(result.index);
     out.value(static_cast<uint32_t>(r.status));
     out.text(r.reason);
@@ -289,7 +289,7 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
     ByteReader in(bytes);
     CaseResult result;
     Rendered& r = result.rendered;
-    diff::Capture& c = r.capture;
+    capture::Capture& c = r.capture;
     uint32_t status = 0;
     uint8_t has_primitive = 0;
     uint8_t is_shared = 0;
@@ -339,11 +339,11 @@ std::optional<CaseResult> decode_result(std::string_view bytes) {
         }
     }
     if (r.status == Rendered::Status::drawn && !result.is_shared) {
-        if (!diff::has_all_planes(c)) {
+        if (!capture::has_all_planes(c)) {
             return std::nullopt;
         }
     }
     return result;
 }
 
-}  // namespace cli
+}  // namespace run

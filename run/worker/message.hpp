@@ -11,11 +11,12 @@
 #include <string_view>
 #include <vector>
 
+#include "capture/checksum.hpp"
 #include "cases/model/case.hpp"
 #include "diff/consistency.hpp"
-#include "vk_harness/harness.hpp"
+#include "vk_harness/public/harness.hpp"
 
-namespace cli {
+namespace run {
 
 // How a worker is to render.
 struct WorkerOptions {
@@ -54,15 +55,15 @@ std::optional<vk_harness::Failure> decode_failure(std::string_view bytes);
 struct CaseResult {
     uint32_t index = 0;  // in the batch
     vk_harness::Rendered rendered;
-    // Set if the planes lie in shared memory: where, and capture_bits() of them when they were
-    // written. The message is worth nothing if the bits are others when it arrives.
+    // Set if the planes lie in shared memory: where, and capture::capture_bits() of them when they
+    // were written. The message is worth nothing if the bits are others when it arrives.
     bool is_shared = false;
     uint64_t offset = 0;
     uint64_t bits = 0;
     // What comparing the case's derived renderings with it has found, one a derivation.
     std::vector<diff::Consistency> consistency;
     // In the parent: the capture, wherever it lies, and what keeps it there.
-    diff::CaptureView view;
+    capture::CaptureView view;
     std::shared_ptr<const void> keep;
 };
 // Of what the worker found itself: the same bytes for the same findings.
@@ -70,4 +71,4 @@ std::string encode_findings(const CaseResult& result);
 std::string encode_result(const CaseResult& result);
 std::optional<CaseResult> decode_result(std::string_view bytes);
 
-}  // namespace cli
+}  // namespace run

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
+#include "capture/checksum.hpp"
 #include "cases/load/color.hpp"
 #include "report/record/run.hpp"
-#include "run/judge.hpp"
 #include "run/process/frame.hpp"
 #include "run/process/shared_memory.hpp"
 #include "run/worker/backend.hpp"
@@ -21,7 +21,7 @@
 #include "run/worker/fault.hpp"
 #include "run/worker/message.hpp"
 
-namespace cli {
+namespace run {
 
 namespace {
 
@@ -63,9 +63,9 @@ void print_noise() {
 // Another colour in the middle of a target that counts no hits: the second highest bit of red.
 void flip_color(Rendered& rendered) {
     const cases::Target& target = rendered.capture.target;
-    std::span<diff::ColorCodes> codes(rendered.capture.color);
+    std::span<capture::ColorCodes> codes(rendered.capture.color);
     if (!rendered.placed.empty()) {  // colours come first where there are no instruments
-        codes = std::span(reinterpret_cast<diff::ColorCodes*>(rendered.placed.data()),
+        codes = std::span(reinterpret_cast<capture::ColorCodes*>(rendered.placed.data()),
                           rendered.capture.sample_count());
     }
     if (target.color && !codes.empty()) {
@@ -104,7 +104,7 @@ std::string frame_of(uint32_t k, RenderedCase drawn, const SharedWriter& shared)
     if (!rendered.placed.empty() && rendered.status == Rendered::Status::drawn) {
         result.is_shared = true;
         result.offset = shared.offset_of(rendered.placed);
-        result.bits = capture_bits(view_of(rendered));
+        result.bits = capture::capture_bits(view_of(rendered));
     }
     result.rendered = std::move(rendered);
     return encode_frame(FrameType::result, encode_result(result));
@@ -239,4 +239,4 @@ int run_worker() {
     ::_exit(0);
 }
 
-}  // namespace cli
+}  // namespace run

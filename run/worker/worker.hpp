@@ -5,12 +5,8 @@
 // kRequestFd and answers on kResultFd until the parent closes the request pipe.
 #pragma once
 
-namespace cli {
-
-inline constexpr int kRequestFd = 3;
-inline constexpr int kResultFd = 4;
-inline constexpr int kSharedFd = 5;  // memory for captures, may be closed
+namespace run {
 
 int run_worker();
 
-}  // namespace cli
+}  // namespace run

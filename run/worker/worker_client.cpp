@@ -9,9 +9,9 @@
 #include <memory>
 #include <utility>
 
-#include "run/judge.hpp"
+#include "capture/checksum.hpp"
 
-namespace cli {
+namespace run {
 
 namespace {
 
@@ -171,13 +171,13 @@ bool WorkerClient::find_planes(CaseResult& result) const {
     if (result.rendered.status != vk_harness::Rendered::Status::drawn) {
         return !result.is_shared;
     }
-    diff::Capture& c = result.rendered.capture;
+    capture::Capture& c = result.rendered.capture;
     if (!result.is_shared) {
-        auto capture = std::make_shared<const diff::Capture>(std::move(c));
-        c = diff::Capture();
+        auto capture = std::make_shared<const capture::Capture>(std::move(c));
+        c = capture::Capture();
         result.view = *capture;
         result.keep = std::move(capture);
-        result.bits = capture_bits(result.view);
+        result.bits = capture::capture_bits(result.view);
         return true;
     }
     if (region_ == nullptr || result.offset < region_->offset || result.offset % 16 != 0 ||
@@ -186,14 +186,14 @@ bool WorkerClient::find_planes(CaseResult& result) const {
         return false;
     }
     const uint64_t at = result.offset - region_->offset;
-    const uint64_t bytes = diff::plane_bytes(c.target, c.attribute_count);
+    const uint64_t bytes = capture::plane_bytes(c.target, c.attribute_count);
     if (bytes > region_->bytes.size() || at > region_->bytes.size() - bytes) {
         return false;
     }
-    result.view =
-        diff::view_planes(c.target, c.has_primitive, c.attribute_count, region_->bytes.data() + at);
+    result.view = capture::view_planes(c.target, c.has_primitive, c.attribute_count,
+                                       region_->bytes.data() + at);
     result.keep = region_;
-    return capture_bits(result.view) == result.bits;
+    return capture::capture_bits(result.view) == result.bits;
 }
 
 bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) {
@@ -282,4 +282,20 @@ std::vector<WorkerEvent> WorkerClient::advance() {
     return events;
 }
 
-}  // namespace cli
+std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals) {
+    constexpr int kPollMs = 200;
+    for (;;) {
+        std::vector<pollfd> fds{{signals.fd(), POLLIN, 0}};
+        client.add_poll(fds);
+        ::poll(fds.data(), fds.size(), kPollMs);
+        if (signals.has_come()) {
+            client.kill();
+            return std::nullopt;
+        }
+        for (WorkerEvent& event : client.advance()) {
+            return std::move(event);
+        }
+    }
+}
+
+}  // namespace run

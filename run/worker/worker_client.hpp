@@ -14,9 +14,10 @@
 #include "run/process/frame.hpp"
 #include "run/process/process.hpp"
 #include "run/process/shared_memory.hpp"
+#include "run/process/signal_fd.hpp"
 #include "run/worker/message.hpp"
 
-namespace cli {
+namespace run {
 
 using Clock = std::chrono::steady_clock;
 
@@ -104,4 +105,7 @@ class WorkerClient {
     uint32_t batches_ = 0;
 };
 
-}  // namespace cli
+// Waits until a starting worker has said what it is. Nothing if a signal came.
+std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals);
+
+}  // namespace run

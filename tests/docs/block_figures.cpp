@@ -13,7 +13,7 @@ namespace figures {
 
 namespace {
 
-using namespace ref::algorithms;
+using namespace rasterizers;
 
 constexpr int kBits[] = {6, 8, 10, 12, 15, 18, 21, 24, 28};
 constexpr int kSamples = 1500;

@@ -14,7 +14,7 @@ namespace figures {
 
 namespace {
 
-using namespace ref::algorithms;
+using namespace rasterizers;
 using test::RandomTriangles;
 
 constexpr Point kCentre{kPixel / 2, kPixel / 2};

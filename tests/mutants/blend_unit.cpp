@@ -200,8 +200,8 @@ Texel BlendUnit::cleared(const glm::vec4& color) const {
     return out;
 }
 
-diff::ColorCodes BlendUnit::read_back(const Texel& texel) const {
-    diff::ColorCodes out{};
+capture::ColorCodes BlendUnit::read_back(const Texel& texel) const {
+    capture::ColorCodes out{};
     for (size_t k = 0; k < 4; ++k) {
         out[k] = layout_.channels[k].bits != 0 ? texel[layout_.position[k]] : 0;
     }
@@ -414,8 +414,8 @@ glm::vec4 ColorAttachment::beside(uint32_t draw, const glm::vec4& value,
     return value;
 }
 
-std::vector<diff::ColorCodes> ColorAttachment::read_back() const {
-    std::vector<diff::ColorCodes> out;
+std::vector<capture::ColorCodes> ColorAttachment::read_back() const {
+    std::vector<capture::ColorCodes> out;
     out.reserve(texels_.size());
     for (const Texel& texel : texels_) {
         out.push_back(unit_.read_back(texel));

@@ -27,7 +27,7 @@ class BlendUnit {
     Texel write(const cases::ColorOutput& output, const glm::vec4& source,
                 const Texel& before) const;
     // Its codes, red first.
-    diff::ColorCodes read_back(const Texel& texel) const;
+    capture::ColorCodes read_back(const Texel& texel) const;
     // Source blended into destination, binary32: whatever the format is.
     glm::vec4 blend(const cases::Blend& blend, const glm::vec4& source,
                     const glm::vec4& destination) const;
@@ -55,7 +55,7 @@ class ColorAttachment {
     // What other attachments hold of `value`: the value itself.
     glm::vec4 beside(uint32_t draw, const glm::vec4& value, const glm::vec4& before) const;
     // What is read back; empty if the case has no colour target.
-    std::vector<diff::ColorCodes> read_back() const;
+    std::vector<capture::ColorCodes> read_back() const;
 
   private:
     const cases::ColorOutput& output_of(uint32_t draw) const;

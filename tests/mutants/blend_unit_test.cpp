@@ -112,7 +112,7 @@ Count hold_against_reference(const Device& device, Profile profile, ColorFormat 
         Texel texel = unit.cleared(clear);
         // The reference goes on from the bits that the clear has left.
         ref::color::Color allowed = reference.cleared({format, clear});
-        const diff::ColorCodes cleared = unit.read_back(texel);
+        const capture::ColorCodes cleared = unit.read_back(texel);
         for (uint32_t k = 0; k < 4; ++k) {
             const ref::color::Component component(cases::component_of(format, k));
             mpq_class value;

@@ -190,11 +190,11 @@ class Blitter {
 
 }  // namespace
 
-diff::Capture blit(const cases::Case& c, const Device& device) {
-    diff::Capture out;
+capture::Capture blit(const cases::Case& c, const Device& device) {
+    capture::Capture out;
     out.target = c.target;
     const FormatLayout layout = layout_of(c.target.color->format);
-    diff::ColorCodes clear{};
+    capture::ColorCodes clear{};
     for (size_t k = 0; k < 4; ++k) {
         if (layout.channels[k].bits != 0) {
             clear[k] = store_channel(c.target.color->clear[static_cast<int>(k)], layout.channels[k],

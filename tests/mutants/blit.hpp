@@ -11,6 +11,6 @@
 namespace mutants {
 
 // The colour plane of a case with a blit; there are no other planes.
-diff::Capture blit(const cases::Case& c, const Device& device);
+capture::Capture blit(const cases::Case& c, const Device& device);
 
 }  // namespace mutants

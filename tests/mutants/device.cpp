@@ -11,24 +11,24 @@
 
 namespace mutants {
 
-diff::Capture render(const cases::Case& c, const Device& device) {
+capture::Capture render(const cases::Case& c, const Device& device) {
     if (c.blit) {
         return blit(c, device);
     }
-    diff::Capture out;
+    capture::Capture out;
     out.target = c.target;
     out.has_primitive = true;
     const size_t count = out.sample_count();
-    out.hits.assign(count, glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
-    out.writers.assign(count, diff::Writer{});
-    out.frag_coord.assign(count, glm::vec4(diff::kClearValue));
+    out.hits.assign(count, glm::vec4(0, 0, capture::kHitGuard, capture::kHitGuard));
+    out.writers.assign(count, capture::Writer{});
+    out.frag_coord.assign(count, glm::vec4(capture::kClearValue));
     out.depth.assign(count, stored_depth(c.target.depth_clear, c.target.depth_format, device));
     for (const cases::Draw& draw : c.draws) {
         out.attribute_count =
             std::max(out.attribute_count, static_cast<uint32_t>(draw.attributes.size()));
     }
     for (uint32_t a = 0; a < out.attribute_count; ++a) {
-        out.attributes[a].assign(count, glm::vec4(diff::kClearValue));
+        out.attributes[a].assign(count, glm::vec4(capture::kClearValue));
     }
     Attachments attachments{{c, device}, {c.target, device}};
     const auto finish = [&] {
@@ -45,7 +45,7 @@ diff::Capture render(const cases::Case& c, const Device& device) {
         const bool reversed = device.fault == Fault::draws_reversed;
         DrawCommand(c, reversed ? draws - 1 - d : d, device, out, attachments).run();
     }
-    const diff::Capture early = device.fault == Fault::resolve_early ? out : diff::Capture{};
+    const capture::Capture early = device.fault == Fault::resolve_early ? out : capture::Capture{};
     finish();
     if (device.fault == Fault::resolve_early) {
         out.resolved_color = early.resolved_color;

@@ -79,6 +79,6 @@ struct Device {
 };
 
 // Draws the case, or blits.
-diff::Capture render(const cases::Case& c, const Device& device);
+capture::Capture render(const cases::Case& c, const Device& device);
 
 }  // namespace mutants

@@ -33,7 +33,7 @@ cases::Case make_case(uint32_t size, const Pixels& pixels, uint32_t samples = 1)
 }
 
 // How many samples have how many hits; without the zeros.
-std::map<int, int> histogram(const diff::Capture& capture) {
+std::map<int, int> histogram(const capture::Capture& capture) {
     std::map<int, int> counts;
     for (const glm::vec4& h : capture.hits) {
         const int hits = static_cast<int>(h.x + h.y);
@@ -67,7 +67,7 @@ TEST(Device, Layers) {
     const auto hits_by_layer = [&](Fault fault) {
         Device device;
         device.fault = fault;
-        const diff::Capture capture = render(c, device);
+        const capture::Capture capture = render(c, device);
         EXPECT_EQ(capture.hits.size(), 3U * 64 * 64);
         std::array<int, 3> counts{};
         for (size_t k = 0; k < capture.hits.size(); ++k) {
@@ -136,7 +136,7 @@ TEST(Device, RoundingIsWhatItsNameSays) {
                 Device device;
                 device.subpixel_bits = bits;
                 device.rounding = roundings[k];
-                const diff::Capture capture = render(c, device);
+                const capture::Capture capture = render(c, device);
                 const glm::vec4& h = capture.hits[16 * 32 + 10];
                 EXPECT_EQ(h.x + h.y > 0, row.covered[k]) << row.a << " " << bits << " " << k;
             }
@@ -271,7 +271,7 @@ TEST(Device, ClippedMeshIsClosed) {
 TEST(Device, NegativeHeightKeepsTheTieRule) {
     cases::Case c = make_case(32, {{4.5, 4.5}, {20.5, 4.5}, {4.5, 20.5}});
     c.draws[0].viewport = {0, 32, 32, -32, 0, 1};
-    const diff::Capture capture = render(c, {});
+    const capture::Capture capture = render(c, {});
     int row = 0;
     int column = 0;
     for (size_t k = 0; k < 32; ++k) {
@@ -306,7 +306,7 @@ TEST(Device, PlaneFormsAgree) {
             Device device;
             device.planes = form;
             device.fused = fused;
-            const diff::Capture capture = render(c, device);
+            const capture::Capture capture = render(c, device);
             const size_t at = 20 * 64 + 24;
             ASSERT_GT(capture.hits[at].x + capture.hits[at].y, 0);
             EXPECT_NEAR(capture.attributes[0][at].x, 24.5F / 64, 1e-6F);

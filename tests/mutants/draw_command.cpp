@@ -67,7 +67,7 @@ cases::Draw effective(const cases::Case& c, uint32_t number, Fault fault) {
 }  // namespace
 
 DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& device,
-                         diff::Capture& out, Attachments& attachments)
+                         capture::Capture& out, Attachments& attachments)
     : draw_(effective(c, number, device.fault)),
       number_(number),
       device_(device),

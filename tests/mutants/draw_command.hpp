@@ -30,7 +30,7 @@ struct Attachments {
 // One draw of a case onto the capture.
 class DrawCommand {
   public:
-    DrawCommand(const cases::Case& c, uint32_t number, const Device& device, diff::Capture& out,
+    DrawCommand(const cases::Case& c, uint32_t number, const Device& device, capture::Capture& out,
                 Attachments& attachments);
 
     void run();
@@ -67,7 +67,7 @@ class DrawCommand {
     const cases::Draw draw_;
     uint32_t number_;
     const Device& device_;
-    diff::Capture& out_;
+    capture::Capture& out_;
     Attachments& attachments_;
     PixelRect rect_;
     std::vector<SampleOffset> samples_;

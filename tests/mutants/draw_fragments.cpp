@@ -145,7 +145,8 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     const bool of_piece = fault == Fault::clip_flat_piece;
     const uint32_t id =
         fault == Fault::primitive_id_skips_culled ? primitive.id - culled_ : primitive.id;
-    out_.writers[at] = {number_, id, of_piece ? first.source : primitive.provoking, diff::kClearId};
+    out_.writers[at] = {number_, id, of_piece ? first.source : primitive.provoking,
+                        capture::kClearId};
 
     const float corner = fault == Fault::values_at_corner ? -0.5F : 0.0F;
     const float x = invocation.centre.x + corner;

@@ -50,13 +50,13 @@ struct Judged {
 
 Judged judged(const cases::Case& c, const Device& base, const Device& other, Profile profile) {
     const ref::Expectation expectation = ref::expect(c, {base.subpixel_bits}, profile);
-    const diff::Capture own = captured(c, base);
+    const capture::Capture own = captured(c, base);
     Judged out{compare(c, expectation, own), {}};
     out.related = out.alone;
     const std::vector<cases::Derivation> derivations = cases::derivations(c);
     std::vector<diff::Consistency> found;
     for (const cases::Derivation& d : derivations) {
-        diff::Capture derived = captured(cases::derive(c, d), other);
+        capture::Capture derived = captured(cases::derive(c, d), other);
         diff::vary(derived, d.variation);
         found.push_back(diff::compare_bits(own, derived, d));
     }

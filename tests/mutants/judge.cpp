@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "diff/blit.hpp"
-#include "rasterizers/color_planes.hpp"
+#include "rasterizers/color_plane.hpp"
 #include "ref/expectation/expectation.hpp"
 
 namespace mutants {
@@ -165,7 +165,7 @@ std::string describe(const cases::Case& c, const diff::Verdict& verdict) {
         "{}: {} finding(s), first: {} {} [{}] at {} sample {} {}: expected {}, "
         "got {}: {} (ratio {:.3g})",
         c.id, total, diff::to_string(f.kind), f.rule, cases::to_string(f.level),
-        diff::pixel_text(c.target, diff::place_of(f)), f.sample, f.quantity, f.expected, f.got,
+        cases::pixel_text(c.target, diff::place_of(f)), f.sample, f.quantity, f.expected, f.got,
         f.why, f.ratio);
 }
 
@@ -183,14 +183,14 @@ void for_each_parallel(size_t count, const std::function<void(size_t)>& work) {
     run();
 }
 
-diff::Capture captured(const cases::Case& c, const Device& device) {
-    diff::Capture out = render(c, device);
-    diff::drop_unattached(out, c);
+capture::Capture captured(const cases::Case& c, const Device& device) {
+    capture::Capture out = render(c, device);
+    rasterizers::drop_unattached(out, c);
     return out;
 }
 
 diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                      const diff::Capture& capture) {
+                      const capture::Capture& capture) {
     return c.blit ? diff::compare_blit(c, expectation.profile, capture)
                   : diff::compare(c, expectation, capture);
 }

@@ -34,10 +34,10 @@ std::string describe(const cases::Case& c, const diff::Verdict& verdict);
 void for_each_parallel(size_t count, const std::function<void(size_t)>& work);
 
 // What the case's attachments hold after drawing.
-diff::Capture captured(const cases::Case& c, const Device& device);
+capture::Capture captured(const cases::Case& c, const Device& device);
 // Its verdict, draws or blit.
 diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                      const diff::Capture& capture);
+                      const capture::Capture& capture);
 // Draws and judges one case.
 diff::Verdict judge(const cases::Case& c, const Device& device, cases::Profile profile);
 

@@ -25,7 +25,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 
 constexpr size_t kBatch = 16;
 
-diff::Capture captured(const cases::Case& c, Fault fault) {
+capture::Capture captured(const cases::Case& c, Fault fault) {
     Device device;
     device.fault = fault;
     return captured(c, device);
@@ -33,7 +33,7 @@ diff::Capture captured(const cases::Case& c, Fault fault) {
 
 }  // namespace
 
-bool same_bits(const diff::Capture& a, const diff::Capture& b) {
+bool same_bits(const capture::Capture& a, const capture::Capture& b) {
     bool same = same_bits(a.hits, b.hits) && same_bits(a.writers, b.writers) &&
                 same_bits(a.frag_coord, b.frag_coord) && same_bits(a.depth, b.depth) &&
                 same_bits(a.color, b.color) && same_bits(a.stencil, b.stencil) &&
@@ -79,7 +79,7 @@ bool can_matter(Fault fault, const cases::Case& c) {
         return c.target.has_stencil;
     }
     if (is_between(Fault::resolve_one_sample, Fault::resolve_ignored)) {
-        return diff::resolves_color(c.target) || diff::resolves_depth(c.target);
+        return capture::resolves_color(c.target) || capture::resolves_depth(c.target);
     }
     if (is_between(Fault::distance_flipped, Fault::distance_plane_never)) {
         return any_draw([](const cases::Draw& d) { return d.distances.clip_count > 0; });
@@ -152,7 +152,7 @@ void measure(std::span<const cases::Case> suite, std::span<const size_t> leaves,
     for_each_parallel(leaves.size(), [&](size_t n) {
         const cases::Case& c = suite[leaves[n]];
         const ref::Expectation expectation = ref::expect(c, {}, cases::Profile::direct3d);
-        const diff::Capture right = captured(c, Fault::none);
+        const capture::Capture right = captured(c, Fault::none);
         if (const diff::Verdict verdict = compare(c, expectation, right); !verdict.ok()) {
             const std::lock_guard lock(mutex);
             alarm(describe(c, verdict));
@@ -162,7 +162,7 @@ void measure(std::span<const cases::Case> suite, std::span<const size_t> leaves,
             if (!can_matter(rows[r].fault, c)) {
                 continue;
             }
-            const diff::Capture wrong = captured(c, rows[r].fault);
+            const capture::Capture wrong = captured(c, rows[r].fault);
             if (same_bits(right, wrong)) {
                 continue;
             }

@@ -37,7 +37,7 @@ bool can_matter(Fault fault, const cases::Case& c);
 bool is_small(const cases::Case& c);
 
 // True if two renderings of a case have the same bits in every plane: they have the same verdict.
-bool same_bits(const diff::Capture& a, const diff::Capture& b);
+bool same_bits(const capture::Capture& a, const capture::Capture& b);
 
 std::string family_of(const cases::Case& c);
 // The id without its matrix part.

@@ -109,7 +109,7 @@ std::string record_file(const std::vector<const cases::Case*>& leaves, const Pla
             device.fault = fault;
             return mutants::captured(*leaf, device);
         };
-        const diff::Capture right = captured(mutants::Fault::none);
+        const capture::Capture right = captured(mutants::Fault::none);
         if (const diff::Verdict verdict = mutants::compare(*leaf, expectation, right);
             !verdict.ok()) {
             fmt::print(stderr, "false alarm: {}\n", mutants::describe(*leaf, verdict));
@@ -120,7 +120,7 @@ std::string record_file(const std::vector<const cases::Case*>& leaves, const Pla
                 (plan.quick && tally.is_enough(fault, family))) {
                 continue;
             }
-            const diff::Capture wrong = captured(fault);
+            const capture::Capture wrong = captured(fault);
             if (mutants::same_bits(right, wrong)) {
                 continue;
             }

@@ -109,23 +109,23 @@ bool is_left_out(const cases::Target& target, size_t pixel, Fault fault) {
     return fault == Fault::resolve_ignored;
 }
 
-diff::ColorCodes resolve_color(std::span<const diff::ColorCodes> samples,
-                               const diff::ColorCodes& clear, const cases::Target& target,
-                               const Device& device) {
+capture::ColorCodes resolve_color(std::span<const capture::ColorCodes> samples,
+                                  const capture::ColorCodes& clear, const cases::Target& target,
+                                  const Device& device) {
     const FormatLayout layout = layout_of(target.color->format);
     const bool is_average = target.color_resolve == Resolve::average ||
                             device.fault == Fault::resolve_averages_integers;
     if (!is_average) {
         return select(samples, target.color_resolve, device.fault);
     }
-    const std::vector<diff::ColorCodes> taken = averaged(samples, clear, device.fault);
-    diff::ColorCodes out{};
+    const std::vector<capture::ColorCodes> taken = averaged(samples, clear, device.fault);
+    capture::ColorCodes out{};
     for (size_t k = 0; k < 4; ++k) {
         if (layout.channels[k].bits == 0) {
             continue;
         }
         std::vector<uint32_t> codes;
-        for (const diff::ColorCodes& sample : taken) {
+        for (const capture::ColorCodes& sample : taken) {
             codes.push_back(sample[k]);
         }
         out[k] = average_channel(codes, layout.channels[k], device);
@@ -200,14 +200,14 @@ void StencilAttachment::test(size_t index, const cases::Draw& draw, bool front, 
     }
 }
 
-void resolve(diff::Capture& capture, const Device& device) {
+void resolve(capture::Capture& capture, const Device& device) {
     const cases::Target& target = capture.target;
     const size_t pixels = size_t{target.width} * target.height;
-    const bool has_color = diff::resolves_color(target);
-    const bool has_depth = diff::resolves_depth(target);
+    const bool has_color = capture::resolves_color(target);
+    const bool has_depth = capture::resolves_depth(target);
     capture.resolved_color.assign(has_color ? pixels : 0, {});
     capture.resolved_depth.assign(has_depth ? pixels : 0, 0);
-    diff::ColorCodes clear{};
+    capture::ColorCodes clear{};
     if (has_color) {
         const BlendUnit unit(target.color->format, device);
         clear = unit.read_back(unit.cleared(target.color->clear));

@@ -30,6 +30,6 @@ class StencilAttachment {
 };
 
 // Fills the resolved planes from the capture's samples.
-void resolve(diff::Capture& capture, const Device& device);
+void resolve(capture::Capture& capture, const Device& device);
 
 }  // namespace mutants

@@ -9,6 +9,7 @@
 
 #include "cases/load/blit.hpp"
 #include "cases/load/color.hpp"
+#include "vk_harness/device/format.hpp"
 #include "vk_harness/target/attachments.hpp"
 
 namespace vk_harness {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "vk_harness/case_check.hpp"
+#include "vk_harness/device/rejection.hpp"
 #include "vk_harness/memory/memory.hpp"
 
 namespace vk_harness {

@@ -7,11 +7,11 @@
 #include <cstring>
 #include <optional>
 
-#include "vk_harness/case_check.hpp"
 #include "vk_harness/commands/viewports.hpp"
 #include "vk_harness/device/sample_locations.hpp"
 #include "vk_harness/memory/barrier.hpp"
 #include "vk_harness/target/resolve.hpp"
+#include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 
@@ -300,8 +300,8 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
             if (is_given && attribute->source == cases::Source::vertex) {
                 write(item.vertices[1 + k], attribute->values.data(), array);
             } else {
-                const std::vector<glm::vec4> none(draw.positions.size(),
-                                                  glm::vec4(is_given ? 0.0F : diff::kClearValue));
+                const std::vector<glm::vec4> none(
+                    draw.positions.size(), glm::vec4(is_given ? 0.0F : capture::kClearValue));
                 write(item.vertices[1 + k], none.data(), array);
             }
         }

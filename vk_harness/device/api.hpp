@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "vk_harness/harness.hpp"
+#include "vk_harness/public/harness.hpp"
 
 namespace vk_harness {
 

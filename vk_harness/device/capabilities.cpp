@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "vk_harness/commands/viewports.hpp"
+#include "vk_harness/device/vertex_outputs.hpp"
 
 namespace vk_harness {
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-#include "vk_harness/commands/viewports.hpp"
+#include "vk_harness/device/vertex_outputs.hpp"
 
 namespace vk_harness {
 

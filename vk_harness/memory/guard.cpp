@@ -135,7 +135,7 @@ Result<std::vector<GuardDamage>> GuardCheck::read(std::span<const std::byte> mem
             const std::span<const uint32_t> side(words, kGuardWords);
             words += kGuardWords;
             if (std::all_of(side.begin(), side.end(),
-                            [](uint32_t word) { return word == diff::kPoison; })) {
+                            [](uint32_t word) { return word == capture::kPoison; })) {
                 Failure failure;
                 failure.stage = Stage::readback;
                 failure.message =

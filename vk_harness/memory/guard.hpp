@@ -17,7 +17,7 @@ namespace vk_harness {
 // in targets as small as most of the suite, within a row of it. A submission reads back two guards
 // of each of its images, some hundred in all.
 inline constexpr VkDeviceSize kGuardBytes = 1024;
-// Neither a clear value nor diff::kPoison.
+// Neither a clear value nor capture::kPoison.
 inline constexpr uint32_t kGuardWord = 0xed9eca5eU;
 
 // Byte offsets of both guards and of the image between them, and the bytes of it all.
@@ -55,7 +55,7 @@ class Guard {
 struct GuardDamage {
     const Guard* guard = nullptr;
     bool is_before = false;
-    uint64_t distance = 0;  // as diff::StrayWrite has it
+    uint64_t distance = 0;  // as capture::StrayWrite has it
     uint32_t got = 0;       // that word
     uint64_t words = 0;     // that changed
 };

@@ -7,7 +7,7 @@
 #include <bit>
 #include <optional>
 
-#include "vk_harness/target/attachments.hpp"
+#include "vk_harness/device/format.hpp"
 
 namespace vk_harness {
 

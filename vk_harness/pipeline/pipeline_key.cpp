@@ -6,8 +6,8 @@
 #include <bit>
 
 #include "cases/load/color.hpp"
-#include "vk_harness/case_check.hpp"
-#include "vk_harness/commands/viewports.hpp"
+#include "vk_harness/device/format.hpp"
+#include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 

@@ -67,7 +67,7 @@ struct PipelineKey {
 };
 
 // The key of a draw's pipeline. A draw with fewer attributes than its case gets flat ones that are
-// constantly diff::kClearValue: what its fragments leave in those attachments.
+// constantly capture::kClearValue: what its fragments leave in those attachments.
 PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
                          const InstrumentLayout& layout);
 

@@ -6,8 +6,9 @@
 
 #include "capture/capture.hpp"
 #include "cases/load/color.hpp"
-#include "vk_harness/case_check.hpp"
+#include "vk_harness/device/format.hpp"
 #include "vk_harness/target/readback.hpp"
+#include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 
@@ -61,7 +62,7 @@ Attachment color_attachment(const cases::ColorTarget& target) {
 // one of the same case.
 void append_resolved(const cases::Target& target, std::vector<Attachment>& out) {
     constexpr float kNeverResolved = 0.8125F;
-    if (diff::resolves_color(target)) {
+    if (capture::resolves_color(target)) {
         Attachment a = color_attachment(*target.color);
         a.role = Role::resolved_color;
         if (is_integer(target.color->format)) {
@@ -71,7 +72,7 @@ void append_resolved(const cases::Target& target, std::vector<Attachment>& out) 
         }
         out.push_back(a);
     }
-    if (diff::resolves_depth(target)) {
+    if (capture::resolves_depth(target)) {
         const auto depth = std::find_if(out.begin(), out.end(),
                                         [](const auto& a) { return a.role == Role::depth; });
         Attachment a = *depth;
@@ -88,7 +89,8 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
     const bool other = c.variation.other_clears;
     if (c.target.has_instruments) {
         const float id = other ? kOtherClearIdAsFloat : kClearIdAsFloat;
-        const VkClearValue value = clear_all(other ? diff::kOtherClearValue : diff::kClearValue);
+        const VkClearValue value =
+            clear_all(other ? capture::kOtherClearValue : capture::kClearValue);
         const float hits = other ? kOtherNoHits : kNoHits;
         if (layout.split) {
             out.push_back({Role::writer, kTwoNumbers, clear_all(id), 8, 8,
@@ -114,7 +116,7 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
     if (c.target.has_depth) {
         VkClearValue clear{};
         clear.depthStencil = {
-            c.variation.other_depth_clear ? diff::kOtherClearDepth : c.target.depth_clear, 0};
+            c.variation.other_depth_clear ? capture::kOtherClearDepth : c.target.depth_clear, 0};
         const uint32_t texel = c.target.depth_format == cases::DepthFormat::d16_unorm ? 2 : 4;
         const VkFormat format =
             c.target.has_stencil ? kDepthStencilFormat : depth_format(c.target.depth_format);
@@ -169,49 +171,6 @@ std::string attachment_name(const std::vector<Attachment>& attachments, size_t k
             break;
     }
     return "resolved depth";
-}
-
-VkFormat to_vulkan(cases::ColorFormat format) {
-    switch (format) {
-        case cases::ColorFormat::rgba8_unorm:
-            return VK_FORMAT_R8G8B8A8_UNORM;
-        case cases::ColorFormat::bgra8_unorm:
-            return VK_FORMAT_B8G8R8A8_UNORM;
-        case cases::ColorFormat::rgba8_srgb:
-            return VK_FORMAT_R8G8B8A8_SRGB;
-        case cases::ColorFormat::rgb10a2_unorm:
-            return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
-        case cases::ColorFormat::r5g6b5_unorm:
-            return VK_FORMAT_R5G6B5_UNORM_PACK16;
-        case cases::ColorFormat::rgba16_unorm:
-            return VK_FORMAT_R16G16B16A16_UNORM;
-        case cases::ColorFormat::rgba16_float:
-            return VK_FORMAT_R16G16B16A16_SFLOAT;
-        case cases::ColorFormat::rgba32_float:
-            return VK_FORMAT_R32G32B32A32_SFLOAT;
-        case cases::ColorFormat::r32_float:
-            return VK_FORMAT_R32_SFLOAT;
-        case cases::ColorFormat::r32_uint:
-            return VK_FORMAT_R32_UINT;
-        case cases::ColorFormat::rgba8_uint:
-            break;
-    }
-    return VK_FORMAT_R8G8B8A8_UINT;
-}
-
-VkFormat bits_format(VkFormat format) {
-    switch (format) {
-        case VK_FORMAT_R5G6B5_UNORM_PACK16:
-            return VK_FORMAT_R16_UINT;
-        case VK_FORMAT_R16G16B16A16_UNORM:
-        case VK_FORMAT_R16G16B16A16_SFLOAT:
-        case kTwoNumbers:
-            return VK_FORMAT_R32G32_UINT;
-        case VK_FORMAT_R32G32B32A32_SFLOAT:
-            return VK_FORMAT_R32G32B32A32_UINT;
-        default:
-            return VK_FORMAT_R32_UINT;
-    }
 }
 
 }  // namespace vk_harness

@@ -71,9 +71,4 @@ uint32_t color_count(const std::vector<Attachment>& attachments);
 // What a report calls attachment `k`: "depth", "attribute 1".
 std::string attachment_name(const std::vector<Attachment>& attachments, size_t k);
 
-VkFormat to_vulkan(cases::ColorFormat format);
-// The unsigned format through which single samples of a colour format are read, so that no bit can
-// change on the way.
-VkFormat bits_format(VkFormat format);
-
 }  // namespace vk_harness

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "vk_harness/case_check.hpp"
+#include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 

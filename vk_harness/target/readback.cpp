@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "vk_harness/case_check.hpp"
+#include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
 
@@ -19,33 +19,34 @@ namespace {
 void decode_depth(const cases::Target& target, std::span<const std::byte> from, float* to) {
     const size_t count = size_t{target.width} * target.rows() * target.samples;
     const auto* words = reinterpret_cast<const uint32_t*>(from.data());
-    const auto poison_float = std::bit_cast<float>(diff::kPoison);
+    const auto poison_float = std::bit_cast<float>(capture::kPoison);
     if (target.depth_format == cases::DepthFormat::d32_float) {
         std::memcpy(to, words, count * sizeof(float));
         return;
     }
     if (target.samples > 1) {
         std::transform(words, words + count, to, [&](uint32_t word) {
-            return word == diff::kPoison
-                       ? poison_float
-                       : diff::nearest_depth_code(std::bit_cast<float>(word), target.depth_format);
+            return word == capture::kPoison ? poison_float
+                                            : capture::nearest_depth_code(
+                                                  std::bit_cast<float>(word), target.depth_format);
         });
         return;
     }
     if (target.depth_format == cases::DepthFormat::d24_unorm) {
         std::transform(words, words + count, to, [&](uint32_t word) {
-            return word == diff::kPoison
+            return word == capture::kPoison
                        ? poison_float
-                       : diff::depth_of_code(word & 0xffffffU, cases::DepthFormat::d24_unorm);
+                       : capture::depth_of_code(word & 0xffffffU, cases::DepthFormat::d24_unorm);
         });
         return;
     }
     // Half of the poison is a code like any other; a copy that never happened leaves it everywhere.
     const auto* halves = reinterpret_cast<const uint16_t*>(from.data());
     const bool is_copied = !std::all_of(words, words + (count + 1) / 2,
-                                        [](uint32_t word) { return word == diff::kPoison; });
+                                        [](uint32_t word) { return word == capture::kPoison; });
     std::transform(halves, halves + count, to, [&](uint16_t code) {
-        return is_copied ? diff::depth_of_code(code, cases::DepthFormat::d16_unorm) : poison_float;
+        return is_copied ? capture::depth_of_code(code, cases::DepthFormat::d16_unorm)
+                         : poison_float;
     });
 }
 
@@ -60,14 +61,14 @@ bool is_of_other_clear(float sum) {
 }
 
 glm::vec4 hits_of(float front, float back, bool other) {
-    const float guard = other ? diff::kOtherHitGuard : diff::kHitGuard;
+    const float guard = other ? capture::kOtherHitGuard : capture::kHitGuard;
     return {front, back, guard, guard + front + back};
 }
 
 // Who wrote a sample and how often. The spare word is what a clear sample of that clear
 // value has, and kClearId where something was drawn (capture/capture.hpp).
 struct WriterAndHits {
-    diff::Writer writer;
+    capture::Writer writer;
     glm::vec4 hits;
 };
 
@@ -78,10 +79,11 @@ WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words, uint3
     const auto [draw, primitive] = draws == 0 ? std::pair(decode_id(words[0]), decode_id(words[1]))
                                               : decode_packed_id(words[0], draws);
     const bool is_clear = out.hits.x + out.hits.y < 1;
-    const uint32_t spare = std::bit_cast<uint32_t>(out.hits.z) == diff::kPoison ? diff::kPoison
-                           : out.hits.z < 0                                     ? kMalformedId
-                           : is_clear && out.hits.z > diff::kHitGuard ? diff::kOtherClearId
-                                                                      : diff::kClearId;
+    const uint32_t spare = std::bit_cast<uint32_t>(out.hits.z) == capture::kPoison
+                               ? capture::kPoison
+                           : out.hits.z < 0                              ? kMalformedId
+                           : is_clear && out.hits.z > capture::kHitGuard ? capture::kOtherClearId
+                                                                         : capture::kClearId;
     out.writer = {draw, primitive, decode_id(words[draws == 0 ? 2 : 1]), spare};
     return out;
 }
@@ -96,7 +98,7 @@ struct Words {
 // Two words of `ids` and the two of `hits` that follow or stand beside them. Neighbours mostly have
 // the same origin, so the last answer is kept.
 void decode_writers_and_hits(const Words& ids, const Words& hit_words, uint32_t draws, size_t count,
-                             glm::vec4* hits, diff::Writer* writers) {
+                             glm::vec4* hits, capture::Writer* writers) {
     const uint32_t first_hit = draws == 0 ? 2 : 0;
     std::array<uint32_t, 4> last{};
     WriterAndHits decoded = decode_writer_and_hits(last, draws);
@@ -125,7 +127,7 @@ void widen(const Words& first, const Words& second, size_t count, const VkClearV
             const uint32_t word = c < first.words ? first.at(k, c) : second.at(k, c - first.words);
             value[static_cast<int>(c)] = std::bit_cast<float>(word);
             is_clear = is_clear && word == clear_word;
-            is_poison = is_poison && word == diff::kPoison;
+            is_poison = is_poison && word == capture::kPoison;
         }
         to[k] = is_clear || is_poison ? glm::vec4(value.x) : value;
     }
@@ -142,10 +144,10 @@ void decode_stencil(const cases::Target& target, std::span<const std::byte> from
         return;
     }
     const bool is_copied = !std::all_of(words, words + (count + 3) / 4,
-                                        [](uint32_t word) { return word == diff::kPoison; });
+                                        [](uint32_t word) { return word == capture::kPoison; });
     std::transform(
         from.begin(), from.begin() + static_cast<ptrdiff_t>(count), to,
-        [&](std::byte b) { return is_copied ? std::to_integer<uint32_t>(b) : diff::kPoison; });
+        [&](std::byte b) { return is_copied ? std::to_integer<uint32_t>(b) : capture::kPoison; });
 }
 
 // The shape of what a target is resolved into.
@@ -177,12 +179,12 @@ ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attach
 void poison(std::span<std::byte> memory) {
     // Mapped memory is aligned to at least 64 bytes (minMemoryMapAlignment), offsets to 4.
     auto* words = reinterpret_cast<uint32_t*>(memory.data());
-    std::fill(words, words + memory.size() / sizeof(uint32_t), diff::kPoison);
+    std::fill(words, words + memory.size() / sizeof(uint32_t), capture::kPoison);
 }
 
 glm::vec4 decode_hits(uint32_t bits) {
     const auto sum = std::bit_cast<float>(bits);
-    if (bits == diff::kPoison) {
+    if (bits == capture::kPoison) {
         return glm::vec4(sum);
     }
     if (!is_hits(sum)) {
@@ -197,8 +199,8 @@ glm::vec4 decode_hits(uint32_t bits) {
 glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits) {
     const auto front = std::bit_cast<float>(front_bits);
     const auto back = std::bit_cast<float>(back_bits);
-    if (front_bits == diff::kPoison || back_bits == diff::kPoison) {
-        return glm::vec4(std::bit_cast<float>(diff::kPoison));
+    if (front_bits == capture::kPoison || back_bits == capture::kPoison) {
+        return glm::vec4(std::bit_cast<float>(capture::kPoison));
     }
     if (!is_hits(front) || !is_hits(back) || is_of_other_clear(front) != is_of_other_clear(back)) {
         return {0, 0, -1, front};
@@ -208,8 +210,8 @@ glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits) {
 }
 
 uint32_t decode_id(uint32_t bits) {
-    if (bits == diff::kPoison) {
-        return diff::kPoison;
+    if (bits == capture::kPoison) {
+        return capture::kPoison;
     }
     const auto value = std::bit_cast<float>(bits);
     if (value >= 0.0F && value < static_cast<float>(kMaxId)) {
@@ -217,32 +219,33 @@ uint32_t decode_id(uint32_t bits) {
         return std::bit_cast<uint32_t>(static_cast<float>(id)) == bits ? id : kMalformedId;
     }
     if (bits == std::bit_cast<uint32_t>(kClearIdAsFloat)) {
-        return diff::kClearId;
+        return capture::kClearId;
     }
     if (bits == std::bit_cast<uint32_t>(kOtherClearIdAsFloat)) {
-        return diff::kOtherClearId;
+        return capture::kOtherClearId;
     }
-    return bits == std::bit_cast<uint32_t>(-2.0F) ? diff::kNoPrimitive : kMalformedId;
+    return bits == std::bit_cast<uint32_t>(-2.0F) ? capture::kNoPrimitive : kMalformedId;
 }
 
 std::pair<uint32_t, uint32_t> decode_packed_id(uint32_t bits, uint32_t draws) {
     const uint32_t id = decode_id(bits);
     if (id >= kMaxId) {
-        const uint32_t both = id == diff::kNoPrimitive ? kMalformedId : id;
+        const uint32_t both = id == capture::kNoPrimitive ? kMalformedId : id;
         return {both, both};
     }
     const uint32_t row = id / draws;
     if (row == 1) {
         return {kMalformedId, kMalformedId};
     }
-    return {id % draws, row == 0 ? diff::kNoPrimitive : row - 2};
+    return {id % draws, row == 0 ? capture::kNoPrimitive : row - 2};
 }
 
-diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes) {
+capture::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel,
+                                 uint32_t bytes) {
     std::array<uint32_t, 4> words{};
     std::memcpy(words.data(), texel, bytes);
-    constexpr std::array<uint32_t, 4> kPoisonWords = {diff::kPoison, diff::kPoison, diff::kPoison,
-                                                      diff::kPoison};
+    constexpr std::array<uint32_t, 4> kPoisonWords = {capture::kPoison, capture::kPoison,
+                                                      capture::kPoison, capture::kPoison};
     if (std::memcmp(words.data(), kPoisonWords.data(), bytes) == 0) {
         return kPoisonWords;
     }
@@ -275,7 +278,7 @@ diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel,
 namespace {
 
 void decode_color(const cases::Target& target, const Attachment& attachment,
-                  const std::byte* memory, diff::ColorCodes* to) {
+                  const std::byte* memory, capture::ColorCodes* to) {
     const size_t count = size_t{target.width} * target.rows() * target.samples;
     const uint32_t step = attachment.copied_bytes(target.samples);
     for (size_t k = 0; k < count; ++k) {
@@ -290,7 +293,7 @@ namespace {
 // Where the planes of a capture go that are decoded together.
 struct InstrumentPlanes {
     glm::vec4* hits = nullptr;
-    diff::Writer* writers = nullptr;
+    capture::Writer* writers = nullptr;
     glm::vec4* frag_coord = nullptr;
 };
 
@@ -347,10 +350,10 @@ void decode_attribute(const std::vector<Attachment>& attachments, const Readback
 
 }  // namespace
 
-diff::Capture read_capture(const cases::Target& target, const std::vector<Attachment>& attachments,
-                           bool has_primitive, const ReadbackLayout& layout,
-                           std::span<const std::byte> memory) {
-    diff::Capture capture;
+capture::Capture read_capture(const cases::Target& target,
+                              const std::vector<Attachment>& attachments, bool has_primitive,
+                              const ReadbackLayout& layout, std::span<const std::byte> memory) {
+    capture::Capture capture;
     capture.target = target;
     capture.has_primitive = has_primitive;
     const size_t count = capture.sample_count();
@@ -407,8 +410,8 @@ void read_planes(const cases::Target& target, const std::vector<Attachment>& att
     if (target.has_instruments) {
         instruments.hits = reinterpret_cast<glm::vec4*>(to);
         to += samples * sizeof(glm::vec4);
-        instruments.writers = reinterpret_cast<diff::Writer*>(to);
-        to += samples * sizeof(diff::Writer);
+        instruments.writers = reinterpret_cast<capture::Writer*>(to);
+        to += samples * sizeof(capture::Writer);
         instruments.frag_coord = reinterpret_cast<glm::vec4*>(to);
         to += samples * sizeof(glm::vec4);
     }
@@ -418,8 +421,8 @@ void read_planes(const cases::Target& target, const std::vector<Attachment>& att
         const size_t count = size_t{shape.width} * shape.rows() * shape.samples;
         const std::byte* from = memory.data() + layout.offset[k];
         if (attachment.role == Role::color || attachment.role == Role::resolved_color) {
-            decode_color(shape, attachment, from, reinterpret_cast<diff::ColorCodes*>(to));
-            to += count * sizeof(diff::ColorCodes);
+            decode_color(shape, attachment, from, reinterpret_cast<capture::ColorCodes*>(to));
+            to += count * sizeof(capture::ColorCodes);
         } else if (attachment.is_depth()) {
             decode_depth(shape, memory.subspan(layout.offset[k]), reinterpret_cast<float*>(to));
             to += count * sizeof(float);

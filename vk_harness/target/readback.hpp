@@ -27,22 +27,22 @@ struct ReadbackLayout {
 ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attachment>& attachments,
                            VkDeviceSize begin, VkDeviceSize alignment);
 
-// Fills memory with diff::kPoison words, so that what the device does not copy is seen.
+// Fills memory with capture::kPoison words, so that what the device does not copy is seen.
 void poison(std::span<std::byte> memory);
 
 // The capture of a case from read-back memory.
-diff::Capture read_capture(const cases::Target& target, const std::vector<Attachment>& attachments,
-                           bool has_primitive, const ReadbackLayout& layout,
-                           std::span<const std::byte> memory);
+capture::Capture read_capture(const cases::Target& target,
+                              const std::vector<Attachment>& attachments, bool has_primitive,
+                              const ReadbackLayout& layout, std::span<const std::byte> memory);
 
-// The same into `planes`, in the order of diff::view_planes; diff::plane_bytes() bytes.
+// The same into `planes`, in the order of capture::view_planes; capture::plane_bytes() bytes.
 void read_planes(const cases::Target& target, const std::vector<Attachment>& attachments,
                  const ReadbackLayout& layout, std::span<const std::byte> memory,
                  std::span<std::byte> planes);
 
 // The stored codes of one texel of the colour target, `bytes` (2, 4, 8 or 16) long; kPoison four
 // times if its bytes are those of the fill pattern.
-diff::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes);
+capture::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel, uint32_t bytes);
 
 // The hits plane's sample of an alpha (attachments.hpp): front and back hits with their guards, as
 // capture/capture.hpp says. Poison stays poison; what no number of hits makes of a clear value gets

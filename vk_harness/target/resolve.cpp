@@ -6,6 +6,7 @@
 
 #include "capture/capture.hpp"
 #include "cases/load/color.hpp"
+#include "vk_harness/device/format.hpp"
 #include "vk_harness/memory/memory.hpp"
 #include "vk_harness/target/attachments.hpp"
 
@@ -53,11 +54,11 @@ std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
                 t.samples));
         }
     }
-    if (diff::resolves_color(t) && !has_image(to_vulkan(t.color->format), color_usage(1), 1)) {
+    if (capture::resolves_color(t) && !has_image(to_vulkan(t.color->format), color_usage(1), 1)) {
         return (fmt::format("the device cannot resolve into the colour format {}",
                             cases::name_of(t.color->format)));
     }
-    if (!diff::resolves_depth(t)) {
+    if (!capture::resolves_depth(t)) {
         return std::nullopt;
     }
     VkPhysicalDeviceDepthStencilResolveProperties resolve{};

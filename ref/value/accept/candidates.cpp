@@ -60,7 +60,7 @@ bool add_corner_triangles(const Primitive& primitive, const std::vector<PlaneInp
         return true;  // the nearest grid points only: already a candidate
     }
     Candidate<T> candidate;
-    candidate.name = ref::Basis::snapped;
+    candidate.name = ref::BasisKind::snapped;
     int orientation = 0;
     for (const FixedPoint& a : choice[0]) {
         for (const FixedPoint& b : choice[1]) {
@@ -222,7 +222,7 @@ bool add_pieces(const std::vector<PlaneInput<T>>& inputs,
             }
         }
         Candidate<T> candidate;
-        candidate.name = ref::Basis::clipped_piece;
+        candidate.name = ref::BasisKind::clipped_piece;
         if (!is_bounded) {
             if (with_unbounded) {
                 candidate.is_unbounded = true;
@@ -335,14 +335,14 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
     set.is_known = unsnapped.orientation != 2;
     const bool has_area = unsnapped.orientation == 1 || unsnapped.orientation == -1;
     if (has_area) {
-        set.candidates.push_back({ref::Basis::unsnapped, {std::move(unsnapped)}, false, false});
+        set.candidates.push_back({ref::BasisKind::unsnapped, {std::move(unsnapped)}, false, false});
     }
     const auto snapped = snapped_positions(primitive, limits);
     if (snapped) {
         Basis<T> basis = make_basis(moved_vertices<T>(primitive, *snapped), inputs, kBudgetFactor);
         set.is_known = set.is_known && basis.orientation != 2;
         if (basis.orientation == 1 || basis.orientation == -1) {
-            set.candidates.push_back({ref::Basis::snapped, {std::move(basis)}, false, false});
+            set.candidates.push_back({ref::BasisKind::snapped, {std::move(basis)}, false, false});
         }
     }
     set.is_known = set.is_known && add_corner_triangles(primitive, inputs, limits, profile, set);
@@ -350,14 +350,14 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
         if (profile == cases::Profile::vulkan) {
             // "a convex combination": the hull of the clipped polygon's vertices is all that the
             // text demands.
-            set.candidates.push_back({ref::Basis::clipped_piece, {}, true, false});
+            set.candidates.push_back({ref::BasisKind::clipped_piece, {}, true, false});
         } else if (has_area) {
             set.is_known = set.is_known && add_pieces(inputs, polygon, T{}, true, set) &&
                            add_pieces(inputs, polygon, set.margin, false, set);
         }
     }
     if (set.candidates.empty()) {
-        set.candidates.push_back({ref::Basis::unsnapped, {}, true, false});
+        set.candidates.push_back({ref::BasisKind::unsnapped, {}, true, false});
     }
     return set;
 }

@@ -93,7 +93,7 @@ bool is_better(const Score& a, const WideVerdict& than) {
 }
 
 WideVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> judged,
-                       const WideVerdict& probes, const Score& score, ref::Basis basis) {
+                       const WideVerdict& probes, const Score& score, ref::BasisKind basis) {
     WideVerdict out;
     out.basis = basis;
     out.worst = score.worst;
@@ -124,7 +124,7 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
             judged.push_back(i);
         }
     }
-    const WideVerdict unknown{false, false, ref::Basis::unsnapped, {}, {}, {}};
+    const WideVerdict unknown{false, false, ref::BasisKind::unsnapped, {}, {}, {}};
     std::optional<WideVerdict> best;
     const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
     std::vector<Round<T>> kept(rounds);

@@ -19,7 +19,7 @@ namespace ref::value {
 // One way to explain a fragment. Several bases: the device may be anywhere between them.
 template <class T>
 struct Candidate {
-    ref::Basis name = ref::Basis::unsnapped;
+    ref::BasisKind name = ref::BasisKind::unsnapped;
     std::vector<Basis<T>> bases;
     // Some of the positions have no area or another orientation: the values in between are bounded
     // by the vertex values only.
@@ -74,7 +74,7 @@ struct ProbePlace;
 struct WideVerdict {
     bool is_known = true;
     bool ok = false;
-    ref::Basis basis = ref::Basis::unsnapped;
+    ref::BasisKind basis = ref::BasisKind::unsnapped;
     WorstError worst;
     std::vector<size_t> failing;  // indices into the quantities
     std::vector<double> ratios;   // of the failing ones

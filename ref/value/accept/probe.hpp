@@ -23,7 +23,7 @@ namespace ref::value {
 
 // The fragment that is asked, and what its device promises.
 struct ProbePlace {
-    SampleId id;
+    cases::SampleId id;
     const cases::Target* target = nullptr;
     const cases::Draw* draw = nullptr;
     Limits limits;
@@ -37,7 +37,7 @@ struct Quad {
     friend bool operator==(const Quad&, const Quad&) = default;
 };
 // All arrangements, the likeliest (even alignment, fine) first.
-std::array<Quad, 8> quads_of(SampleId id);
+std::array<Quad, 8> quads_of(cases::SampleId id);
 
 // Points of framebuffer space, multiples of 2^-8 or finer below 2^15: exact in binary64. Several:
 // anywhere in their hull.

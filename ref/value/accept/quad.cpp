@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/value/accept/probe.hpp"
 
 namespace ref::value {
@@ -21,7 +21,7 @@ Spots corners(double x0, double y0, double x1, double y1) {
 
 }  // namespace
 
-std::array<Quad, 8> quads_of(SampleId id) {
+std::array<Quad, 8> quads_of(cases::SampleId id) {
     std::array<Quad, 8> out;
     for (int k = 0; k < 8; ++k) {
         const int right = (static_cast<int>(id.x) ^ k) & 1;

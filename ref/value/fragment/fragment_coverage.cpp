@@ -5,7 +5,7 @@
 #include "ref/coverage/exact.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/fast/half_plane.hpp"
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 
 namespace ref {
 
@@ -85,7 +85,8 @@ Points pixel_region(const TriangleSetup& setup, uint32_t x, uint32_t y) {
 }
 
 FragmentCoverage::FragmentCoverage(const cases::Case& c, const Limits& limits,
-                                   cases::Profile profile, const std::vector<Triangle>& triangles)
+                                   cases::Profile profile,
+                                   const std::vector<cases::Triangle>& triangles)
     : case_(c),
       limits_(limits),
       profile_(profile),

@@ -13,10 +13,10 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/triangle.hpp"
 #include "ref/coverage/setup.hpp"
 #include "ref/number/plane_budget.hpp"
 #include "ref/position/limits.hpp"
-#include "ref/position/triangle.hpp"
 
 namespace ref {
 
@@ -41,7 +41,7 @@ std::vector<value::Point<mpq_class>> cut(const std::vector<value::Point<mpq_clas
 class FragmentCoverage {
   public:
     FragmentCoverage(const cases::Case& c, const Limits& limits, cases::Profile profile,
-                     const std::vector<Triangle>& triangles);
+                     const std::vector<cases::Triangle>& triangles);
 
     const PixelCoverage& of(uint32_t t, uint32_t x, uint32_t y);
     // pixel_region() of the triangle's set-up; valid until the next call.
@@ -54,7 +54,7 @@ class FragmentCoverage {
     const cases::Case& case_;
     Limits limits_;
     cases::Profile profile_;
-    const std::vector<Triangle>& triangles_;
+    const std::vector<cases::Triangle>& triangles_;
     VertexBoxes boxes_;
     std::vector<std::optional<TriangleSetup>> setups_;
     template <class Answer>

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/position/clip.hpp"
-#include "ref/value/places.hpp"
+#include "ref/value/fragment/shading_rate.hpp"
 
 namespace ref::value {
 
@@ -217,7 +217,7 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
     return all;
 }
 
-Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
+Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle) {
     Primitive p;
     p.draw = &c.draws[triangle.draw];
     p.triangle = triangle;
@@ -242,7 +242,7 @@ Primitive make_primitive(const cases::Case& c, const Triangle& triangle) {
 // the last vertex convention (Vulkan specification, "Barycentric Interpolation", the tables for
 // list, strip and fan).
 Triple<float> barycentric_values(const Primitive& primitive, uint32_t component) {
-    const Triangle& t = primitive.triangle;
+    const cases::Triangle& t = primitive.triangle;
     uint32_t provoking = 0;
     for (uint32_t i = 0; i < 3; ++i) {
         if (t.vertex[i] == t.provoking) {

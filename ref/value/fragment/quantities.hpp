@@ -13,11 +13,11 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/triangle.hpp"
 #include "ref/number/plane_budget.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
-#include "ref/position/triangle.hpp"
-#include "ref/value/value.hpp"
+#include "ref/value/fragment/fragment.hpp"
 
 namespace ref::value {
 
@@ -78,14 +78,14 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
 // One triangle, everything that is exact in binary32 or cheap to have.
 struct Primitive {
     const cases::Draw* draw = nullptr;
-    Triangle triangle;
+    cases::Triangle triangle;
     cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
     std::array<glm::vec4, 3> clip{};
     bool is_finite = false;       // is_representable() at the profiles beyond vulkan
     bool is_projectable = false;  // and w > 0
     bool needs_clipping = false;  // a vertex is outside the clip volume
 };
-Primitive make_primitive(const cases::Case& c, const Triangle& triangle);
+Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle);
 
 // Vertex values g_i of a plane that come straight from the case (attributes); not for 1/w and z.
 Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, uint32_t component);

@@ -248,7 +248,7 @@ std::vector<Change> blit_changes() {
 
 // What a renderer reads to draw: "needs" repeats it, so it does not count.
 std::string drawn(const Case& c) {
-    nlohmann::json json = nlohmann::json::parse(cli::export_case(c));
+    nlohmann::json json = nlohmann::json::parse(capture::export_case(c));
     json.erase("needs");
     return json.dump();
 }
@@ -278,14 +278,14 @@ TEST(ExportCase, AControlledDepthBiasIsToldAndNeeded) {
     Case c = full_case();
     c.draws[0].depth.bias =
         cases::DepthBias{3, 0, 0, cases::DepthBiasRepresentation::floating, false};
-    const auto json = nlohmann::json::parse(cli::export_case(c));
+    const auto json = nlohmann::json::parse(capture::export_case(c));
     EXPECT_EQ(json["draws"][0]["depth"]["bias"]["representation"], "float");
     EXPECT_EQ(json["draws"][0]["depth"]["bias"]["exact"], false);
-    EXPECT_THAT(cli::needs_of(c), testing::Contains("depth-bias-control"));
+    EXPECT_THAT(capture::needs_of(c), testing::Contains("depth-bias-control"));
     c.draws[0].depth.bias->representation = cases::DepthBiasRepresentation::format;
-    EXPECT_THAT(cli::needs_of(c), testing::Not(testing::Contains("depth-bias-control")));
+    EXPECT_THAT(capture::needs_of(c), testing::Not(testing::Contains("depth-bias-control")));
     c.draws[0].depth.bias->is_exact = true;
-    EXPECT_THAT(cli::needs_of(c), testing::Contains("depth-bias-control"));
+    EXPECT_THAT(capture::needs_of(c), testing::Contains("depth-bias-control"));
 }
 
 }  // namespace

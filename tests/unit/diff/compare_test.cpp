@@ -26,7 +26,7 @@ cases::Case diagonal() {
 struct Checked {
     cases::Case c;
     ref::Expectation e;
-    diff::Capture capture;
+    capture::Capture capture;
     explicit Checked(cases::Case built, Profile profile = Profile::direct3d)
         : c(std::move(built)),
           e(ref::expect(c, kLimits, profile)),
@@ -155,7 +155,7 @@ TEST(Compare, CulledTriangleThatShowsNamesTheCulling) {
     }
     ASSERT_LT(culled, 64U);
     set_hits(k.capture, culled, 1, 0);
-    k.capture.writers[culled] = {0, 0, 0, diff::kClearId};
+    k.capture.writers[culled] = {0, 0, 0, capture::kClearId};
     k.capture.frag_coord[culled] = {0.5F, 0.5F, 0.5F, 1.0F};
     const diff::Verdict v = k.verdict();
     EXPECT_EQ(only(v).rule, "face.cull");
@@ -290,8 +290,8 @@ TEST(Compare, WrongProvokingVertexIsNamed) {
     k.capture.writers[k.at(1, 1)].provoking_vertex = 2;
     EXPECT_EQ(only(k.verdict()).rule, "provoking.first");
     k.capture.has_primitive = false;
-    for (diff::Writer& w : k.capture.writers) {
-        w.primitive = w.draw == diff::kClearId ? diff::kClearId : diff::kNoPrimitive;
+    for (capture::Writer& w : k.capture.writers) {
+        w.primitive = w.draw == capture::kClearId ? capture::kClearId : capture::kNoPrimitive;
     }
     EXPECT_EQ(only(k.verdict()).rule, "provoking.first");
 }
@@ -338,7 +338,7 @@ TEST(Compare, NanIsWrongUnderEveryProfile) {
 
 TEST(Compare, PoisonIsAnErrorNeverAPass) {
     Checked k(diagonal());
-    k.capture.depth[k.at(7, 7)] = std::bit_cast<float>(diff::kPoison);
+    k.capture.depth[k.at(7, 7)] = std::bit_cast<float>(capture::kPoison);
     const diff::Verdict v = k.verdict();
     EXPECT_FALSE(v.ok());
     EXPECT_EQ(

@@ -12,9 +12,9 @@
 
 namespace {
 
+using capture::Delivered;
+using capture::HitDetail;
 using cases::Profile;
-using diff::Delivered;
-using diff::HitDetail;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -39,7 +39,7 @@ enum Plane : uint32_t {
     kEnd = 256
 };
 
-Delivered take(const diff::Capture& capture, uint32_t planes) {
+Delivered take(const capture::Capture& capture, uint32_t planes) {
     Delivered out;
     const uint32_t detail = planes & (kCoverage | kTotal | kFaces);
     for (const glm::vec4& h : capture.hits) {
@@ -55,7 +55,7 @@ Delivered take(const diff::Capture& capture, uint32_t planes) {
                  : detail == kTotal    ? HitDetail::total
                  : detail == kCoverage ? HitDetail::coverage
                                        : HitDetail::none;
-    for (const diff::Writer& w : capture.writers) {
+    for (const capture::Writer& w : capture.writers) {
         if ((planes & kWriter) != 0) {
             out.draws.push_back(w.draw);
             out.primitives.push_back(w.primitive);
@@ -78,7 +78,7 @@ bool is_possible(uint32_t planes) {
 struct Fixture {
     cases::Case c = two_triangles();
     ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
-    diff::Capture right = perfect_capture(c, e);
+    capture::Capture right = perfect_capture(c, e);
 };
 
 TEST(Delivered, EverySubsetOfARightCapturePasses) {
@@ -111,7 +111,7 @@ TEST(Delivered, AWrongPlaneFailsWhereItIsDeliveredAndNowhereElse) {
     const size_t at = 3 * 8 + 3;  // both triangles cover pixel (3, 3)
     ASSERT_EQ(f.e.samples[at].hits.total_min, 2U);
     const auto check = [&](uint32_t plane, uint32_t seen_by, auto damage, diff::FindingKind kind) {
-        diff::Capture wrong = f.right;
+        capture::Capture wrong = f.right;
         damage(wrong);
         for (uint32_t planes = 1; planes < kEnd; ++planes) {
             if (!is_possible(planes)) {
@@ -145,7 +145,7 @@ TEST(Delivered, AWrongPlaneFailsWhereItIsDeliveredAndNowhereElse) {
 TEST(Delivered, ValuesHaveToBeOfOneTriangle) {
     const Fixture f;
     const size_t at = 3 * 8 + 3;
-    diff::Capture wrong = f.right;
+    capture::Capture wrong = f.right;
     ref::ValueReference values(f.c, f.e.limits, f.e.profile);
     write_fragment(wrong, f.c, f.e, values, 0, {3, 3, 0});
     wrong.writers[at] = f.right.writers[at];
@@ -159,11 +159,11 @@ TEST(Delivered, ValuesHaveToBeOfOneTriangle) {
 TEST(Delivered, WritersInAnotherOrderAreFound) {
     Fixture f;
     const size_t at = 3 * 8 + 3;
-    f.right.writers[at] = {0, 0, 0, diff::kClearId};
+    f.right.writers[at] = {0, 0, 0, capture::kClearId};
     const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(f.right, kWriter));
     ASSERT_EQ(v.findings.size(), 1U);
     EXPECT_EQ(v.findings[0].rule, "order.primitive");
-    f.right.writers[at] = {7, 9, 0, diff::kClearId};  // no such triangle
+    f.right.writers[at] = {7, 9, 0, capture::kClearId};  // no such triangle
     EXPECT_EQ(diff::compare_delivered(f.c, f.e, take(f.right, kWriter)).findings.size(), 1U);
 }
 
@@ -223,8 +223,8 @@ TEST(Delivered, ColourAloneIsJudged) {
     f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
     Delivered planes;
     for (const auto& sample : f.e.samples) {
-        planes.color.push_back(sample.hits.total_min > 0 ? diff::ColorCodes{255, 0, 0, 255}
-                                                         : diff::ColorCodes{});
+        planes.color.push_back(sample.hits.total_min > 0 ? capture::ColorCodes{255, 0, 0, 255}
+                                                         : capture::ColorCodes{});
     }
     EXPECT_TRUE(diff::compare_delivered(f.c, f.e, planes).ok());
     planes.color[3 * 8 + 3] = {254, 0, 0, 255};

@@ -26,9 +26,9 @@ cases::Case two_of_three() {
 struct Checked {
     cases::Case c = two_of_three();
     ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
-    diff::Capture capture = perfect_capture(c, e);
+    capture::Capture capture = perfect_capture(c, e);
     size_t at(uint32_t x, uint32_t y, uint32_t layer) const {
-        return ref::index_of(c.target, {x, y, 0, layer});
+        return cases::index_of(c.target, {x, y, 0, layer});
     }
     // Moves what is drawn in a layer to another one, as a device does that errs about the layer.
     void move(uint32_t from, uint32_t to) {
@@ -65,7 +65,8 @@ TEST(LayeredCompare, AMissingSampleIsNamedWithItsLayer) {
     EXPECT_EQ(v.min_y, 5U);  // rows of the stacked layers
     EXPECT_EQ(v.max_y, 5U);
     EXPECT_EQ(v.marks[k.at(2, 1, 1)], diff::SampleMark::missing);
-    EXPECT_EQ(diff::pixel_text(k.c.target, diff::place_of(v.findings[0])), "layer 1, pixel (2, 1)");
+    EXPECT_EQ(cases::pixel_text(k.c.target, diff::place_of(v.findings[0])),
+              "layer 1, pixel (2, 1)");
 }
 
 TEST(LayeredCompare, ATriangleInAnotherLayerBreaksTheLayerRule) {
@@ -97,12 +98,12 @@ TEST(LayeredCompare, AnExtraHitFromAnotherLayersDrawNamesIt) {
 TEST(LayeredCompare, OneLayerNamesNone) {
     const cases::Case c = pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}});
     const ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
-    diff::Capture capture = perfect_capture(c, e);
+    capture::Capture capture = perfect_capture(c, e);
     clear_sample(capture, 0);
     const diff::Verdict v = diff::compare(c, e, capture);
     ASSERT_EQ(v.findings.size(), 1U);
     EXPECT_FALSE(v.findings[0].layer.has_value());
-    EXPECT_EQ(diff::pixel_text(c.target, {3, 4, 0}), "pixel (3, 4)");
+    EXPECT_EQ(cases::pixel_text(c.target, {3, 4, 0}), "pixel (3, 4)");
 }
 
 TEST(LayeredCompare, ACaptureOfOneLayerIsRefused) {
@@ -116,7 +117,7 @@ TEST(LayeredCompare, ACaptureOfOneLayerIsRefused) {
 
 TEST(LayeredCompare, WhatWasNotCopiedIsNamedWithItsLayer) {
     Checked k;
-    k.capture.hits[k.at(7, 3, 2)] = glm::vec4(std::bit_cast<float>(diff::kPoison));
+    k.capture.hits[k.at(7, 3, 2)] = glm::vec4(std::bit_cast<float>(capture::kPoison));
     const diff::Verdict v = diff::compare(k.c, k.e, k.capture);
     EXPECT_EQ(v.error,
               "sample 0 of layer 2, pixel (7, 3) was not copied from the device: it still holds "
@@ -128,7 +129,7 @@ TEST(LayeredCompare, ADifferenceOfARelationIsInItsLayer) {
     k.c.relations = {{cases::RelationKind::same_twice, {}}};
     const auto derivations = cases::derivations(k.c);
     ASSERT_FALSE(derivations.empty());
-    diff::Capture again = k.capture;
+    capture::Capture again = k.capture;
     again.depth[k.at(1, 0, 2)] = 0.25F;
     std::vector<diff::Consistency> found(derivations.size());
     found[0] = diff::compare_bits(k.capture, again, derivations[0]);

@@ -37,10 +37,10 @@ inline void add_attribute(cases::Case& c, cases::Interpolation interpolation,
     c.draws[0].attributes.push_back(a);
 }
 
-inline void clear_sample(diff::Capture& capture, size_t index) {
-    const glm::vec4 clear(diff::kClearValue);
-    capture.hits[index] = {0, 0, diff::kHitGuard, diff::kHitGuard};
-    capture.writers[index] = diff::Writer{};
+inline void clear_sample(capture::Capture& capture, size_t index) {
+    const glm::vec4 clear(capture::kClearValue);
+    capture.hits[index] = {0, 0, capture::kHitGuard, capture::kHitGuard};
+    capture.writers[index] = capture::Writer{};
     capture.frag_coord[index] = clear;
     capture.depth[index] = capture.target.depth_clear;
     for (uint32_t a = 0; a < capture.attribute_count; ++a) {
@@ -48,17 +48,18 @@ inline void clear_sample(diff::Capture& capture, size_t index) {
     }
 }
 
-inline void set_hits(diff::Capture& capture, size_t index, float front, float back) {
-    capture.hits[index] = {front, back, diff::kHitGuard, diff::kHitGuard + front + back};
+inline void set_hits(capture::Capture& capture, size_t index, float front, float back) {
+    capture.hits[index] = {front, back, capture::kHitGuard, capture::kHitGuard + front + back};
 }
 
 // What triangle t leaves at a sample: nearest values of the reference.
-inline void write_fragment(diff::Capture& capture, const cases::Case& c, const ref::Expectation& e,
-                           ref::ValueReference& values, uint32_t t, ref::SampleId id) {
-    const size_t index = ref::index_of(c.target, id);
-    const ref::Triangle& triangle = e.triangles[t];
+inline void write_fragment(capture::Capture& capture, const cases::Case& c,
+                           const ref::Expectation& e, ref::ValueReference& values, uint32_t t,
+                           cases::SampleId id) {
+    const size_t index = cases::index_of(c.target, id);
+    const cases::Triangle& triangle = e.triangles[t];
     capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
-                              diff::kClearId};
+                              capture::kClearId};
     capture.frag_coord[index] = {static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F,
                                  0, 0};
     for (uint32_t a = 0; a < capture.attribute_count; ++a) {
@@ -90,8 +91,8 @@ inline void write_fragment(diff::Capture& capture, const cases::Case& c, const r
 
 // The capture of a device that is right in every sample (where several answers are allowed: the
 // least hits).
-inline diff::Capture perfect_capture(const cases::Case& c, const ref::Expectation& e) {
-    diff::Capture capture;
+inline capture::Capture perfect_capture(const cases::Case& c, const ref::Expectation& e) {
+    capture::Capture capture;
     capture.target = c.target;
     capture.has_primitive = true;
     capture.attribute_count = static_cast<uint32_t>(c.draws[0].attributes.size());
@@ -105,7 +106,7 @@ inline diff::Capture perfect_capture(const cases::Case& c, const ref::Expectatio
     }
     ref::ValueReference values(c, e.limits, e.profile);
     for (size_t index = 0; index < count; ++index) {
-        const ref::SampleId id = ref::sample_at(c.target, index);
+        const cases::SampleId id = cases::sample_at(c.target, index);
         clear_sample(capture, index);
         const ref::SampleExpectation& s = e.samples[index];
         if (s.hits.total_min > 0) {

@@ -27,7 +27,7 @@ cases::Case covered(float shading) {
     return c;
 }
 
-diff::Verdict judged(const cases::Case& c, const diff::Capture& capture) {
+diff::Verdict judged(const cases::Case& c, const capture::Capture& capture) {
     return diff::compare(c, ref::expect(c, kLimits, Profile::vulkan), capture);
 }
 
@@ -40,7 +40,7 @@ TEST(PixelCheck, RightCapturePasses) {
 
 TEST(PixelCheck, TooFewInvocations) {
     const cases::Case c = covered(1);
-    diff::Capture capture = perfect_capture(c, ref::expect(c, kLimits, Profile::vulkan));
+    capture::Capture capture = perfect_capture(c, ref::expect(c, kLimits, Profile::vulkan));
     for (size_t s = 1; s < 4; ++s) {
         capture.frag_coord[kPixel + s].x = capture.frag_coord[kPixel].x;
         capture.frag_coord[kPixel + s].y = capture.frag_coord[kPixel].y;
@@ -56,7 +56,7 @@ TEST(PixelCheck, TooFewInvocations) {
 
 TEST(PixelCheck, MasksOfInvocationsAreDisjoint) {
     const cases::Case c = covered(0.5F);
-    diff::Capture capture = perfect_capture(c, ref::expect(c, kLimits, Profile::vulkan));
+    capture::Capture capture = perfect_capture(c, ref::expect(c, kLimits, Profile::vulkan));
     // Two invocations a pixel: samples 0 and 1, samples 2 and 3.
     const float x[] = {0.375F, 0.375F, 0.125F, 0.125F};
     const float y[] = {0.125F, 0.125F, 0.625F, 0.625F};

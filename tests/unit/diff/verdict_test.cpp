@@ -23,7 +23,7 @@ TEST(Verdict, FindingsAreCountedWhereTheyAre) {
     v.level = Profile::direct3d;
     v.marks.assign(32, diff::SampleMark::ok);
     v.marks[5] = diff::SampleMark::either;
-    const auto add = [&](FindingKind kind, ref::SampleId id, Profile level) {
+    const auto add = [&](FindingKind kind, cases::SampleId id, Profile level) {
         diff::Finding finding = diff::finding_at(kind, target, id);
         finding.level = level;
         v.add(std::move(finding), target);

@@ -9,7 +9,7 @@
 #include "tests/unit/rasterizers/exact_numbers.hpp"
 #include "tests/unit/rasterizers/random_triangles.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 namespace {
 
 using test::RandomTriangles;
@@ -142,4 +142,4 @@ TEST(BlockIntegers, QuantisedBarycentricsAreNearest) {
 }
 
 }  // namespace
-}  // namespace ref::algorithms
+}  // namespace rasterizers

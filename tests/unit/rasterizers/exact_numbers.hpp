@@ -16,7 +16,7 @@
 #include "rasterizers/algorithms/edge.hpp"
 #include "rasterizers/algorithms/interpolation.hpp"
 
-namespace ref::algorithms::test {
+namespace rasterizers::test {
 
 inline mpz_class to_mpz(Int128 v) {
     const Int128 magnitude = v < 0 ? -v : v;
@@ -112,4 +112,4 @@ inline BlockLoss block_loss(const Corners& t, const Point& first, int64_t k, int
     return out;
 }
 
-}  // namespace ref::algorithms::test
+}  // namespace rasterizers::test

@@ -8,7 +8,7 @@
 #include "tests/unit/rasterizers/float_loss.hpp"
 #include "tests/unit/rasterizers/random_triangles.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 namespace {
 
 using test::RandomTriangles;
@@ -85,4 +85,4 @@ TEST(FloatAreas, LossIsWithinItsBound) {
 }
 
 }  // namespace
-}  // namespace ref::algorithms
+}  // namespace rasterizers

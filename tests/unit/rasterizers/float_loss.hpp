@@ -7,7 +7,7 @@
 #include "rasterizers/algorithms/float_areas.hpp"
 #include "tests/unit/rasterizers/exact_numbers.hpp"
 
-namespace ref::algorithms::test {
+namespace rasterizers::test {
 
 // g(k) = k u / (1 - k u), u = 2^-24
 inline mpq_class rounding_bound(int k) {
@@ -79,4 +79,4 @@ inline FloatLoss float_loss(const Corners& t, const Point& p, const Values& valu
     return out;
 }
 
-}  // namespace ref::algorithms::test
+}  // namespace rasterizers::test

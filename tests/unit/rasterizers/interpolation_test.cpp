@@ -10,7 +10,7 @@
 #include "tests/unit/rasterizers/exact_numbers.hpp"
 #include "tests/unit/rasterizers/random_triangles.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 namespace {
 
 using test::RandomTriangles;
@@ -266,4 +266,4 @@ TEST(Interpolation, GradientByHand) {
 }
 
 }  // namespace
-}  // namespace ref::algorithms
+}  // namespace rasterizers

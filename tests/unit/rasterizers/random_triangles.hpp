@@ -8,7 +8,7 @@
 
 #include "rasterizers/algorithms/edge.hpp"
 
-namespace ref::algorithms::test {
+namespace rasterizers::test {
 
 class RandomTriangles {
   public:
@@ -90,4 +90,4 @@ class RandomTriangles {
     std::mt19937_64 engine_;
 };
 
-}  // namespace ref::algorithms::test
+}  // namespace rasterizers::test

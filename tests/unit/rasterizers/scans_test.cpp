@@ -12,7 +12,7 @@
 #include "ref/coverage/exact.hpp"
 #include "tests/unit/rasterizers/random_triangles.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 namespace {
 
 using test::RandomTriangles;
@@ -285,4 +285,4 @@ TEST(Edges, TriangleOfTheLesson) {
 }
 
 }  // namespace
-}  // namespace ref::algorithms
+}  // namespace rasterizers

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/value/places.hpp"
 #include "ref/value/value.hpp"
 #include "tests/unit/ref/multisample_fixture.hpp"

@@ -7,9 +7,9 @@
 
 #include <random>
 
+#include "cases/model/sample.hpp"
 #include "coverage_fixture.hpp"
 #include "ref/expectation/explain.hpp"
-#include "ref/number/sample.hpp"
 
 namespace ref::test {
 namespace {

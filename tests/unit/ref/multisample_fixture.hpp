@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "ref/number/sample.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/value/places.hpp"
 #include "ref/value/value.hpp"
 #include "tests/unit/ref/coverage_fixture.hpp"

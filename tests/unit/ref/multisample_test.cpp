@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ref/expectation/expectation.hpp"
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "ref/value/accept/one_point.hpp"
 #include "ref/value/fragment/fragment_coverage.hpp"
 #include "ref/value/places.hpp"

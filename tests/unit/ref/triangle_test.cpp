@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/position/triangle.hpp"
+#include "cases/model/triangle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "ref/number/sample.hpp"
+#include "ref/number/fixed_point.hpp"
 #include "tests/unit/ref/coverage_fixture.hpp"
 
 namespace ref::test {

@@ -45,7 +45,7 @@ struct Random {
         if (n % 5 == 0) {
             draw.multisample.min_sample_shading = 0.5F;
         }
-        primitive = ref::value::make_primitive(c, ref::assemble(c).front());
+        primitive = ref::value::make_primitive(c, cases::assemble(c).front());
         quantities = ref::value::quantities(draw, c.target);
         fragment.id = sampled.inside.front();
         fragment.id.sample = static_cast<uint32_t>(rng() % 4);
@@ -63,7 +63,7 @@ struct Random {
     // what profile vulkan allows, where the candidates differ.
     ref::FragmentValues device(std::mt19937_64& rng, double spread) const {
         ref::ValueReference reference(sampled.c, ref::Limits{}, Profile::direct3d);
-        const ref::SampleId id = fragment.id;
+        const cases::SampleId id = fragment.id;
         ref::FragmentValues out = value_test::rounded(reference.expected(0, id));
         const auto move = [&](float& v) {
             if (rng() % 3 == 0) {

@@ -19,7 +19,7 @@ using value_test::clip_of;
 using value_test::make_case;
 
 // Of attribute 0, noperspective, in units of 2^-24.
-double budget_at(const cases::Case& c, ref::SampleId id) {
+double budget_at(const cases::Case& c, cases::SampleId id) {
     const auto all = ref::ValueReference(c, ref::Limits{}, Profile::direct3d).expected(0, id);
     const auto it = std::find_if(all.begin(), all.end(), [](const ref::ExpectedValue& e) {
         return e.quantity == "attribute 0.x";
@@ -58,7 +58,7 @@ TEST(ValueBudget, HullOfAClippedPolygonHasTheErrorsOfTheProfile) {
     cases::Case c = make_case(
         64, {glm::vec4(-1, 0, 0.5F, 1), glm::vec4(5, 0, 0.5F, 3), glm::vec4(-1, 1, 0.5F, 1)});
     add_attribute(c, Interpolation::smooth, 1, kZeroOneTwo);
-    const auto triangles = ref::assemble(c);
+    const auto triangles = cases::assemble(c);
     const auto primitive = ref::value::make_primitive(c, triangles[0]);
     ASSERT_TRUE(primitive.needs_clipping);
     const auto quantities = ref::value::quantities(c.draws[0], c.target);

@@ -207,7 +207,7 @@ enum class Shape : uint8_t { small, large, sliver };
 
 struct Sampled {
     cases::Case c;
-    std::vector<ref::SampleId> inside;  // pixels whose centre is inside (binary64 test)
+    std::vector<cases::SampleId> inside;  // pixels whose centre is inside (binary64 test)
 };
 
 inline double cross(double ax, double ay, double bx, double by, double px, double py) {
@@ -246,7 +246,7 @@ inline Sampled random_case(std::mt19937_64& rng, uint32_t size, Shape shape, int
             y[i] = std::min(std::max(y[i], 0.01), s - 0.01);
         }
         // The snapped positions too must have the pixel inside; otherwise no device draws it.
-        std::vector<ref::SampleId> inside;
+        std::vector<cases::SampleId> inside;
         for (int tries = 0; tries < 64 && inside.size() < 4; ++tries) {
             double b0 = uniform(0, 1);
             double b1 = uniform(0, 1);

@@ -71,7 +71,7 @@ double uniform(std::mt19937_64& rng, double low, double high) {
 struct Clipped {
     cases::Case c;
     cases::Case piece;  // the fan triangle that holds the pixel, as a case of its own
-    ref::SampleId id;
+    cases::SampleId id;
 };
 
 // A random triangle that leaves the view volume, and a pixel of its visible part.
@@ -138,7 +138,7 @@ void expect_pieces_pass(uint64_t seed, bool behind) {
                     << n << " " << verdict.mismatches[0].quantity << " "
                     << verdict.mismatches[0].expected << " got " << verdict.mismatches[0].got;
                 worst = std::max(worst, verdict.worst_ratio);
-                pieces += verdict.basis == ref::Basis::clipped_piece ? 1U : 0U;
+                pieces += verdict.basis == ref::BasisKind::clipped_piece ? 1U : 0U;
             }
         }
         ref::FragmentValues off =

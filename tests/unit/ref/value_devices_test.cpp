@@ -35,7 +35,7 @@ Tally run(Device device, Fault fault, uint64_t seed, int count, int w_exponent) 
         const Sampled s = value_test::random_case(rng, size, shape, n % 2 == 0 ? 0 : w_exponent);
         const Simulated simulated(s.c, device, fault);
         ref::ValueReference reference(s.c, ref::Limits{}, cases::Profile::direct3d);
-        for (const ref::SampleId& id : s.inside) {
+        for (const cases::SampleId& id : s.inside) {
             const ref::FragmentVerdict verdict = reference.judge(0, id, simulated.at(id.x, id.y));
             ++tally.fragments;
             tally.worst = std::max(tally.worst, verdict.worst_ratio);
@@ -101,7 +101,7 @@ TEST(ValueDevices, TwelveBitReciprocalIsRejected) {
         const Sampled s = value_test::random_case(rng, 64, Shape::large, 4);
         const Simulated device(s.c, Device::brute_barycentric, Fault::short_reciprocal);
         ref::ValueReference reference(s.c, ref::Limits{}, cases::Profile::direct3d);
-        for (const ref::SampleId& id : s.inside) {
+        for (const cases::SampleId& id : s.inside) {
             ++fragments;
             rejected += reference.judge(0, id, device.at(id.x, id.y)).ok ? 0U : 1U;
         }
@@ -118,7 +118,7 @@ TEST(ValueDevices, MixedBasesAreRejected) {
         const Simulated a(s.c, Device::origin_plane, Fault::none);
         const Simulated b(s.c, Device::relative_snapped, Fault::none);
         ref::ValueReference reference(s.c, ref::Limits{}, cases::Profile::direct3d);
-        for (const ref::SampleId& id : s.inside) {
+        for (const cases::SampleId& id : s.inside) {
             ref::FragmentValues mixed = a.at(id.x, id.y);
             mixed.attributes[1] = b.at(id.x, id.y).attributes[1];
             ++fragments;
@@ -134,7 +134,7 @@ TEST(ValueDevices, SwappedValuesAreRejected) {
     std::mt19937_64 rng(9);
     for (int n = 0; n < 500; ++n) {
         const Sampled s = value_test::random_case(rng, 64, Shape::large, 4);
-        const ref::SampleId id = s.inside.front();
+        const cases::SampleId id = s.inside.front();
         const ref::FragmentValues good =
             Simulated(s.c, Device::origin_plane, Fault::none).at(id.x, id.y);
         ref::ValueReference reference(s.c, ref::Limits{}, cases::Profile::direct3d);
@@ -168,7 +168,7 @@ TEST(ValueDevices, LevelsAreMonotone) {
     std::mt19937_64 rng(10);
     for (int n = 0; n < 15; ++n) {
         const Sampled s = value_test::random_case(rng, 256, Shape::large, 3);
-        const ref::SampleId id = s.inside.front();
+        const cases::SampleId id = s.inside.front();
         const ref::FragmentValues good =
             Simulated(s.c, Device::brute_barycentric, Fault::none).at(id.x, id.y);
         for (const float off : {0x1p-22F, 0x1p-18F, 0x1p-14F, 0x1p-10F, 0x1p-4F, 2.0F}) {

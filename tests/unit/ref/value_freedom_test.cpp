@@ -23,7 +23,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // The verdict of both ways, which have to agree.
-bool is_ok(const cases::Case& c, Profile profile, ref::SampleId id,
+bool is_ok(const cases::Case& c, Profile profile, cases::SampleId id,
            const ref::FragmentValues& device) {
     ref::ValueReference reference(c, ref::Limits{}, profile);
     const ref::FragmentVerdict verdict = reference.judge(0, id, device);
@@ -31,7 +31,7 @@ bool is_ok(const cases::Case& c, Profile profile, ref::SampleId id,
     return verdict.ok;
 }
 
-ref::FragmentValues exact_values(const cases::Case& c, ref::SampleId id) {
+ref::FragmentValues exact_values(const cases::Case& c, cases::SampleId id) {
     return rounded(ref::ValueReference(c, ref::Limits{}, Profile::direct3d).expected(0, id));
 }
 
@@ -43,7 +43,7 @@ cases::Case beyond_the_far_plane() {
 }
 
 TEST(ValueFreedom, DepthMayBeClampedToTheViewport) {
-    const ref::SampleId id{10, 10, 0};
+    const cases::SampleId id{10, 10, 0};
     cases::Case c = beyond_the_far_plane();
     ref::FragmentValues v = exact_values(c, id);
     ASSERT_GT(v.depth, 1.05F);
@@ -81,7 +81,7 @@ TEST(ValueFreedom, DepthMayBeClampedToTheViewport) {
 }
 
 TEST(ValueFreedom, DepthBeyondTheViewportIsUndefinedAtVulkan) {
-    const ref::SampleId id{10, 10, 0};
+    const cases::SampleId id{10, 10, 0};
     const cases::Case c = beyond_the_far_plane();
     ref::FragmentValues v = exact_values(c, id);
     for (const float depth : {0.0F, 0.5F, 1.0F, kInfinity, kNan}) {
@@ -118,7 +118,7 @@ TEST(ValueFreedom, DenominatorsThatMayBeZeroLeaveTheHull) {
     struct Asked {
         const cases::Case* c;
         Profile profile;
-        ref::SampleId id;
+        cases::SampleId id;
     };
     for (const Asked& asked : {Asked{&small, Profile::vulkan, {2000, 2000, 0}},
                                Asked{&sliver, Profile::practice, {30, 10, 0}}}) {
@@ -168,7 +168,7 @@ TEST(ValueFreedom, NothingIsPromisedOfQuotientsBeyondBinary32) {
         for (const Interpolation i : {Interpolation::smooth, Interpolation::noperspective}) {
             add_attribute(c, i, 1, {glm::vec4(f), glm::vec4(f), glm::vec4(f)});
         }
-        const ref::SampleId id{10, 10, 0};
+        const cases::SampleId id{10, 10, 0};
         ref::FragmentValues v = exact_values(c, id);
         EXPECT_TRUE(is_ok(c, profile, id, v));
         v.attributes[0].x = got;
@@ -192,7 +192,7 @@ TEST(ValueFreedom, LevelIsThatOfTheWholeFragment) {
     std::array<int, 3> count{};
     for (int n = 0; n < 3000; ++n) {
         const auto s = value_test::random_case(rng, 64, value_test::Shape::sliver, 4);
-        const ref::SampleId id = s.inside.front();
+        const cases::SampleId id = s.inside.front();
         const auto all = {
             value_test::Simulated(s.c, value_test::Device::origin_plane, value_test::Fault::none)
                 .at(id.x, id.y),

@@ -117,7 +117,7 @@ TEST(ValueHand, VertexBehindTheEyeKeepsThePlane) {
     add_attribute(c, Interpolation::smooth, 2,
                   {glm::vec4(-0.5F, 1, 0, 0), glm::vec4(0.5F, 1, 0, 0), glm::vec4(0, -1, 0, 0)});
     ref::ValueReference reference = reference_of(c);
-    const ref::SampleId id{4, 7, 0};
+    const cases::SampleId id{4, 7, 0};
     const auto all = reference.expected(0, id);
     const mpq_class x_c(find(all, "attribute 0.x").exact);
     const mpq_class w(find(all, "attribute 0.y").exact);
@@ -131,7 +131,7 @@ TEST(ValueHand, ExactValuesRoundedOncePass) {
     const cases::Case c = brown_case();
     for (const Profile profile : cases::kProfiles) {
         ref::ValueReference reference = reference_of(c, profile);
-        const ref::SampleId id{3, 0, 0};
+        const cases::SampleId id{3, 0, 0};
         const ref::FragmentVerdict verdict =
             reference.judge(0, id, rounded(reference.expected(0, id)));
         EXPECT_TRUE(verdict.ok);
@@ -143,7 +143,7 @@ TEST(ValueHand, ExactValuesRoundedOncePass) {
 // budget more and far beyond what is accepted.
 TEST(ValueHand, TheLargestErrorIsThatOfTheValueThatWasMoved) {
     const cases::Case c = brown_case();
-    const ref::SampleId id{3, 0, 0};
+    const cases::SampleId id{3, 0, 0};
     ref::ValueReference reference = reference_of(c, Profile::direct3d);
     const std::vector<ref::ExpectedValue> all = reference.expected(0, id);
     EXPECT_LT(reference.judge(0, id, rounded(all)).worst_ratio, 0.5);
@@ -179,7 +179,7 @@ TEST(ValueHand, BadNumbersOfAVertexFreeTheirComponentAlone) {
             8, {clip_of(0, 0, 0.25, 1, 8), clip_of(8, 0, 0.5, 2, 8), clip_of(0, 8, 1, 1, 8)});
         add_attribute(c, Interpolation::smooth, 2,
                       {glm::vec4(0, 0, 0, 0), glm::vec4(bad, 1, 0, 0), glm::vec4(1, 2, 0, 0)});
-        const ref::SampleId id{3, 0, 0};
+        const cases::SampleId id{3, 0, 0};
         for (const Profile profile : cases::kProfiles) {
             ref::ValueReference reference = reference_of(c, profile);
             ref::FragmentValues device = rounded(reference.expected(0, id));
@@ -199,7 +199,7 @@ TEST(ValueHand, BadNumbersOfAVertexFreeTheirComponentAlone) {
 }
 
 // Judges the brown case with one value replaced; returns the single mismatch.
-ref::ValueMismatch mismatch_of(const cases::Case& c, Profile profile, ref::SampleId id,
+ref::ValueMismatch mismatch_of(const cases::Case& c, Profile profile, cases::SampleId id,
                                const std::function<void(ref::FragmentValues&)>& change) {
     ref::ValueReference reference = reference_of(c, profile);
     ref::FragmentValues values = rounded(reference.expected(0, id));
@@ -217,7 +217,7 @@ ref::ValueMismatch mismatch_of(const cases::Case& c, Profile profile, ref::Sampl
 
 TEST(ValueHand, RulesAndLevels) {
     const cases::Case c = brown_case();
-    const ref::SampleId id{3, 0, 0};
+    const cases::SampleId id{3, 0, 0};
     const float inf = std::numeric_limits<float>::infinity();
     const float nan = std::numeric_limits<float>::quiet_NaN();
 
@@ -266,7 +266,7 @@ TEST(ValueHand, FlatSpecialValues) {
     cases::Case c = brown_case();
     const float denormal = 0x1p-140F;
     c.draws[0].attributes[2].values = {glm::vec4(denormal), glm::vec4(1.0F), glm::vec4(2.0F)};
-    const ref::SampleId id{3, 0, 0};
+    const cases::SampleId id{3, 0, 0};
     ref::ValueReference reference = reference_of(c);
     ref::FragmentValues v = rounded(reference.expected(0, id));
     v.attributes[2].x = 0.0F;
@@ -343,7 +343,7 @@ TEST(ValueHand, MultisampledPositions) {
     add_attribute(c, Interpolation::noperspective, 1, x);
     add_attribute(c, Interpolation::smooth, 1, x);
     // Sample 0 of pixel (3,2) is at (3.375, 2.125).
-    const ref::SampleId id{3, 2, 0};
+    const cases::SampleId id{3, 2, 0};
     const auto ok = [&](Profile profile, float a, float b, float coord_z, float depth) {
         ref::ValueReference reference = reference_of(c, profile);
         ref::FragmentValues v;

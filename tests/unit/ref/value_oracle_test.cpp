@@ -57,7 +57,7 @@ TEST(ValueOracle, FilterAgreesAroundTheThreshold) {
             value_test::random_case(rng, n % 2 == 0 ? 64 : 2048, shape, n % 4 < 2 ? 0 : 8);
         const Profile profile = n % 5 == 4 ? Profile::practice : Profile::direct3d;
         ref::ValueReference reference(s.c, ref::Limits{}, profile);
-        const ref::SampleId id = s.inside.front();
+        const cases::SampleId id = s.inside.front();
         const auto all = reference.expected(0, id);
         ref::FragmentValues base;
         for (const auto& e : all) {
@@ -219,7 +219,7 @@ TEST(ValueOracle, DecisionMatchesTheFormulaWrittenTwice) {
             ref::kBudgetFactor *
             ((formula.budget(over) + abs(value) * bd) / (d - ref::kBudgetFactor * bd) + own);
         ref::ValueReference reference(c, ref::Limits{}, Profile::direct3d);
-        const ref::SampleId id{i, j, 0};
+        const cases::SampleId id{i, j, 0};
         ref::FragmentValues device;
         for (const auto& e : reference.expected(0, id)) {
             *slot(device, e.quantity) = static_cast<float>(e.nearest);

@@ -41,7 +41,7 @@ void add_slanted(cases::Case& c, Probe probe) {
 }
 
 bool accepts(const cases::Case& c, std::initializer_list<double> values, Profile profile,
-             ref::SampleId id = {1, 1, 0}) {
+             cases::SampleId id = {1, 1, 0}) {
     ref::ValueReference reference(c, ref::Limits{}, profile);
     ref::FragmentValues device = value_test::rounded(reference.expected(0, id));
     size_t a = 0;
@@ -140,7 +140,7 @@ TEST(ValueProbe, BeyondTheHorizonNothingIsAsked) {
         8, {value_test::clip_of(0, 0, 0.5, 1, 8), value_test::clip_of(3.75, 0, 0.5, 16, 8),
             value_test::clip_of(0, 8, 0.5, 1, 8)});
     add_probe(c, Probe::dx_fine);
-    const ref::SampleId id{3, 0, 0};
+    const cases::SampleId id{3, 0, 0};
     for (const double v : {0.0, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
         EXPECT_TRUE(accepts(c, {v}, Profile::direct3d, id));
     }
@@ -185,7 +185,7 @@ TEST(ValueProbe, WhatIsAcceptedIsWithinItsBudgets) {
         for (const Profile profile : cases::kProfiles) {
             ref::ValueReference reference(c, ref::Limits{4}, profile);
             double most = 0;
-            for (const ref::SampleId id : {ref::SampleId{9, 2, 0}, {5, 4, 0}, {3, 9, 0}}) {
+            for (const cases::SampleId id : {cases::SampleId{9, 2, 0}, {5, 4, 0}, {3, 9, 0}}) {
                 const ref::FragmentValues exact = value_test::rounded(reference.expected(0, id));
                 for (const float sign : {1.0F, -1.0F}) {
                     const auto judged = [&](float moved) {
@@ -270,7 +270,7 @@ TEST(ValueProbe, LevelsOfDetailLieInTheSpecifiedRange) {
     a.texture_size = {32, 32};
     const auto accepts_lod = [&](double level, double lambda) {
         ref::ValueReference reference(c, ref::Limits{}, Profile::direct3d);
-        const ref::SampleId id{1, 1, 0};
+        const cases::SampleId id{1, 1, 0};
         ref::FragmentValues device = value_test::rounded(reference.expected(0, id));
         device.attributes[0] = {static_cast<float>(level), static_cast<float>(lambda), 0, 0};
         const bool ok = reference.judge(0, id, device).ok;
@@ -317,7 +317,7 @@ TEST(ValueProbe, BarycentricOrderByTopologyAndProvokingVertex) {
         a.source = cases::Source::barycentric;
         a.components = 3;
         draw.attributes = {a};
-        const auto triangles = ref::assemble(c);
+        const auto triangles = cases::assemble(c);
         const auto primitive = ref::value::make_primitive(c, triangles[1]);
         for (uint32_t k = 0; k < 3; ++k) {
             const auto values = ref::value::attribute_values(primitive, 0, k);
@@ -347,7 +347,7 @@ TEST(ValueProbe, FilterAgreesWithTheOracle) {
         }
         const Profile profile = cases::kProfiles[static_cast<size_t>(n) % 3];
         ref::ValueReference reference(s.c, ref::Limits{}, profile);
-        const ref::SampleId id = s.inside.front();
+        const cases::SampleId id = s.inside.front();
         const auto expected = reference.expected(0, id);
         for (int k = 0; k < 8; ++k) {
             ref::FragmentValues device = value_test::rounded(expected);

@@ -9,9 +9,9 @@
 #include <set>
 #include <sstream>
 
+#include "cases/base/utf8.hpp"
 #include "report/journal/merge.hpp"
 #include "report/text/causes.hpp"
-#include "report/text/utf8.hpp"
 #include "sample_run.hpp"
 
 namespace report {

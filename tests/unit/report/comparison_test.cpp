@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/text/utf8.hpp"
+#include "cases/base/utf8.hpp"
 #include "report/text/wrap.hpp"
 #include "sample_run.hpp"
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/text/reports.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cases/base/utf8.hpp"
+#include "report/files/json.hpp"
+#include "report/files/junit.hpp"
+#include "report/page/html.hpp"
+#include "report/text/console.hpp"
 #include "report/text/sentences.hpp"
-#include "report/text/utf8.hpp"
 #include "sample_run.hpp"
 
 namespace report {

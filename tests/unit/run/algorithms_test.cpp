@@ -12,14 +12,14 @@
 #include "diff/verdict.hpp"
 #include "run/worker/backend.hpp"
 
-namespace ref::algorithms {
+namespace rasterizers {
 
 // How ctest names a parameter.
 void PrintTo(const Device& device, std::ostream* out) {
     *out << device.name;
 }
 
-}  // namespace ref::algorithms
+}  // namespace rasterizers
 
 namespace cli {
 namespace {
@@ -35,7 +35,7 @@ const std::vector<cases::Case>& supported_cases() {
             const uint64_t samples = uint64_t{c.target.width} * c.target.height * c.target.samples;
             // Large targets and meshes are left to `edgecase run --renderer`.
             if (samples <= 1U << 17U && triangles <= 1U << 13U &&
-                ref::algorithms::unsupported_reason(c).empty()) {
+                rasterizers::unsupported_reason(c).empty()) {
                 out.push_back(std::move(c));
             }
         }
@@ -44,12 +44,12 @@ const std::vector<cases::Case>& supported_cases() {
     return kCases;
 }
 
-diff::Verdict judge(const cases::Case& c, const ref::algorithms::Device& device) {
+diff::Verdict judge(const cases::Case& c, const rasterizers::Device& device) {
     const ref::Expectation expectation = ref::expect(c, {}, cases::Profile::direct3d);
     return diff::compare(c, expectation, draw_by_algorithm(c, device));
 }
 
-class Algorithms : public ::testing::TestWithParam<ref::algorithms::Device> {};
+class Algorithms : public ::testing::TestWithParam<rasterizers::Device> {};
 
 TEST_P(Algorithms, PassTheSuite) {
     EXPECT_GT(supported_cases().size(), 400U);
@@ -78,8 +78,8 @@ TEST_P(Algorithms, PassTheSuite) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Algorithms,
-                         ::testing::ValuesIn(ref::algorithms::all_devices().begin(),
-                                             ref::algorithms::all_devices().end()),
+                         ::testing::ValuesIn(rasterizers::all_devices().begin(),
+                                             rasterizers::all_devices().end()),
                          [](const auto& test) {
                              std::string name(test.param.name);
                              std::replace(name.begin(), name.end(), '-', '_');

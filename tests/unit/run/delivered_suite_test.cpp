@@ -16,8 +16,8 @@
 namespace cli {
 namespace {
 
-using diff::Delivered;
-using diff::HitDetail;
+using capture::Delivered;
+using capture::HitDetail;
 
 constexpr uint32_t kParts = 150;  // one leaf in so many, by a hash of its id
 
@@ -38,7 +38,7 @@ std::vector<cases::Case> some_cases() {
 }
 
 // Each plane alone, and all together.
-std::map<std::string, Delivered> deliveries(const diff::Capture& capture, bool has_color) {
+std::map<std::string, Delivered> deliveries(const capture::Capture& capture, bool has_color) {
     Delivered coverage, total, faces, writer, depth, color, all;
     coverage.detail = HitDetail::coverage;
     total.detail = HitDetail::total;
@@ -50,7 +50,7 @@ std::map<std::string, Delivered> deliveries(const diff::Capture& capture, bool h
         faces.front.push_back(front);
         faces.back.push_back(back);
     }
-    for (const diff::Writer& w : capture.writers) {
+    for (const capture::Writer& w : capture.writers) {
         writer.draws.push_back(w.draw);
         writer.primitives.push_back(w.primitive);
     }
@@ -76,7 +76,7 @@ std::map<std::string, Delivered> deliveries(const diff::Capture& capture, bool h
     return out;
 }
 
-diff::Capture empty_picture(cases::Case c) {
+capture::Capture empty_picture(cases::Case c) {
     for (cases::Draw& d : c.draws) {
         d.cull = cases::CullMode::front_and_back;
     }

@@ -48,12 +48,12 @@ CaseResult small_result() {
     result.index = 3;
     result.rendered.status = vk_harness::Rendered::Status::drawn;
     result.rendered.messages = {"one", ""};
-    diff::Capture& c = result.rendered.capture;
+    capture::Capture& c = result.rendered.capture;
     c.target = {2, 1, 1};
     c.attribute_count = 1;
     c.has_primitive = true;
     c.hits.assign(2, glm::vec4(1, 0, 4096, 4097));
-    c.writers.assign(2, diff::Writer{1, 2, 3, diff::kClearId});
+    c.writers.assign(2, capture::Writer{1, 2, 3, capture::kClearId});
     c.frag_coord.assign(2, glm::vec4(0.5F));
     c.depth = {0.25F, -0.0F};
     c.attributes[0].assign(2, glm::vec4(7));

@@ -102,7 +102,7 @@ TEST(Oracle, JudgesValuesOfTheSuiteAsTheFastReferenceDoes) {
             std::shuffle(written.begin(), written.end(), rng);
             written.resize(std::min(written.size(), kSamples));
             for (const size_t index : written) {
-                const ref::SampleId id = ref::sample_at(c.target, index);
+                const cases::SampleId id = cases::sample_at(c.target, index);
                 const uint32_t t = e.writers[e.samples[index].writers_begin];
                 const auto all = values.expected(t, id);
                 for (const int moved : {-1, 0, 1, 2, 3}) {

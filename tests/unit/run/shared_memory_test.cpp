@@ -7,6 +7,7 @@
 
 #include <cstring>
 
+#include "capture/checksum.hpp"
 #include "run/judge.hpp"
 #include "run/worker/message.hpp"
 
@@ -117,11 +118,13 @@ TEST(SharedMemory, AResultTellsWhereItsPlanesLie) {
 TEST(SharedMemory, EveryFlippedBitOfACaptureChangesItsSum) {
     const cases::Target target{3, 1, 1};
     alignas(16) std::array<std::byte, 3 * (16 * 4 + 4)> planes{};
-    ASSERT_EQ(planes.size(), diff::plane_bytes(target, 1));
-    const uint64_t bits = capture_bits(diff::view_planes(target, true, 1, planes.data()));
+    ASSERT_EQ(planes.size(), capture::plane_bytes(target, 1));
+    const uint64_t bits =
+        capture::capture_bits(capture::view_planes(target, true, 1, planes.data()));
     for (size_t bit = 0; bit < planes.size() * 8; ++bit) {
         planes[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
-        EXPECT_NE(capture_bits(diff::view_planes(target, true, 1, planes.data())), bits) << bit;
+        EXPECT_NE(capture::capture_bits(capture::view_planes(target, true, 1, planes.data())), bits)
+            << bit;
         planes[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
     }
 }

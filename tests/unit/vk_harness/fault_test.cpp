@@ -171,13 +171,13 @@ TEST(Fault, WhatIsWrittenBesideAnAttachmentIsSeen) {
     EXPECT_EQ(after.status, Rendered::Status::drawn);
     ASSERT_EQ(after.stray_writes.size(), 1U);
     EXPECT_EQ(after.stray_writes[0],
-              (diff::StrayWrite{"depth", false, 8, kGuardWord, 0x12345678U, 1, 1}));
+              (capture::StrayWrite{"depth", false, 8, kGuardWord, 0x12345678U, 1, 1}));
 
     StrayDevice::damage(0, kGuardBytes - 12);
     const Rendered before = faulty.render(half());
     ASSERT_EQ(before.stray_writes.size(), 1U);
     EXPECT_EQ(before.stray_writes[0],
-              (diff::StrayWrite{"writer", true, 12, kGuardWord, 0x12345678U, 1, 1}));
+              (capture::StrayWrite{"writer", true, 12, kGuardWord, 0x12345678U, 1, 1}));
 
     EXPECT_TRUE(faulty.render(half()).stray_writes.empty());  // the pattern is there again
     EXPECT_EQ(device.guards.size(), last + 1);

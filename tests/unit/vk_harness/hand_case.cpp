@@ -23,8 +23,8 @@ Renderer& renderer() {
     return *shared;
 }
 
-std::vector<diff::Capture> draw_all(const std::vector<cases::Case>& batch) {
-    std::vector<diff::Capture> captures;
+std::vector<capture::Capture> draw_all(const std::vector<cases::Case>& batch) {
+    std::vector<capture::Capture> captures;
     for (Rendered& rendered : renderer().render(batch, {})) {
         EXPECT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
         captures.push_back(std::move(rendered.capture));
@@ -32,25 +32,25 @@ std::vector<diff::Capture> draw_all(const std::vector<cases::Case>& batch) {
     return captures;
 }
 
-diff::Capture draw(const cases::Case& c) {
+capture::Capture draw(const cases::Case& c) {
     return draw_all({c}).front();
 }
 
-Count count(const diff::Capture& capture) {
+Count count(const capture::Capture& capture) {
     Count result;
     for (size_t k = 0; k < capture.hits.size(); ++k) {
-        switch (diff::sample_state(capture, k)) {
-            case diff::SampleState::clear:
+        switch (capture::sample_state(capture, k)) {
+            case capture::SampleState::clear:
                 ++result.clear;
                 break;
-            case diff::SampleState::drawn:
+            case capture::SampleState::drawn:
                 result.front += static_cast<uint64_t>(capture.hits[k].x);
                 result.back += static_cast<uint64_t>(capture.hits[k].y);
                 break;
-            case diff::SampleState::not_copied:
+            case capture::SampleState::not_copied:
                 ++result.not_copied;
                 break;
-            case diff::SampleState::inconsistent:
+            case capture::SampleState::inconsistent:
                 ++result.inconsistent;
                 break;
         }

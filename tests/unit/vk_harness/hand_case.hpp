@@ -14,7 +14,7 @@
 
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
-#include "vk_harness/harness.hpp"
+#include "vk_harness/public/harness.hpp"
 
 namespace vk_harness::testing {
 
@@ -53,17 +53,17 @@ inline std::vector<glm::vec2> half_square() {
 
 // The device of the environment (VK_DRIVER_FILES); its absence fails the test.
 Renderer& renderer();
-diff::Capture draw(const cases::Case& c);
-std::vector<diff::Capture> draw_all(const std::vector<cases::Case>& batch);
+capture::Capture draw(const cases::Case& c);
+std::vector<capture::Capture> draw_all(const std::vector<cases::Case>& batch);
 
 // Counts over all samples.
 struct Count {
     uint64_t front = 0, back = 0, clear = 0, inconsistent = 0, not_copied = 0;
 };
-Count count(const diff::Capture& capture);
+Count count(const capture::Capture& capture);
 
 // Index of pixel (x,y) in a target with one sample.
-inline size_t index(const diff::Capture& capture, uint32_t x, uint32_t y) {
+inline size_t index(const capture::Capture& capture, uint32_t x, uint32_t y) {
     return size_t{y} * capture.target.width + x;
 }
 

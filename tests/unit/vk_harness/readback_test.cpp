@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "vk_harness/case_check.hpp"
+#include "vk_harness/target/shader_interface.hpp"
 #include "vk_harness/target/target.hpp"
 
 namespace vk_harness {
@@ -26,28 +27,28 @@ TEST(DecodeId, IntegersBelow2To24) {
 }
 
 TEST(DecodeId, MarkersAndPoison) {
-    EXPECT_EQ(decode_id(bits(-1.0F)), diff::kClearId);
-    EXPECT_EQ(decode_id(bits(-2.0F)), diff::kNoPrimitive);
-    EXPECT_EQ(decode_id(bits(kOtherClearIdAsFloat)), diff::kOtherClearId);
-    EXPECT_EQ(decode_id(diff::kPoison), diff::kPoison);
+    EXPECT_EQ(decode_id(bits(-1.0F)), capture::kClearId);
+    EXPECT_EQ(decode_id(bits(-2.0F)), capture::kNoPrimitive);
+    EXPECT_EQ(decode_id(bits(kOtherClearIdAsFloat)), capture::kOtherClearId);
+    EXPECT_EQ(decode_id(capture::kPoison), capture::kPoison);
 }
 
 TEST(DecodeId, NothingElseLooksLikeAnId) {
     for (const float value : {0.5F, -0.0F, -4.0F, 0x1p24F, 1e30F, INFINITY, -INFINITY,
-                              std::bit_cast<float>(1U), diff::kClearValue}) {
+                              std::bit_cast<float>(1U), capture::kClearValue}) {
         EXPECT_EQ(decode_id(bits(value)), kMalformedId) << value;
     }
     EXPECT_TRUE(rc::check("a word is the binary32 of the id that it decodes to", [](uint32_t word) {
         const uint32_t id = decode_id(word);
-        RC_ASSERT(id == kMalformedId || id == diff::kClearId || id == diff::kOtherClearId ||
-                  id == diff::kNoPrimitive || id == diff::kPoison ||
+        RC_ASSERT(id == kMalformedId || id == capture::kClearId || id == capture::kOtherClearId ||
+                  id == capture::kNoPrimitive || id == capture::kPoison ||
                   (id < (1U << 24) && bits(static_cast<float>(id)) == word));
     }));
 }
 
 TEST(DecodeHits, EveryPairOfCountsAndBothClearValues) {
-    for (const float guard : {diff::kHitGuard, diff::kOtherHitGuard}) {
-        const bool other = guard > diff::kHitGuard;
+    for (const float guard : {capture::kHitGuard, capture::kOtherHitGuard}) {
+        const bool other = guard > capture::kHitGuard;
         for (uint32_t front = 0; front < 2048; front += front < 4 ? 1 : 511) {
             for (uint32_t back = 0; back < 2048; back += back < 4 ? 1 : 511) {
                 // As the blend unit does it, hit by hit.
@@ -74,19 +75,19 @@ TEST(DecodeHits, EveryPairOfCountsAndBothClearValues) {
 
 // What is left where an attachment is not cleared, not blended, or cleared to something else.
 TEST(DecodeHits, NothingElseLooksLikeACount) {
-    EXPECT_EQ(bits(decode_hits(diff::kPoison).x), diff::kPoison);
-    EXPECT_EQ(bits(decode_hits(diff::kPoison).w), diff::kPoison);
+    EXPECT_EQ(bits(decode_hits(capture::kPoison).x), capture::kPoison);
+    EXPECT_EQ(bits(decode_hits(capture::kPoison).w), capture::kPoison);
     for (const float alpha :
-         {0.0F, -0.0F, 1.0F, kBackHit, diff::kHitGuard, diff::kOtherHitGuard, 2 * kNoHits,
-          kNoHits - 0.5F, -kNoHits, INFINITY, -INFINITY, NAN, diff::kClearValue}) {
+         {0.0F, -0.0F, 1.0F, kBackHit, capture::kHitGuard, capture::kOtherHitGuard, 2 * kNoHits,
+          kNoHits - 0.5F, -kNoHits, INFINITY, -INFINITY, NAN, capture::kClearValue}) {
         const glm::vec4 hits = decode_hits(bits(alpha));
-        EXPECT_NE(hits.z, diff::kHitGuard) << alpha;
-        EXPECT_NE(hits.z, diff::kOtherHitGuard) << alpha;
+        EXPECT_NE(hits.z, capture::kHitGuard) << alpha;
+        EXPECT_NE(hits.z, capture::kOtherHitGuard) << alpha;
         EXPECT_LT(decode_hits(bits(alpha), bits(kNoHits)).z, 0) << alpha;
         EXPECT_LT(decode_hits(bits(kNoHits), bits(alpha)).z, 0) << alpha;
     }
     EXPECT_LT(decode_hits(bits(kNoHits), bits(kOtherNoHits)).z, 0);
-    EXPECT_EQ(bits(decode_hits(diff::kPoison, bits(kNoHits)).z), diff::kPoison);
+    EXPECT_EQ(bits(decode_hits(capture::kPoison, bits(kNoHits)).z), capture::kPoison);
 }
 
 // A case of one draw with `attributes` attributes.
@@ -139,7 +140,7 @@ TEST(DecodeTexel, ComponentsInTheOrderOfTheFormat) {
         return decode_texel(format, reinterpret_cast<const std::byte*>(words.data()), bytes);
     };
     using F = cases::ColorFormat;
-    using Codes = diff::ColorCodes;
+    using Codes = capture::ColorCodes;
     EXPECT_EQ(decode(F::rgba8_unorm, {0x44332211U}, 4), (Codes{0x11, 0x22, 0x33, 0x44}));
     EXPECT_EQ(decode(F::rgba8_srgb, {0x44332211U}, 4), (Codes{0x11, 0x22, 0x33, 0x44}));
     EXPECT_EQ(decode(F::rgba8_uint, {0x44332211U}, 4), (Codes{0x11, 0x22, 0x33, 0x44}));
@@ -155,7 +156,7 @@ TEST(DecodeTexel, ComponentsInTheOrderOfTheFormat) {
     EXPECT_EQ(decode(F::rgba32_float, {1, 2, 3, 4}, 16), (Codes{1, 2, 3, 4}));
     EXPECT_EQ(decode(F::r32_float, {5}, 4), (Codes{5, 0, 0, 0}));
     EXPECT_EQ(decode(F::r32_uint, {5}, 4), (Codes{5, 0, 0, 0}));
-    const Codes poison = {diff::kPoison, diff::kPoison, diff::kPoison, diff::kPoison};
+    const Codes poison = {capture::kPoison, capture::kPoison, capture::kPoison, capture::kPoison};
     for (uint32_t f = 0; f <= static_cast<uint32_t>(cases::kLastColorFormat); ++f) {
         EXPECT_EQ(decode(static_cast<F>(f), poison, 4), poison) << f;
     }
@@ -176,29 +177,30 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     put(layout.offset[2], {13, 14, 15, 16, 17, 18, 19, 20});
     memory[layout.offset[3] + 4] = std::byte{99};
     put(layout.offset[4], {0.25F, 0.75F});
-    const diff::Capture capture = read_capture(c.target, attachments, true, layout, memory);
-    EXPECT_TRUE(diff::has_all_planes(capture));
-    EXPECT_EQ(capture.color[0][0], diff::kPoison);
-    EXPECT_EQ(capture.color[1], (diff::ColorCodes{99, 0xdb, 0xba, 0xff}));
+    const capture::Capture capture = read_capture(c.target, attachments, true, layout, memory);
+    EXPECT_TRUE(capture::has_all_planes(capture));
+    EXPECT_EQ(capture.color[0][0], capture::kPoison);
+    EXPECT_EQ(capture.color[1], (capture::ColorCodes{99, 0xdb, 0xba, 0xff}));
     // The same into planes one after the other.
-    std::vector<glm::vec4> planes(diff::plane_bytes(c.target, 1) / sizeof(glm::vec4) + 1);
+    std::vector<glm::vec4> planes(capture::plane_bytes(c.target, 1) / sizeof(glm::vec4) + 1);
     read_planes(c.target, attachments, layout, memory, std::as_writable_bytes(std::span(planes)));
-    const diff::CaptureView view =
-        diff::view_planes(c.target, true, 1, std::as_bytes(std::span(planes)).data());
+    const capture::CaptureView view =
+        capture::view_planes(c.target, true, 1, std::as_bytes(std::span(planes)).data());
     EXPECT_EQ(view.color[1], capture.color[1]);
     EXPECT_EQ(view.depth[1], 0.75F);
     EXPECT_EQ(view.attributes[0][1], capture.attributes[0][1]);
-    EXPECT_EQ(capture.hits[0], glm::vec4(3, 1, diff::kHitGuard, diff::kHitGuard + 4));
-    EXPECT_EQ(capture.hits[1], glm::vec4(0, 2, diff::kHitGuard, diff::kHitGuard + 2));
+    EXPECT_EQ(capture.hits[0], glm::vec4(3, 1, capture::kHitGuard, capture::kHitGuard + 4));
+    EXPECT_EQ(capture.hits[1], glm::vec4(0, 2, capture::kHitGuard, capture::kHitGuard + 2));
     EXPECT_EQ(view.hits[0], capture.hits[0]);
     EXPECT_EQ(view.writers[1], capture.writers[1]);
-    EXPECT_EQ(capture.writers[0], (diff::Writer{0, 1, 2, diff::kClearId}));
-    EXPECT_EQ(capture.writers[1], (diff::Writer{3, diff::kNoPrimitive, 5, diff::kClearId}));
+    EXPECT_EQ(capture.writers[0], (capture::Writer{0, 1, 2, capture::kClearId}));
+    EXPECT_EQ(capture.writers[1],
+              (capture::Writer{3, capture::kNoPrimitive, 5, capture::kClearId}));
     EXPECT_EQ(capture.frag_coord[0], glm::vec4(9, 10, 11, 12));
-    EXPECT_EQ(bits(capture.frag_coord[1].x), diff::kPoison);
+    EXPECT_EQ(bits(capture.frag_coord[1].x), capture::kPoison);
     EXPECT_EQ(capture.attributes[0][1], glm::vec4(17, 18, 19, 20));
     EXPECT_EQ(capture.depth, (std::vector<float>{0.25F, 0.75F}));
-    EXPECT_EQ(diff::sample_state(capture, 1), diff::SampleState::not_copied);
+    EXPECT_EQ(capture::sample_state(capture, 1), capture::SampleState::not_copied);
 }
 
 TEST(DecodePackedId, TellsDrawsAndPrimitivesApart) {
@@ -206,7 +208,7 @@ TEST(DecodePackedId, TellsDrawsAndPrimitivesApart) {
     for (const uint32_t draws : {1U, 2U, 3U, 1000U}) {
         for (const uint32_t draw : {0U, draws / 2, draws - 1}) {
             EXPECT_EQ(decode_packed_id(bits(static_cast<float>(draw)), draws),
-                      Ids(draw, diff::kNoPrimitive));
+                      Ids(draw, capture::kNoPrimitive));
             EXPECT_EQ(decode_packed_id(bits(static_cast<float>(draws + draw)), draws),
                       Ids(kMalformedId, kMalformedId));
             for (const uint32_t primitive : {0U, 1U, 16'000U}) {
@@ -216,10 +218,11 @@ TEST(DecodePackedId, TellsDrawsAndPrimitivesApart) {
             }
         }
     }
-    EXPECT_EQ(decode_packed_id(bits(kClearIdAsFloat), 3), Ids(diff::kClearId, diff::kClearId));
+    EXPECT_EQ(decode_packed_id(bits(kClearIdAsFloat), 3),
+              Ids(capture::kClearId, capture::kClearId));
     EXPECT_EQ(decode_packed_id(bits(kOtherClearIdAsFloat), 3),
-              Ids(diff::kOtherClearId, diff::kOtherClearId));
-    EXPECT_EQ(decode_packed_id(diff::kPoison, 3), Ids(diff::kPoison, diff::kPoison));
+              Ids(capture::kOtherClearId, capture::kOtherClearId));
+    EXPECT_EQ(decode_packed_id(capture::kPoison, 3), Ids(capture::kPoison, capture::kPoison));
     for (const float value : {-2.0F, 6.5F, 0x1p24F}) {
         EXPECT_EQ(decode_packed_id(bits(value), 3), Ids(kMalformedId, kMalformedId)) << value;
     }
@@ -234,7 +237,7 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
     narrow.components = {2, 2, 4, 4};
     InstrumentLayout pairs = narrow;
     pairs.pairs = true;
-    const float clear = diff::kClearValue;
+    const float clear = capture::kClearValue;
     // The first sample is clear, the second drawn, the third not copied.
     const std::vector<float> writers = {-1, -1, -1, kNoHits, 3, -2, 5, kNoHits + 2 * kBackHit};
     const std::vector<float> frag = {clear, clear, clear, clear, 9, 10, 11, 12};
@@ -251,12 +254,12 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
             std::memcpy(memory.data() + places.offset[k], words[k].data(),
                         words[k].size() * sizeof(float));
         }
-        std::vector<glm::vec4> planes(diff::plane_bytes(c.target, 3) / sizeof(glm::vec4) + 1);
+        std::vector<glm::vec4> planes(capture::plane_bytes(c.target, 3) / sizeof(glm::vec4) + 1);
         read_planes(c.target, attachments, places, memory,
                     std::as_writable_bytes(std::span(planes)));
-        const diff::Capture capture = read_capture(c.target, attachments, true, places, memory);
-        const diff::CaptureView view =
-            diff::view_planes(c.target, true, 3, std::as_bytes(std::span(planes)).data());
+        const capture::Capture capture = read_capture(c.target, attachments, true, places, memory);
+        const capture::CaptureView view =
+            capture::view_planes(c.target, true, 3, std::as_bytes(std::span(planes)).data());
         EXPECT_EQ(std::memcmp(view.hits.data(), capture.hits.data(), 48), 0);
         EXPECT_EQ(std::memcmp(view.writers.data(), capture.writers.data(), 48), 0);
         EXPECT_EQ(std::memcmp(view.frag_coord.data(), capture.frag_coord.data(), 48), 0);
@@ -265,7 +268,7 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
         }
         return capture;
     };
-    const diff::Capture wide =
+    const capture::Capture wide =
         read({}, {writers, frag, attributes[0], attributes[1], attributes[2]});
     const std::vector<std::vector<float>> instruments = {{-1, -1, 3, 5},
                                                          {kNoHits, kNoHits, kNoHits, kNoHits + 2},
@@ -275,15 +278,15 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
         more.insert(more.begin(), instruments.begin(), instruments.end());
         return more;
     };
-    const diff::Capture split =
+    const capture::Capture split =
         read(narrow, with({{clear, clear, 7, 0}, {clear, clear, 0, 8}, attributes[2]}));
-    const diff::Capture paired = read(pairs, with({{clear, clear, 7, 0},
-                                                   {clear, clear, 0, 0},
-                                                   {clear, clear, 0, 8},
-                                                   {clear, clear, 0, 0},
-                                                   {clear, clear, 1, 2},
-                                                   {clear, clear, 3, 4}}));
-    for (const diff::Capture& capture : {split, paired}) {
+    const capture::Capture paired = read(pairs, with({{clear, clear, 7, 0},
+                                                      {clear, clear, 0, 0},
+                                                      {clear, clear, 0, 8},
+                                                      {clear, clear, 0, 0},
+                                                      {clear, clear, 1, 2},
+                                                      {clear, clear, 3, 4}}));
+    for (const capture::Capture& capture : {split, paired}) {
         EXPECT_EQ(std::memcmp(wide.hits.data(), capture.hits.data(), 48), 0);
         EXPECT_EQ(wide.writers, capture.writers);
         EXPECT_EQ(std::memcmp(wide.frag_coord.data(), capture.frag_coord.data(), 48), 0);
@@ -291,8 +294,8 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
             EXPECT_EQ(std::memcmp(wide.attributes[a].data(), capture.attributes[a].data(), 48), 0);
         }
     }
-    EXPECT_EQ(split.writers[1], (diff::Writer{3, diff::kNoPrimitive, 5, diff::kClearId}));
-    EXPECT_EQ(split.hits[1], glm::vec4(0, 2, diff::kHitGuard, diff::kHitGuard + 2));
+    EXPECT_EQ(split.writers[1], (capture::Writer{3, capture::kNoPrimitive, 5, capture::kClearId}));
+    EXPECT_EQ(split.hits[1], glm::vec4(0, 2, capture::kHitGuard, capture::kHitGuard + 2));
     EXPECT_EQ(split.attributes[1][1], glm::vec4(0, 8, 0, 0));
 }
 

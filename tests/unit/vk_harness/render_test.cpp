@@ -29,7 +29,7 @@ cases::Attribute attribute(cases::Interpolation interpolation, std::vector<glm::
 }
 
 TEST(Render, HalfSquareHas136Pixels) {
-    const diff::Capture capture = draw(make_case(k64, half_square()));
+    const capture::Capture capture = draw(make_case(k64, half_square()));
     const Count n = count(capture);
     EXPECT_EQ(n.front + n.back, 136U);
     EXPECT_EQ(n.clear, 64U * 64U - 136U);
@@ -54,17 +54,17 @@ TEST(Render, ADrawGoesToItsLayer) {
                                                {glm::vec4(1), glm::vec4(1), glm::vec4(1)})};
             const Rendered rendered = renderer().render({&c, 1}, {}).front();
             ASSERT_EQ(rendered.status, Rendered::Status::drawn) << rendered.reason;
-            const diff::Capture& capture = rendered.capture;
+            const capture::Capture& capture = rendered.capture;
             const size_t count = size_t{64} * 32 * samples;
             ASSERT_EQ(capture.hits.size(), 3 * count);
             uint64_t hits = 0;
             for (size_t k = 0; k < capture.hits.size(); ++k) {
-                const diff::SampleState state = diff::sample_state(capture, k);
-                if (k / count == layer && state == diff::SampleState::drawn) {
+                const capture::SampleState state = capture::sample_state(capture, k);
+                if (k / count == layer && state == capture::SampleState::drawn) {
                     ++hits;
                     continue;
                 }
-                ASSERT_EQ(state, diff::SampleState::clear) << "layer " << k / count;
+                ASSERT_EQ(state, capture::SampleState::clear) << "layer " << k / count;
             }
             // Inside are the samples with x + y < 24; the diagonal runs through none of four.
             EXPECT_EQ(hits, samples == 1 ? 120U : 512U);
@@ -73,19 +73,20 @@ TEST(Render, ADrawGoesToItsLayer) {
 }
 
 TEST(Render, EverySampleSaysWhoWroteIt) {
-    const diff::Capture capture = draw(make_case(k64, half_square()));
+    const capture::Capture capture = draw(make_case(k64, half_square()));
     const size_t inside = index(capture, 7, 9);
     EXPECT_EQ(capture.writers[inside].draw, 0U);
     EXPECT_EQ(capture.writers[inside].provoking_vertex, 0U);
-    EXPECT_EQ(capture.writers[inside].primitive, capture.has_primitive ? 0U : diff::kNoPrimitive);
-    EXPECT_EQ(capture.writers[inside].spare, diff::kClearId);
+    EXPECT_EQ(capture.writers[inside].primitive,
+              capture.has_primitive ? 0U : capture::kNoPrimitive);
+    EXPECT_EQ(capture.writers[inside].spare, capture::kClearId);
     EXPECT_EQ(capture.frag_coord[inside], glm::vec4(7.5F, 9.5F, 0.5F, 1.0F));
     EXPECT_EQ(capture.depth[inside], 0.5F);
     const size_t outside = index(capture, 30, 30);
-    EXPECT_EQ(capture.writers[outside], diff::Writer{});
-    EXPECT_EQ(bits(capture.frag_coord[outside].x), bits(diff::kClearValue));
-    EXPECT_EQ(capture.depth[outside], diff::kClearDepth);
-    EXPECT_EQ(capture.hits[outside], glm::vec4(0, 0, diff::kHitGuard, diff::kHitGuard));
+    EXPECT_EQ(capture.writers[outside], capture::Writer{});
+    EXPECT_EQ(bits(capture.frag_coord[outside].x), bits(capture::kClearValue));
+    EXPECT_EQ(capture.depth[outside], capture::kClearDepth);
+    EXPECT_EQ(capture.hits[outside], glm::vec4(0, 0, capture::kHitGuard, capture::kHitGuard));
 }
 
 TEST(Render, FacingFollowsWindingAndFrontFace) {
@@ -117,7 +118,7 @@ TEST(Render, CullingAgreesWithFacing) {
 TEST(Render, ScissorIsHalfOpen) {
     cases::Case c = make_case(k64, half_square());
     c.draws[0].scissor = {5, 6, 3, 2};
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     EXPECT_EQ(count(capture).back, 6U);
     EXPECT_EQ(capture.hits[index(capture, 5, 6)].y, 1.0F);
     EXPECT_EQ(capture.hits[index(capture, 7, 7)].y, 1.0F);
@@ -128,7 +129,7 @@ TEST(Render, ScissorIsHalfOpen) {
 TEST(Render, NegativeHeightMirrorsAndTurnsFacing) {
     cases::Case c = make_case(k64, half_square());
     c.draws[0].viewport = {0, 64, 64, -64, 0, 1};
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     const Count n = count(capture);
     // Mirrored to (4.5,59.5) (20.5,59.5) (4.5,43.5); the tie rule stays top-left, so row 59 is a
     // bottom edge and not covered: 15 + 14 + ... + 1 pixels and the row of the left edge's top
@@ -143,7 +144,7 @@ TEST(Render, FractionalViewport) {
     // A covering triangle in a viewport of (4.5,4.5) 10 x 10: columns and rows 4..13.
     cases::Case c = make_case({32, 32, 1}, {{-32, -32}, {96, -32}, {-32, 96}});
     c.draws[0].viewport = {4.5F, 4.5F, 10, 10, 0, 1};
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     EXPECT_EQ(count(capture).back, 100U);
     EXPECT_EQ(capture.hits[index(capture, 4, 4)].y, 1.0F);
     EXPECT_EQ(capture.hits[index(capture, 14, 13)].y, 0.0F);
@@ -159,11 +160,11 @@ TEST(Render, ManyHits) {
     }
     vertices.insert(vertices.end(), both.begin(), both.begin() + 3);
     cases::Case c = make_case({2, 2, 1}, vertices);
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     const glm::vec4& hits = capture.hits[0];
     EXPECT_EQ(std::max(hits.x, hits.y), 3001.0F);
     EXPECT_EQ(std::min(hits.x, hits.y), 3000.0F);
-    EXPECT_EQ(hits.w, diff::kHitGuard + 6001);
+    EXPECT_EQ(hits.w, capture::kHitGuard + 6001);
     EXPECT_EQ(count(capture).inconsistent, 0U);
 }
 
@@ -175,10 +176,10 @@ TEST(Render, SecondDrawWritesLast) {
         p.z = 0.25F;
     }
     c.draws.push_back(second);
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     const size_t both = index(capture, 5, 6);
     EXPECT_EQ(capture.hits[both].y, 2.0F);
-    EXPECT_EQ(capture.hits[both].w, diff::kHitGuard + 2);
+    EXPECT_EQ(capture.hits[both].w, capture::kHitGuard + 2);
     EXPECT_EQ(capture.writers[both].draw, 1U);
     EXPECT_EQ(capture.depth[both], 0.25F);
     const size_t first_only = index(capture, 10, 6);
@@ -192,10 +193,10 @@ TEST(Render, SecondDrawWritesLast) {
 struct Origin {
     uint32_t primitive, vertex;
 };
-void expect_origin(const diff::Capture& capture, uint32_t x, uint32_t y, Origin origin) {
-    const diff::Writer& writer = capture.writers[index(capture, x, y)];
+void expect_origin(const capture::Capture& capture, uint32_t x, uint32_t y, Origin origin) {
+    const capture::Writer& writer = capture.writers[index(capture, x, y)];
     EXPECT_EQ(writer.provoking_vertex, origin.vertex) << x << "," << y;
-    EXPECT_EQ(writer.primitive, capture.has_primitive ? origin.primitive : diff::kNoPrimitive)
+    EXPECT_EQ(writer.primitive, capture.has_primitive ? origin.primitive : capture::kNoPrimitive)
         << x << "," << y;
 }
 
@@ -203,7 +204,7 @@ TEST(Render, StripProvokingVertices) {
     // 0 2 4 above, 1 3 5 below: triangle i is provoked by vertex i.
     cases::Case c = make_case(k64, {{0, 0}, {0, 16}, {16, 0}, {16, 16}, {32, 0}, {32, 16}});
     c.draws[0].topology = cases::Topology::triangle_strip;
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     const Count n = count(capture);
     EXPECT_EQ(n.front, 512U);  // counter-clockwise on screen, every one
     expect_origin(capture, 2, 2, {0, 0});
@@ -216,7 +217,7 @@ TEST(Render, FanProvokingVertices) {
     // Hub 0 in the middle of a square; triangle i is provoked by vertex i + 1, never by the hub.
     cases::Case c = make_case(k64, {{16, 16}, {0, 0}, {32, 0}, {32, 32}, {0, 32}, {0, 0}});
     c.draws[0].topology = cases::Topology::triangle_fan;
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     EXPECT_EQ(count(capture).back, 1024U);
     expect_origin(capture, 16, 2, {0, 1});
     expect_origin(capture, 29, 16, {1, 2});
@@ -229,7 +230,7 @@ TEST(Render, IndicesAndRestart) {
     c.draws[0].topology = cases::Topology::triangle_strip;
     c.draws[0].indices = {{0, 1, 2, cases::kRestartIndex, 3, 5, 4}};
     c.draws[0].primitive_restart = true;
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     // Upper left half of the first square; lower right half of the second.
     const Count n = count(capture);
     EXPECT_EQ(n.front + n.back, 256U);
@@ -243,7 +244,7 @@ TEST(Render, FlatAttributesKeepEveryBit) {
         {0.1F, -0x1.234566p-90F, 0x1.fffffep125F, 1e-30F}, {1, 2, 3, 4}, {5, 6, 7, 8}};
     cases::Case c = make_case(k64, half_square());
     c.draws[0].attributes.push_back(attribute(cases::Interpolation::flat, values));
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     ASSERT_EQ(capture.attribute_count, 1U);
     for (uint32_t y = 4; y < 20; ++y) {
         for (uint32_t x = 4; x + y < 24; ++x) {
@@ -252,7 +253,7 @@ TEST(Render, FlatAttributesKeepEveryBit) {
             }
         }
     }
-    EXPECT_EQ(bits(capture.attributes[0][index(capture, 40, 40)].z), bits(diff::kClearValue));
+    EXPECT_EQ(bits(capture.attributes[0][index(capture, 40, 40)].z), bits(capture::kClearValue));
 }
 
 // A square of two triangles whose right side is 4 times as far away (w = 4).
@@ -291,7 +292,7 @@ TEST(Render, FourAttributesOfAllModes) {
     c.draws[0].attributes.push_back(attribute(Interpolation::flat, values));
     c.draws[0].attributes.push_back(attribute(Interpolation::noperspective, values));
     c.draws[0].attributes.push_back(attribute(Interpolation::smooth, values));
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     ASSERT_EQ(capture.attribute_count, 4U);
     const size_t k = index(capture, 31, 40);
     EXPECT_NEAR(static_cast<double>(capture.attributes[2][k].x), 31.5 / 64, 1e-5);
@@ -307,10 +308,10 @@ TEST(Render, DrawsWithFewerAttributesLeaveTheClearValue) {
     second.positions = {at(k64, 4.5F, 4.5F, 0.5F, 3), at(k64, 20.5F, 4.5F, 0.5F, 7),
                         at(k64, 4.5F, 20.5F, 0.5F, 0.25F)};
     c.draws.push_back(second);
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     uint32_t of_second = 0;
     for (size_t k = 0; k < capture.sample_count(); ++k) {
-        const bool cleared = bits(capture.attributes[0][k].x) == bits(diff::kClearValue);
+        const bool cleared = bits(capture.attributes[0][k].x) == bits(capture::kClearValue);
         ASSERT_EQ(cleared, capture.writers[k].draw == 1U) << k;
         of_second += cleared ? 1 : 0;
     }
@@ -373,7 +374,7 @@ TEST(Render, FourSamplesAreReadOneByOne) {
                                        {10.125F, 10.875F}});
     c.draws[0].attributes.push_back(attribute(
         cases::Interpolation::flat, std::vector<glm::vec4>(6, glm::vec4(0.1F, -7, 1e-30F, 3))));
-    const diff::Capture capture = draw(c);
+    const capture::Capture capture = draw(c);
     const Count n = count(capture);
     EXPECT_EQ(n.inconsistent + n.not_copied, 0U);
     EXPECT_EQ(n.front + n.back, 2U);
@@ -383,8 +384,8 @@ TEST(Render, FourSamplesAreReadOneByOne) {
         const bool covered = s == 0 || s == 2;
         EXPECT_EQ(capture.hits[pixel + s].y, covered ? 1.0F : 0.0F) << s;
         EXPECT_EQ(bits(capture.attributes[0][pixel + s].z),
-                  bits(covered ? 1e-30F : diff::kClearValue));
-        EXPECT_EQ(capture.depth[pixel + s], covered ? 0.5F : diff::kClearDepth);
+                  bits(covered ? 1e-30F : capture::kClearValue));
+        EXPECT_EQ(capture.depth[pixel + s], covered ? 0.5F : capture::kClearDepth);
     }
 }
 
@@ -395,7 +396,7 @@ TEST(Render, LargestSidesOfTheDevice) {
     const auto captures = draw_all(
         {make_case(wide, {{-1, 0}, {static_cast<float>(2 * info.max_target_size), 0}, {-1, 9}}),
          make_case(high, {{0, -1}, {9, -1}, {0, static_cast<float>(2 * info.max_target_size)}})});
-    for (const diff::Capture& capture : captures) {
+    for (const capture::Capture& capture : captures) {
         const Count n = count(capture);
         EXPECT_EQ(n.back, 2U * info.max_target_size);
         EXPECT_EQ(n.inconsistent + n.not_copied, 0U);

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/number/sample.hpp"
+#include "cases/model/sample.hpp"
 
-namespace ref {
+#include <fmt/format.h>
+
+namespace cases {
 
 namespace {
 
@@ -33,21 +35,23 @@ std::span<const std::array<uint8_t, 2>> standard_sample_locations(uint32_t sampl
     }
 }
 
-std::span<const std::array<uint8_t, 2>> sample_locations(const cases::Target& target) {
+std::span<const std::array<uint8_t, 2>> sample_locations(const Target& target) {
     return target.sample_locations.empty() ? standard_sample_locations(target.samples)
                                            : std::span(target.sample_locations);
 }
 
-FixedPoint sample_position(uint32_t i, uint32_t j, uint32_t s, const cases::Target& target) {
-    const Location location = sample_locations(target)[s];
-    // 1/16 pixel -> S47.16: 1 -> 2^12
-    constexpr int64_t kSixteenth = kFixedOne / 16;
-    return {int64_t{i} * kFixedOne + location[0] * kSixteenth,
-            int64_t{j} * kFixedOne + location[1] * kSixteenth};
-}
-
-bool is_in_mask(const cases::Multisample& state, uint32_t s) {
+bool is_in_mask(const Multisample& state, uint32_t s) {
     return (((state.sample_mask & state.shader_mask.value_or(0xffffffffU)) >> s) & 1U) != 0;
 }
 
-}  // namespace ref
+std::string pixel_text(const Target& target, const SampleId& id) {
+    const std::string layer = target.layers > 1 ? fmt::format("layer {}, ", id.layer) : "";
+    return fmt::format("{}pixel ({}, {})", layer, id.x, id.y);
+}
+
+std::string sample_text(const Target& target, const SampleId& id) {
+    return pixel_text(target, id) +
+           (target.samples > 1 ? fmt::format(", sample {}", id.sample) : std::string());
+}
+
+}  // namespace cases

@@ -1,20 +1,17 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Framebuffer coordinates in fixed point: S47.16, unit 2^-16 pixel. Any snap grid of 4 to 16
-// subpixel bits and every standard sample location (multiples of 1/16 pixel) is exact in it.
+// The samples of a target: their numbers, locations and masks.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "cases/model/case.hpp"
 
-namespace ref {
-
-inline constexpr int kFixedBits = 16;
-inline constexpr int64_t kFixedOne = int64_t{1} << kFixedBits;  // one pixel
+namespace cases {
 
 // A sample of a target: of pixel (x, y) of a layer.
 struct SampleId {
@@ -24,11 +21,11 @@ struct SampleId {
 
 // Where a sample stands in planes, expectations and pictures, and back: the layers are stacked,
 // layer 0 first, ((layer * height + y) * width + x) * samples + s.
-inline size_t index_of(const cases::Target& target, const SampleId& s) {
+inline size_t index_of(const Target& target, const SampleId& s) {
     return ((size_t{s.layer} * target.height + s.y) * target.width + s.x) * target.samples +
            s.sample;
 }
-inline SampleId sample_at(const cases::Target& target, size_t index) {
+inline SampleId sample_at(const Target& target, size_t index) {
     const size_t pixel = index / target.samples;
     const size_t row = pixel / target.width;
     return {static_cast<uint32_t>(pixel % target.width), static_cast<uint32_t>(row % target.height),
@@ -36,24 +33,20 @@ inline SampleId sample_at(const cases::Target& target, size_t index) {
             static_cast<uint32_t>(row / target.height)};
 }
 
-struct FixedPoint {
-    int64_t x = 0, y = 0;  // S47.16 pixels
-    friend bool operator==(const FixedPoint&, const FixedPoint&) = default;
-};
-
 // Sample locations inside a pixel in 1/16 pixel, sample 0 first. Source: Vulkan specification,
 // "Standard sample locations". `samples` is 1, 2, 4, 8 or 16.
 std::span<const std::array<uint8_t, 2>> standard_sample_locations(uint32_t samples);
 
 // The locations of a target: its own (VK_EXT_sample_locations) or else the standard ones.
-std::span<const std::array<uint8_t, 2>> sample_locations(const cases::Target& target);
-
-// Where sample s of pixel (i,j) lies. "These locations are exact positions" (Vulkan specification,
-// "Multisampling"): they are never snapped.
-FixedPoint sample_position(uint32_t i, uint32_t j, uint32_t s, const cases::Target& target);
+std::span<const std::array<uint8_t, 2>> sample_locations(const Target& target);
 
 // Whether the sample mask lets sample s be written (Vulkan specification, "Sample Mask Test": bit s
 // of word 0). The shader's mask is the same for every fragment here, so that it is one more AND.
-bool is_in_mask(const cases::Multisample& state, uint32_t s);
+bool is_in_mask(const Multisample& state, uint32_t s);
 
-}  // namespace ref
+// "pixel (3, 4)", of a target with several layers "layer 1, pixel (3, 4)".
+std::string pixel_text(const Target& target, const SampleId& id);
+// As pixel_text, of a target with several samples "pixel (3, 4), sample 2".
+std::string sample_text(const Target& target, const SampleId& id);
+
+}  // namespace cases

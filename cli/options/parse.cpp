@@ -1,23 +1,14 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Parses the command line. CLI11's errors are caught and told in our own words.
-#include "cli/command_line.hpp"
-
-#include <malloc.h>
+#include "cli/options/parse.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <map>
 #include <regex>
 #include <variant>
 
 #include "cases/model/selector.hpp"
-#include "cli/commands.hpp"
 #include "cli/options/command_options.hpp"
-#include "cli/prepare/outputs.hpp"
 #include "report/record/run.hpp"
-#include "run/worker/worker.hpp"
 
 namespace cli {
 
@@ -218,7 +209,8 @@ OrStop<std::monostate> check_explain(const ExplainOptions& o) {
     return std::monostate{};
 }
 
-// Parses everything; the chosen command's name, "" for none, or why not. Help is printed here.
+}  // namespace
+
 OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::string> words) {
     define(app, all);
     const std::vector<std::string> commands = names_of_commands(app);
@@ -277,8 +269,6 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
     return first;
 }
 
-}  // namespace
-
 OrStop<RunOptions> parse_run_arguments(const std::vector<std::string>& arguments) {
     CLI::App app("", "edgecase");
     AllOptions all;
@@ -291,45 +281,6 @@ OrStop<RunOptions> parse_run_arguments(const std::vector<std::string>& arguments
             Stop{report::kExitInvalidFile, {"the journal's command line is not one of 'run'"}});
     }
     return all.run;
-}
-
-int edgecase_main(int argc, const char* const* argv) {
-    // Captures and expectations are megabytes that come and go with every case; taking them from
-    // the system each time costs more than filling them.
-    constexpr int kKeep = 1 << 30;  // bytes
-    ::mallopt(M_MMAP_THRESHOLD, kKeep);
-    ::mallopt(M_TRIM_THRESHOLD, kKeep);
-    const Program program = make_program(argc, argv);
-    if (program.arguments.size() == 2 && program.arguments[1] == "worker") {
-        return run_worker();
-    }
-    CLI::App app(
-        "Edgecase: checks triangle rasterization of Vulkan drivers against an exact reference.",
-        "edgecase");
-    AllOptions all;
-    const OrStop<std::string> parsed = parse(app, all, program.arguments);
-    if (!parsed) {
-        return report_stop(parsed.error());
-    }
-    const std::map<std::string, std::function<int()>> table = {
-        {"run", [&] { return run_command(program, all.run); }},
-        {"list", [&] { return list_command(program, all.list); }},
-        {"lint", [&] { return lint_command(program, all.lint); }},
-        {"explain", [&] { return explain_command(program, all.explain); }},
-        {"render", [&] { return render_command(program, all.render); }},
-        {"export", [&] { return export_command(program, all.export_cases); }},
-        {"diff", [&] { return diff_command(program, all.diff); }},
-        {"doctor", [&] { return doctor_command(program, all.doctor); }},
-        {"bench", [&] { return bench_command(program, all.bench); }},
-        {"report", [&] { return report_command(program, all.report); }},
-        {"expect", [&] { return expect_command(program, all.expect); }},
-        {"compare", [&] { return compare_command(program, all.compare); }},
-        {"completion", [&] { return completion_command(all.shell); }},
-        {"man", [] { return man_command(); }},
-        {"version", [] { return version_command(); }},
-        {"help", [] { return 0; }},
-    };
-    return finish_output(table.at(*parsed)());
 }
 
 }  // namespace cli

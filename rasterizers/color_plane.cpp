@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "rasterizers/color_planes.hpp"
+#include "rasterizers/color_plane.hpp"
 
 #include <algorithm>
 
 #include "ref/color/color.hpp"
 
-namespace diff {
+namespace rasterizers {
 
-void add_color_plane(Capture& capture, const cases::Case& c, const ref::Expectation& expectation) {
+void add_color_plane(capture::Capture& capture, const cases::Case& c,
+                     const ref::Expectation& expectation) {
     if (!c.target.color) {
         return;
     }
@@ -25,7 +26,7 @@ void add_color_plane(Capture& capture, const cases::Case& c, const ref::Expectat
         if (witness.hits == 0) {
             continue;
         }
-        const Writer& writer = capture.writers[index];
+        const capture::Writer& writer = capture.writers[index];
         const auto wrote = std::find_if(
             expectation.triangles.begin(), expectation.triangles.end(), [&](const auto& t) {
                 return t.draw == writer.draw && t.primitive == writer.primitive;
@@ -38,11 +39,11 @@ void add_color_plane(Capture& capture, const cases::Case& c, const ref::Expectat
         if (attribute >= 0) {
             witness.written = &capture.attributes[static_cast<size_t>(attribute)][index];
         }
-        capture.color[index] = reference.codes(index, ref::sample_at(c.target, index), witness);
+        capture.color[index] = reference.codes(index, cases::sample_at(c.target, index), witness);
     }
 }
 
-void drop_unattached(Capture& capture, const cases::Case& c) {
+void drop_unattached(capture::Capture& capture, const cases::Case& c) {
     if (!c.target.has_instruments) {
         capture.hits.clear();
         capture.writers.clear();
@@ -56,4 +57,4 @@ void drop_unattached(Capture& capture, const cases::Case& c) {
     }
 }
 
-}  // namespace diff
+}  // namespace rasterizers

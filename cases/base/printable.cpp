@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cases/base/printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "report/text/reports.hpp"
-#include "report/text/utf8.hpp"
+#include "cases/base/utf8.hpp"
 
-namespace report {
+namespace cases {
 
 namespace {
 
@@ -113,4 +114,4 @@ std::string markup(std::string_view bytes) {
     return text;
 }
 
-}  // namespace report
+}  // namespace cases

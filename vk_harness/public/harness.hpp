@@ -58,13 +58,13 @@ Result<std::vector<DeviceInfo>> list_devices(const Options& options);
 struct Rendered {
     enum class Status { drawn, unsupported, device_lost, error } status = Status::error;
     std::string reason;                 // of unsupported, device_lost, error
-    diff::Capture capture;              // if drawn
+    capture::Capture capture;           // if drawn
     std::span<std::byte> placed;        // if not empty: the capture's planes, which are not in it
     std::vector<std::string> messages;  // of the validation layer
-    std::vector<diff::StrayWrite> stray_writes;  // if drawn: one a side of an attachment at most
+    std::vector<capture::StrayWrite> stray_writes;  // if drawn: one a side of an attachment at most
 };
 
-// Memory for the planes of case `slot` of the batch, diff::plane_bytes() long and aligned to 16;
+// Memory for the planes of case `slot` of the batch, capture::plane_bytes() long and aligned to 16;
 // empty if they shall lie in Rendered::capture.
 using PlaneStore = std::function<std::span<std::byte>(size_t slot, uint64_t bytes)>;
 

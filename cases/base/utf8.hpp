@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace report {
+namespace cases {
 
 // One step through bytes: a code point, or one byte that begins none.
 struct CodePoint {
@@ -21,4 +21,4 @@ CodePoint code_point_at(std::string_view bytes, size_t at);
 
 bool is_utf8(std::string_view bytes);
 
-}  // namespace report
+}  // namespace cases

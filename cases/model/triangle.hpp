@@ -8,7 +8,7 @@
 
 #include "cases/model/case.hpp"
 
-namespace ref {
+namespace cases {
 
 // One assembled triangle. Vertex numbers are indices into Draw::positions (after the index buffer).
 // Vertex order and provoking vertex as in the Vulkan specification, "Primitive Topologies": list
@@ -25,6 +25,6 @@ struct Triangle {
 
 // All triangles of a case in drawing order. Incomplete ones at the end (or before a restart) are
 // dropped.
-std::vector<Triangle> assemble(const cases::Case& c);
+std::vector<Triangle> assemble(const Case& c);
 
-}  // namespace ref
+}  // namespace cases

@@ -9,15 +9,16 @@
 #include "cases/model/case.hpp"
 #include "ref/expectation/expectation.hpp"
 
-namespace diff {
+namespace rasterizers {
 
 // Fills the colour plane, if the case has a colour target, from the hits, writers and attributes of
 // a capture drawn with instruments: the fragments that they tell of, blended as ref/color/blend.hpp
 // says. What was not hit, or not by an allowed set of fragments, keeps the clear colour.
 // `expectation` is that of the case.
-void add_color_plane(Capture& capture, const cases::Case& c, const ref::Expectation& expectation);
+void add_color_plane(capture::Capture& capture, const cases::Case& c,
+                     const ref::Expectation& expectation);
 
 // Takes away the planes that the case does not attach: instruments and depth.
-void drop_unattached(Capture& capture, const cases::Case& c);
+void drop_unattached(capture::Capture& capture, const cases::Case& c);
 
-}  // namespace diff
+}  // namespace rasterizers

@@ -1,20 +1,20 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/position/triangle.hpp"
+#include "cases/model/triangle.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <span>
 
-namespace ref {
+namespace cases {
 
 namespace {
 
 // Assembles the vertices of one run between restarts. Numbers from first on count up the
 // primitives.
-void assemble_run(const cases::Draw& draw, uint32_t draw_index, std::span<const uint32_t> run,
+void assemble_run(const Draw& draw, uint32_t draw_index, std::span<const uint32_t> run,
                   uint32_t& primitive, std::vector<Triangle>& out) {
-    const bool is_last = draw.provoking == cases::ProvokingVertex::last;
+    const bool is_last = draw.provoking == ProvokingVertex::last;
     const auto add = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t last) {
         const auto size = draw.positions.size();
         // A vertex number out of range has no position; the loader refuses it.
@@ -25,20 +25,20 @@ void assemble_run(const cases::Draw& draw, uint32_t draw_index, std::span<const 
     };
     const size_t n = run.size();
     if (out.empty()) {  // nearly every case has one draw of one run
-        out.reserve(draw.topology == cases::Topology::triangle_list ? n / 3 : n);
+        out.reserve(draw.topology == Topology::triangle_list ? n / 3 : n);
     }
     switch (draw.topology) {
-        case cases::Topology::triangle_list:
+        case Topology::triangle_list:
             for (size_t i = 0; i + 2 < n; i += 3) {
                 add(run[i], run[i + 1], run[i + 2], run[i + 2]);
             }
             break;
-        case cases::Topology::triangle_strip:
+        case Topology::triangle_strip:
             for (size_t i = 0; i + 2 < n; ++i) {
                 add(run[i], run[i + 1 + i % 2], run[i + 2 - i % 2], run[i + 2]);
             }
             break;
-        case cases::Topology::triangle_fan:
+        case Topology::triangle_fan:
             for (size_t i = 0; i + 2 < n; ++i) {
                 add(run[i + 1], run[i + 2], run[0], run[i + 2]);
             }
@@ -48,10 +48,10 @@ void assemble_run(const cases::Draw& draw, uint32_t draw_index, std::span<const 
 
 }  // namespace
 
-std::vector<Triangle> assemble(const cases::Case& c) {
+std::vector<Triangle> assemble(const Case& c) {
     std::vector<Triangle> out;
     for (size_t d = 0; d < c.draws.size(); ++d) {
-        const cases::Draw& draw = c.draws[d];
+        const Draw& draw = c.draws[d];
         const auto draw_index = static_cast<uint32_t>(d);
         uint32_t primitive = 0;
         if (!draw.indices) {
@@ -62,7 +62,7 @@ std::vector<Triangle> assemble(const cases::Case& c) {
         }
         std::span<const uint32_t> rest(*draw.indices);
         while (draw.primitive_restart) {
-            const auto restart = std::find(rest.begin(), rest.end(), cases::kRestartIndex);
+            const auto restart = std::find(rest.begin(), rest.end(), kRestartIndex);
             if (restart == rest.end()) {
                 break;
             }
@@ -75,4 +75,4 @@ std::vector<Triangle> assemble(const cases::Case& c) {
     return out;
 }
 
-}  // namespace ref
+}  // namespace cases

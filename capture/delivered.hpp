@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Some planes of a case, as another program delivered them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "capture/capture.hpp"
+
+namespace capture {
+
+// How much is known of the hits of a sample.
+enum class HitDetail : uint8_t {
+    none,
+    coverage,  // whether there was any
+    total,     // how many
+    faces      // how many by front and by back faces
+};
+
+// A plane that was not delivered is empty; the others have one entry a sample, as in a Capture.
+struct Delivered {
+    HitDetail detail = HitDetail::none;
+    std::vector<uint32_t> front, back;        // coverage (0 or 1) and total stand in front alone
+    std::vector<uint32_t> draws, primitives;  // kClearId where nothing was drawn; both or neither
+    // Values of samples that nothing hit are not looked at. Without hits and writers a sample was
+    // hit if any of these does not hold its clear value: kClearValue in x, Target::depth_clear.
+    std::vector<glm::vec4> frag_coord;
+    std::vector<float> depth;
+    std::array<std::vector<glm::vec4>, cases::kMaxAttributes> attributes;
+    std::vector<ColorCodes> color;  // stored codes, Target::color
+
+    bool is_empty() const;
+};
+
+}  // namespace capture

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace cli {
+
+// Why a command cannot go on: lines for stderr and its exit code.
+struct Stop {
+    int exit_code = 0;
+    std::vector<std::string> lines;
+};
+template <class T>
+using OrStop = tl::expected<T, Stop>;
+
+inline Stop stop_with(int exit_code, const std::string& line) {
+    return {exit_code, {line}};
+}
+
+// Prints the lines, each after "edgecase: ", and returns the exit code.
+int report_stop(const Stop& stop);
+
+}  // namespace cli

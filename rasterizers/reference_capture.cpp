@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <utility>
+
+#include "capture/blank_capture.hpp"
+#include "diff/consistency.hpp"
+#include "rasterizers/captures.hpp"
+#include "rasterizers/color_plane.hpp"
+#include "ref/blit/blit.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/value/value.hpp"
+
+namespace rasterizers {
+
+namespace {
+
+// The first allowed pair of hits, fewest first.
+std::pair<uint32_t, uint32_t> pick_hits(const ref::HitBounds& bounds) {
+    for (uint32_t total = bounds.total_min; total <= bounds.total_max; ++total) {
+        for (uint32_t front = 0; front <= total; ++front) {
+            if (bounds.allows(front, total - front)) {
+                return {front, total - front};
+            }
+        }
+    }
+    return {0, 0};
+}
+
+// Where the reference's value of that name is kept: "attribute 1.x", "depth", "frag_coord.w".
+float* value_slot(capture::Capture& capture, size_t index, const std::string& quantity) {
+    if (quantity == "depth") {
+        return &capture.depth[index];
+    }
+    const size_t dot = quantity.rfind('.');
+    if (dot == std::string::npos || dot + 2 != quantity.size()) {
+        return nullptr;
+    }
+    const size_t component = std::string("xyzw").find(quantity[dot + 1]);
+    if (component == std::string::npos) {
+        return nullptr;
+    }
+    const auto at = static_cast<glm::vec4::length_type>(component);
+    if (quantity.rfind("frag_coord", 0) == 0) {
+        return &capture.frag_coord[index][at];
+    }
+    if (quantity.rfind("attribute ", 0) == 0 && quantity[10] >= '0' && quantity[10] <= '3') {
+        const size_t a = static_cast<size_t>(quantity[10] - '0');
+        return a < capture.attribute_count ? &capture.attributes[a][index][at] : nullptr;
+    }
+    return nullptr;
+}
+
+capture::Capture blit_by_reference(const cases::Case& c) {
+    const ref::BlitReference reference(c);
+    capture::Capture capture;
+    capture.target = c.target;
+    for (uint32_t y = 0; y < c.target.height; ++y) {
+        for (uint32_t x = 0; x < c.target.width; ++x) {
+            capture.color.push_back(reference.nominal(x, y));
+        }
+    }
+    return capture;
+}
+
+}  // namespace
+
+capture::Capture draw_by_reference(const cases::Case& c) {
+    if (c.blit) {
+        return blit_by_reference(c);
+    }
+    const ref::Limits limits;
+    const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
+    ref::ValueReference values(c, limits, cases::Profile::direct3d);
+
+    capture::Capture capture = capture::blank_capture(c);
+    const size_t n = capture.sample_count();
+    for (size_t index = 0; index < n; ++index) {
+        const ref::SampleExpectation& sample = expectation.samples[index];
+        const auto [front, back] = pick_hits(sample.hits);
+        if (front + back == 0 || sample.writers_count == 0) {
+            continue;
+        }
+        capture.hits[index].x = static_cast<float>(front);
+        capture.hits[index].y = static_cast<float>(back);
+        capture.hits[index].w += static_cast<float>(front + back);
+        const uint32_t t = expectation.writers[sample.writers_begin + sample.writers_count - 1];
+        const cases::Triangle& triangle = expectation.triangles[t];
+        capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
+                                  capture::kClearId};
+        const cases::SampleId id = cases::sample_at(c.target, index);
+        capture.frag_coord[index] =
+            glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
+        const size_t attributes = c.draws[triangle.draw].attributes.size();
+        for (size_t a = 0; a < attributes; ++a) {
+            capture.attributes[a][index] = glm::vec4(0);
+        }
+        const bool writes_depth = c.draws[triangle.draw].depth.write;
+        for (const ref::ExpectedValue& value : values.expected(t, id)) {
+            if (value.quantity == "depth" && !writes_depth) {
+                continue;
+            }
+            if (float* slot = value_slot(capture, index, value.quantity); slot != nullptr) {
+                *slot = static_cast<float>(value.nearest);
+            }
+        }
+        if (!writes_depth && sample.depth_count > 0) {
+            const uint32_t last =
+                expectation.depth_writers[sample.depth_begin + sample.depth_count - 1];
+            for (const ref::ExpectedValue& value : values.expected(last, id)) {
+                if (value.quantity == "depth") {
+                    capture.depth[index] = static_cast<float>(value.nearest);
+                }
+            }
+        }
+    }
+    add_color_plane(capture, c, expectation);
+    drop_unattached(capture, c);
+    diff::vary(capture, c.variation);
+    return capture;
+}
+
+}  // namespace rasterizers

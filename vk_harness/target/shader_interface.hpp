@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What reaches and leaves the shaders of a case: inputs, viewports, layers, ids.
+#pragma once
+
+#include <cstdint>
+
+#include "cases/model/case.hpp"
+
+namespace vk_harness {
+
+// The largest number of attributes among the draws: how many attribute attachments the case has.
+uint32_t attribute_count(const cases::Case& c);
+
+// The attributes that reach the vertex shader: all, or, without instruments, the one that is the
+// colour, if any.
+uint32_t input_count(const cases::Case& c);
+// Input number `input` of a draw; nullptr if the draw has none there.
+const cases::Attribute* input_attribute(const cases::Case& c, const cases::Draw& draw,
+                                        uint32_t input);
+
+// Ids are written as binary32 (shaders/capture.frag): integers below 2^24 are exact.
+inline constexpr uint32_t kMaxId = 1U << 24;
+
+// How many viewports a case binds: one more than the largest index of its draws.
+uint32_t viewport_count(const cases::Case& c);
+
+// Whether the vertex shaders of a case write gl_Layer: some draw goes to another than the first
+// layer, which is the one that is drawn to without it.
+bool names_layers(const cases::Case& c);
+
+}  // namespace vk_harness
