@@ -12,7 +12,7 @@
 #include <fstream>
 #include <limits>
 
-namespace report {
+namespace capture {
 
 namespace fs = std::filesystem;
 
@@ -103,4 +103,4 @@ TEST_F(ImageTest, errors_are_sentences) {
 
 }  // namespace
 
-}  // namespace report
+}  // namespace capture

@@ -36,9 +36,9 @@ cases::Case scene(const Corners& from, const Corners& to, BlitFilter filter = Bl
 }
 
 // What a device draws that does `done` where `asked` is the case.
-Capture drawn(const cases::Case& done) {
+capture::Capture drawn(const cases::Case& done) {
     const ref::BlitReference reference(done);
-    Capture capture;
+    capture::Capture capture;
     capture.target = done.target;
     for (uint32_t y = 0; y < done.target.height; ++y) {
         for (uint32_t x = 0; x < done.target.width; ++x) {
@@ -48,7 +48,7 @@ Capture drawn(const cases::Case& done) {
     return capture;
 }
 
-Verdict judged(const cases::Case& asked, const Capture& capture, Profile profile) {
+Verdict judged(const cases::Case& asked, const capture::Capture& capture, Profile profile) {
     return compare_blit(asked, profile, capture);
 }
 
@@ -107,7 +107,7 @@ TEST(CompareBlit, AnotherFilter) {
 
 // floor(u + 1/2) instead of floor(u): the picture moves by half a texel, one target texel of two.
 TEST(CompareBlit, HalfATexelShifted) {
-    Capture capture = drawn(kDouble);
+    capture::Capture capture = drawn(kDouble);
     for (uint32_t y = 0; y < 16; ++y) {
         for (uint32_t x = 2; x < 13; ++x) {
             capture.color[y * 16 + x] = capture.color[y * 16 + x + 1];
@@ -116,7 +116,7 @@ TEST(CompareBlit, HalfATexelShifted) {
     for (const Profile profile : kProfiles) {
         EXPECT_FALSE(judged(kDouble, capture, profile).ok());
     }
-    Capture blurred = drawn(kLinear);
+    capture::Capture blurred = drawn(kLinear);
     for (uint32_t y = 0; y < 16; ++y) {
         for (uint32_t x = 2; x < 13; ++x) {
             blurred.color[y * 16 + x] = blurred.color[y * 16 + x + 1];
@@ -126,7 +126,7 @@ TEST(CompareBlit, HalfATexelShifted) {
 }
 
 TEST(CompareBlit, OutsideTouched) {
-    Capture capture = drawn(kCopy);
+    capture::Capture capture = drawn(kCopy);
     capture.color[0] = {1, 0, 0, 0};
     const Verdict verdict = judged(kCopy, capture, Profile::vulkan);
     ASSERT_EQ(verdict.findings.size(), 1U);
@@ -136,20 +136,20 @@ TEST(CompareBlit, OutsideTouched) {
 }
 
 TEST(CompareBlit, NothingWritten) {
-    Capture capture = drawn(kCopy);
+    capture::Capture capture = drawn(kCopy);
     capture.color.assign(256, {0, 0, 0, 0});
     const Verdict verdict = judged(kCopy, capture, Profile::vulkan);
     EXPECT_EQ(verdict.counts[static_cast<size_t>(FindingKind::missing)], 30U);
 }
 
 TEST(CompareBlit, NothingCopied) {
-    Capture capture = drawn(kCopy);
-    capture.color[40] = {kPoison, kPoison, kPoison, kPoison};
+    capture::Capture capture = drawn(kCopy);
+    capture.color[40] = {capture::kPoison, capture::kPoison, capture::kPoison, capture::kPoison};
     EXPECT_NE(judged(kCopy, capture, Profile::vulkan).error, "");
 }
 
 TEST(CompareBlit, OneCodeIsForgivenByVulkanOnly) {
-    Capture capture = drawn(kCopy);
+    capture::Capture capture = drawn(kCopy);
     cases::TexelCodes& codes = capture.color[4 * 16 + 6];
     codes[1] = codes[1] < 255 ? codes[1] + 1 : 254;
     EXPECT_TRUE(judged(kCopy, capture, Profile::vulkan).ok());
@@ -159,7 +159,7 @@ TEST(CompareBlit, OneCodeIsForgivenByVulkanOnly) {
 }
 
 TEST(CompareBlit, AnotherSizeIsAnError) {
-    Capture capture = drawn(kCopy);
+    capture::Capture capture = drawn(kCopy);
     capture.color.pop_back();
     EXPECT_NE(judged(kCopy, capture, Profile::vulkan).error, "");
 }

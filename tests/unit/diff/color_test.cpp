@@ -29,7 +29,7 @@ cases::Case two_draws(ColorFormat format, glm::vec4 clear) {
 struct Drawn {
     cases::Case c;
     ref::Expectation expectation;
-    Capture capture;
+    capture::Capture capture;
 
     explicit Drawn(cases::Case the_case, Profile profile = Profile::direct3d)
         : c(std::move(the_case)), expectation(ref::expect(c, ref::Limits{8}, profile)) {
@@ -43,7 +43,7 @@ struct Drawn {
         }
     }
     Verdict judge() const { return compare(c, expectation, capture); }
-    ColorCodes& at(uint32_t x, uint32_t y) { return capture.color[y * 8 + x]; }
+    capture::ColorCodes& at(uint32_t x, uint32_t y) { return capture.color[y * 8 + x]; }
 };
 
 cases::Case additive() {
@@ -63,12 +63,12 @@ TEST(Color, TheReferenceItselfIsRight) {
     EXPECT_TRUE(verdict.ok()) << verdict.error;
     EXPECT_EQ(drawn.capture.color[0 * 8 + 5][1], 255U);  // first alone
     EXPECT_GE(drawn.capture.color[5 * 8 + 1][3], 254U);  // both: 0.5 twice
-    EXPECT_EQ(drawn.capture.color[5 * 8 + 6], (ColorCodes{0, 0, 0, 0}));
+    EXPECT_EQ(drawn.capture.color[5 * 8 + 6], (capture::ColorCodes{0, 0, 0, 0}));
 }
 
 TEST(Color, ABlackPictureFails) {
     Drawn drawn(additive());
-    std::fill(drawn.capture.color.begin(), drawn.capture.color.end(), ColorCodes{});
+    std::fill(drawn.capture.color.begin(), drawn.capture.color.end(), capture::ColorCodes{});
     const Verdict verdict = drawn.judge();
     EXPECT_GT(verdict.counts[static_cast<size_t>(FindingKind::missing)], 20U);
     EXPECT_EQ(verdict.level, Profile::vulkan);
@@ -76,7 +76,7 @@ TEST(Color, ABlackPictureFails) {
 
 TEST(Color, PoisonIsAnError) {
     Drawn drawn(additive());
-    drawn.at(3, 3) = {kPoison, kPoison, kPoison, kPoison};
+    drawn.at(3, 3) = {capture::kPoison, capture::kPoison, capture::kPoison, capture::kPoison};
     EXPECT_THAT(drawn.judge().error, testing::HasSubstr("was not copied"));
 }
 

@@ -20,7 +20,7 @@ using cases::RelationKind;
 
 struct Scene {
     cases::Case test = pixel_case(8, 8, {{1, 1}, {7, 1}, {1, 7}});
-    Capture base;
+    capture::Capture base;
 
     explicit Scene(RelationKind kind = RelationKind::same_twice) {
         add_attribute(test, cases::Interpolation::smooth, {1, 2, 3});
@@ -32,7 +32,7 @@ struct Scene {
 
 // A bit of every plane in turn, at a drawn and at a clear sample.
 template <class Flip>
-void flip_each(Capture& capture, Flip&& check) {
+void flip_each(capture::Capture& capture, Flip&& check) {
     for (const size_t sample : {size_t{2 * 8 + 2}, size_t{7 * 8 + 7}}) {
         const auto flip = [&](auto& element, uint32_t plane) {
             auto* bytes = reinterpret_cast<unsigned char*>(&element);
@@ -58,7 +58,7 @@ TEST(Consistency, EveryRelationAcceptsWhatItDemands) {
         const Scene scene(kind);
         ASSERT_FALSE(scene.derivations().empty());
         for (const Derivation& d : scene.derivations()) {
-            Capture derived = scene.base;
+            capture::Capture derived = scene.base;
             vary(derived, d.variation);
             const Consistency found = compare_bits(scene.base, derived, d);
             EXPECT_EQ(found.compared, 64U) << d.name;
@@ -72,7 +72,7 @@ TEST(Consistency, EveryBitOfEveryPlaneCounts) {
                                     RelationKind::other_clears, RelationKind::write_masks}) {
         const Scene scene(kind);
         for (const Derivation& d : scene.derivations()) {
-            Capture derived = scene.base;
+            capture::Capture derived = scene.base;
             vary(derived, d.variation);
             flip_each(derived, [&](size_t sample, uint32_t plane, uint32_t word) {
                 const Consistency found = compare_bits(scene.base, derived, d);
@@ -117,7 +117,7 @@ TEST(Consistency, NaNsAreComparedByTheirBits) {
     Scene scene;
     const Derivation d = scene.derivations()[0];
     scene.base.attributes[0][18].y = std::bit_cast<float>(0x7fc00001U);
-    Capture derived = scene.base;
+    capture::Capture derived = scene.base;
     EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
     derived.attributes[0][18].y = std::bit_cast<float>(0x7fc00002U);
     EXPECT_EQ(compare_bits(scene.base, derived, d).different, 1U);
@@ -130,7 +130,7 @@ TEST(Consistency, FewerAttributesCompareTheRest) {
     const Scene scene(RelationKind::fewer_attributes);
     const Derivation d = scene.derivations()[0];
     EXPECT_TRUE(cases::derive(scene.test, d).draws[0].attributes.empty());
-    Capture derived = scene.base;
+    capture::Capture derived = scene.base;
     derived.attribute_count = 0;
     derived.attributes[0].clear();
     EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
@@ -142,7 +142,7 @@ TEST(Consistency, CopiesOfAttributesEqualTheirOriginals) {
     const Scene scene(RelationKind::more_attributes);
     const Derivation d = scene.derivations()[0];
     EXPECT_EQ(cases::derive(scene.test, d).draws[0].attributes.size(), 2U);
-    Capture derived = scene.base;
+    capture::Capture derived = scene.base;
     derived.attribute_count = 2;
     derived.attributes[1] = derived.attributes[0];
     EXPECT_EQ(compare_bits(scene.base, derived, d).different, 0U);
@@ -155,7 +155,7 @@ TEST(Consistency, CopiesOfAttributesEqualTheirOriginals) {
 TEST(Consistency, FindingsNameSampleBitsAndRule) {
     const Scene scene(RelationKind::scissor_tiles);
     const std::vector<Derivation> d = scene.derivations();
-    Capture derived = scene.base;
+    capture::Capture derived = scene.base;
     derived.hits[18].x += 1;
     const std::vector<Consistency> found = {compare_bits(scene.base, derived, d[0])};
     Verdict verdict;
@@ -179,7 +179,7 @@ TEST(Consistency, FindingsNameSampleBitsAndRule) {
 TEST(Consistency, AllDifferentSamplesAreCountedAndTheFirstOnesKept) {
     const Scene scene;
     const std::vector<Derivation> d = scene.derivations();
-    Capture derived = scene.base;
+    capture::Capture derived = scene.base;
     for (float& depth : derived.depth) {
         depth += 1.0F;
     }

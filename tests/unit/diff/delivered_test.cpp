@@ -39,8 +39,8 @@ enum Plane : uint32_t {
     kEnd = 256
 };
 
-Delivered take(const capture::Capture& capture, uint32_t planes) {
-    Delivered out;
+capture::Delivered take(const capture::Capture& capture, uint32_t planes) {
+    capture::Delivered out;
     const uint32_t detail = planes & (kCoverage | kTotal | kFaces);
     for (const glm::vec4& h : capture.hits) {
         const auto front = static_cast<uint32_t>(h.x), back = static_cast<uint32_t>(h.y);
@@ -51,10 +51,10 @@ Delivered take(const capture::Capture& capture, uint32_t planes) {
             out.front.push_back(detail == kTotal ? front + back : front + back > 0);
         }
     }
-    out.detail = detail == kFaces      ? HitDetail::faces
-                 : detail == kTotal    ? HitDetail::total
-                 : detail == kCoverage ? HitDetail::coverage
-                                       : HitDetail::none;
+    out.detail = detail == kFaces      ? capture::HitDetail::faces
+                 : detail == kTotal    ? capture::HitDetail::total
+                 : detail == kCoverage ? capture::HitDetail::coverage
+                                       : capture::HitDetail::none;
     for (const capture::Writer& w : capture.writers) {
         if ((planes & kWriter) != 0) {
             out.draws.push_back(w.draw);
@@ -175,7 +175,7 @@ TEST(Delivered, AMissingPlaneIsNamed) {
     EXPECT_THAT(diff::not_judged(f.c, take(f.right, kTotal | kDepth | kAttribute1)),
                 ElementsAre("faces", "writer", "FragCoord", "attribute 0"));
     EXPECT_THAT(diff::not_judged(f.c, take(f.right, kEnd - 1 - kCoverage - kTotal)), IsEmpty());
-    EXPECT_TRUE(Delivered{}.is_empty());
+    EXPECT_TRUE(capture::Delivered{}.is_empty());
     EXPECT_FALSE(take(f.right, kDepth).is_empty());
 }
 
@@ -209,7 +209,7 @@ TEST(Delivered, AnythingMayLieWhereNothingWasHit) {
 
 TEST(Delivered, ContradictionsAreFound) {
     Fixture f;
-    Delivered planes = take(f.right, kCoverage | kWriter);
+    capture::Delivered planes = take(f.right, kCoverage | kWriter);
     planes.front[3 * 8 + 3] = 0;
     const diff::Verdict v = diff::compare_delivered(f.c, f.e, planes);
     ASSERT_EQ(v.findings.size(), 1U);
@@ -221,7 +221,7 @@ TEST(Delivered, ColourAloneIsJudged) {
     f.c.target.color = cases::ColorTarget{cases::ColorFormat::rgba8_unorm, {0, 0, 0, 0}};
     f.c.draws[0].color.value = {1, 0, 0, 1};
     f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
-    Delivered planes;
+    capture::Delivered planes;
     for (const auto& sample : f.e.samples) {
         planes.color.push_back(sample.hits.total_min > 0 ? capture::ColorCodes{255, 0, 0, 255}
                                                          : capture::ColorCodes{});

@@ -21,27 +21,27 @@ using cases::Profile;
 using cases::Resolve;
 
 // A capture of 2 x 1 pixels with the planes that are judged here.
-Capture make_capture(uint32_t samples) {
-    Capture c;
+capture::Capture make_capture(uint32_t samples) {
+    capture::Capture c;
     c.target.width = 2;
     c.target.height = 1;
     c.target.samples = samples;
     const size_t n = c.sample_count();
-    c.hits.assign(n, {0, 0, kHitGuard, kHitGuard});
-    c.writers.assign(n, Writer{});
-    c.frag_coord.assign(n, glm::vec4(kClearValue));
-    c.depth.assign(n, kClearDepth);
+    c.hits.assign(n, {0, 0, capture::kHitGuard, capture::kHitGuard});
+    c.writers.assign(n, capture::Writer{});
+    c.frag_coord.assign(n, glm::vec4(capture::kClearValue));
+    c.depth.assign(n, capture::kClearDepth);
     return c;
 }
 
-void hit(Capture& c, size_t index, float front, float back) {
+void hit(capture::Capture& c, size_t index, float front, float back) {
     set_hits(c, index, front, back);
-    c.writers[index] = {0, 0, 0, kClearId};
+    c.writers[index] = {0, 0, 0, capture::kClearId};
     c.frag_coord[index] = glm::vec4(0.5F);
 }
 
-Capture colored(ColorFormat format, Resolve mode, std::vector<uint32_t> reds) {
-    Capture c = make_capture(static_cast<uint32_t>(reds.size()));
+capture::Capture colored(ColorFormat format, Resolve mode, std::vector<uint32_t> reds) {
+    capture::Capture c = make_capture(static_cast<uint32_t>(reds.size()));
     c.target.color.emplace();
     c.target.color->format = format;
     c.target.color_resolve = mode;
@@ -54,7 +54,7 @@ Capture colored(ColorFormat format, Resolve mode, std::vector<uint32_t> reds) {
     return c;
 }
 
-std::vector<Finding> judge(const Capture& c, Profile profile = Profile::direct3d) {
+std::vector<Finding> judge(const capture::Capture& c, Profile profile = Profile::direct3d) {
     std::vector<Finding> findings;
     const std::string error = judge_dependent_planes(
         c, profile, [&](Finding finding) { findings.push_back(std::move(finding)); });
@@ -72,7 +72,7 @@ TEST(Stencil, CountsFrontLessBackModulo256) {
 
 TEST(Stencil, EveryOtherValueIsAFinding) {
     for (const uint32_t samples : {1U, 4U}) {
-        Capture c = make_capture(samples);
+        capture::Capture c = make_capture(samples);
         c.target.has_stencil = true;
         hit(c, samples, 2, 3);  // the first sample of the second pixel
         add_dependent_planes(c);
@@ -95,26 +95,26 @@ TEST(Stencil, EveryOtherValueIsAFinding) {
 }
 
 TEST(Stencil, NotCopiedIsAnError) {
-    Capture c = make_capture(1);
+    capture::Capture c = make_capture(1);
     c.target.has_stencil = true;
-    c.stencil = {0, kPoison};
+    c.stencil = {0, capture::kPoison};
     EXPECT_NE(judge_dependent_planes(c, Profile::vulkan, [](const Finding&) {}), "");
 }
 
 TEST(Resolve, NotCopiedIsAnError) {
-    Capture c = colored(ColorFormat::rgba8_unorm, Resolve::average, {0, 255});
-    c.resolved_color[1] = {kPoison, kPoison, kPoison, kPoison};
+    capture::Capture c = colored(ColorFormat::rgba8_unorm, Resolve::average, {0, 255});
+    c.resolved_color[1] = {capture::kPoison, capture::kPoison, capture::kPoison, capture::kPoison};
     EXPECT_NE(judge_dependent_planes(c, Profile::vulkan, [](const Finding&) {}), "");
-    Capture d = make_capture(2);
+    capture::Capture d = make_capture(2);
     d.target.depth_resolve = Resolve::min;
-    d.resolved_depth.assign(2, std::bit_cast<float>(kPoison));
+    d.resolved_depth.assign(2, std::bit_cast<float>(capture::kPoison));
     EXPECT_NE(judge_dependent_planes(d, Profile::vulkan, [](const Finding&) {}), "");
 }
 
 // Codes 10, 20, 20, 35: mean 21.25. From practice on 20.25..22.25 may be stored, that is 21 or 22;
 // Vulkan's text allows all from 10 to 35.
 TEST(Resolve, AverageOfUnormWithinAStepOfTheMean) {
-    Capture c = colored(ColorFormat::rgba8_unorm, Resolve::average, {10, 20, 20, 35});
+    capture::Capture c = colored(ColorFormat::rgba8_unorm, Resolve::average, {10, 20, 20, 35});
     EXPECT_EQ(c.resolved_color[0][0], 21U);
     for (uint32_t code = 0; code < 256; ++code) {
         c.resolved_color[1][0] = code;
@@ -132,14 +132,14 @@ TEST(Resolve, AverageOfUnormWithinAStepOfTheMean) {
 }
 
 TEST(Resolve, SamplesAlikeStayWhatTheyAre) {
-    Capture c = colored(ColorFormat::rgba16_unorm, Resolve::average, {513, 513, 513, 513});
+    capture::Capture c = colored(ColorFormat::rgba16_unorm, Resolve::average, {513, 513, 513, 513});
     EXPECT_TRUE(judge(c).empty());
     c.resolved_color[0][0] = 514;
     EXPECT_EQ(judge(c, Profile::vulkan).size(), 1U);
 }
 
 TEST(Resolve, AverageOfSrgbIsFreeAmongTheSamples) {
-    Capture c = colored(ColorFormat::rgba8_srgb, Resolve::average, {0, 255});
+    capture::Capture c = colored(ColorFormat::rgba8_srgb, Resolve::average, {0, 255});
     c.resolved_color[0][0] = 188;  // the mean of linear numbers
     EXPECT_TRUE(judge(c).empty());
     c.resolved_color[0][0] = 128;  // the mean of codes
@@ -156,7 +156,7 @@ TEST(Resolve, AverageOfFloatsWithinTheBoundOfTheSum) {
     for (const float value : values) {
         bits.push_back(std::bit_cast<uint32_t>(value));
     }
-    Capture c = colored(ColorFormat::r32_float, Resolve::average, bits);
+    capture::Capture c = colored(ColorFormat::r32_float, Resolve::average, bits);
     float forwards = 0;
     float backwards = 0;
     float lost = 0;
@@ -177,7 +177,7 @@ TEST(Resolve, AverageOfFloatsWithinTheBoundOfTheSum) {
 }
 
 TEST(Resolve, SampleZeroOfIntegersIsExact) {
-    Capture c = colored(ColorFormat::r32_uint, Resolve::sample_zero, {7, 9, 9, 9});
+    capture::Capture c = colored(ColorFormat::r32_uint, Resolve::sample_zero, {7, 9, 9, 9});
     EXPECT_EQ(c.resolved_color[0][0], 7U);
     EXPECT_TRUE(judge(c).empty());
     for (const uint32_t wrong : {6U, 8U, 9U, 0U}) {  // 8: their average
@@ -192,12 +192,12 @@ TEST(Resolve, DepthByEachMode) {
     for (const auto format : {cases::DepthFormat::d32_float, cases::DepthFormat::d16_unorm}) {
         const std::vector<float> wishes = {0.5F, 0.25F, 0.75F, 0.625F};
         const auto stored = [format](float z) {
-            return format == cases::DepthFormat::d32_float ? z : nearest_depth(z, format);
+            return format == cases::DepthFormat::d32_float ? z : capture::nearest_depth(z, format);
         };
         for (const auto& [mode, right] :
              {std::pair(Resolve::sample_zero, 0.5F), std::pair(Resolve::min, 0.25F),
               std::pair(Resolve::max, 0.75F), std::pair(Resolve::average, 0.53125F)}) {
-            Capture c = make_capture(4);
+            capture::Capture c = make_capture(4);
             c.target.depth_format = format;
             c.target.depth_resolve = mode;
             for (size_t k = 0; k < c.depth.size(); ++k) {
@@ -221,7 +221,7 @@ TEST(Resolve, TheVerdictHoldsIt) {
     c.target.depth_resolve = Resolve::max;
     c.target.has_stencil = true;
     const ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
-    Capture capture = perfect_capture(c, e);
+    capture::Capture capture = perfect_capture(c, e);
     EXPECT_FALSE(compare(c, e, capture).ok());  // the planes are missing
     add_dependent_planes(capture);
     const Verdict right = compare(c, e, capture);
@@ -230,7 +230,7 @@ TEST(Resolve, TheVerdictHoldsIt) {
     const Verdict wrong = compare(c, e, capture);
     EXPECT_EQ(wrong.counts[static_cast<size_t>(FindingKind::value)], 1U);
     EXPECT_EQ(wrong.marks[63 * 4], SampleMark::value);
-    capture.resolved_depth[63] = kClearDepth;
+    capture.resolved_depth[63] = capture::kClearDepth;
     capture.stencil[9 * 4 + 2] ^= 1U;
     EXPECT_EQ(compare(c, e, capture).counts[static_cast<size_t>(FindingKind::value)], 1U);
 }

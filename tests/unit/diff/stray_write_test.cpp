@@ -16,7 +16,7 @@ TEST(StrayWrite, IsToldWithItsPlace) {
     c.target.height = 3;
     c.target.samples = 4;
     c.target.layers = 2;
-    const std::vector<StrayWrite> writes = {
+    const std::vector<capture::StrayWrite> writes = {
         {"depth", true, 12, 0xed9eca5eU, 0x3f800000U, 7, 1},
         {"attribute 1", false, 0, 0xed9eca5eU, 0, 1, 16},
     };

@@ -29,11 +29,11 @@ cases::Case with_source(Source source, uint32_t components) {
     return c;
 }
 
-FragmentValues built_in(SampleId id, glm::vec4 value, bool is_shaded) {
+FragmentValues built_in(cases::SampleId id, glm::vec4 value, bool is_shaded) {
     FragmentValues v = fragment(id, {0, 0}, {0, 0});
     v.attributes[0] = value;
     if (is_shaded) {
-        const auto& at = standard_sample_locations(4)[id.sample];
+        const auto& at = cases::standard_sample_locations(4)[id.sample];
         v.frag_coord.x = static_cast<float>(id.x) + static_cast<float>(at[0]) / 16;
         v.frag_coord.y = static_cast<float>(id.y) + static_cast<float>(at[1]) / 16;
     }
@@ -76,8 +76,9 @@ TEST(BuiltIns, SampleIdAndPosition) {
 
 // Numbers of a quantity that a profile accepts, tried one by one; `put` writes one into a fragment.
 template <class Put>
-std::set<float> accepted_numbers(ValueReference& values, SampleId id, const std::string& quantity,
-                                 const std::vector<float>& numbers, Put put) {
+std::set<float> accepted_numbers(ValueReference& values, cases::SampleId id,
+                                 const std::string& quantity, const std::vector<float>& numbers,
+                                 Put put) {
     std::set<float> out;
     for (const float n : numbers) {
         for (const float other : numbers) {
@@ -109,7 +110,7 @@ TEST(BuiltIns, OtherNumbersThatAreRightAreTold) {
     const auto check = [&](const cases::Case& c, const std::string& name,
                            const std::vector<float>& numbers, bool is_in_framebuffer, auto put) {
         for (const Profile profile : cases::kProfiles) {
-            for (const SampleId id : {kWhole, kPart, SampleId{4, 3, 0}}) {
+            for (const cases::SampleId id : {kWhole, kPart, cases::SampleId{4, 3, 0}}) {
                 if (id.sample >= c.target.samples ||
                     (c.draws[0].multisample.sample_mask >> id.sample & 1U) == 0) {
                     continue;  // nothing is written there
@@ -139,7 +140,7 @@ TEST(BuiltIns, OtherNumbersThatAreRightAreTold) {
             }
         }
     };
-    const auto at_x = [](FragmentValues& v, SampleId id, float x, float y) {
+    const auto at_x = [](FragmentValues& v, cases::SampleId id, float x, float y) {
         v.frag_coord.x = static_cast<float>(id.x) + x;
         v.frag_coord.y = static_cast<float>(id.y) + y;
     };
@@ -152,7 +153,7 @@ TEST(BuiltIns, OtherNumbersThatAreRightAreTold) {
             check(c, "frag_coord.x", places, true, at_x);
         }
     }
-    const auto in_attribute = [](FragmentValues& v, SampleId, float x, float y) {
+    const auto in_attribute = [](FragmentValues& v, cases::SampleId, float x, float y) {
         v.attributes[0] = {x, y, 0, 0};
     };
     check(with_source(Source::sample_position, 2), "attribute 0.x", places, false, in_attribute);

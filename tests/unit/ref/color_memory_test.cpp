@@ -179,7 +179,7 @@ Color left_by_all(const cases::Case& c, const Expectation& expectation, const Un
                   std::span<const PossibleHit> hits) {
     Color color = unit.cleared(*c.target.color);
     for (const PossibleHit& hit : hits) {
-        const Triangle& triangle = expectation.triangles[hit.triangle];
+        const cases::Triangle& triangle = expectation.triangles[hit.triangle];
         const cases::Draw& draw = c.draws[triangle.draw];
         const glm::vec4 v = draw.color.attribute < 0
                                 ? draw.color.value
@@ -210,7 +210,7 @@ void check_remembered(uint32_t triangles, bool is_varied, std::mt19937& random) 
                 continue;
             }
             layered += hits.size() > 1 ? 1U : 0U;
-            const SampleId id = sample_at(c.target, index);
+            const cases::SampleId id = sample_at(c.target, index);
             const Color color = left_by_all(c, expectation, unit, hits);
             std::array<uint32_t, 4> codes = unit.codes_of(color);
             ASSERT_EQ(reference.codes(index, id, std::nullopt), codes) << index;
@@ -253,7 +253,7 @@ TEST(ColorMemory, WhatIsNoNumberIsNotTakenForWhatWasWritten) {
             continue;
         }
         ++compared;
-        const SampleId id = sample_at(c.target, index);
+        const cases::SampleId id = sample_at(c.target, index);
         ColorWitness witness{static_cast<uint32_t>(hits.size()), hits.back().triangle, nullptr};
         const std::array<uint32_t, 4> codes = reference.codes(index, id, witness);
         for (const float bad : {std::nanf(""), HUGE_VALF, -HUGE_VALF}) {
@@ -311,7 +311,7 @@ TEST(Ranges, AreThoseOfEveryComponent) {
         for (const Profile profile : cases::kProfiles) {
             ValueReference reference(c, Limits{8}, profile);
             for (uint32_t s = 0; s < 16; ++s) {
-                const SampleId id{s % 4 * 3, s / 4 * 3, 0};
+                const cases::SampleId id{s % 4 * 3, s / 4 * 3, 0};
                 for (const int32_t attribute : {kDepthAttribute, 0, 1, 2}) {
                     const std::array<ValueRange, 4> all = reference.ranges(0, id, attribute);
                     for (uint32_t k = 0; k < 4; ++k) {

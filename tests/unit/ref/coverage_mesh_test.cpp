@@ -23,7 +23,7 @@ struct Hits {
 };
 
 // What a device draws that snaps vertex v of draw d to where[d][v].
-std::vector<Hits> draw(const cases::Case& c, const std::vector<Triangle>& triangles,
+std::vector<Hits> draw(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
                        const std::vector<std::vector<FixedPoint>>& where) {
     std::vector<Hits> out;
     for (uint32_t j = 0; j < c.target.height; ++j) {
@@ -387,10 +387,10 @@ TEST(CoverageMesh, ClippingDeviceIsAllowed) {
         }
         d.indices = indices;
         c.draws.push_back(d);
-        const std::vector<Triangle> triangles = assemble(c);
+        const std::vector<cases::Triangle> triangles = assemble(c);
         std::vector<std::vector<FixedPoint>> polygons;
         const bool is_depth_first = random.flip();
-        for (const Triangle& t : triangles) {
+        for (const cases::Triangle& t : triangles) {
             const Triple v{d.positions[t.vertex[0]], d.positions[t.vertex[1]],
                            d.positions[t.vertex[2]]};
             polygons.emplace_back();

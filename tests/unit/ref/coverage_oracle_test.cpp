@@ -158,7 +158,7 @@ TEST(CoverageOracle, ClassifyAgreesWithScan) {
         const Setting s = setting(random);
         const cases::Case c = random.triangles();
         VertexBoxes boxes(c, s.limits, s.profile);
-        for (const Triangle& t : assemble(c)) {
+        for (const cases::Triangle& t : assemble(c)) {
             const TriangleSetup setup =
                 set_up(c, t, s.limits, s.profile, boxes, window_of(c, c.draws[t.draw], s.profile));
             for (uint32_t j = 0; j < c.target.height; ++j) {

@@ -151,9 +151,9 @@ TEST(DepthOracle, VerdictsAgree) {
                     continue;
                 }
                 const size_t pixel = k / c.target.samples;
-                const SampleId id{static_cast<uint32_t>(pixel % 8),
-                                  static_cast<uint32_t>(pixel / 8),
-                                  static_cast<uint32_t>(k % c.target.samples)};
+                const cases::SampleId id{static_cast<uint32_t>(pixel % 8),
+                                         static_cast<uint32_t>(pixel / 8),
+                                         static_cast<uint32_t>(k % c.target.samples)};
                 const uint32_t t = e.writers[s.writers_begin];
                 FragmentValues device = value_test::rounded(fast.expected(t, id));
                 device.frag_coord.x = static_cast<float>(id.x) + 0.5F;

@@ -67,7 +67,7 @@ TEST(Layers, AreStacked) {
     EXPECT_EQ(target.rows(), 21U);
     EXPECT_EQ(index_of(target, {2, 1, 3, 6}), ((6U * 3U + 1U) * 5U + 2U) * 4U + 3U);
     for (size_t index = 0; index < size_t{5} * 21 * 4; ++index) {
-        const SampleId id = sample_at(target, index);
+        const cases::SampleId id = sample_at(target, index);
         EXPECT_LT(id.x, 5U);
         EXPECT_LT(id.y, 3U);
         EXPECT_LT(id.sample, 4U);

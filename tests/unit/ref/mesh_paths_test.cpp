@@ -157,7 +157,7 @@ TEST(MeshPaths, AForgottenSetUpIsMadeAgain) {
     RandomCases random(20261125);
     for (int n = 0; n < 200; ++n) {
         const cases::Case c = random.mesh();
-        const std::vector<Triangle> triangles = assemble(c);
+        const std::vector<cases::Triangle> triangles = assemble(c);
         TriangleSetups kept(c, triangles, {}, cases::Profile::direct3d);
         TriangleSetups forgotten(c, triangles, {}, cases::Profile::direct3d);
         for (uint32_t t = 0; t < triangles.size(); ++t) {

@@ -35,7 +35,7 @@ inline cases::Case triangle(Auxiliary auxiliary) {
 }
 
 // A device that evaluates the first attribute at p, the second at q.
-inline FragmentValues fragment(SampleId id, Point p, Point q) {
+inline FragmentValues fragment(cases::SampleId id, Point p, Point q) {
     FragmentValues v;
     v.frag_coord = {static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.5F, 1};
     v.depth = 0.5F;
@@ -45,7 +45,7 @@ inline FragmentValues fragment(SampleId id, Point p, Point q) {
 }
 
 // The profiles that accept a fragment, as letters; the oracle has to agree.
-inline std::string accepted(const cases::Case& c, SampleId id, const FragmentValues& v) {
+inline std::string accepted(const cases::Case& c, cases::SampleId id, const FragmentValues& v) {
     std::string out;
     for (const Profile profile : cases::kProfiles) {
         ValueReference values(c, {8}, profile);
@@ -65,9 +65,9 @@ inline std::string accepted(const cases::Case& c, SampleId id, const FragmentVal
     return out;
 }
 
-inline constexpr SampleId kWhole{2, 2, 1};  // all four samples are covered
+inline constexpr cases::SampleId kWhole{2, 2, 1};  // all four samples are covered
 // Pixel (4,3) is cut by x + y = 8: samples 0 (4.375,3.125) and 2 (4.125,3.625) are covered, the
 // centre lies on the edge.
-inline constexpr SampleId kPart{4, 3, 2};
+inline constexpr cases::SampleId kPart{4, 3, 2};
 
 }  // namespace ref::test

@@ -24,7 +24,7 @@ using P = value::Point<mpq_class>;
 
 TEST(PixelCoverage, IsThatOfTheTriangleAlone) {
     const cases::Case c = triangle(Auxiliary::none);
-    const std::vector<Triangle> triangles = assemble(c);
+    const std::vector<cases::Triangle> triangles = assemble(c);
     FragmentCoverage coverage(c, {8}, Profile::direct3d, triangles);
     EXPECT_EQ(coverage.of(0, 2, 2).must, 0b1111U);
     EXPECT_EQ(coverage.of(0, 4, 3).must, 0b0101U);
@@ -45,7 +45,7 @@ TEST(PixelCoverage, FastIsExact) {
                                       {coordinate(), coordinate()},
                                       {coordinate(), coordinate()}},
                                      samples);
-        const std::vector<Triangle> triangles = assemble(c);
+        const std::vector<cases::Triangle> triangles = assemble(c);
         for (const Profile profile : cases::kProfiles) {
             FragmentCoverage coverage(c, {8}, profile, triangles);
             for (uint32_t k = 0; k < 64; ++k) {
@@ -60,7 +60,7 @@ TEST(PixelCoverage, FastIsExact) {
 
 TEST(PixelRegion, IsPixelAndTriangle) {
     const cases::Case c = triangle(Auxiliary::none);
-    const std::vector<Triangle> triangles = assemble(c);
+    const std::vector<cases::Triangle> triangles = assemble(c);
     FragmentCoverage coverage(c, {8}, Profile::direct3d, triangles);
     EXPECT_EQ(pixel_region(coverage.setup(0), 2, 2).size(), 4U);
     // Below x + y = 8: the corner (5,4) is cut off between (5,3) and (4,4).
@@ -173,7 +173,7 @@ TEST(Places, FragCoordStaysAmongTheSamples) {
         c.draws[0].positions[0].z = 0;
         c.draws[0].positions[1].z = 0.75F;
         c.draws[0].positions[2].z = 0.375F;
-        const SampleId id{2, 2, 1};
+        const cases::SampleId id{2, 2, 1};
         const FixedPoint own = sample_position(id.x, id.y, id.sample, c.target);
         const auto z = [](double x, double y) {
             return static_cast<float>((x - 1) / 8 + (y - 1) / 16);

@@ -27,7 +27,7 @@ std::vector<Numbers> vertices(cases::Topology topology, size_t positions,
     c.draws.push_back(d);
     std::vector<Numbers> out;
     uint32_t primitive = 0;
-    for (const Triangle& t : assemble(c)) {
+    for (const cases::Triangle& t : assemble(c)) {
         EXPECT_EQ(t.provoking, t.vertex[0]);
         EXPECT_EQ(t.primitive, primitive++);
         out.push_back(t.vertex);
@@ -64,14 +64,14 @@ TEST(Assemble, LastProvokingVertexChangesNothingElse) {
         d.positions.resize(6);
         c.draws.push_back(d);
         std::vector<uint32_t> out;
-        for (const Triangle& t : assemble(c)) {
+        for (const cases::Triangle& t : assemble(c)) {
             out.push_back(t.provoking);
             EXPECT_NE(std::find(t.vertex.begin(), t.vertex.end(), t.provoking), t.vertex.end());
         }
         c.draws[0].provoking = cases::ProvokingVertex::first;
-        const std::vector<Triangle> first = assemble(c);
+        const std::vector<cases::Triangle> first = assemble(c);
         c.draws[0].provoking = mode;
-        const std::vector<Triangle> same = assemble(c);
+        const std::vector<cases::Triangle> same = assemble(c);
         for (size_t k = 0; k < first.size(); ++k) {
             EXPECT_EQ(first[k].vertex, same[k].vertex);
             EXPECT_EQ(first[k].primitive, same[k].primitive);
@@ -91,10 +91,10 @@ TEST(Assemble, LastProvokingVertexChangesNothingElse) {
 
 TEST(Samples, StandardLocationsAreDistinctAndOnTheFourBitGrid) {
     for (const uint32_t samples : {1U, 2U, 4U, 8U, 16U}) {
-        ASSERT_EQ(standard_sample_locations(samples).size(), samples);
+        ASSERT_EQ(cases::standard_sample_locations(samples).size(), samples);
         std::set<std::array<uint8_t, 2>> seen;
         int sum_x = 0;
-        for (const auto& l : standard_sample_locations(samples)) {
+        for (const auto& l : cases::standard_sample_locations(samples)) {
             seen.insert(l);
             sum_x += l[0];
             EXPECT_LT(l[0], 16);

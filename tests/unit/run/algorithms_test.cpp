@@ -21,7 +21,7 @@ void PrintTo(const Device& device, std::ostream* out) {
 
 }  // namespace rasterizers
 
-namespace cli {
+namespace run {
 namespace {
 
 const std::vector<cases::Case>& supported_cases() {
@@ -87,4 +87,4 @@ INSTANTIATE_TEST_SUITE_P(All, Algorithms,
                          });
 
 }  // namespace
-}  // namespace cli
+}  // namespace run

@@ -13,7 +13,7 @@
 #include "diff/delivered.hpp"
 #include "run/worker/backend.hpp"
 
-namespace cli {
+namespace run {
 namespace {
 
 using capture::Delivered;
@@ -118,4 +118,4 @@ TEST(DeliveredSuite, NoPlaneGivesAFalseAlarmAndNoEmptyOnePasses) {
 }
 
 }  // namespace
-}  // namespace cli
+}  // namespace run

@@ -6,7 +6,7 @@
 
 #include "run/worker/fault.hpp"
 
-namespace cli {
+namespace run {
 namespace {
 
 using report::Status;
@@ -107,4 +107,4 @@ TEST(Faults, CommasInsideIdsDoNotSeparate) {
 }
 
 }  // namespace
-}  // namespace cli
+}  // namespace run

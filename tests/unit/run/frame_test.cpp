@@ -7,7 +7,7 @@
 #include "run/process/process.hpp"
 #include "run/worker/message.hpp"
 
-namespace cli {
+namespace run {
 namespace {
 
 TEST(Frame, ArrivesInPiecesOfAnySize) {
@@ -132,4 +132,4 @@ TEST(HeadAndTail, KeepsBothEnds) {
 }
 
 }  // namespace
-}  // namespace cli
+}  // namespace run

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cli {
+namespace run {
 namespace {
 
 using report::Status;
@@ -134,4 +134,4 @@ TEST(Schedule, RepeatCountsRenderings) {
 }
 
 }  // namespace
-}  // namespace cli
+}  // namespace run

@@ -11,7 +11,7 @@
 #include "run/judge.hpp"
 #include "run/worker/message.hpp"
 
-namespace cli {
+namespace run {
 namespace {
 
 TEST(SharedMemory, AWorkersWordsArriveInTheParent) {
@@ -130,4 +130,4 @@ TEST(SharedMemory, EveryFlippedBitOfACaptureChangesItsSum) {
 }
 
 }  // namespace
-}  // namespace cli
+}  // namespace run
