@@ -270,7 +270,7 @@ const ref::Expectation& Attribution::at(cases::Profile profile) {
 }
 
 size_t Attribution::index_of(const Finding& finding) const {
-    return cases::index_of(case_.target, place_of(finding));
+    return cases::index_of(case_.target, sample_of(finding));
 }
 
 void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
@@ -307,7 +307,7 @@ void Attribution::attribute_writer(Finding& finding,
     }
     ++explained_;
     const ref::SampleExplanation s =
-        ref::explain_sample(case_, expectation_.limits, finding.level, place_of(finding));
+        ref::explain_sample(case_, expectation_.limits, finding.level, sample_of(finding));
     if (finding.level == cases::Profile::vulkan) {
         // Whatever is granted, that triangle cannot have been the last. If it may not cover the
         // sample at all, that says more than the order.
@@ -348,7 +348,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     if (explained_ >= explains_ && earlier != like_.end()) {
         finding.rule = earlier->second.rule;
         finding.quantity = earlier->second.quantity;
-        finding.why = "as at " + cases::pixel_text(case_.target, place_of(earlier->second));
+        finding.why = "as at " + cases::pixel_text(case_.target, sample_of(earlier->second));
         return;
     }
     explain_hits(finding, asked, front + back);
@@ -359,7 +359,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked,
                                uint32_t total) const {
     const ref::SampleExplanation s =
-        ref::explain_sample(case_, expectation_.limits, finding.level, place_of(finding));
+        ref::explain_sample(case_, expectation_.limits, finding.level, sample_of(finding));
     if (finding.kind == FindingKind::value) {
         if (const Ties ties = ties_of(s);
             finding.level == cases::Profile::direct3d && ties.first != nullptr) {

@@ -20,7 +20,7 @@ using report::SampleEvidence;
 using report::SampleValue;
 
 // Wrong samples, the first of each rule before the rest; then their neighbours.
-std::vector<size_t> chosen_samples(const Window& window, const cases::Target& target,
+std::vector<size_t> chosen_samples(const PictureWindow& window, const cases::Target& target,
                                    const diff::Verdict& verdict) {
     std::vector<size_t> chosen;
     std::set<size_t> seen;
@@ -32,11 +32,11 @@ std::vector<size_t> chosen_samples(const Window& window, const cases::Target& ta
     std::set<std::string> rules;
     for (const diff::Finding& f : verdict.findings) {
         if (rules.insert(f.rule).second) {
-            choose(cases::index_of(target, diff::place_of(f)), report::kMaxEvidence);
+            choose(cases::index_of(target, diff::sample_of(f)), report::kMaxEvidence);
         }
     }
     for (const diff::Finding& f : verdict.findings) {
-        choose(cases::index_of(target, diff::place_of(f)), report::kMaxEvidence * 3 / 4);
+        choose(cases::index_of(target, diff::sample_of(f)), report::kMaxEvidence * 3 / 4);
     }
     const std::vector<size_t> wrong = chosen;
     for (const size_t index : wrong) {
@@ -207,7 +207,7 @@ class EvidenceMaker {
 void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
                    const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits) {
-    const Window window(verdict, c.target);
+    const PictureWindow window(verdict, c.target);
     record.pictures = cut_pictures(window, c, verdict, capture);
     record.geometry = geometry_of(window, c, limits, expectation);
 }
@@ -216,7 +216,7 @@ void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff:
                    const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits) {
     keep_pictures(record, c, verdict, expectation, capture, limits);
-    const Window window(verdict, c.target);
+    const PictureWindow window(verdict, c.target);
     if (c.blit || !verdict.error.empty()) {
         return;
     }

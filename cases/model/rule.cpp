@@ -254,7 +254,7 @@ constexpr std::array kRules = {
     Rule{"depth.distinct", Profile::vulkan, "Planes that are r apart stay distinct",
          "Polygons with the same vertices, biased apart by one r (fixed point: two, as r may be a "
          "little less than a step), never compare equal or the wrong way round.",
-         "primsrast-depthbias-computation", "", "ref/depth/depth_test.hpp"},
+         "primsrast-depthbias-computation", "", "ref/depth/outcome.hpp"},
     Rule{"depth.clamp", Profile::vulkan, "Depth clamp limits depth to the viewport's range",
          "With depthClampEnable z is clamped to [min, max] of the viewport's depths, whichever is "
          "the smaller, after the bias; near and far planes clip nothing.",
@@ -264,15 +264,15 @@ constexpr std::array kRules = {
          "Nothing "
          "says that fixed-point depth is rounded before it is compared: outcomes within a step are "
          "free.",
-         "fragops-depth-comparison", "17.11", "ref/depth/depth_test.hpp"},
+         "fragops-depth-comparison", "17.11", "ref/depth/outcome.hpp"},
     Rule{
         "depth.repeat", Profile::vulkan, "The same triangle has the same depth again",
         "Drawn twice by the same state with binary32 depth, it is equal to itself in every sample: "
         "LESS_OR_EQUAL passes, LESS fails, wherever it is covered.",
-        "invariance", "", "ref/depth/depth_test.hpp"},
+        "invariance", "", "ref/depth/outcome.hpp"},
     Rule{"depth.write", Profile::vulkan, "Depth is written where the test passes and writes are on",
          "A fragment that fails, or whose draw does not write depth, leaves the older depth.",
-         "fragops-depth-write", "17.12", "ref/depth/depth_test.hpp"},
+         "fragops-depth-write", "17.12", "ref/depth/outcome.hpp"},
     Rule{"interp.at-offset", Profile::vulkan, "interpolateAtOffset evaluates at centre + offset",
          "The offset may be rounded to subPixelInterpolationOffsetBits fraction bits, in either "
          "direction; multiples of 1/16 need no rounding. Within the binary32 budget from profile "

@@ -32,8 +32,4 @@ std::vector<std::string> worker_command(const Program& program);
 // One word for a POSIX shell: as it is if it is harmless, else in single quotes.
 std::string shell_quote(const std::string& word);
 
-// A number made of text, the same on every machine (64-bit FNV-1a with a finalizer): shards and
-// shuffling hang on it.
-uint64_t stable_hash(const std::string& text, uint64_t seed);
-
 }  // namespace cli

@@ -16,7 +16,7 @@
 #include "cases/model/profile.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
-#include "ref/depth/depth_test.hpp"
+#include "ref/depth/outcome.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"

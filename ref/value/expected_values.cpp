@@ -78,14 +78,14 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, int32_t attr
     }
     const std::span<const Quantity> span(all);
     const auto& balls = impl_->balls.get(t, impl_->profile, [&] {
-        return value::make_wide_set<Ball>(primitive, span, impl_->limits, impl_->profile);
+        return value::make_candidates<Ball>(primitive, span, impl_->limits, impl_->profile);
     });
-    value::WideRange<Ball> unknown;
+    value::AcceptedRange<Ball> unknown;
     unknown.is_known = false;
-    std::vector<value::WideRange<Ball>> wide(only.size(), unknown);
+    std::vector<value::AcceptedRange<Ball>> wide(only.size(), unknown);
     if (balls.is_known) {
-        wide = value::ranges_wide(balls, span, primitive.is_projectable,
-                                  impl_->places_of_range(t, sample), only);
+        wide = value::accepted_ranges(balls, span, primitive.is_projectable,
+                                      impl_->places_of_range(t, sample), only);
     }
     for (size_t k = 0; k < only.size(); ++k) {
         ValueRange& range = out.at(component_of[k]);
@@ -94,15 +94,15 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, int32_t attr
                      wide[k].range.high.v + wide[k].range.high.e};
         } else {
             const auto& rationals = impl_->rationals.get(t, impl_->profile, [&] {
-                return value::make_wide_set<mpq_class>(primitive, span, impl_->limits,
-                                                       impl_->profile);
+                return value::make_candidates<mpq_class>(primitive, span, impl_->limits,
+                                                         impl_->profile);
             });
-            const auto exact =
-                value::ranges_wide(rationals, span, primitive.is_projectable,
+            const auto exact = value::accepted_ranges(
+                                   rationals, span, primitive.is_projectable,
                                    value::evaluations<mpq_class>(
                                        impl_->fragment(t, sample, impl_->profile), impl_->profile),
                                    std::span(only).subspan(k, 1))
-                    .front();
+                                   .front();
             range = {!exact.is_free, exact.range.low.get_d(), exact.range.high.get_d()};
         }
         // Outwards: a subtraction rounds by half an ulp, get_d truncates by less than one.

@@ -76,7 +76,7 @@ bool ValueReference::Impl::filter(uint32_t t, cases::SampleId id, const Fragment
     const value::Point<double> sample{
         static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
         static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)};
-    value::Places places{centre, sample, centre};
+    value::FilterPoints places{centre, sample, centre};
     if (c.target.samples > 1) {
         // The likeliest alternative; the others are left to the next stage.
         const auto nominal =
@@ -125,7 +125,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
                             is_plain_depth(triangle.primitive) && filter(t, id, device, out);
     // Accepted, but above one budget: another basis may explain it better.
     if (!is_decided || out.worst_ratio > 1) {
-        const value::WideVerdict verdict =
+        const value::CandidateVerdict verdict =
             exact_only ? wide_exact(t, id, device, profile) : wide(t, id, device, profile);
         out.basis = verdict.basis;
         tell_worst(verdict.worst, out);

@@ -93,13 +93,13 @@ std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId
     if (at == Profile::vulkan && !only.empty()) {
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
-        const value::WideSet<Ball>& set =
-            balls.get(t, at, [&] { return value::make_wide_set<Ball>(primitive, q, limits, at); });
+        const value::CandidateSet<Ball>& set = balls.get(
+            t, at, [&] { return value::make_candidates<Ball>(primitive, q, limits, at); });
         if (set.is_known) {
             auto failing =
-                failing_alone(set, std::span<const Quantity>(q), primitive.is_projectable,
-                              value::evaluations<Ball>(fragment(t, id, at), at),
-                              probe_place(t, id, at), device, only);
+                failing_separately(set, std::span<const Quantity>(q), primitive.is_projectable,
+                                   value::evaluations<Ball>(fragment(t, id, at), at),
+                                   probe_place(t, id, at), device, only);
             if (failing) {
                 return std::move(*failing);
             }
@@ -142,14 +142,14 @@ std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId
 }
 
 void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                    const value::WideVerdict& verdict, FragmentVerdict& out) {
+                                    const value::CandidateVerdict& verdict, FragmentVerdict& out) {
     const value::Primitive& primitive = load(t).primitive;
     const std::vector<Quantity>& all = quantities_of(t);
     const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
     const auto place = value::evaluations<mpq_class>(fragment(t, id, profile), profile).front();
     const value::Basis<mpq_class>& basis = exact_basis(t);
-    const value::WideSet<Ball>& set = balls.get(
-        t, profile, [&] { return value::make_wide_set<Ball>(primitive, all, limits, profile); });
+    const value::CandidateSet<Ball>& set = balls.get(
+        t, profile, [&] { return value::make_candidates<Ball>(primitive, all, limits, profile); });
     for (size_t k = 0; k < verdict.failing.size(); ++k) {
         const size_t index = verdict.failing[k];
         const Quantity& q = all[index];

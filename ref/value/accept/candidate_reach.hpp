@@ -45,7 +45,7 @@ size_t place_of(const Quantity& q, const Evaluation<T>& where) {
 
 // Adds what a candidate accepts for every judged quantity.
 template <class T>
-void add_candidate(const WideSet<T>& set, const Candidate<T>& candidate,
+void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
                    std::span<const Quantity> quantities, bool is_projectable,
                    const Evaluation<T>& where, std::span<const size_t> only,
                    const FragmentValues& device, std::vector<Reach<T>>& reaches) {

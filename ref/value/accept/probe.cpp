@@ -28,7 +28,7 @@ struct Accepted {
 
 // An input's value anywhere in the hull of the points, by any of the candidates.
 template <class T>
-Accepted<T> value_over(const WideSet<T>& set, std::span<const Candidate<T>> candidates,
+Accepted<T> value_over(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
                        uint32_t plane, bool is_perspective, std::span<const Point<T>> points) {
     Accepted<T> out;
     for (const Candidate<T>& candidate : candidates) {
@@ -130,8 +130,8 @@ double high_double(const Ball& a) {
 template <class T>
 class Prober {
   public:
-    Prober(const WideSet<T>& set, std::span<const Candidate<T>> candidates, bool is_projectable,
-           const Evaluation<T>& where, const ProbePlace& place)
+    Prober(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
+           bool is_projectable, const Evaluation<T>& where, const ProbePlace& place)
         : set_(set),
           candidates_(candidates),
           is_projectable_(is_projectable),
@@ -295,7 +295,7 @@ class Prober {
         return best;
     }
 
-    const WideSet<T>& set_;
+    const CandidateSet<T>& set_;
     std::span<const Candidate<T>> candidates_;
     bool is_projectable_;
     const Evaluation<T>& where_;
@@ -319,10 +319,10 @@ std::array<bool, 2> depends_on_quad(std::span<const Quantity> quantities) {
 }  // namespace
 
 template <class T>
-void judge_probes(const WideSet<T>& set, std::span<const Candidate<T>> candidates,
+void judge_probes(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
                   std::span<const Quantity> quantities, bool is_projectable,
                   const Evaluation<T>& where, const ProbePlace& place, const FragmentValues& device,
-                  std::span<const size_t> only, WideVerdict& verdict) {
+                  std::span<const size_t> only, CandidateVerdict& verdict) {
     const Prober<T> prober(set, candidates, is_projectable, where, place);
     const auto [has_quad, has_plain] = depends_on_quad(quantities);
     std::vector<size_t> failing;
@@ -372,14 +372,14 @@ void judge_probes(const WideSet<T>& set, std::span<const Candidate<T>> candidate
     }
 }
 
-template void judge_probes<Ball>(const WideSet<Ball>&, std::span<const Candidate<Ball>>,
+template void judge_probes<Ball>(const CandidateSet<Ball>&, std::span<const Candidate<Ball>>,
                                  std::span<const Quantity>, bool, const Evaluation<Ball>&,
                                  const ProbePlace&, const FragmentValues&, std::span<const size_t>,
-                                 WideVerdict&);
-template void judge_probes<mpq_class>(const WideSet<mpq_class>&,
+                                 CandidateVerdict&);
+template void judge_probes<mpq_class>(const CandidateSet<mpq_class>&,
                                       std::span<const Candidate<mpq_class>>,
                                       std::span<const Quantity>, bool, const Evaluation<mpq_class>&,
                                       const ProbePlace&, const FragmentValues&,
-                                      std::span<const size_t>, WideVerdict&);
+                                      std::span<const size_t>, CandidateVerdict&);
 
 }  // namespace ref::value

@@ -63,7 +63,7 @@ TEST(ValueBudget, HullOfAClippedPolygonHasTheErrorsOfTheProfile) {
     ASSERT_TRUE(primitive.needs_clipping);
     const auto quantities = ref::value::quantities(c.draws[0], c.target);
     const auto slack = [&](Profile profile) {
-        const auto set = ref::value::make_wide_set<mpq_class>(
+        const auto set = ref::value::make_candidates<mpq_class>(
             primitive, std::span<const ref::value::Quantity>(quantities), ref::Limits{}, profile);
         std::array<double, 2> out{};  // of 1/w, which is within [1/2, 1], and of the attribute
         for (size_t i = 0; i < quantities.size(); ++i) {

@@ -134,11 +134,11 @@ TEST(github, bytes_of_drivers_cannot_make_commands_or_markup) {
         r.rerun += "\n::warning::x";
     }
     const std::string text = to_github_annotations(run, "/x");
-    EXPECT_TRUE(is_utf8(text));
+    EXPECT_TRUE(cases::is_utf8(text));
     EXPECT_EQ(lines_with(text, "::error::"), 0U);
     EXPECT_EQ(lines_with(text, "::"), lines_with(text, "::error file="));
     const std::string summary = to_github_summary(run);
-    EXPECT_TRUE(is_utf8(summary));
+    EXPECT_TRUE(cases::is_utf8(summary));
     std::istringstream lines(summary);
     for (std::string line; std::getline(lines, line);) {
         // Markdown shows an indented block as it is.
