@@ -122,6 +122,11 @@ std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExpla
 // Too many hits at a sample that no triangle may cover.
 Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
     if (s.of_all) {
+        const auto* const t =
+            first_that(s, [&](const auto& e) { return e.is_suppressed() && e.why() == *s.of_all; });
+        if (t && *s.of_all != ref::ReasonKind::other_layer) {
+            return cause_of(*t, level);
+        }
         return {ref::rule_of(*s.of_all, level), std::string(ref::sentence_of_all(*s.of_all))};
     }
     if (level == cases::Profile::direct3d) {
@@ -212,7 +217,7 @@ ref::Explainer& Attribution::explainer(cases::Profile level) {
 }
 
 size_t Attribution::index_of(const Finding& finding) const {
-    return cases::index_of(case_.target, place_of(finding));
+    return cases::index_of(case_.target, sample_of(finding));
 }
 
 void Attribution::level_hits(Finding& finding, uint32_t front, uint32_t back) {
@@ -248,7 +253,7 @@ void Attribution::attribute_writer(Finding& finding,
         return;
     }
     ++explained_;
-    const ref::SampleExplanation s = explainer(finding.level).explain(place_of(finding));
+    const ref::SampleExplanation s = explainer(finding.level).explain(sample_of(finding));
     if (finding.level == cases::Profile::vulkan) {
         // Whatever is granted, that triangle cannot have been the last. If it may not cover the
         // sample at all, that says more than the order.
@@ -289,7 +294,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     if (explained_ >= explains_ && earlier != like_.end()) {
         finding.rule = earlier->second.rule;
         finding.quantity = earlier->second.quantity;
-        finding.why = "as at " + cases::pixel_text(case_.target, place_of(earlier->second));
+        finding.why = "as at " + cases::pixel_text(case_.target, sample_of(earlier->second));
         return;
     }
     explain_hits(finding, asked, front + back);
@@ -298,7 +303,7 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
 }
 
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) {
-    const ref::SampleExplanation s = explainer(finding.level).explain(place_of(finding));
+    const ref::SampleExplanation s = explainer(finding.level).explain(sample_of(finding));
     if (finding.kind == FindingKind::value) {
         if (const auto* const tie = first_tie(s, true);
             finding.level == cases::Profile::direct3d && tie != nullptr) {

@@ -77,7 +77,7 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
                                     const ref::ColorVerdict& verdict,
                                     const std::optional<ref::ColorWitness>& witness) {
     Finding finding;
-    place(finding, case_.target, id);
+    set_sample(finding, case_.target, id);
     const std::string got = unit_.text_of(capture_.color[index]);
     const uint32_t hits = verdict.hits;
     switch (verdict.kind) {

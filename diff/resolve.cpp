@@ -231,7 +231,8 @@ class Judge {
     void report(std::optional<Finding> finding, size_t pixel, std::string quantity) {
         if (finding) {
             const uint32_t sample = finding->sample;
-            place(*finding, target_, cases::sample_at(target_, pixel * target_.samples + sample));
+            set_sample(*finding, target_,
+                       cases::sample_at(target_, pixel * target_.samples + sample));
             finding->quantity = std::move(quantity);
             add_(std::move(*finding));
         }

@@ -52,7 +52,7 @@ void Verdict::raise_error(size_t index, double ratio) {
 }
 
 void Verdict::add(Finding finding, const cases::Target& target) {
-    const cases::SampleId id = place_of(finding);
+    const cases::SampleId id = sample_of(finding);
     const size_t index = cases::index_of(target, id);
     if (finding.kind == FindingKind::value && finding.ratio > 0) {
         raise_error(index, finding.ratio);

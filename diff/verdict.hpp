@@ -46,10 +46,10 @@ struct Finding {
 };
 
 // Where a finding is.
-inline cases::SampleId place_of(const Finding& finding) {
+inline cases::SampleId sample_of(const Finding& finding) {
     return {finding.x, finding.y, finding.sample, finding.layer.value_or(0)};
 }
-inline void place(Finding& finding, const cases::Target& target, const cases::SampleId& id) {
+inline void set_sample(Finding& finding, const cases::Target& target, const cases::SampleId& id) {
     finding.x = id.x;
     finding.y = id.y;
     finding.sample = id.sample;
@@ -61,7 +61,7 @@ inline Finding finding_at(FindingKind kind, const cases::Target& target,
                           const cases::SampleId& id) {
     Finding finding;
     finding.kind = kind;
-    place(finding, target, id);
+    set_sample(finding, target, id);
     return finding;
 }
 // What the comparison saw at a sample, for pictures: one byte a sample.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "diff/last_fragment.hpp"
 #include "ref/value/value.hpp"
 #include "run/picture.hpp"
 
@@ -20,7 +21,7 @@ using report::SampleEvidence;
 using report::SampleValue;
 
 // Wrong samples, the first of each rule before the rest; then their neighbours.
-std::vector<size_t> chosen_samples(const Window& window, const cases::Target& target,
+std::vector<size_t> chosen_samples(const PictureWindow& window, const cases::Target& target,
                                    const diff::Verdict& verdict) {
     std::vector<size_t> chosen;
     std::set<size_t> seen;
@@ -32,11 +33,11 @@ std::vector<size_t> chosen_samples(const Window& window, const cases::Target& ta
     std::set<std::string> rules;
     for (const diff::Finding& f : verdict.findings) {
         if (rules.insert(f.rule).second) {
-            choose(cases::index_of(target, diff::place_of(f)), report::kMaxEvidence);
+            choose(cases::index_of(target, diff::sample_of(f)), report::kMaxEvidence);
         }
     }
     for (const diff::Finding& f : verdict.findings) {
-        choose(cases::index_of(target, diff::place_of(f)), report::kMaxEvidence * 3 / 4);
+        choose(cases::index_of(target, diff::sample_of(f)), report::kMaxEvidence * 3 / 4);
     }
     const std::vector<size_t> wrong = chosen;
     for (const size_t index : wrong) {
@@ -72,32 +73,6 @@ std::string hits_text(const ref::HitBounds& b) {
                             range_text(b.back_min, b.back_max));
     }
     return text;
-}
-
-// Which number of the capture a quantity names.
-struct Plane {
-    enum class Kind : uint8_t { none, attribute, frag_coord, depth } kind = Kind::none;
-    uint32_t attribute = 0, component = 0;
-};
-Plane plane_of(const std::string& quantity) {
-    const auto component_at = [&](size_t at) {
-        const size_t k = std::string_view("xyzw").find(quantity[at]);
-        return at + 1 == quantity.size() ? k : std::string::npos;
-    };
-    if (quantity == "depth") {
-        return {Plane::Kind::depth, 0, 0};
-    }
-    if (quantity.size() == 12 && quantity.starts_with("frag_coord.") &&
-        component_at(11) != std::string::npos) {
-        return {Plane::Kind::frag_coord, 0, static_cast<uint32_t>(component_at(11))};
-    }
-    if (quantity.size() == 13 && quantity.starts_with("attribute ") && quantity[11] == '.' &&
-        quantity[10] >= '0' && quantity[10] < static_cast<char>('0' + cases::kMaxAttributes) &&
-        component_at(12) != std::string::npos) {
-        return {Plane::Kind::attribute, static_cast<uint32_t>(quantity[10] - '0'),
-                static_cast<uint32_t>(component_at(12))};
-    }
-    return {};
 }
 
 class EvidenceMaker {
@@ -150,12 +125,11 @@ class EvidenceMaker {
   private:
     void add(SampleEvidence& e, const ref::ExpectedValue& v, uint32_t triangle, cases::SampleId id,
              std::optional<size_t> drawn) {
-        const Plane plane = plane_of(v.quantity);
-        if (plane.kind == Plane::Kind::none) {
+        if (!v.part.empty()) {
             return;  // what a derivative is made of: no plane holds it
         }
         SampleValue value;
-        value.quantity = v.quantity;
+        value.quantity = to_text(v.quantity);
         value.exact = v.exact.size() <= 48 ? v.exact : std::string();
         value.nearest = v.nearest;
         value.also = v.also;
@@ -163,35 +137,22 @@ class EvidenceMaker {
         const double reach = v.factor * value.budget;
         value.low = v.nearest - reach;
         value.high = v.nearest + reach;
-        if (plane.kind != Plane::Kind::frag_coord && !v.is_flat) {
-            const ref::ValueRange range = values_.range(triangle, id,
-                                                        plane.kind == Plane::Kind::depth
-                                                            ? ref::kDepthAttribute
-                                                            : static_cast<int32_t>(plane.attribute),
-                                                        plane.component);
+        if (v.quantity.of != ref::QuantityId::Of::frag_coord && !v.is_flat) {
+            const ref::ValueRange range = values_.range(triangle, id, v.quantity);
             if (range.is_promised) {
                 value.low = range.low;
                 value.high = range.high;
             }
         }
         if (drawn) {
-            const auto component = static_cast<glm::vec4::length_type>(plane.component);
-            switch (plane.kind) {
-                case Plane::Kind::depth:
-                    value.has_device = *drawn < capture_.depth.size();
-                    value.bits =
-                        value.has_device ? std::bit_cast<uint32_t>(capture_.depth[*drawn]) : 0;
-                    break;
-                case Plane::Kind::frag_coord:
-                    value.has_device = true;
-                    value.bits = std::bit_cast<uint32_t>(capture_.frag_coord[*drawn][component]);
-                    break;
-                default:
-                    value.has_device = plane.attribute < capture_.attribute_count;
-                    value.bits = value.has_device ? std::bit_cast<uint32_t>(capture_.attributes.at(
-                                                        plane.attribute)[*drawn][component])
-                                                  : 0;
-            }
+            const bool is_read = v.quantity.is_depth() ? *drawn < capture_.depth.size()
+                                 : v.quantity.is_attribute()
+                                     ? v.quantity.attribute < capture_.attribute_count
+                                     : true;
+            value.has_device = is_read;
+            value.bits = is_read ? std::bit_cast<uint32_t>(
+                                       number_of(diff::values_at(capture_, *drawn), v.quantity))
+                                 : 0;
         }
         e.values.push_back(std::move(value));
     }
@@ -207,7 +168,7 @@ class EvidenceMaker {
 void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
                    const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits) {
-    const Window window(verdict, c.target);
+    const PictureWindow window(verdict, c.target);
     record.pictures = cut_pictures(window, c, verdict, capture);
     record.geometry = geometry_of(window, c, limits, expectation);
 }
@@ -216,7 +177,7 @@ void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff:
                    const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits) {
     keep_pictures(record, c, verdict, expectation, capture, limits);
-    const Window window(verdict, c.target);
+    const PictureWindow window(verdict, c.target);
     if (c.blit || !verdict.error.empty()) {
         return;
     }

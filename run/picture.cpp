@@ -107,14 +107,14 @@ Shape shape_of(const cases::Draw& draw, const cases::Triangle& t, const ref::Lim
 
 }  // namespace
 
-Window::Window(const diff::Verdict& verdict, const cases::Target& target)
+PictureWindow::PictureWindow(const diff::Verdict& verdict, const cases::Target& target)
     : target_(target),
       width_(std::min(target.width, kPictureSide)),
       height_(std::min(target.rows(), kPictureSide)),
       left_(window_begin(verdict.min_x, verdict.max_x, target.width)),
       top_(window_begin(verdict.min_y, verdict.max_y, target.rows())) {}
 
-Pictures Window::frame() const {
+Pictures PictureWindow::frame() const {
     Pictures p;
     p.width = width_;
     p.height = height_;
@@ -124,14 +124,14 @@ Pictures Window::frame() const {
     return p;
 }
 
-bool Window::meets(int64_t x0, int64_t y0, int64_t x1, int64_t y1) const {
+bool PictureWindow::meets(int64_t x0, int64_t y0, int64_t x1, int64_t y1) const {
     constexpr int64_t kOne = ref::kFixedOne;
     return x1 >= int64_t{left_} * kOne && x0 <= (int64_t{left_} + width_) * kOne &&
            y1 >= int64_t{top_} * kOne && y0 <= (int64_t{top_} + height_) * kOne;
 }
 
-Pictures cut_pictures(const Window& window, const cases::Case& c, const diff::Verdict& verdict,
-                      const capture::CaptureView& capture) {
+Pictures cut_pictures(const PictureWindow& window, const cases::Case& c,
+                      const diff::Verdict& verdict, const capture::CaptureView& capture) {
     Pictures p = window.frame();
     const bool has_errors = std::any_of(verdict.error_ratios.begin(), verdict.error_ratios.end(),
                                         [](float ratio) { return ratio >= 0; });
@@ -188,7 +188,7 @@ Pictures cut_pictures(const Window& window, const cases::Case& c, const diff::Ve
     return p;
 }
 
-Geometry geometry_of(const Window& window, const cases::Case& c, const ref::Limits& limits,
+Geometry geometry_of(const PictureWindow& window, const cases::Case& c, const ref::Limits& limits,
                      const ref::Expectation& expectation) {
     Geometry g;
     g.width = c.target.width;

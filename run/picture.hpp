@@ -16,10 +16,10 @@
 namespace run {
 
 // The window of a target that pictures show; its layers are stacked, y is a row of the stack.
-class Window {
+class PictureWindow {
   public:
     // Around the wrong samples if the target is larger than a picture.
-    Window(const diff::Verdict& verdict, const cases::Target& target);
+    PictureWindow(const diff::Verdict& verdict, const cases::Target& target);
 
     // Pictures of the window, without planes.
     report::Pictures frame() const;
@@ -42,11 +42,11 @@ class Window {
     uint32_t width_, height_, left_, top_;
 };
 
-report::Pictures cut_pictures(const Window& window, const cases::Case& c,
+report::Pictures cut_pictures(const PictureWindow& window, const cases::Case& c,
                               const diff::Verdict& verdict, const capture::CaptureView& capture);
 
 // `expectation` is empty for a blit.
-report::Geometry geometry_of(const Window& window, const cases::Case& c, const ref::Limits& limits,
-                             const ref::Expectation& expectation);
+report::Geometry geometry_of(const PictureWindow& window, const cases::Case& c,
+                             const ref::Limits& limits, const ref::Expectation& expectation);
 
 }  // namespace run

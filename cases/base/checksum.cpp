@@ -46,4 +46,15 @@ std::string hex(uint64_t number) {
     return fmt::format("{:016x}", number);
 }
 
+uint64_t stable_hash(const std::string& text, uint64_t seed) {
+    uint64_t h = 0xcbf29ce484222325U ^ (seed * 0x9e3779b97f4a7c15U);
+    for (const char c : text) {
+        h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    }
+    // splitmix64's finalizer: the low bits decide the shard
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9U;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebU;
+    return h ^ (h >> 31);
+}
+
 }  // namespace cases

@@ -17,4 +17,8 @@ uint64_t checksum(uint64_t seed, std::string_view bytes);
 // Sixteen hexadecimal digits.
 std::string hex(uint64_t number);
 
+// A number made of text, the same on every machine (64-bit FNV-1a with a finalizer): shards and
+// shuffling hang on it.
+uint64_t stable_hash(const std::string& text, uint64_t seed);
+
 }  // namespace cases

@@ -50,13 +50,13 @@ mpq_class GeneratorKeys::length(const char* key, std::optional<mpq_class> otherw
     return n ? n->value : mpq_class(0);
 }
 
-Point GeneratorKeys::point(const char* key, std::optional<Point> otherwise) {
+ExactPoint GeneratorKeys::point(const char* key, std::optional<ExactPoint> otherwise) {
     const TomlValue* value = table_.find(key);
     if (value == nullptr) {
         if (!otherwise) {
             error(key, fmt::format("generate has no {}; write [x, y]", key));
         }
-        return otherwise.value_or(Point{});
+        return otherwise.value_or(ExactPoint{});
     }
     const std::optional<std::vector<Number>> numbers = context_.numbers(*value, key, 2);
     if (!numbers) {
@@ -82,7 +82,8 @@ size_t GeneratorKeys::word(const char* key, std::span<const std::string_view> wo
 }
 
 GeneratorKeys::Rectangle GeneratorKeys::rectangle() {
-    Rectangle r{point("from", Point{0, 0}), point("to", Point{target_.width, target_.height})};
+    Rectangle r{point("from", ExactPoint{0, 0}),
+                point("to", ExactPoint{target_.width, target_.height})};
     if (good() && (r.from.x >= r.to.x || r.from.y >= r.to.y)) {
         error("to", "to is not right of and below from");
     }
@@ -119,11 +120,11 @@ mpq_class on_grid(const mpq_class& value, int64_t grid) {
     return result;
 }
 
-Point on_grid(const Point& p, int64_t grid) {
+ExactPoint on_grid(const ExactPoint& p, int64_t grid) {
     return {on_grid(p.x, grid), on_grid(p.y, grid)};
 }
 
-mpq_class twice_area(const Point& a, const Point& b, const Point& c) {
+mpq_class twice_area(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 

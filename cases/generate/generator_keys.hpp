@@ -16,7 +16,7 @@
 
 namespace cases {
 
-struct Point {
+struct ExactPoint {
     mpq_class x, y;  // pixels
 };
 
@@ -38,7 +38,7 @@ class GeneratorKeys {
     int64_t integer(const char* key, int64_t low, int64_t high, std::optional<int64_t> otherwise);
     // A number >= 0.
     mpq_class length(const char* key, std::optional<mpq_class> otherwise);
-    Point point(const char* key, std::optional<Point> otherwise);
+    ExactPoint point(const char* key, std::optional<ExactPoint> otherwise);
     bool boolean(const char* key);  // false if missing
     size_t word(const char* key, std::span<const std::string_view> words, size_t otherwise);
     // The denominator of positions; 0 if they are not rounded.
@@ -46,7 +46,7 @@ class GeneratorKeys {
     uint64_t seed() { return static_cast<uint64_t>(integer("seed", 0, INT64_MAX, 1)); }
     // The rectangle from..to; the whole target if not given. Empty ones are an error.
     struct Rectangle {
-        Point from, to;
+        ExactPoint from, to;
     };
     Rectangle rectangle();
     // w = [lo, hi] in multiples of 1/256; nothing if not given.
@@ -64,10 +64,10 @@ class GeneratorKeys {
 
 // The nearest multiple of 1/grid, ties upward; unchanged if grid is 0.
 mpq_class on_grid(const mpq_class& value, int64_t grid);
-Point on_grid(const Point& p, int64_t grid);
+ExactPoint on_grid(const ExactPoint& p, int64_t grid);
 
 // (b - a) x (c - a): twice the area, positive if a, b, c run clockwise on screen.
-mpq_class twice_area(const Point& a, const Point& b, const Point& c);
+mpq_class twice_area(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c);
 
 // Gives every vertex its own w from the range.
 void draw_w(std::vector<ExactVertex>& vertices, const std::optional<GeneratorKeys::WRange>& range,

@@ -48,10 +48,10 @@ bool check_vertex_count(GeneratorKeys& keys, const char* key, int64_t vertices) 
     return true;
 }
 
-std::vector<ExactVertex> to_vertices(const std::vector<Point>& points) {
+std::vector<ExactVertex> to_vertices(const std::vector<ExactPoint>& points) {
     std::vector<ExactVertex> vertices;
     vertices.reserve(points.size());
-    for (const Point& p : points) {
+    for (const ExactPoint& p : points) {
         vertices.push_back(exact_vertex(p.x, p.y));
     }
     return vertices;
@@ -85,10 +85,10 @@ std::optional<Generated> generate_grid(GeneratorKeys& keys) {
                    "finer or cells larger");
         return std::nullopt;
     }
-    std::vector<Point> points;
+    std::vector<ExactPoint> points;
     for (int64_t j = 0; j <= rows; ++j) {
         for (int64_t i = 0; i <= columns; ++i) {
-            Point p{part(r.from.x, r.to.x, i, columns), part(r.from.y, r.to.y, j, rows)};
+            ExactPoint p{part(r.from.x, r.to.x, i, columns), part(r.from.y, r.to.y, j, rows)};
             if (i > 0 && i < columns && j > 0 && j < rows && jitter > 0) {
                 p.x += displacement(jitter, grid, random);
                 p.y += displacement(jitter, grid, random);
@@ -134,7 +134,7 @@ std::optional<Generated> generate_grid(GeneratorKeys& keys) {
 // Points on a circle by the rational parametrization ((1-t^2)/(1+t^2), 2t/(1+t^2)), t uniform in
 // each quadrant: exact, and the same on every machine (a cosine is not).
 std::optional<Generated> generate_fan(GeneratorKeys& keys) {
-    const Point center_given = keys.point("center", std::nullopt);
+    const ExactPoint center_given = keys.point("center", std::nullopt);
     const mpq_class radius = keys.length("radius", std::nullopt);
     const int64_t count =
         keys.integer("count", 3, static_cast<int64_t>(kMaxVertices) - 2, std::nullopt);
@@ -144,8 +144,8 @@ std::optional<Generated> generate_fan(GeneratorKeys& keys) {
     if (!keys.good()) {
         return std::nullopt;
     }
-    const Point center = on_grid(center_given, grid);
-    std::vector<Point> points = {center};
+    const ExactPoint center = on_grid(center_given, grid);
+    std::vector<ExactPoint> points = {center};
     for (int64_t i = 0; i < count; ++i) {
         mpq_class t(4 * i % count, count);
         t.canonicalize();
@@ -187,12 +187,12 @@ std::optional<Generated> generate_strip(GeneratorKeys& keys) {
     if (!keys.good()) {
         return std::nullopt;
     }
-    std::vector<Point> points;
+    std::vector<ExactPoint> points;
     for (int64_t i = 0; i < count + 2; ++i) {
         const int64_t on_side = i % 2 == 0 ? (count + 3) / 2 : (count + 2) / 2;  // vertices there
         const int64_t k = i / 2;
-        Point p{part(r.from.x, r.to.x, k, std::max<int64_t>(on_side - 1, 1)),
-                i % 2 == 0 ? r.from.y : r.to.y};
+        ExactPoint p{part(r.from.x, r.to.x, k, std::max<int64_t>(on_side - 1, 1)),
+                     i % 2 == 0 ? r.from.y : r.to.y};
         if (k > 0 && k + 1 < on_side && jitter > 0) {
             p.x += displacement(jitter, grid, random);
             p.y += displacement(jitter, grid, random);

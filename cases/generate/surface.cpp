@@ -186,7 +186,7 @@ std::optional<Generated> generate_surface(GeneratorKeys& keys) {
         shape == 2 ? std::optional<int64_t>(1) : std::nullopt);
     const int64_t rows =
         keys.integer("rows", 1, kMaxSide, is_disc ? std::optional<int64_t>(1) : std::nullopt);
-    const Point center = keys.point("center", Point{0, 0});
+    const ExactPoint center = keys.point("center", ExactPoint{0, 0});
     const mpq_class radius = keys.length("radius", mpq_class(1));
     const uint64_t seed = keys.seed();
     if (!keys.good()) {

@@ -31,6 +31,8 @@ std::string find_program(const std::string& name) {
 
 }  // namespace
 
+const char* const kVersion = EDGECASE_VERSION;
+
 Program make_program(int argc, const char* const* argv) {
     Program program;
     for (int k = 0; k < argc; ++k) {
@@ -71,17 +73,6 @@ std::string shell_quote(const std::string& word) {
         }
     }
     return quoted + "'";
-}
-
-uint64_t stable_hash(const std::string& text, uint64_t seed) {
-    uint64_t h = 0xcbf29ce484222325U ^ (seed * 0x9e3779b97f4a7c15U);
-    for (const char c : text) {
-        h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-    }
-    // splitmix64's finalizer: the low bits decide the shard
-    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9U;
-    h = (h ^ (h >> 27)) * 0x94d049bb133111ebU;
-    return h ^ (h >> 31);
 }
 
 }  // namespace cli

@@ -10,12 +10,8 @@
 
 namespace cli {
 
-inline constexpr const char* kVersion =
-#ifdef EDGECASE_VERSION
-    EDGECASE_VERSION;
-#else
-    "0.1.0";
-#endif
+// The program's version, as project() of CMakeLists.txt has it.
+extern const char* const kVersion;
 
 struct Program {
     std::vector<std::string> arguments;  // argv
@@ -31,9 +27,5 @@ std::vector<std::string> worker_command(const Program& program);
 
 // One word for a POSIX shell: as it is if it is harmless, else in single quotes.
 std::string shell_quote(const std::string& word);
-
-// A number made of text, the same on every machine (64-bit FNV-1a with a finalizer): shards and
-// shuffling hang on it.
-uint64_t stable_hash(const std::string& text, uint64_t seed);
 
 }  // namespace cli

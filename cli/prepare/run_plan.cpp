@@ -12,36 +12,11 @@
 #include <set>
 
 #include "report/journal/journal.hpp"
+#include "run/order.hpp"
 
 namespace cli {
 
 namespace fs = std::filesystem;
-
-uint32_t shard_of(const std::string& id, uint32_t count) {
-    return static_cast<uint32_t>(stable_hash(id, 0) % count) + 1;
-}
-
-void shuffle(std::vector<cases::Case>& cases, uint64_t seed) {
-    const auto key = [seed](const cases::Case& c) {
-        return std::pair(stable_hash(c.id, seed + 1), c.id);
-    };
-    std::sort(cases.begin(), cases.end(),
-              [&](const cases::Case& a, const cases::Case& b) { return key(a) < key(b); });
-}
-
-std::vector<size_t> first_and_last(const std::vector<cases::Case>& cases,
-                                   const std::vector<size_t>& selected) {
-    std::vector<size_t> out;
-    for (size_t n = 0; n < selected.size(); ++n) {
-        const auto is_other_file = [&](size_t m) {
-            return cases[selected[m]].where.file != cases[selected[n]].where.file;
-        };
-        if (n == 0 || n + 1 == selected.size() || is_other_file(n - 1) || is_other_file(n + 1)) {
-            out.push_back(selected[n]);
-        }
-    }
-    return out;
-}
 
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options) {
     OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
@@ -67,10 +42,10 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
         selection.suite_ids.push_back(c.id);
     }
     for (const size_t k :
-         options.quick ? first_and_last(suite->cases, suite->selected) : suite->selected) {
+         options.quick ? run::first_and_last(suite->cases, suite->selected) : suite->selected) {
         cases::Case& c = suite->cases[k];
         if ((options.failed_in.empty() || failed.contains(c.id)) &&
-            shard_of(c.id, options.shard.count) == options.shard.index) {
+            run::shard_of(c.id, options.shard.count) == options.shard.index) {
             selection.cases.push_back(std::move(c));
         }
     }
@@ -88,7 +63,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
         return tl::unexpected(Stop{report::kExitNothingSelected, {why}});
     }
     if (options.shuffle) {
-        shuffle(selection.cases, options.seed);
+        run::shuffle(selection.cases, options.seed);
     }
     return selection;
 }

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "cases/base/checksum.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/selector.hpp"
 #include "report/record/run.hpp"
@@ -175,8 +176,8 @@ uint64_t suite_hash(const std::filesystem::path& root) {
         std::ifstream in(file, std::ios::binary);
         std::ostringstream text;
         text << in.rdbuf();
-        hash = stable_hash(file.lexically_relative(root).string(), hash);
-        hash = stable_hash(text.str(), hash);
+        hash = cases::stable_hash(file.lexically_relative(root).string(), hash);
+        hash = cases::stable_hash(text.str(), hash);
     }
     return hash;
 }

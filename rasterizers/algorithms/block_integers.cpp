@@ -72,12 +72,13 @@ std::array<float, 3> block_w_products(const std::array<float, 3>& w, int n) {
     return out;
 }
 
-NineTerms nine_terms(const Corners& t, const Point& first_sample, const Block& products, int bits) {
+NineTerms nine_terms(const Corners& t, const SubpixelPoint& first_sample, const Block& products,
+                     int bits) {
     NineTerms out;
     ref::Int128 largest = 0;
     for (size_t k = 0; k < 3; ++k) {
-        const Point& a = t[(k + 1) % 3];
-        const Point& b = t[(k + 2) % 3];
+        const SubpixelPoint& a = t[(k + 1) % 3];
+        const SubpixelPoint& b = t[(k + 2) % 3];
         // alpha and beta of a step of one pixel, and the area at the first sample instead of gamma.
         out.step_x[k] = ref::Int128{products.q[k]} * ((a.y - b.y) * kPixel);
         out.step_y[k] = ref::Int128{products.q[k]} * ((b.x - a.x) * kPixel);

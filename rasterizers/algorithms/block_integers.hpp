@@ -58,8 +58,8 @@ struct NineTerms {
 static_assert(kMaxBlockBits + 61 < 127);
 
 // The nine terms of a clockwise triangle; `bits` m is 2..48, or 0 to leave them exact.
-NineTerms nine_terms(const Corners& clockwise, const Point& first_sample, const Block& products,
-                     int bits);
+NineTerms nine_terms(const Corners& clockwise, const SubpixelPoint& first_sample,
+                     const Block& products, int bits);
 
 // N^_i, k pixels right of and l below the first, by l + k additions. In a device each step is one
 // addition; here the same integer is had by a product.

@@ -25,8 +25,8 @@ Gradient<T> brown_gradient(const Corners& t, const std::array<T, 3>& q,
                            const std::array<T, 3>& values, const T& u, const T& sum) {
     Gradient<T> out{T(0), T(0)};
     for (size_t i = 0; i < 3; ++i) {
-        const Point& a = t[(i + 1) % 3];
-        const Point& b = t[(i + 2) % 3];
+        const SubpixelPoint& a = t[(i + 1) % 3];
+        const SubpixelPoint& b = t[(i + 2) % 3];
         const T weight = q[i] * (values[i] - u);
         // alpha = y_a - y_b and beta = x_b - x_a per pixel of 2^8 units: at most 38 bits, exact in
         // a double.

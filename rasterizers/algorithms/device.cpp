@@ -18,7 +18,7 @@ namespace {
 constexpr ref::Limits kLimits{kSubpixelBits};
 constexpr int64_t kFixedPerUnit = ref::kFixedOne / kPixel;
 
-Point to_point(const ref::FixedPoint& p) {
+SubpixelPoint to_point(const ref::FixedPoint& p) {
     return {p.x / kFixedPerUnit, p.y / kFixedPerUnit};  // exact: a multiple of the grid
 }
 
@@ -28,7 +28,8 @@ bool is_plain(const cases::Attribute& a) {
 }
 
 // The pixels inside scissor, framebuffer and viewport: those whose samples lie in [x, x + width).
-PixelRect pixels_of(const cases::Draw& d, const cases::Target& target, const Point& offset) {
+PixelRect pixels_of(const cases::Draw& d, const cases::Target& target,
+                    const SubpixelPoint& offset) {
     const auto first = [](double edge, int64_t o) {
         const double unit = 1.0 / static_cast<double>(kPixel);
         return static_cast<int64_t>(std::ceil(edge - static_cast<double>(o) * unit));
@@ -64,7 +65,8 @@ class Shader {
     }
 
     // Values at the pixel's centre (Direct3D 11), depth at the sample.
-    void shade(uint32_t i, uint32_t j, const Point& sample, ref::FragmentValues& out) const {
+    void shade(uint32_t i, uint32_t j, const SubpixelPoint& sample,
+               ref::FragmentValues& out) const {
         const Areas areas = areas_at(corners_, sample_of(i, j, {kPixel / 2, kPixel / 2}));
         const float inv_w = device_.linear(areas, inv_w_);
         const float z = device_.linear(areas, z_);
@@ -208,7 +210,7 @@ std::vector<DrawnSample> draw(const cases::Case& c, const Device& device) {
             if (!is_in_mask(d.multisample, s)) {
                 continue;
             }
-            const Point offset = to_point(ref::sample_position(0, 0, s, c.target));
+            const SubpixelPoint offset = to_point(ref::sample_position(0, 0, s, c.target));
             Picture picture;
             device.scan(corners, pixels_of(d, c.target, offset), offset, picture);
             for (const Span& span : picture.spans) {

@@ -14,16 +14,18 @@ namespace rasterizers {
 
 // E_ab(p) = (b-a) x (p-a): positive to the right of a->b on screen (Giesen, with y down). |E| <
 // 2^61.
-constexpr int64_t edge_function(const Point& a, const Point& b, const Point& p) {
+constexpr int64_t edge_function(const SubpixelPoint& a, const SubpixelPoint& b,
+                                const SubpixelPoint& p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 // The other convention, (p-a) x (b-a): the first one with its sign changed (Scratchapixel).
-constexpr int64_t edge_function_counter(const Point& a, const Point& b, const Point& p) {
+constexpr int64_t edge_function_counter(const SubpixelPoint& a, const SubpixelPoint& b,
+                                        const SubpixelPoint& p) {
     return (p.x - a.x) * (b.y - a.y) - (p.y - a.y) * (b.x - a.x);
 }
 
 // A top or left edge of a triangle with positive area owns the samples on it.
-constexpr bool owns_its_samples(const Point& a, const Point& b) {
+constexpr bool owns_its_samples(const SubpixelPoint& a, const SubpixelPoint& b) {
     return b.y < a.y || (b.y == a.y && b.x > a.x);
 }
 
@@ -35,7 +37,7 @@ constexpr int64_t ceil_div(int64_t a, int64_t b) {
     return a / b + (a % b > 0 ? 1 : 0);
 }
 
-constexpr Point sample_of(int64_t i, int64_t j, const Point& offset) {
+constexpr SubpixelPoint sample_of(int64_t i, int64_t j, const SubpixelPoint& offset) {
     return {i * kPixel + offset.x, j * kPixel + offset.y};
 }
 
@@ -52,7 +54,8 @@ inline std::optional<Corners> clockwise(Corners t) {
 }
 
 // The pixels of `rect` whose samples lie in the bounding box of the triangle.
-inline PixelRect bounding_box(const Corners& t, const PixelRect& rect, const Point& offset) {
+inline PixelRect bounding_box(const Corners& t, const PixelRect& rect,
+                              const SubpixelPoint& offset) {
     const auto [left, right] = std::minmax({t[0].x, t[1].x, t[2].x});
     const auto [top, bottom] = std::minmax({t[0].y, t[1].y, t[2].y});
     return {std::max(rect.x0, ceil_div(left - offset.x, kPixel)),
@@ -67,7 +70,7 @@ struct PixelEdge {
     int64_t at_origin = 0;  // at the sample of `origin`
     int64_t step_x = 0, step_y = 0;
     PixelEdge() = default;
-    PixelEdge(const Point& a, const Point& b, const Point& origin)
+    PixelEdge(const SubpixelPoint& a, const SubpixelPoint& b, const SubpixelPoint& origin)
         : at_origin(edge_function(a, b, origin) - (owns_its_samples(a, b) ? 0 : 1)),
           step_x(-(b.y - a.y) * kPixel),
           step_y((b.x - a.x) * kPixel) {}
@@ -76,7 +79,7 @@ struct PixelEdge {
 struct PixelEdges {
     std::array<PixelEdge, 3> edge;
     // Values at the sample of pixel (i, j).
-    PixelEdges(const Corners& t, int64_t i, int64_t j, const Point& offset) {
+    PixelEdges(const Corners& t, int64_t i, int64_t j, const SubpixelPoint& offset) {
         for (size_t k = 0; k < 3; ++k) {
             edge[k] = PixelEdge(t[k], t[(k + 1) % 3], sample_of(i, j, offset));
         }

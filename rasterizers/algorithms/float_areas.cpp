@@ -12,14 +12,14 @@ float pixels(int64_t v) {
     return static_cast<float>(v) / static_cast<float>(kPixel);  // exact
 }
 
-float edge_in_float(const Point& a, const Point& b, const Point& p) {
+float edge_in_float(const SubpixelPoint& a, const SubpixelPoint& b, const SubpixelPoint& p) {
     return (pixels(b.x) - pixels(a.x)) * (pixels(p.y) - pixels(a.y)) -
            (pixels(b.y) - pixels(a.y)) * (pixels(p.x) - pixels(a.x));
 }
 
 }  // namespace
 
-FloatAreas float_areas_at(const Corners& t, const Point& p) {
+FloatAreas float_areas_at(const Corners& t, const SubpixelPoint& p) {
     FloatAreas out;
     out.whole = edge_in_float(t[0], t[1], t[2]);
     for (size_t k = 0; k < 3; ++k) {
@@ -38,10 +38,10 @@ float two_multiplies(const FloatAreas& areas, const Values& z) {
            areas.part[2] / areas.whole * (z[2] - z[0]);
 }
 
-bool covers_in_float(const Corners& t, const Point& p) {
+bool covers_in_float(const Corners& t, const SubpixelPoint& p) {
     for (size_t k = 0; k < 3; ++k) {
-        const Point& a = t[k];
-        const Point& b = t[(k + 1) % 3];
+        const SubpixelPoint& a = t[k];
+        const SubpixelPoint& b = t[(k + 1) % 3];
         const float e = edge_in_float(a, b, p);
         if (!(e > 0) && (e < 0 || !owns_its_samples(a, b))) {
             return false;

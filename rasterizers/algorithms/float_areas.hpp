@@ -24,7 +24,7 @@ struct FloatAreas {
     float whole = 0;              // positive for a clockwise triangle
 };
 // Of a clockwise triangle; all coordinates at most kMaxFloatCoordinate.
-FloatAreas float_areas_at(const Corners& clockwise, const Point& p);
+FloatAreas float_areas_at(const Corners& clockwise, const SubpixelPoint& p);
 
 // l_i = fl(part / whole), then as the functions of the same names. With d_i >= |l^_i - l_i|,
 //     d_i = (g(2) M_i + |l_i| g(2) M) / (A - g(2) M) (1 + u) + u |l_i|,
@@ -35,6 +35,6 @@ float three_multiplies(const FloatAreas& areas, const Values& z);
 float two_multiplies(const FloatAreas& areas, const Values& z);
 
 // Coverage of a clockwise triangle from the signs of the computed areas, ties by the top-left rule.
-bool covers_in_float(const Corners& clockwise, const Point& p);
+bool covers_in_float(const Corners& clockwise, const SubpixelPoint& p);
 
 }  // namespace rasterizers

@@ -17,7 +17,7 @@ float ratio(int64_t a, int64_t b) {
 
 }  // namespace
 
-Areas areas_at(const Corners& t, const Point& p) {
+Areas areas_at(const Corners& t, const SubpixelPoint& p) {
     Areas out;
     out.whole = edge_function(t[0], t[1], t[2]);
     for (size_t k = 0; k < 3; ++k) {

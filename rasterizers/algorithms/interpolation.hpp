@@ -22,7 +22,7 @@ struct Areas {
     int64_t whole = 0;
 };
 // Areas at p of a triangle with area, vertices in either order.
-Areas areas_at(const Corners& triangle, const Point& p);
+Areas areas_at(const Corners& triangle, const SubpixelPoint& p);
 
 using Values = std::array<float, 3>;  // at the vertices
 

@@ -6,7 +6,7 @@
 
 namespace rasterizers {
 
-void scan_incremental(const Corners& triangle, const PixelRect& rect, const Point& offset,
+void scan_incremental(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
                       Picture& out) {
     const std::optional<Corners> t = clockwise(triangle);
     if (!t) {
@@ -38,7 +38,8 @@ void scan_incremental(const Corners& triangle, const PixelRect& rect, const Poin
     }
 }
 
-void scan_quads(const Corners& triangle, const PixelRect& rect, const Point& offset, Picture& out) {
+void scan_quads(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
+                Picture& out) {
     const std::optional<Corners> t = clockwise(triangle);
     if (!t) {
         return;
@@ -71,10 +72,10 @@ void scan_quads(const Corners& triangle, const PixelRect& rect, const Point& off
 namespace {
 
 // Whether p is inside the three edges of the vertices in the given order.
-bool is_inside(const Corners& t, const Point& p) {
+bool is_inside(const Corners& t, const SubpixelPoint& p) {
     for (size_t k = 0; k < 3; ++k) {
-        const Point& a = t[k];
-        const Point& b = t[(k + 1) % 3];
+        const SubpixelPoint& a = t[k];
+        const SubpixelPoint& b = t[(k + 1) % 3];
         const int64_t e = edge_function(a, b, p);
         if (e < 0 || (e == 0 && !owns_its_samples(a, b))) {
             return false;
@@ -88,20 +89,20 @@ bool is_inside(const Corners& t, const Point& p) {
 // A triangle without area covers nothing, and no test is needed for that: the edge functions add up
 // to twice the area, so off the line not all are positive, and on it the three edges, which add up
 // to nothing, cannot all be top or left edges.
-void scan_same_sign(const Corners& triangle, const PixelRect& rect, const Point& offset,
+void scan_same_sign(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
                     Picture& out) {
     const PixelRect box = bounding_box(triangle, rect, offset);
     for (int64_t y = box.y0; y < box.y1; ++y) {
         RowWriter writer(y, out);
         for (int64_t x = box.x0; x < box.x1; ++x) {
             ++out.work.samples;
-            const Point p = sample_of(x, y, offset);
+            const SubpixelPoint p = sample_of(x, y, offset);
             // All negative is all positive with the vertices the other way round:
             // E_ba = -E_ab, the other convention.
             bool is_all_negative = true;
             for (size_t k = 0; k < 3; ++k) {
-                const Point& a = triangle[k];
-                const Point& b = triangle[(k + 1) % 3];
+                const SubpixelPoint& a = triangle[k];
+                const SubpixelPoint& b = triangle[(k + 1) % 3];
                 const int64_t e = edge_function_counter(a, b, p);
                 is_all_negative = is_all_negative && (e > 0 || (e == 0 && owns_its_samples(b, a)));
             }
@@ -112,7 +113,8 @@ void scan_same_sign(const Corners& triangle, const PixelRect& rect, const Point&
     }
 }
 
-void scan_areas(const Corners& triangle, const PixelRect& rect, const Point& offset, Picture& out) {
+void scan_areas(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
+                Picture& out) {
     const std::optional<Corners> t = clockwise(triangle);
     if (!t) {
         return;
@@ -123,14 +125,14 @@ void scan_areas(const Corners& triangle, const PixelRect& rect, const Point& off
         RowWriter writer(y, out);
         for (int64_t x = box.x0; x < box.x1; ++x) {
             ++out.work.samples;
-            const Point p = sample_of(x, y, offset);
+            const SubpixelPoint p = sample_of(x, y, offset);
             // In the bounding box |E| is at most width times height, 2^60; three of them stay below
             // 2^62.
             int64_t sum = 0;
             bool is_owned = true;
             for (size_t k = 0; k < 3; ++k) {
-                const Point& a = (*t)[k];
-                const Point& b = (*t)[(k + 1) % 3];
+                const SubpixelPoint& a = (*t)[k];
+                const SubpixelPoint& b = (*t)[(k + 1) % 3];
                 const int64_t e = edge_function(a, b, p);
                 sum += e < 0 ? -e : e;
                 is_owned = is_owned && (e != 0 || owns_its_samples(a, b));
@@ -142,7 +144,8 @@ void scan_areas(const Corners& triangle, const PixelRect& rect, const Point& off
     }
 }
 
-void scan_brown(const Corners& triangle, const PixelRect& rect, const Point& offset, Picture& out) {
+void scan_brown(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
+                Picture& out) {
     const std::optional<Corners> t = clockwise(triangle);
     if (!t) {
         return;
@@ -156,10 +159,10 @@ void scan_brown(const Corners& triangle, const PixelRect& rect, const Point& off
     std::array<int64_t, 3> alpha{};
     std::array<int64_t, 3> beta{};
     std::array<int64_t, 3> row{};
-    const Point first = sample_of(box.x0, box.y1 - 1, offset);
+    const SubpixelPoint first = sample_of(box.x0, box.y1 - 1, offset);
     for (size_t k = 0; k < 3; ++k) {
-        const Point& a = (*t)[(k + 1) % 3];
-        const Point& b = (*t)[(k + 2) % 3];
+        const SubpixelPoint& a = (*t)[(k + 1) % 3];
+        const SubpixelPoint& b = (*t)[(k + 2) % 3];
         alpha[k] = a.y - b.y;
         beta[k] = b.x - a.x;
         const int64_t gamma = a.x * b.y - b.x * a.y;

@@ -14,7 +14,8 @@ namespace {
 class EdgeWalker {
   public:
     // From the upper end a to the lower end b, a.y < b.y, starting at row `row`.
-    EdgeWalker(const Point& a, const Point& b, int64_t row, const Point& offset)
+    EdgeWalker(const SubpixelPoint& a, const SubpixelPoint& b, int64_t row,
+               const SubpixelPoint& offset)
         : denominator_((b.y - a.y) * kPixel) {
         const int64_t dy = b.y - a.y;
         const int64_t dx = b.x - a.x;
@@ -46,15 +47,16 @@ static_assert(2 * (kCoordinateBits + 1) + 1 < 62 && kCoordinateBits + 1 + kSubpi
 
 // The first row whose sample is not above y. A sample on the upper end belongs to the part, one on
 // the lower end to what follows: that is the top-left rule for horizontal edges.
-int64_t first_row(int64_t y, const Point& offset) {
+int64_t first_row(int64_t y, const SubpixelPoint& offset) {
     return ceil_div(y - offset.y, kPixel);
 }
 
 // Rows [first, last) between two edges; a sample on the left edge is in, one on the right edge not.
-void fill(const Corners& left_edge_first, int64_t y_begin, int64_t y_end, const Point& left_a,
-          const Point& left_b, const PixelRect& rect, const Point& offset, Picture& out) {
-    const Point& right_a = left_edge_first[0];
-    const Point& right_b = left_edge_first[1];
+void fill(const Corners& left_edge_first, int64_t y_begin, int64_t y_end,
+          const SubpixelPoint& left_a, const SubpixelPoint& left_b, const PixelRect& rect,
+          const SubpixelPoint& offset, Picture& out) {
+    const SubpixelPoint& right_a = left_edge_first[0];
+    const SubpixelPoint& right_b = left_edge_first[1];
     const int64_t first = std::max(rect.y0, first_row(y_begin, offset));
     const int64_t last = std::min(rect.y1, first_row(y_end, offset));
     if (first >= last) {
@@ -75,22 +77,22 @@ void fill(const Corners& left_edge_first, int64_t y_begin, int64_t y_end, const 
 
 }  // namespace
 
-void scan_flat_parts(const Corners& triangle, const PixelRect& rect, const Point& offset,
+void scan_flat_parts(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
                      Picture& out) {
     Corners t = triangle;
-    std::sort(t.begin(), t.end(), [](const Point& a, const Point& b) {
+    std::sort(t.begin(), t.end(), [](const SubpixelPoint& a, const SubpixelPoint& b) {
         return std::pair(a.y, a.x) < std::pair(b.y, b.x);
     });
-    const Point& top = t[0];
-    const Point& middle = t[1];
-    const Point& bottom = t[2];
+    const SubpixelPoint& top = t[0];
+    const SubpixelPoint& middle = t[1];
+    const SubpixelPoint& bottom = t[2];
     // The middle vertex is right of the long edge top->bottom if it is on its negative side.
     const int64_t side = edge_function(top, bottom, middle);
     if (side == 0) {
         return;
     }
     const bool is_middle_right = side < 0;
-    const auto part = [&](const Point& from, const Point& to) {
+    const auto part = [&](const SubpixelPoint& from, const SubpixelPoint& to) {
         if (is_middle_right) {
             fill({from, to, {}}, from.y, to.y, top, bottom, rect, offset, out);
         } else {

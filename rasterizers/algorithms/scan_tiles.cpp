@@ -10,7 +10,7 @@ constexpr int64_t kLevels[] = {64, 16, 4};  // pixels a side, aligned to multipl
 
 class TileScan {
   public:
-    TileScan(const Corners& t, const PixelRect& box, const Point& offset, Picture& out)
+    TileScan(const Corners& t, const PixelRect& box, const SubpixelPoint& offset, Picture& out)
         : box_(box),
           base_x_(box.x0 & ~(kLevels[0] - 1)),
           base_y_(box.y0 & ~(kLevels[0] - 1)),
@@ -95,7 +95,8 @@ static_assert(kMaxPixel * kPixel + 2 * 64 * kPixel < kMaxCoordinate);
 
 }  // namespace
 
-void scan_tiles(const Corners& triangle, const PixelRect& rect, const Point& offset, Picture& out) {
+void scan_tiles(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
+                Picture& out) {
     const std::optional<Corners> t = clockwise(triangle);
     if (!t) {
         return;

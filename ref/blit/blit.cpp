@@ -97,9 +97,9 @@ BlitReference::BlitReference(const cases::Case& c)
     }
 }
 
-std::vector<BlitReference::Span> BlitReference::spans_of(const Axis& axis, uint32_t size,
-                                                         const mpq_class& error) const {
-    std::vector<Span> spans;
+std::vector<BlitReference::TexelRange> BlitReference::spans_of(const Axis& axis, uint32_t size,
+                                                               const mpq_class& error) const {
+    std::vector<TexelRange> spans;
     for (uint32_t i = 0; i < size; ++i) {
         const mpq_class u =
             rational(blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
@@ -123,11 +123,11 @@ mpq_class BlitReference::error_of(const Axis& axis, Profile profile) const {
 }
 
 // Where the device may read: the coordinates u - error .. u + error of both axes.
-struct BlitReference::Window {
+struct BlitReference::FilterWindow {
     RationalInterval across, down;
 };
 
-BlitReference::Window BlitReference::window(uint32_t x, uint32_t y, Profile profile) const {
+BlitReference::FilterWindow BlitReference::window(uint32_t x, uint32_t y, Profile profile) const {
     const auto around = [&](const Axis& axis, uint32_t i) {
         const mpq_class u =
             rational(blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
@@ -181,8 +181,8 @@ bool BlitReference::converts(const TexelCodes& source, const TexelCodes& got,
 
 bool BlitReference::allows_nearest(uint32_t x, uint32_t y, const TexelCodes& got,
                                    Profile profile) const {
-    const Span& columns = columns_[static_cast<size_t>(profile)][x];
-    const Span& rows = rows_[static_cast<size_t>(profile)][y];
+    const TexelRange& columns = columns_[static_cast<size_t>(profile)][x];
+    const TexelRange& rows = rows_[static_cast<size_t>(profile)][y];
     for (int64_t j = rows.first; j <= rows.last; ++j) {
         for (int64_t i = columns.first; i <= columns.last; ++i) {
             if (converts(texel(i, j, false), got, profile) ||
@@ -217,7 +217,7 @@ std::vector<mpq_class> corners_of(const mpq_class& lo, const mpq_class& hi) {
 // 10 units of the largest texel (three operations of 2 units each; |b - a| <= 2 max), both 20.
 bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got, Profile profile,
                                   bool by_region) const {
-    Window w = window(x, y, profile);
+    FilterWindow w = window(x, y, profile);
     const mpq_class step(1, 1U << kSubTexelBits);
     const mpq_class half(1, 2);
     const auto columns = corners_of(w.across.lo - half - step, w.across.hi - half + step);
@@ -291,8 +291,8 @@ bool BlitReference::has_freedom(uint32_t x, uint32_t y, Profile profile) const {
         profile == Profile::vulkan) {
         return true;
     }
-    const Span& column = columns_[static_cast<size_t>(profile)][x];
-    const Span& row = rows_[static_cast<size_t>(profile)][y];
+    const TexelRange& column = columns_[static_cast<size_t>(profile)][x];
+    const TexelRange& row = rows_[static_cast<size_t>(profile)][y];
     return column.first != column.last || row.first != row.last;
 }
 

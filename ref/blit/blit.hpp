@@ -69,14 +69,14 @@ class BlitReference {
 
   private:
     // Texel numbers along an axis, first to last, that a coordinate within the error may name.
-    struct Span {
+    struct TexelRange {
         int64_t first = 0, last = 0;
     };
     struct Axis {
         int32_t s0, s1, d0, d1;
         uint32_t size;  // of the source
     };
-    struct Window;
+    struct FilterWindow;
 
     mpq_class error_of(const Axis& axis, cases::Profile profile) const;
     bool allows_nearest(uint32_t x, uint32_t y, const cases::TexelCodes& got,
@@ -84,10 +84,10 @@ class BlitReference {
     bool allows_linear(uint32_t x, uint32_t y, const cases::TexelCodes& got, cases::Profile profile,
                        bool by_region) const;
     bool surely_linear(uint32_t x, uint32_t y, const cases::TexelCodes& got) const;
-    std::vector<Span> spans_of(const Axis& axis, uint32_t size, const mpq_class& error) const;
+    std::vector<TexelRange> spans_of(const Axis& axis, uint32_t size, const mpq_class& error) const;
     bool converts(const cases::TexelCodes& texel, const cases::TexelCodes& got,
                   cases::Profile profile) const;
-    Window window(uint32_t x, uint32_t y, cases::Profile profile) const;
+    FilterWindow window(uint32_t x, uint32_t y, cases::Profile profile) const;
     // Component k of a texel, clamped at the image; only if the filter is linear.
     double number_at(int64_t x, int64_t y, uint32_t k) const;
     const cases::TexelCodes& texel(int64_t x, int64_t y, bool by_region) const;
@@ -100,7 +100,7 @@ class BlitReference {
     std::vector<cases::TexelCodes> texels_;
     std::vector<std::array<double, 4>> numbers_;
     // Of each profile, texel by texel: what a nearest filter may read.
-    std::array<std::vector<Span>, 3> columns_, rows_;
+    std::array<std::vector<TexelRange>, 3> columns_, rows_;
 };
 
 }  // namespace ref

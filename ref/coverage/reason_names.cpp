@@ -76,7 +76,8 @@ void for_each_candidate(
 struct Candidates {
     bool has_area = false;
     std::array<bool, kMaxClippedVertices> is_outside{};  // edge i in every candidate with an area
-    std::vector<EdgeLabel> owning, losing;  // edges of a candidate on which p lies, inside the others
+    std::vector<EdgeLabel> owning,
+        losing;  // edges of a candidate on which p lies, inside the others
 };
 
 Candidates candidates_at(const TriangleSetup& setup, const Outline& o, const FixedPoint& p) {
@@ -108,22 +109,27 @@ Candidates candidates_at(const TriangleSetup& setup, const Outline& o, const Fix
     return out;
 }
 
-// The edges of an outline in mode boxes that p is outside of wherever their ends may lie.
+// Whether p lies strictly beyond the line through a and b, and no corner of the boxes does.
+bool is_separating(const FixedPoint& a, const FixedPoint& b, std::span<const Box> boxes,
+                   const FixedPoint& p) {
+    const int beyond = sign_of(edge_function(a, b, p));
+    return beyond != 0 && std::all_of(boxes.begin(), boxes.end(), [&](const Box& box) {
+               const auto points = corners(box);
+               return std::all_of(points.begin(), points.end(), [&](const FixedPoint& q) {
+                   return sign_of(edge_function(a, b, q)) != beyond;
+               });
+           });
+}
+
+// The edges of an outline in mode boxes that keep p out of the hull of the boxes.
 void add_outside_edges(const Outline& o, const FixedPoint& p, Reasons& out) {
-    std::vector<FixedPoint> middles;
-    for (const Box& b : o.vertices()) {
-        middles.push_back(middle_of(b));
-    }
-    const int sign = area_sign(middles);
-    for (uint32_t i = 0; sign != 0 && i < o.count; ++i) {
-        bool is_outside = true;
+    for (uint32_t i = 0; i < o.count; ++i) {
         for (const FixedPoint& a : corners(o.boxes[i])) {
             for (const FixedPoint& b : corners(o.boxes[(i + 1) % o.count])) {
-                is_outside = is_outside && sign * sign_of(edge_function(a, b, p)) < 0;
+                if (is_separating(a, b, o.vertices(), p)) {
+                    add_reason(out, outside_of(o.edge.at(i)));
+                }
             }
-        }
-        if (is_outside) {
-            add_reason(out, outside_of(o.edge.at(i)));
         }
     }
 }
@@ -214,8 +220,8 @@ void name_open(const Outline& o, const FixedPoint& p, Reasons& out) {
             const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
             if (exact::is_in_hull(ends, p)) {
                 const bool is_fixed = ends[0].is_point() && ends[1].is_point();
-                add_reason(out, open_at(o.edge.at(i), is_fixed ? ReasonKind::on_edge
-                                                               : ReasonKind::vertex_boxes));
+                add_reason(out, open_at(o.edge.at(i),
+                                        is_fixed ? ReasonKind::on_edge : ReasonKind::vertex_boxes));
             }
         }
     }

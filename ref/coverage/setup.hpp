@@ -106,7 +106,7 @@ struct Outline {
 };
 
 // A closed range of S47.16 coordinates.
-struct Range {
+struct FixedRange {
     int64_t low = 0, high = -1;
     bool contains(int64_t v) const { return low <= v && v <= high; }
 };
@@ -118,7 +118,7 @@ struct Window {
     int64_t pixel_y0 = 0, pixel_y1 = 0;
     // Nothing is drawn outside `zone`; nothing has to be drawn outside `core`. They differ along a
     // fractional viewport only, by the pixel on either side that rules.md leaves open there.
-    Range zone_x, zone_y, core_x, core_y;
+    FixedRange zone_x, zone_y, core_x, core_y;
     bool is_viewport_ignored = false;    // undefined positions: only scissor and framebuffer hold
     uint32_t sample_mask = 0xffffffffU;  // bit s: sample s passes the sample masks
 

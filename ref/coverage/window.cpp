@@ -35,7 +35,8 @@ bool is_integer(float f) {
     return !(std::floor(f) < f);
 }
 
-void axis_window(float origin, float extent, cases::Profile profile, Range& zone, Range& core) {
+void axis_window(float origin, float extent, cases::Profile profile, FixedRange& zone,
+                 FixedRange& core) {
     const mpq_class end = exact(origin) + exact(extent);
     const mpq_class low = std::min<mpq_class>(exact(origin), end);
     const mpq_class high = std::max<mpq_class>(exact(origin), end);

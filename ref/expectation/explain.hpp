@@ -19,7 +19,7 @@
 #include "ref/coverage/coverage.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/triangle_setups.hpp"
-#include "ref/depth/depth_test.hpp"
+#include "ref/depth/outcome.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/narrowing.hpp"
 #include "ref/position/limits.hpp"

@@ -29,7 +29,7 @@
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/setup.hpp"
 #include "ref/coverage/triangle_setups.hpp"
-#include "ref/depth/depth_test.hpp"
+#include "ref/depth/outcome.hpp"
 #include "ref/expectation/complement.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/vertex_numbers.hpp"

@@ -72,7 +72,8 @@ constexpr std::array kRows = {
         "{number} of {triangles} covers the sample: a clip distance and its negative are 0 here "
         "within their error"},
     Row{ReasonKind::clipped_edge, "cover.clipped-edge", "snap.nearest",
-        "{number} of {triangles} covers the sample: they meet here along edges they share, clipped"},
+        "{number} of {triangles} covers the sample: they meet here along edges they share, "
+        "clipped"},
     Row{ReasonKind::shared_vertex, "cover.shared-vertex", "snap.nearest",
         "{number} of {triangles} covers the sample: they meet here in a vertex they share"},
     Row{ReasonKind::shared_edge, "cover.shared-edge", "snap.nearest",
@@ -139,9 +140,9 @@ std::string ties_text(const TriangleExplanation& t, uint8_t label) {
                                 edge_name(t, e.label), to_string(e.kind));
         }
     }
-    return text.empty() ? fmt::format("on {} for a position that its ends may take",
-                                      edge_name(t, label))
-                        : text;
+    return text.empty()
+               ? fmt::format("on {} for a position that its ends may take", edge_name(t, label))
+               : text;
 }
 
 std::string inside_text(const TriangleExplanation& t) {
@@ -208,8 +209,8 @@ std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases
     return fmt::format(
         fmt::runtime(row_of(reason.kind).sentence), fmt::arg("ties", ties_text(t, reason.which)),
         fmt::arg("inside", inside_text(t)), fmt::arg("layer", draw.layer),
-        fmt::arg("mask", draw.multisample.sample_mask &
-                             draw.multisample.shader_mask.value_or(0xffffffffU)),
+        fmt::arg("mask",
+                 draw.multisample.sample_mask & draw.multisample.shader_mask.value_or(0xffffffffU)),
         fmt::arg("sample", sample.sample),
         fmt::arg("scissor", fmt::format("x {} to {}, y {} to {}", r.x, int64_t{r.x} + r.width, r.y,
                                         int64_t{r.y} + r.height)),

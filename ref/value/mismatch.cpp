@@ -55,8 +55,8 @@ double value::nominal_depth(const Primitive& primitive, const Basis<mpq_class>& 
 
 void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Quantity& q,
                                       float got, FragmentVerdict& out) const {
-    const auto component = static_cast<glm::vec4::length_type>(q.component);
-    const auto& values = primitive.draw->attributes[static_cast<size_t>(q.attribute)].values;
+    const auto component = static_cast<glm::vec4::length_type>(q.id.component);
+    const auto& values = primitive.draw->attributes[q.id.attribute].values;
     const float want = values[primitive.triangle.provoking][component];
     const auto bits = [](float f) { return std::bit_cast<uint32_t>(f); };
     if (bits(got) == bits(want)) {
@@ -71,7 +71,7 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
         return;  // denormals may be flushed, the sign of zero may be lost
     }
     ValueMismatch m;
-    m.quantity = q.name;
+    m.quantity = q.id;
     m.rule = "interp.flat";
     m.level = Profile::vulkan;
     for (const uint32_t v : primitive.triangle.vertex) {
@@ -93,13 +93,13 @@ std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId
     if (at == Profile::vulkan && !only.empty()) {
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
-        const value::WideSet<Ball>& set =
-            balls.get(t, at, [&] { return value::make_wide_set<Ball>(primitive, q, limits, at); });
+        const value::CandidateSet<Ball>& set = balls.get(
+            t, at, [&] { return value::make_candidates<Ball>(primitive, q, limits, at); });
         if (set.is_known) {
             auto failing =
-                failing_alone(set, std::span<const Quantity>(q), primitive.is_projectable,
-                              value::evaluations<Ball>(fragment(t, id, at), at),
-                              probe_place(t, id, at), device, only);
+                failing_separately(set, std::span<const Quantity>(q), primitive.is_projectable,
+                                   value::evaluations<Ball>(fragment(t, id, at), at),
+                                   probe_place(t, id, at), device, only);
             if (failing) {
                 return std::move(*failing);
             }
@@ -142,20 +142,20 @@ std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId
 }
 
 void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                    const value::WideVerdict& verdict, FragmentVerdict& out) {
+                                    const value::CandidateVerdict& verdict, FragmentVerdict& out) {
     const value::Primitive& primitive = load(t).primitive;
     const std::vector<Quantity>& all = quantities_of(t);
     const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
     const auto place = value::evaluations<mpq_class>(fragment(t, id, profile), profile).front();
     const value::Basis<mpq_class>& basis = exact_basis(t);
-    const value::WideSet<Ball>& set = balls.get(
-        t, profile, [&] { return value::make_wide_set<Ball>(primitive, all, limits, profile); });
+    const value::CandidateSet<Ball>& set = balls.get(
+        t, profile, [&] { return value::make_candidates<Ball>(primitive, all, limits, profile); });
     for (size_t k = 0; k < verdict.failing.size(); ++k) {
         const size_t index = verdict.failing[k];
         const Quantity& q = all[index];
         const float got = q.get(device);
         ValueMismatch m;
-        m.quantity = q.name;
+        m.quantity = q.id;
         m.rule = q.rule;
         m.level = levels[k];
         m.got = bits_of(got);
@@ -177,7 +177,7 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
                                          value::number_text(v.value.get_d(), v.value),
                                          budget_factor(profile), v.budget.get_d());
                 reach = v.reach.get_d();
-                if (q.attribute == -2 && !is_plain_depth(primitive)) {
+                if (q.id.is_depth() && !is_plain_depth(primitive)) {
                     m.rule = depth_rule(primitive, v.value.get_d());
                     m.expected =
                         fmt::format("{:.9g} or near it (plane {:.9g} within {:.4g} x {:.3g})",
@@ -194,7 +194,7 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
         const double low = hull.low.v - hull.low.e - reach * (1 + 0x1p-30);
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
         const bool is_moved =
-            (q.attribute == -2 || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
+            (q.id.is_depth() || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
         if (q.rule != "barycentric.value" &&
             (!std::isfinite(got) || (!is_moved && (g < low || g > high)))) {
             m.rule = "interp.hull";

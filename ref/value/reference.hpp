@@ -33,12 +33,12 @@ namespace value {
 // Sets of candidates are large (up to 64 bases) and needed for few triangles: the last ones are
 // kept.
 template <class T>
-class WideCache {
+class CandidateCache {
   public:
-    explicit WideCache(size_t capacity) : capacity_(capacity) {}
+    explicit CandidateCache(size_t capacity) : capacity_(capacity) {}
 
     template <class Make>
-    const WideSet<T>& get(uint32_t t, cases::Profile profile, Make make) {
+    const CandidateSet<T>& get(uint32_t t, cases::Profile profile, Make make) {
         for (const Entry& e : entries_) {
             if (e.triangle == t && e.profile == profile) {
                 return e.set;
@@ -55,7 +55,7 @@ class WideCache {
     struct Entry {
         uint32_t triangle;
         cases::Profile profile;
-        WideSet<T> set;
+        CandidateSet<T> set;
     };
     size_t capacity_;
     std::deque<Entry> entries_;
@@ -101,8 +101,8 @@ struct ValueReference::Impl {
     std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
     std::deque<uint32_t> order;                     // of the loaded ones, oldest first
     static constexpr size_t kKeptTriangles = 16384;
-    value::WideCache<Ball> balls{64};
-    value::WideCache<mpq_class> rationals{4};
+    value::CandidateCache<Ball> balls{64};
+    value::CandidateCache<mpq_class> rationals{4};
     std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)>
         coverage;  // by profile
     uint32_t text_triangle = 0;
@@ -224,9 +224,8 @@ struct ValueReference::Impl {
 
     // Whether the part of the fragment that is being judged has the quantity.
     bool is_part(const Quantity& q) const {
-        return selection.has(q.attribute) &&
-               (part == FragmentPart::all ||
-                (q.attribute == kDepthAttribute) == (part == FragmentPart::depth));
+        return selection.has(q.id) &&
+               (part == FragmentPart::all || q.id.is_depth() == (part == FragmentPart::depth));
     }
 
     static bool is_other(const Ball& a, const Ball& b) {
@@ -264,30 +263,30 @@ struct ValueReference::Impl {
         return range_places;
     }
 
-    value::WideVerdict wide(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                            Profile at) {
+    value::CandidateVerdict wide(uint32_t t, cases::SampleId id, const FragmentValues& device,
+                                 Profile at) {
         const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
             return {true, true, ref::BasisKind::unsnapped, {}, {}, {}};
         }
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
-        const value::WideSet<Ball>& set =
-            balls.get(t, at, [&] { return value::make_wide_set<Ball>(primitive, q, limits, at); });
+        const value::CandidateSet<Ball>& set = balls.get(
+            t, at, [&] { return value::make_candidates<Ball>(primitive, q, limits, at); });
         if (set.is_known) {
-            value::WideVerdict verdict =
-                judge_wide(set, std::span<const Quantity>(q), primitive.is_projectable,
-                           value::evaluations<Ball>(fragment(t, id, at), at),
-                           probe_place(t, id, at), device, only);
+            value::CandidateVerdict verdict =
+                judge_candidates(set, std::span<const Quantity>(q), primitive.is_projectable,
+                                 value::evaluations<Ball>(fragment(t, id, at), at),
+                                 probe_place(t, id, at), device, only);
             if (verdict.is_known) {
                 return verdict;
             }
         }
-        const value::WideSet<mpq_class>& exact = rationals.get(
-            t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
-        return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(fragment(t, id, at), at),
-                          probe_place(t, id, at), device, only);
+        const value::CandidateSet<mpq_class>& exact = rationals.get(
+            t, at, [&] { return value::make_candidates<mpq_class>(primitive, q, limits, at); });
+        return judge_candidates(exact, std::span<const Quantity>(q), primitive.is_projectable,
+                                value::evaluations<mpq_class>(fragment(t, id, at), at),
+                                probe_place(t, id, at), device, only);
     }
 
     // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
@@ -295,19 +294,19 @@ struct ValueReference::Impl {
                                    Profile at);
 
     // The oracle: rationals only, no filter.
-    value::WideVerdict wide_exact(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                  Profile at) {
+    value::CandidateVerdict wide_exact(uint32_t t, cases::SampleId id, const FragmentValues& device,
+                                       Profile at) {
         const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
             return {true, true, ref::BasisKind::unsnapped, {}, {}, {}};
         }
         const value::Primitive& primitive = load(t).primitive;
         const std::vector<Quantity>& q = quantities_of(t);
-        const value::WideSet<mpq_class>& exact = rationals.get(
-            t, at, [&] { return value::make_wide_set<mpq_class>(primitive, q, limits, at); });
-        return judge_wide(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                          value::evaluations<mpq_class>(fragment(t, id, at, true), at),
-                          probe_place(t, id, at), device, only);
+        const value::CandidateSet<mpq_class>& exact = rationals.get(
+            t, at, [&] { return value::make_candidates<mpq_class>(primitive, q, limits, at); });
+        return judge_candidates(exact, std::span<const Quantity>(q), primitive.is_projectable,
+                                value::evaluations<mpq_class>(fragment(t, id, at, true), at),
+                                probe_place(t, id, at), device, only);
     }
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
@@ -317,7 +316,7 @@ struct ValueReference::Impl {
     std::vector<Profile> levels_of(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                    const std::vector<size_t>& failing);
     void describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                  const value::WideVerdict& verdict, FragmentVerdict& out);
+                  const value::CandidateVerdict& verdict, FragmentVerdict& out);
     FragmentVerdict judge(uint32_t t, cases::SampleId id, const FragmentValues& device,
                           bool exact_only);
 };

@@ -21,7 +21,7 @@ constexpr int64_t kSize = 64;  // pixels, a side
 
 struct Sample {
     Corners triangle;  // clockwise, with at least 8 pixels of area
-    Point first;
+    SubpixelPoint first;
     int64_t k = 0, l = 0;
     std::array<float, 3> w{};  // 1 to 4, 24 bits
 };
@@ -34,7 +34,7 @@ std::vector<Sample> random_samples() {
         if (!t || edge_function((*t)[0], (*t)[1], (*t)[2]) < 16 * kPixel * kPixel) {
             continue;
         }
-        const Point offset{kPixel / 2, kPixel / 2};
+        const SubpixelPoint offset{kPixel / 2, kPixel / 2};
         const PixelRect box = bounding_box(*t, {0, 0, kSize, kSize}, offset);
         const int64_t x = random.integer(box.x0, box.x1 - 1);
         const int64_t y = random.integer(box.y0, box.y1 - 1);
@@ -76,9 +76,9 @@ double wrong_coverage(const std::vector<Sample>& samples, int bits) {
     uint64_t all = 0;
     for (size_t n = 0; n < samples.size(); n += 10) {
         const Corners& t = samples[n].triangle;
-        const Point offset{kPixel / 2, kPixel / 2};
+        const SubpixelPoint offset{kPixel / 2, kPixel / 2};
         const PixelRect box = bounding_box(t, {0, 0, kSize, kSize}, offset);
-        const Point first = sample_of(box.x0, box.y0, offset);
+        const SubpixelPoint first = sample_of(box.x0, box.y0, offset);
         const NineTerms exact = nine_terms(t, first, {{1, 1, 1}, 0}, 0);
         const NineTerms rounded = nine_terms(t, first, {{1, 1, 1}, 0}, bits);
         const auto is_inside = [](const NineTerms& terms, int64_t k, int64_t l) {

@@ -17,11 +17,13 @@ namespace {
 using namespace rasterizers;
 using test::RandomTriangles;
 
-constexpr Point kCentre{kPixel / 2, kPixel / 2};
+constexpr SubpixelPoint kCentre{kPixel / 2, kPixel / 2};
 
-bool covers_exactly(const Corners& t, const Point& p) {
+bool covers_exactly(const Corners& t, const SubpixelPoint& p) {
     constexpr int64_t kScale = ref::kFixedOne / kPixel;
-    const auto fixed = [](const Point& q) { return ref::FixedPoint{q.x * kScale, q.y * kScale}; };
+    const auto fixed = [](const SubpixelPoint& q) {
+        return ref::FixedPoint{q.x * kScale, q.y * kScale};
+    };
     return ref::exact::covers(fixed(t[0]), fixed(t[1]), fixed(t[2]), fixed(p));
 }
 
@@ -41,7 +43,7 @@ Corners shaped(RandomTriangles& random, int64_t size, int64_t thin, int64_t offs
     for (;;) {
         Corners t;
         const int64_t reach = size * kPixel;
-        for (Point& p : t) {
+        for (SubpixelPoint& p : t) {
             const int64_t s = random.integer(0, reach);
             p = {offset + s, offset + s / 2 + random.integer(0, reach / thin)};
         }
@@ -52,7 +54,7 @@ Corners shaped(RandomTriangles& random, int64_t size, int64_t thin, int64_t offs
     }
 }
 
-Point point_in(RandomTriangles& random, const Corners& t) {
+SubpixelPoint point_in(RandomTriangles& random, const Corners& t) {
     const int64_t s = random.integer(0, 1000);
     const int64_t r = random.integer(0, 1000 - s);
     return {(t[0].x * (1000 - s - r) + t[1].x * s + t[2].x * r) / 1000,

@@ -165,7 +165,7 @@ std::string describe(const cases::Case& c, const diff::Verdict& verdict) {
         "{}: {} finding(s), first: {} {} [{}] at {} sample {} {}: expected {}, "
         "got {}: {} (ratio {:.3g})",
         c.id, total, diff::to_string(f.kind), f.rule, cases::to_string(f.level),
-        cases::pixel_text(c.target, diff::place_of(f)), f.sample, f.quantity, f.expected, f.got,
+        cases::pixel_text(c.target, diff::sample_of(f)), f.sample, f.quantity, f.expected, f.got,
         f.why, f.ratio);
 }
 

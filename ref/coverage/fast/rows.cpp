@@ -16,7 +16,7 @@ Grid grid_of(const Window& w, uint32_t sample, const cases::Target& target) {
     if (w.is_viewport_ignored) {
         return g;  // nothing must be drawn
     }
-    const auto limit = [](const Range& r, int64_t offset, int64_t& low, int64_t& high) {
+    const auto limit = [](const FixedRange& r, int64_t offset, int64_t& low, int64_t& high) {
         low = std::max(low, first_at(r.low, offset));
         high = std::min(high, last_at(r.high, offset));
     };

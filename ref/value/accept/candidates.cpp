@@ -41,7 +41,7 @@ std::vector<FixedPoint> corners(const Box& box) {
 // All corner triangles of the three boxes: at most 64.
 template <class T>
 bool add_corner_triangles(const Primitive& primitive, const std::vector<PlaneInput<T>>& inputs,
-                          const Limits& limits, cases::Profile profile, WideSet<T>& set) {
+                          const Limits& limits, cases::Profile profile, CandidateSet<T>& set) {
     std::array<std::vector<FixedPoint>, 3> choice;
     size_t count = 1;
     for (size_t i = 0; i < 3; ++i) {
@@ -199,7 +199,7 @@ std::vector<std::array<size_t, 3>> fan_triangles(size_t n) {
 template <class T>
 bool add_pieces(const std::vector<PlaneInput<T>>& inputs,
                 const std::vector<PieceVertex<T>>& polygon, const T& grid, bool with_unbounded,
-                WideSet<T>& set) {
+                CandidateSet<T>& set) {
     for (const std::array<size_t, 3>& t : fan_triangles(polygon.size())) {
         Vertices<T> v;
         std::vector<PlaneInput<T>> in(inputs.size());
@@ -263,10 +263,10 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
             out[q].high = is_first ? g : larger(out[q].high, g);
             is_first = false;
         };
-        if (quantity.attribute >= 0) {
+        if (quantity.id.is_attribute()) {
             // Attributes are convex combinations of the three, clipped or not.
-            for (const float f : attribute_values(
-                     primitive, static_cast<uint32_t>(quantity.attribute), quantity.component)) {
+            for (const float f :
+                 attribute_values(primitive, quantity.id.attribute, quantity.id.component)) {
                 add(from_float<T>(std::isfinite(f) ? f : 0.0F));  // as in plane_inputs()
             }
         } else if (polygon.empty()) {
@@ -298,9 +298,9 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
 }  // namespace
 
 template <class T>
-WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> quantities,
-                         const Limits& limits, cases::Profile profile) {
-    WideSet<T> set;
+CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quantity> quantities,
+                                const Limits& limits, cases::Profile profile) {
+    CandidateSet<T> set;
     set.factor = from_exact<T>(exact_budget_factor(profile));
     set.margin = T(std::ldexp(1.0, -limits.subpixel_bits));
     set.any_of_all = profile == cases::Profile::vulkan;
@@ -362,9 +362,10 @@ WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> q
     return set;
 }
 
-template WideSet<Ball> make_wide_set<Ball>(const Primitive&, std::span<const Quantity>,
-                                           const Limits&, cases::Profile);
-template WideSet<mpq_class> make_wide_set<mpq_class>(const Primitive&, std::span<const Quantity>,
-                                                     const Limits&, cases::Profile);
+template CandidateSet<Ball> make_candidates<Ball>(const Primitive&, std::span<const Quantity>,
+                                                  const Limits&, cases::Profile);
+template CandidateSet<mpq_class> make_candidates<mpq_class>(const Primitive&,
+                                                            std::span<const Quantity>,
+                                                            const Limits&, cases::Profile);
 
 }  // namespace ref::value

@@ -55,7 +55,7 @@ Filter make_filter(const Basis<Ball>& basis) {
 }
 
 bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
-                    const Places& places, const FragmentValues& device, double factor,
+                    const FilterPoints& places, const FragmentValues& device, double factor,
                     WorstError& worst) {
     if (!filter.usable) {
         return false;

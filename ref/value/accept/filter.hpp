@@ -29,14 +29,14 @@ Filter make_filter(const Basis<Ball>& basis);
 
 // Where the inputs are evaluated, exact in binary64 (multiples of 1/16): without decoration (and
 // FragCoord.z and w), the sample, centroid.
-struct Places {
+struct FilterPoints {
     Point<double> centre, sample, centroid;
 };
 
 // True if every numeric value (linear or perspective) is proven to be within `factor` budgets.
 // `worst` then is the largest error, rounded (for reports only).
 bool filter_accepts(const Filter& filter, std::span<const Quantity> quantities,
-                    const Places& places, const FragmentValues& device, double factor,
+                    const FilterPoints& places, const FragmentValues& device, double factor,
                     WorstError& worst);
 
 struct ProbePlace;

@@ -21,7 +21,7 @@ template <class T>
 struct Round {
     std::vector<Reach<T>> reaches;
     std::vector<Fit> fits;
-    WideVerdict probes;
+    CandidateVerdict probes;
 };
 
 // The numeric inputs that are evaluated at one place with each other.
@@ -30,7 +30,7 @@ std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<co
     std::vector<size_t> out;
     for (size_t i = 0; i < quantities.size(); ++i) {
         const Quantity& q = quantities[i];
-        if (is_judged(q, i, only) && q.attribute >= 0 && !q.at_sample &&
+        if (is_judged(q, i, only) && q.id.is_attribute() && !q.at_sample &&
             q.at_centroid == at_centroid) {
             out.push_back(i);
         }
@@ -40,15 +40,15 @@ std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<co
 
 // Whether one place explains all inputs that are decorated alike. Each of them alone has been
 // found to fit somewhere; with a single one that is enough.
-Answer has_one_point(const WideSet<Ball>&, const Candidate<Ball>&, std::span<const Quantity> all,
-                     const Evaluation<Ball>&, const FragmentValues&, std::span<const size_t> only,
-                     size_t&) {
+Answer has_one_point(const CandidateSet<Ball>&, const Candidate<Ball>&,
+                     std::span<const Quantity> all, const Evaluation<Ball>&, const FragmentValues&,
+                     std::span<const size_t> only, size_t&) {
     const bool is_single =
         inputs_at(all, only, false).size() < 2 && inputs_at(all, only, true).size() < 2;
     return is_single ? Answer::yes : Answer::unknown;  // polygons are cut in rationals
 }
 
-Answer has_one_point(const WideSet<mpq_class>& set, const Candidate<mpq_class>& candidate,
+Answer has_one_point(const CandidateSet<mpq_class>& set, const Candidate<mpq_class>& candidate,
                      std::span<const Quantity> all, const Evaluation<mpq_class>& where,
                      const FragmentValues& device, std::span<const size_t> only, size_t& blamed) {
     if (candidate.bases.size() != 1 || candidate.is_unbounded) {
@@ -77,7 +77,7 @@ struct Score {
 };
 
 Score score_of(std::span<const Quantity> quantities, std::span<const Fit> fits,
-               std::span<const size_t> judged, const WideVerdict& probes) {
+               std::span<const size_t> judged, const CandidateVerdict& probes) {
     Score out{probes.failing.size(), probes.worst};
     for (const size_t i : judged) {
         out.failing += fits[i].answer == Answer::no ? 1U : 0U;
@@ -87,14 +87,15 @@ Score score_of(std::span<const Quantity> quantities, std::span<const Fit> fits,
 }
 
 // Fewer failing values, then the smaller ratio.
-bool is_better(const Score& a, const WideVerdict& than) {
+bool is_better(const Score& a, const CandidateVerdict& than) {
     return a.failing < than.failing.size() ||
            (a.failing == than.failing.size() && a.worst.ratio < than.worst.ratio);
 }
 
-WideVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> judged,
-                       const WideVerdict& probes, const Score& score, ref::BasisKind basis) {
-    WideVerdict out;
+CandidateVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> judged,
+                            const CandidateVerdict& probes, const Score& score,
+                            ref::BasisKind basis) {
+    CandidateVerdict out;
     out.basis = basis;
     out.worst = score.worst;
     for (const size_t i : judged) {
@@ -112,10 +113,11 @@ WideVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> judged
 }  // namespace
 
 template <class T>
-WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
-                       bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
-                       const ProbePlace& place, const FragmentValues& device,
-                       std::span<const size_t> only) {
+CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Quantity> quantities,
+                                  bool is_projectable,
+                                  const std::vector<Evaluation<T>>& evaluations,
+                                  const ProbePlace& place, const FragmentValues& device,
+                                  std::span<const size_t> only) {
     const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
                                         [](const Quantity& q) { return q.kind == Kind::probe; });
     std::vector<size_t> judged;
@@ -124,8 +126,8 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
             judged.push_back(i);
         }
     }
-    const WideVerdict unknown{false, false, ref::BasisKind::unsnapped, {}, {}, {}};
-    std::optional<WideVerdict> best;
+    const CandidateVerdict unknown{false, false, ref::BasisKind::unsnapped, {}, {}, {}};
+    std::optional<CandidateVerdict> best;
     const size_t rounds = set.any_of_all ? 1 : set.candidates.size();
     std::vector<Round<T>> kept(rounds);
     const Evaluation<T>* before = nullptr;
@@ -174,7 +176,8 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
             if (best && score.failing > 0 && !is_better(score, *best)) {
                 continue;
             }
-            WideVerdict verdict = verdict_of(fits, judged, probes, score, set.candidates[c].name);
+            CandidateVerdict verdict =
+                verdict_of(fits, judged, probes, score, set.candidates[c].name);
             if (verdict.ok && where.is_one_point) {
                 size_t blamed = 0;
                 switch (has_one_point(set, set.candidates[c], quantities, where, device, only,
@@ -186,7 +189,7 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
                         verdict.failing.push_back(blamed);
                         verdict.ratios.push_back(std::numeric_limits<double>::infinity());
                         verdict.worst = {std::numeric_limits<double>::infinity(),
-                                         quantities[blamed].name};
+                                         quantities[blamed].id};
                         break;
                     case Answer::yes:
                         break;
@@ -200,11 +203,11 @@ WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantiti
             }
         }
     }
-    return best.value_or(WideVerdict{});
+    return best.value_or(CandidateVerdict{});
 }
 
 template <class T>
-DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool is_projectable,
+DepthReach<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth, bool is_projectable,
                              const Point<T>& sample) {
     DepthReach<T> out;
     const Evaluation<T> where{{sample}, {}, sample, {sample}, false};
@@ -245,15 +248,17 @@ DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool 
     return out;
 }
 
-template DepthReach<Ball> reach_of_depth<Ball>(const WideSet<Ball>&, const Quantity&, bool,
+template DepthReach<Ball> reach_of_depth<Ball>(const CandidateSet<Ball>&, const Quantity&, bool,
                                                const Point<Ball>&);
-template DepthReach<mpq_class> reach_of_depth<mpq_class>(const WideSet<mpq_class>&, const Quantity&,
-                                                         bool, const Point<mpq_class>&);
+template DepthReach<mpq_class> reach_of_depth<mpq_class>(const CandidateSet<mpq_class>&,
+                                                         const Quantity&, bool,
+                                                         const Point<mpq_class>&);
 template <class T>
-std::vector<WideRange<T>> ranges_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
-                                      bool is_projectable,
-                                      const std::vector<Evaluation<T>>& evaluations,
-                                      std::span<const size_t> only) {
+std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
+                                              std::span<const Quantity> quantities,
+                                              bool is_projectable,
+                                              const std::vector<Evaluation<T>>& evaluations,
+                                              std::span<const size_t> only) {
     std::vector<Reach<T>> reaches(quantities.size());
     const FragmentValues nothing;  // only reports ask for the device's values
     for (const Evaluation<T>& where : evaluations) {
@@ -266,7 +271,7 @@ std::vector<WideRange<T>> ranges_wide(const WideSet<T>& set, std::span<const Qua
             }
         }
     }
-    std::vector<WideRange<T>> out;
+    std::vector<AcceptedRange<T>> out;
     for (const size_t index : only) {
         const Reach<T>& reach = reaches[index];
         out.push_back(
@@ -275,19 +280,21 @@ std::vector<WideRange<T>> ranges_wide(const WideSet<T>& set, std::span<const Qua
     return out;
 }
 
-template std::vector<WideRange<Ball>> ranges_wide<Ball>(const WideSet<Ball>&,
-                                                        std::span<const Quantity>, bool,
-                                                        const std::vector<Evaluation<Ball>>&,
-                                                        std::span<const size_t>);
-template std::vector<WideRange<mpq_class>> ranges_wide<mpq_class>(
-    const WideSet<mpq_class>&, std::span<const Quantity>, bool,
+template std::vector<AcceptedRange<Ball>> accepted_ranges<Ball>(
+    const CandidateSet<Ball>&, std::span<const Quantity>, bool,
+    const std::vector<Evaluation<Ball>>&, std::span<const size_t>);
+template std::vector<AcceptedRange<mpq_class>> accepted_ranges<mpq_class>(
+    const CandidateSet<mpq_class>&, std::span<const Quantity>, bool,
     const std::vector<Evaluation<mpq_class>>&, std::span<const size_t>);
-template WideVerdict judge_wide<Ball>(const WideSet<Ball>&, std::span<const Quantity>, bool,
-                                      const std::vector<Evaluation<Ball>>&, const ProbePlace&,
-                                      const FragmentValues&, std::span<const size_t>);
-template WideVerdict judge_wide<mpq_class>(const WideSet<mpq_class>&, std::span<const Quantity>,
-                                           bool, const std::vector<Evaluation<mpq_class>>&,
-                                           const ProbePlace&, const FragmentValues&,
-                                           std::span<const size_t>);
+template CandidateVerdict judge_candidates<Ball>(const CandidateSet<Ball>&,
+                                                 std::span<const Quantity>, bool,
+                                                 const std::vector<Evaluation<Ball>>&,
+                                                 const ProbePlace&, const FragmentValues&,
+                                                 std::span<const size_t>);
+template CandidateVerdict judge_candidates<mpq_class>(const CandidateSet<mpq_class>&,
+                                                      std::span<const Quantity>, bool,
+                                                      const std::vector<Evaluation<mpq_class>>&,
+                                                      const ProbePlace&, const FragmentValues&,
+                                                      std::span<const size_t>);
 
 }  // namespace ref::value

@@ -29,7 +29,7 @@ struct Candidate {
 };
 
 template <class T>
-struct WideSet {
+struct CandidateSet {
     bool is_known = true;  // false: T could not tell an orientation; use rationals
     std::vector<Candidate<T>> candidates;
     std::vector<Range<T>> hulls;  // of the vertex values, by quantity (numeric ones only)
@@ -42,8 +42,8 @@ struct WideSet {
 
 // The set for a profile. `factor` is K of docs/precision.md for that profile.
 template <class T>
-WideSet<T> make_wide_set(const Primitive& primitive, std::span<const Quantity> quantities,
-                         const Limits& limits, cases::Profile profile);
+CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quantity> quantities,
+                                const Limits& limits, cases::Profile profile);
 
 // Where the values may be evaluated: anywhere in the hull of the points.
 template <class T>
@@ -66,12 +66,12 @@ struct DepthReach {
     Range<T> range;
 };
 template <class T>
-DepthReach<T> reach_of_depth(const WideSet<T>& set, const Quantity& depth, bool is_projectable,
+DepthReach<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth, bool is_projectable,
                              const Point<T>& sample);
 
 struct ProbePlace;
 
-struct WideVerdict {
+struct CandidateVerdict {
     bool is_known = true;
     bool ok = false;
     ref::BasisKind basis = ref::BasisKind::unsnapped;
@@ -83,32 +83,34 @@ struct WideVerdict {
 // `place`: what interpolateAt*, derivatives and levels of detail depend on (probe.hpp).
 // `only`: judges these quantities (indices) and no others, unless it is empty.
 template <class T>
-WideVerdict judge_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
-                       bool is_projectable, const std::vector<Evaluation<T>>& evaluations,
-                       const ProbePlace& place, const FragmentValues& device,
-                       std::span<const size_t> only);
+CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Quantity> quantities,
+                                  bool is_projectable,
+                                  const std::vector<Evaluation<T>>& evaluations,
+                                  const ProbePlace& place, const FragmentValues& device,
+                                  std::span<const size_t> only);
 
-// The failing quantities of judge_wide() alone, for a set with any_of_all: without the ratios most
-// values are accepted by the first candidate. Nothing if only ratios tell which evaluation is best,
-// or T does not know.
+// The failing quantities of judge_candidates() alone, for a set with any_of_all: without the ratios
+// most values are accepted by the first candidate. Nothing if only ratios tell which evaluation is
+// best, or T does not know.
 template <class T>
-std::optional<std::vector<size_t>> failing_alone(
-    const WideSet<T>& set, std::span<const Quantity> quantities, bool is_projectable,
+std::optional<std::vector<size_t>> failing_separately(
+    const CandidateSet<T>& set, std::span<const Quantity> quantities, bool is_projectable,
     const std::vector<Evaluation<T>>& evaluations, const ProbePlace& place,
     const FragmentValues& device, std::span<const size_t> only);
 
 // Everything that some quantities may be, whichever candidate and place the device uses: by place
 // in `only`, indices into the quantities. What they share, sites and their budgets, is made once.
 template <class T>
-struct WideRange {
+struct AcceptedRange {
     bool is_known = true;
     bool is_free = false;  // nothing is claimed of it
     Range<T> range;
 };
 template <class T>
-std::vector<WideRange<T>> ranges_wide(const WideSet<T>& set, std::span<const Quantity> quantities,
-                                      bool is_projectable,
-                                      const std::vector<Evaluation<T>>& evaluations,
-                                      std::span<const size_t> only);
+std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
+                                              std::span<const Quantity> quantities,
+                                              bool is_projectable,
+                                              const std::vector<Evaluation<T>>& evaluations,
+                                              std::span<const size_t> only);
 
 }  // namespace ref::value

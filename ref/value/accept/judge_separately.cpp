@@ -12,8 +12,8 @@ namespace ref::value {
 // alone; what any reach of a clamped depth accepts lies in it, too.) What is accepted by some of
 // the candidates is accepted by all together, whatever T can tell of the others.
 template <class T>
-std::optional<std::vector<size_t>> failing_alone(
-    const WideSet<T>& set, std::span<const Quantity> quantities, bool is_projectable,
+std::optional<std::vector<size_t>> failing_separately(
+    const CandidateSet<T>& set, std::span<const Quantity> quantities, bool is_projectable,
     const std::vector<Evaluation<T>>& evaluations, const ProbePlace& place,
     const FragmentValues& device, std::span<const size_t> only) {
     const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
@@ -24,7 +24,7 @@ std::optional<std::vector<size_t>> failing_alone(
             .answer;
     };
     std::vector<bool> is_failing(quantities.size());  // of the quantities that have a plane
-    WideVerdict probes;
+    CandidateVerdict probes;
     std::optional<std::vector<size_t>> best;
     bool is_tie = false;
     const Evaluation<T>* before = nullptr;
@@ -80,11 +80,12 @@ std::optional<std::vector<size_t>> failing_alone(
     return is_tie ? std::nullopt : best;
 }
 
-template std::optional<std::vector<size_t>> failing_alone<Ball>(
-    const WideSet<Ball>&, std::span<const Quantity>, bool, const std::vector<Evaluation<Ball>>&,
-    const ProbePlace&, const FragmentValues&, std::span<const size_t>);
-template std::optional<std::vector<size_t>> failing_alone<mpq_class>(
-    const WideSet<mpq_class>&, std::span<const Quantity>, bool,
+template std::optional<std::vector<size_t>> failing_separately<Ball>(
+    const CandidateSet<Ball>&, std::span<const Quantity>, bool,
+    const std::vector<Evaluation<Ball>>&, const ProbePlace&, const FragmentValues&,
+    std::span<const size_t>);
+template std::optional<std::vector<size_t>> failing_separately<mpq_class>(
+    const CandidateSet<mpq_class>&, std::span<const Quantity>, bool,
     const std::vector<Evaluation<mpq_class>>&, const ProbePlace&, const FragmentValues&,
     std::span<const size_t>);
 

@@ -28,7 +28,7 @@ struct Accepted {
 
 // An input's value anywhere in the hull of the points, by any of the candidates.
 template <class T>
-Accepted<T> value_over(const WideSet<T>& set, std::span<const Candidate<T>> candidates,
+Accepted<T> value_over(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
                        uint32_t plane, bool is_perspective, std::span<const Point<T>> points) {
     Accepted<T> out;
     for (const Candidate<T>& candidate : candidates) {
@@ -130,8 +130,8 @@ double high_double(const Ball& a) {
 template <class T>
 class Prober {
   public:
-    Prober(const WideSet<T>& set, std::span<const Candidate<T>> candidates, bool is_projectable,
-           const Evaluation<T>& where, const ProbePlace& place)
+    Prober(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
+           bool is_projectable, const Evaluation<T>& where, const ProbePlace& place)
         : set_(set),
           candidates_(candidates),
           is_projectable_(is_projectable),
@@ -176,8 +176,7 @@ class Prober {
         std::vector<Point<T>> points = where_.attributes;
         const double x = place_.id.x;
         const double y = place_.id.y;
-        const cases::Auxiliary auxiliary =
-            place_.draw->attributes[static_cast<size_t>(q.attribute)].auxiliary;
+        const cases::Auxiliary auxiliary = place_.draw->attributes[q.id.attribute].auxiliary;
         if (place_.target->samples > 1 && auxiliary == cases::Auxiliary::sample) {
             points = {where_.sample};  // the same sample of each pixel
         } else if (place_.target->samples > 1 && auxiliary == cases::Auxiliary::centroid) {
@@ -259,9 +258,8 @@ class Prober {
 
     // Each of the quad's pixels and each of its rows and columns may stand for the quad.
     Result judge_lod(const Quantity& q, const Quad& quad, double device) const {
-        const std::array<uint32_t, 2>& size =
-            place_.draw->attributes[static_cast<size_t>(q.attribute)].texture_size;
-        const uint32_t first_plane = q.plane - q.component;
+        const std::array<uint32_t, 2>& size = place_.draw->attributes[q.id.attribute].texture_size;
+        const uint32_t first_plane = q.plane - q.id.component;
         std::array<std::array<std::vector<Accepted<T>>, 2>, 2> m;  // of u and v, by x and y
         for (uint32_t c = 0; c < 2; ++c) {
             for (int axis = 0; axis < 2; ++axis) {
@@ -286,7 +284,7 @@ class Prober {
                     }
                 }
                 const int bits = place_.limits.mipmap_bits;
-                if (is_undefined || is_lod(lod_bounds(low, high, bits), q.component,
+                if (is_undefined || is_lod(lod_bounds(low, high, bits), q.id.component,
                                            levels_of(size), place_, device)) {
                     best = {Answer::yes, 0};
                 }
@@ -295,7 +293,7 @@ class Prober {
         return best;
     }
 
-    const WideSet<T>& set_;
+    const CandidateSet<T>& set_;
     std::span<const Candidate<T>> candidates_;
     bool is_projectable_;
     const Evaluation<T>& where_;
@@ -319,10 +317,10 @@ std::array<bool, 2> depends_on_quad(std::span<const Quantity> quantities) {
 }  // namespace
 
 template <class T>
-void judge_probes(const WideSet<T>& set, std::span<const Candidate<T>> candidates,
+void judge_probes(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
                   std::span<const Quantity> quantities, bool is_projectable,
                   const Evaluation<T>& where, const ProbePlace& place, const FragmentValues& device,
-                  std::span<const size_t> only, WideVerdict& verdict) {
+                  std::span<const size_t> only, CandidateVerdict& verdict) {
     const Prober<T> prober(set, candidates, is_projectable, where, place);
     const auto [has_quad, has_plain] = depends_on_quad(quantities);
     std::vector<size_t> failing;
@@ -372,14 +370,14 @@ void judge_probes(const WideSet<T>& set, std::span<const Candidate<T>> candidate
     }
 }
 
-template void judge_probes<Ball>(const WideSet<Ball>&, std::span<const Candidate<Ball>>,
+template void judge_probes<Ball>(const CandidateSet<Ball>&, std::span<const Candidate<Ball>>,
                                  std::span<const Quantity>, bool, const Evaluation<Ball>&,
                                  const ProbePlace&, const FragmentValues&, std::span<const size_t>,
-                                 WideVerdict&);
-template void judge_probes<mpq_class>(const WideSet<mpq_class>&,
+                                 CandidateVerdict&);
+template void judge_probes<mpq_class>(const CandidateSet<mpq_class>&,
                                       std::span<const Candidate<mpq_class>>,
                                       std::span<const Quantity>, bool, const Evaluation<mpq_class>&,
                                       const ProbePlace&, const FragmentValues&,
-                                      std::span<const size_t>, WideVerdict&);
+                                      std::span<const size_t>, CandidateVerdict&);
 
 }  // namespace ref::value

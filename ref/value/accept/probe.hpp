@@ -81,10 +81,10 @@ uint32_t levels_of(const std::array<uint32_t, 2>& texture);
 // Judges the probes (Kind::probe) against the candidates first..last of the set together. One
 // arrangement of the quad has to explain all of them. What they fail goes into the verdict.
 template <class T>
-void judge_probes(const WideSet<T>& set, std::span<const Candidate<T>> candidates,
+void judge_probes(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
                   std::span<const Quantity> quantities, bool is_projectable,
                   const Evaluation<T>& where, const ProbePlace& place, const FragmentValues& device,
-                  std::span<const size_t> only, WideVerdict& verdict);
+                  std::span<const size_t> only, CandidateVerdict& verdict);
 
 // The number that the reference expects first: even quads, the upper row or left column if coarse,
 // no rounding of offsets; for a level of detail the Euclidean one. `inv_w`, `plane`: of the basis.

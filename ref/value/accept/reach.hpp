@@ -77,15 +77,15 @@ struct Reach {
 };
 
 inline bool is_depth(const Quantity& q) {
-    return q.attribute == -2;
+    return q.id.is_depth();
 }
 inline bool is_frag_coord_z(const Quantity& q) {
-    return q.attribute == -1 && q.plane == kPlaneDepth;
+    return q.id.of == QuantityId::Of::frag_coord && q.plane == kPlaneDepth;
 }
 
 // What bias may add to a quantity; FragCoord.z may have it or not.
 template <class T>
-Range<T> bias_for(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q) {
+Range<T> bias_for(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity& q) {
     if (!set.depth.bias || !(is_depth(q) || is_frag_coord_z(q))) {
         return {};
     }
@@ -114,7 +114,7 @@ void add_hull(const Range<T>& hull, const T& widest, double device, Reach<T>& ou
 // A smooth value whose denominator binary32 cannot tell from zero. `is_covered`: a device that
 // uses this basis covers the point by the same positions, so that it is inside of its triangle.
 template <class T>
-void add_unsafe(const WideSet<T>& set, const Site<T>& site, const Plane<T>& inv_w,
+void add_unsafe(const CandidateSet<T>& set, const Site<T>& site, const Plane<T>& inv_w,
                 const Plane<T>& plane, bool is_covered, const Range<T>& hull, double device,
                 Reach<T>& out) {
     const Answer inside = is_covered ? Answer::yes : site.is_inside;
@@ -132,7 +132,7 @@ void add_unsafe(const WideSet<T>& set, const Site<T>& site, const Plane<T>& inv_
 // Adds what one basis accepts for a quantity at the sites; `widest` is the largest reach.
 // `is_covered`: as above, of each site. `at_sample`: they are the covered sample itself.
 template <class T>
-void add_reach(const WideSet<T>& set, const Basis<T>& basis, const Quantity& q,
+void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity& q,
                std::span<const Site<T>> sites, const Range<T>& hull, bool at_sample,
                bool is_covered, double device, T& widest, Reach<T>& out) {
     const T& factor = set.factor;
@@ -187,7 +187,7 @@ struct Store {
 };
 
 template <class T>
-Store store_of(const WideSet<T>& set, const Quantity& q) {
+Store store_of(const CandidateSet<T>& set, const Quantity& q) {
     Store store;
     store.viewport = set.depth.viewport;
     if (is_depth(q)) {

@@ -29,7 +29,7 @@ Generated make(const std::string& keys, uint32_t size = 64) {
     return generated ? *generated : Generated{};
 }
 
-Point at(const Generated& g, uint32_t vertex) {
+ExactPoint at(const Generated& g, uint32_t vertex) {
     return {g.vertices.at(vertex).x(), g.vertices.at(vertex).y()};
 }
 
@@ -270,7 +270,7 @@ TEST(Generate, TrianglesHaveTheirClass) {
         EXPECT_LE(abs(area), 2 / grid * (abs(t[1].x() - t[0].x()) + abs(t[1].y() - t[0].y())));
     });
     each("huge", [&](const auto& t, const mpq_class&) {
-        const Point centre{32, 32};
+        const ExactPoint centre{32, 32};
         int sides = 0;
         for (size_t i = 0; i < 3; ++i) {
             sides += sgn(

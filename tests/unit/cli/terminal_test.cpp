@@ -19,20 +19,20 @@ TEST(Progress, RateAndTimeLeft) {
 }
 
 TEST(Update, HeadersOfNewFilesFitOnlyTheirDevice) {
-    report::Run run;
-    run.device.name = "GPU [x] (1*)";
-    run.device.driver_name = "a+b (c)";
-    run.device.driver_info = "Mesa 22.3.6 (LLVM 15)";
-    const auto file = parse_expectations(new_expectation_file(run), "f", "2026-01-01");
+    report::Run drawn;
+    drawn.device.name = "GPU [x] (1*)";
+    drawn.device.driver_name = "a+b (c)";
+    drawn.device.driver_info = "Mesa 22.3.6 (LLVM 15)";
+    const auto file = run::parse_expectations(run::new_expectation_file(drawn), "f", "2026-01-01");
     ASSERT_TRUE(file);
-    EXPECT_EQ(mismatch(*file, run.device, cases::Profile::direct3d), "");
-    EXPECT_NE(mismatch(*file, run.device, cases::Profile::vulkan), "");
-    report::Device other = run.device;
+    EXPECT_EQ(run::mismatch(*file, drawn.device, cases::Profile::direct3d), "");
+    EXPECT_NE(run::mismatch(*file, drawn.device, cases::Profile::vulkan), "");
+    report::Device other = drawn.device;
     other.name = "GPU x (12)";
-    EXPECT_NE(mismatch(*file, other, cases::Profile::direct3d), "");
-    other = run.device;
+    EXPECT_NE(run::mismatch(*file, other, cases::Profile::direct3d), "");
+    other = drawn.device;
     other.driver_info = "Mesa 22.4.0";
-    EXPECT_NE(mismatch(*file, other, cases::Profile::direct3d), "");
+    EXPECT_NE(run::mismatch(*file, other, cases::Profile::direct3d), "");
 }
 
 TEST(CommandTable, EveryCommandAndOptionIsDescribed) {

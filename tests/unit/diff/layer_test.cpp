@@ -65,7 +65,7 @@ TEST(LayeredCompare, AMissingSampleIsNamedWithItsLayer) {
     EXPECT_EQ(v.min_y, 5U);  // rows of the stacked layers
     EXPECT_EQ(v.max_y, 5U);
     EXPECT_EQ(v.marks[k.at(2, 1, 1)], diff::SampleMark::missing);
-    EXPECT_EQ(cases::pixel_text(k.c.target, diff::place_of(v.findings[0])),
+    EXPECT_EQ(cases::pixel_text(k.c.target, diff::sample_of(v.findings[0])),
               "layer 1, pixel (2, 1)");
 }
 

@@ -42,9 +42,9 @@ TEST(BlockIntegers, RoundingUpMovesTheExponent) {
 TEST(BlockIntegers, StepsAreAdditions) {
     const Corners t{{{100, 50}, {4000, 300}, {700, 3900}}};
     const NineTerms terms = nine_terms(t, {128, 128}, {{30000, 20001, 17}, 3}, 15);
-    std::array<Int128, 3> row = terms.first;
+    std::array<ref::Int128, 3> row = terms.first;
     for (int64_t l = 0; l < 12; ++l) {
-        std::array<Int128, 3> n = row;
+        std::array<ref::Int128, 3> n = row;
         for (int64_t k = 0; k < 12; ++k) {
             EXPECT_TRUE(n == at_pixel(terms, k, l));
             for (size_t i = 0; i < 3; ++i) {
@@ -66,7 +66,7 @@ TEST(BlockIntegers, ExactTermsAreEquationElevenExactly) {
         const Areas areas = areas_at(t, {128 + k * kPixel, 128 + 3 * kPixel});
         const auto n = at_pixel(terms, k, 3);
         for (size_t i = 0; i < 3; ++i) {
-            EXPECT_TRUE(n[i] == Int128{products.q[i]} * areas.part[i]);
+            EXPECT_TRUE(n[i] == ref::Int128{products.q[i]} * areas.part[i]);
         }
     }
 }

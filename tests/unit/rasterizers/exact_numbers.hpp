@@ -18,8 +18,8 @@
 
 namespace rasterizers::test {
 
-inline mpz_class to_mpz(Int128 v) {
-    const Int128 magnitude = v < 0 ? -v : v;
+inline mpz_class to_mpz(ref::Int128 v) {
+    const ref::Int128 magnitude = v < 0 ? -v : v;
     mpz_class out(static_cast<unsigned long>(static_cast<uint64_t>(magnitude >> 64)));
     out <<= 64;
     out += static_cast<unsigned long>(static_cast<uint64_t>(magnitude));
@@ -67,13 +67,13 @@ struct BlockLoss {
 
 // A clockwise triangle with a pixel that is k columns and l rows from the first; n bits for w and
 // its products, m for the nine terms (0: exact).
-inline BlockLoss block_loss(const Corners& t, const Point& first, int64_t k, int64_t l,
+inline BlockLoss block_loss(const Corners& t, const SubpixelPoint& first, int64_t k, int64_t l,
                             const std::array<float, 3>& w, int n, int m) {
     const Areas areas = areas_at(t, {first.x + k * kPixel, first.y + l * kPixel});
     const Block w_block = normalise_w(w, n);
     const Block products = normalise_products(w_block, n);
     const NineTerms terms = nine_terms(t, first, products, m);
-    const std::array<Int128, 3> computed = at_pixel(terms, k, l);
+    const std::array<ref::Int128, 3> computed = at_pixel(terms, k, l);
 
     const std::array<mpq_class, 3> b = exact_perspective(areas, w);
     const mpz_class sum = to_mpz(computed[0]) + to_mpz(computed[1]) + to_mpz(computed[2]);

@@ -13,10 +13,12 @@ namespace {
 
 using test::RandomTriangles;
 
-bool covers_exactly(const Corners& t, const Point& p) {
-    constexpr int64_t kScale = kFixedOne / kPixel;
-    const auto fixed = [](const Point& q) { return FixedPoint{q.x * kScale, q.y * kScale}; };
-    return exact::covers(fixed(t[0]), fixed(t[1]), fixed(t[2]), fixed(p));
+bool covers_exactly(const Corners& t, const SubpixelPoint& p) {
+    constexpr int64_t kScale = ref::kFixedOne / kPixel;
+    const auto fixed = [](const SubpixelPoint& q) {
+        return ref::FixedPoint{q.x * kScale, q.y * kScale};
+    };
+    return ref::exact::covers(fixed(t[0]), fixed(t[1]), fixed(t[2]), fixed(p));
 }
 
 // Of 20000 samples beside an edge, how many binary32 puts on the wrong side.
@@ -63,8 +65,8 @@ TEST(FloatAreas, LossIsWithinItsBound) {
         }
         const int64_t s = random.integer(0, 1000);
         const int64_t r = random.integer(0, 1000 - s);
-        const Point p{((*t)[0].x * (1000 - s - r) + (*t)[1].x * s + (*t)[2].x * r) / 1000,
-                      ((*t)[0].y * (1000 - s - r) + (*t)[1].y * s + (*t)[2].y * r) / 1000};
+        const SubpixelPoint p{((*t)[0].x * (1000 - s - r) + (*t)[1].x * s + (*t)[2].x * r) / 1000,
+                              ((*t)[0].y * (1000 - s - r) + (*t)[1].y * s + (*t)[2].y * r) / 1000};
         const Values z{static_cast<float>(random.integer(-1000000, 1000000)),
                        static_cast<float>(random.integer(-1000000, 1000000)),
                        static_cast<float>(random.integer(-1000, 1000))};

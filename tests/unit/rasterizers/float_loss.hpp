@@ -24,7 +24,7 @@ struct FloatLoss {
     bool is_bounded = false;          // of the first two
 };
 
-inline FloatLoss float_loss(const Corners& t, const Point& p, const Values& values) {
+inline FloatLoss float_loss(const Corners& t, const SubpixelPoint& p, const Values& values) {
     const Areas areas = areas_at(t, p);
     const auto l = exact_barycentrics(areas);
     std::array<mpq_class, 3> z;
@@ -49,7 +49,8 @@ inline FloatLoss float_loss(const Corners& t, const Point& p, const Values& valu
         rounding_bound(7) * (abs(l[1]) * d1 + abs(l[2]) * d2) + rounding_bound(2) * abs(z[0])};
 
     // M of the header, in units of areas.
-    const auto magnitude = [](const Point& a, const Point& b, const Point& q) {
+    const auto magnitude = [](const SubpixelPoint& a, const SubpixelPoint& b,
+                              const SubpixelPoint& q) {
         return mpq_class(abs(mpz_class((b.x - a.x) * (q.y - a.y))) +
                          abs(mpz_class((b.y - a.y) * (q.x - a.x))));
     };

@@ -27,7 +27,7 @@ mpq_class g(int k) {
 
 struct Case {
     Corners triangle;
-    Point point;
+    SubpixelPoint point;
     Areas areas;
     Values z{}, w{};
 };
@@ -47,8 +47,8 @@ class RandomInterpolations {
             }
             const int64_t s = random_.integer(0, 1000);
             const int64_t t = random_.integer(0, 1000 - s);
-            const Point p{(v0.x * (1000 - s - t) + v1.x * s + v2.x * t) / 1000,
-                          (v0.y * (1000 - s - t) + v1.y * s + v2.y * t) / 1000};
+            const SubpixelPoint p{(v0.x * (1000 - s - t) + v1.x * s + v2.x * t) / 1000,
+                                  (v0.y * (1000 - s - t) + v1.y * s + v2.y * t) / 1000};
             c.point = p;
             c.areas = areas_at(c.triangle, p);
             const bool inside = std::min({c.areas.part[0], c.areas.part[1], c.areas.part[2]}) >= 0;
@@ -229,8 +229,8 @@ TEST(Interpolation, EquationNineIsTheQuotientRule) {
         const auto w = [&](size_t k) { return exact(c.w[k]); };
         const std::array<mpq_class, 3> q{w(1) * w(2), w(2) * w(0), w(0) * w(1)};
         const std::array<mpq_class, 3> z{exact(c.z[0]), exact(c.z[1]), exact(c.z[2])};
-        const Point p = c.point;
-        const auto numerator_and_sum = [&](const Point& at) {
+        const SubpixelPoint p = c.point;
+        const auto numerator_and_sum = [&](const SubpixelPoint& at) {
             std::pair<mpq_class, mpq_class> out;
             for (size_t k = 0; k < 3; ++k) {
                 const mpq_class a =
@@ -244,7 +244,7 @@ TEST(Interpolation, EquationNineIsTheQuotientRule) {
         if (sgn(sum) == 0) {
             continue;
         }
-        const auto derivative = [&, &num_ = num, &sum_ = sum](const Point& beside) {
+        const auto derivative = [&, &num_ = num, &sum_ = sum](const SubpixelPoint& beside) {
             const auto [num_1, sum_1] = numerator_and_sum(beside);
             return mpq_class(((num_1 - num_) * sum_ - num_ * (sum_1 - sum_)) / (sum_ * sum_));
         };

@@ -23,9 +23,9 @@ class RandomTriangles {
     Corners triangle(int64_t kind, int64_t size) {
         const int64_t reach = size * kPixel;
         Corners t;
-        const Point home{integer(0, reach), integer(0, reach)};
+        const SubpixelPoint home{integer(0, reach), integer(0, reach)};
         const int64_t slope = integer(-300, 300);
-        for (Point& p : t) {
+        for (SubpixelPoint& p : t) {
             switch (kind) {
                 case 0:  // sample centres: every edge is full of ties
                     p = {integer(0, size - 1) * kPixel + 128, integer(0, size - 1) * kPixel + 128};
@@ -68,14 +68,15 @@ class RandomTriangles {
     // middle, within 1/256 pixel in x and in y.
     struct BesideEdge {
         Corners triangle;
-        Point sample;
+        SubpixelPoint sample;
     };
     BesideEdge beside_edge(int64_t size) {
         const int64_t reach = size * kPixel;
         for (;;) {
-            const Point p{integer(0, size - 1) * kPixel + 128, integer(0, size - 1) * kPixel + 128};
-            const Point a{integer(0, reach), integer(0, reach)};
-            const Point b{2 * p.x - a.x + integer(-1, 1), 2 * p.y - a.y + integer(-1, 1)};
+            const SubpixelPoint p{integer(0, size - 1) * kPixel + 128,
+                                  integer(0, size - 1) * kPixel + 128};
+            const SubpixelPoint a{integer(0, reach), integer(0, reach)};
+            const SubpixelPoint b{2 * p.x - a.x + integer(-1, 1), 2 * p.y - a.y + integer(-1, 1)};
             if (std::min(b.x, b.y) < 0 || std::max(b.x, b.y) > reach) {
                 continue;
             }

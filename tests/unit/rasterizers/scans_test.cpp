@@ -17,14 +17,14 @@ namespace {
 
 using test::RandomTriangles;
 
-FixedPoint to_fixed(const Point& p) {
-    constexpr int64_t kScale = kFixedOne / kPixel;
+ref::FixedPoint to_fixed(const SubpixelPoint& p) {
+    constexpr int64_t kScale = ref::kFixedOne / kPixel;
     return {p.x * kScale, p.y * kScale};
 }
 
 // One character a pixel of the rectangle; 'X' for a pixel that came twice or lies outside.
 std::string draw(const NamedScan& scan, const Corners& t, const PixelRect& rect,
-                 const Point& offset, Work* work = nullptr) {
+                 const SubpixelPoint& offset, Work* work = nullptr) {
     Picture picture;
     scan.scan(t, rect, offset, picture);
     const auto width = static_cast<size_t>(rect.x1 - rect.x0);
@@ -45,12 +45,12 @@ std::string draw(const NamedScan& scan, const Corners& t, const PixelRect& rect,
     return out;
 }
 
-std::string draw_exactly(const Corners& t, const PixelRect& rect, const Point& offset) {
+std::string draw_exactly(const Corners& t, const PixelRect& rect, const SubpixelPoint& offset) {
     std::string out;
     for (int64_t y = rect.y0; y < rect.y1; ++y) {
         for (int64_t x = rect.x0; x < rect.x1; ++x) {
-            out += exact::covers(to_fixed(t[0]), to_fixed(t[1]), to_fixed(t[2]),
-                                 to_fixed(sample_of(x, y, offset)))
+            out += ref::exact::covers(to_fixed(t[0]), to_fixed(t[1]), to_fixed(t[2]),
+                                      to_fixed(sample_of(x, y, offset)))
                        ? '#'
                        : '.';
         }
@@ -60,7 +60,7 @@ std::string draw_exactly(const Corners& t, const PixelRect& rect, const Point& o
 
 std::string describe(const Corners& t) {
     std::string out;
-    for (const Point& p : t) {
+    for (const SubpixelPoint& p : t) {
         out += "(" + std::to_string(p.x) + "," + std::to_string(p.y) + ") ";
     }
     return out + "in 1/256 pixel";
@@ -83,7 +83,7 @@ TEST(Scans, AgreeWithTheOracleOnRandomTriangles) {
             rect.x1 = random.integer(rect.x0 + 1, size);
             rect.y1 = random.integer(rect.y0 + 1, size);
         }
-        Point offset{128, 128};
+        SubpixelPoint offset{128, 128};
         if (n % 7 == 0) {
             offset = {random.integer(0, 15) * 16, random.integer(0, 15) * 16};
         }
@@ -110,12 +110,12 @@ TEST(Scans, AgreeAcrossTilesAndFarFromTheOrigin) {
         const int64_t size = random.integer(60, 150);
         const int64_t far = n % 2 == 0 ? 0 : kMaxPixel - size;
         Corners t = random.triangle(n % RandomTriangles::kKinds, size);
-        for (Point& p : t) {
+        for (SubpixelPoint& p : t) {
             p = {std::clamp(p.x + far * kPixel, -kMaxCoordinate, kMaxCoordinate),
                  std::clamp(p.y + far * kPixel, -kMaxCoordinate, kMaxCoordinate)};
         }
         const PixelRect rect{far, far, far + size, far + size};
-        const Point offset{128, 128};
+        const SubpixelPoint offset{128, 128};
         const std::string expected = draw_exactly(t, rect, offset);
         covered += static_cast<uint64_t>(std::count(expected.begin(), expected.end(), '#'));
         for (const NamedScan& scan : all_scans()) {
@@ -134,7 +134,7 @@ TEST(Scans, AgreeAtTheLimitsOfTheFormat) {
     const PixelRect rects[] = {{0, 0, 5, 5}, {kMaxPixel - 5, kMaxPixel - 5, kMaxPixel, kMaxPixel}};
     for (int n = 0; n < 4000; ++n) {
         Corners t;
-        for (Point& p : t) {
+        for (SubpixelPoint& p : t) {
             p = {values[random.integer(0, 8)], values[random.integer(0, 8)]};
         }
         for (const PixelRect& rect : rects) {
@@ -155,7 +155,7 @@ TEST(Scans, AgreeOneUnitOfAreaBesideAnEdge) {
     RandomTriangles random(23);
     int beside = 0;
     for (int n = 0; n < 4000; ++n) {
-        const Point p = sample_of(random.integer(1, 14), random.integer(1, 14), {128, 128});
+        const SubpixelPoint p = sample_of(random.integer(1, 14), random.integer(1, 14), {128, 128});
         const int64_t dx = random.integer(-1500, 1500);
         const int64_t dy = random.integer(1, 3000);
         // (u, v) with dx v - dy u = +-1, by the extended Euclidean algorithm.
@@ -173,7 +173,7 @@ TEST(Scans, AgreeOneUnitOfAreaBesideAnEdge) {
         }
         const int64_t v = dx < 0 ? -s0 : s0;  // dx v = 1 (mod dy)
         const int64_t sign = random.integer(0, 1) * 2 - 1;
-        const Point a{p.x - sign * ((dx * v - 1) / dy), p.y - sign * v};
+        const SubpixelPoint a{p.x - sign * ((dx * v - 1) / dy), p.y - sign * v};
         const Corners t{
             {a, {a.x + dx, a.y + dy}, {random.integer(0, 4096), random.integer(0, 4096)}}};
         const int64_t e = edge_function(t[0], t[1], p);
@@ -247,7 +247,7 @@ TEST(Edges, Identities) {
     RandomTriangles random(11);
     for (int n = 0; n < 20000; ++n) {
         const Corners t = random.triangle(n % RandomTriangles::kKinds, 12);
-        const Point p{random.integer(-5000, 5000), random.integer(-5000, 5000)};
+        const SubpixelPoint p{random.integer(-5000, 5000), random.integer(-5000, 5000)};
         const auto& [a, b, c] = t;
         EXPECT_EQ(edge_function(a, b, p), -edge_function_counter(a, b, p));
         EXPECT_EQ(edge_function(a, b, p), -edge_function(b, a, p));
@@ -271,7 +271,7 @@ TEST(Edges, TriangleOfTheLesson) {
     uint64_t inclusive = 0;
     for (int64_t j = 0; j < 512; ++j) {
         for (int64_t i = 0; i < 512; ++i) {
-            const Point p = sample_of(i, j, {128, 128});
+            const SubpixelPoint p = sample_of(i, j, {128, 128});
             inclusive += edge_function(t[1], t[0], p) >= 0 && edge_function(t[0], t[2], p) >= 0 &&
                                  edge_function(t[2], t[1], p) >= 0
                              ? 1U

@@ -117,11 +117,11 @@ TEST(Samples, TheTargetsOwnLocationsTakeTheStandardOnesPlace) {
 }
 
 TEST(Samples, BothMasksLetASampleThrough) {
-    EXPECT_TRUE(is_in_mask({}, 15));
-    EXPECT_FALSE(is_in_mask({5U, {}, {}}, 1));
-    EXPECT_TRUE(is_in_mask({5U, {}, {}}, 2));
-    EXPECT_FALSE(is_in_mask({5U, 3U, {}}, 2));
-    EXPECT_TRUE(is_in_mask({5U, 3U, {}}, 0));
+    EXPECT_TRUE(cases::is_in_mask({}, 15));
+    EXPECT_FALSE(cases::is_in_mask({5U, {}, {}}, 1));
+    EXPECT_TRUE(cases::is_in_mask({5U, {}, {}}, 2));
+    EXPECT_FALSE(cases::is_in_mask({5U, 3U, {}}, 2));
+    EXPECT_TRUE(cases::is_in_mask({5U, 3U, {}}, 0));
 }
 
 }  // namespace

@@ -134,11 +134,11 @@ TEST(github, bytes_of_drivers_cannot_make_commands_or_markup) {
         r.rerun += "\n::warning::x";
     }
     const std::string text = to_github_annotations(run, "/x");
-    EXPECT_TRUE(is_utf8(text));
+    EXPECT_TRUE(cases::is_utf8(text));
     EXPECT_EQ(lines_with(text, "::error::"), 0U);
     EXPECT_EQ(lines_with(text, "::"), lines_with(text, "::error file="));
     const std::string summary = to_github_summary(run);
-    EXPECT_TRUE(is_utf8(summary));
+    EXPECT_TRUE(cases::is_utf8(summary));
     std::istringstream lines(summary);
     for (std::string line; std::getline(lines, line);) {
         // Markdown shows an indented block as it is.
@@ -219,7 +219,7 @@ TEST(merge, puts_parts_together_or_says_why_not) {
     wrong[1].run.tool_version = "9";
     ASSERT_FALSE(merge_runs(wrong));
     EXPECT_EQ(merge_runs(wrong).error().message,
-              "the version of edgecase is '0.1.0' in a and '9' in b; only parts of one run can be "
+              "the version of edgecase is '0.2.0' in a and '9' in b; only parts of one run can be "
               "merged, use 'edgecase compare' for different ones");
     EXPECT_FALSE(merge_runs({}));
 }

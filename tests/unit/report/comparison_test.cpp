@@ -65,9 +65,9 @@ TEST(comparison, hostile_bytes_are_inert) {
     const auto comparison = compare_runs(runs);
     ASSERT_TRUE(comparison);
     const std::string text = comparison_text(runs, *comparison, {false, true, 100});
-    EXPECT_TRUE(is_utf8(text));
+    EXPECT_TRUE(cases::is_utf8(text));
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
-    EXPECT_TRUE(is_utf8(comparison_json(runs, *comparison)));
+    EXPECT_TRUE(cases::is_utf8(comparison_json(runs, *comparison)));
     EXPECT_FALSE(nlohmann::json::parse(comparison_json(runs, *comparison)).empty());
 }
 

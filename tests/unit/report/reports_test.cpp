@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cases/base/printable.hpp"
 #include "cases/base/utf8.hpp"
 #include "report/files/json.hpp"
 #include "report/files/junit.hpp"
@@ -56,35 +57,35 @@ std::string console_of(const Run& run, const ConsoleStyle& style) {
 }
 
 void expect_clean(const std::string& text) {
-    EXPECT_TRUE(is_utf8(text));
+    EXPECT_TRUE(cases::is_utf8(text));
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
     EXPECT_EQ(text.find('\0'), std::string::npos);
     EXPECT_EQ(text.find("\xe2\x80\xa8"), std::string::npos);
 }
 
 TEST(printable, shows_what_a_terminal_would_obey) {
-    EXPECT_EQ(printable("plain \xc3\xa4\n\tx"), "plain \xc3\xa4\n\tx");
-    EXPECT_EQ(printable("\x1b[31m"), "\\x1b[31m");
-    EXPECT_EQ(printable(std::string("\0", 1)), "\\x00");
-    EXPECT_EQ(printable("\xff"), "\\xff");
-    EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");
-    EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");
-    EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
-    EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");           // CSI in one character
-    EXPECT_EQ(printable("\xe2\x80\xae"), "\\xe2\\x80\\xae");  // right-to-left override
-    EXPECT_EQ(printable("\xef\xbf\xbf"), "\\xef\\xbf\\xbf");
-    EXPECT_EQ(printable("\xf0\x9f\x98\x80"), "\xf0\x9f\x98\x80");
-    EXPECT_EQ(printable("\xf0\x9f\x98"), "\\xf0\\x9f\\x98");
-    EXPECT_EQ(printable("\r\n"), "\\x0d\n");
+    EXPECT_EQ(cases::printable("plain \xc3\xa4\n\tx"), "plain \xc3\xa4\n\tx");
+    EXPECT_EQ(cases::printable("\x1b[31m"), "\\x1b[31m");
+    EXPECT_EQ(cases::printable(std::string("\0", 1)), "\\x00");
+    EXPECT_EQ(cases::printable("\xff"), "\\xff");
+    EXPECT_EQ(cases::printable("\xc0\xaf"), "\\xc0\\xaf");
+    EXPECT_EQ(cases::printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");
+    EXPECT_EQ(cases::printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
+    EXPECT_EQ(cases::printable("\xc2\x9b"), "\\xc2\\x9b");           // CSI in one character
+    EXPECT_EQ(cases::printable("\xe2\x80\xae"), "\\xe2\\x80\\xae");  // right-to-left override
+    EXPECT_EQ(cases::printable("\xef\xbf\xbf"), "\\xef\\xbf\\xbf");
+    EXPECT_EQ(cases::printable("\xf0\x9f\x98\x80"), "\xf0\x9f\x98\x80");
+    EXPECT_EQ(cases::printable("\xf0\x9f\x98"), "\\xf0\\x9f\\x98");
+    EXPECT_EQ(cases::printable("\r\n"), "\\x0d\n");
 }
 
 TEST(printable, of_every_byte_pair_is_clean) {
     for (unsigned a = 0; a < 256; ++a) {
         for (unsigned b = 0; b < 256; ++b) {
             const std::string bytes{static_cast<char>(a), static_cast<char>(b)};
-            const std::string text = printable(bytes);
-            ASSERT_TRUE(is_utf8(text)) << a << " " << b;
-            ASSERT_EQ(printable(text), text);
+            const std::string text = cases::printable(bytes);
+            ASSERT_TRUE(cases::is_utf8(text)) << a << " " << b;
+            ASSERT_EQ(cases::printable(text), text);
         }
     }
 }
@@ -282,7 +283,7 @@ TEST(html, its_data_is_json_with_every_case) {
         nlohmann::ordered_json::parse(page.substr(begin, page.find("</script>", begin) - begin));
     ASSERT_EQ(json.at("cases").size(), run.cases.size());
     EXPECT_EQ(json.at("cases").at(3).at("findings").size(), 5U);
-    EXPECT_EQ(json.at("cases").at(3).at("id"), printable(run.cases[3].id));
+    EXPECT_EQ(json.at("cases").at(3).at("id"), cases::printable(run.cases[3].id));
 }
 
 TEST(html, thousands_of_failures_stay_small) {

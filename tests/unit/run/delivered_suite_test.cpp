@@ -9,8 +9,8 @@
 #include <map>
 
 #include "cases/load/loader.hpp"
-#include "cli/prepare/run_plan.hpp"
 #include "diff/delivered.hpp"
+#include "run/order.hpp"
 #include "run/worker/backend.hpp"
 
 namespace run {
@@ -29,7 +29,7 @@ std::vector<cases::Case> some_cases() {
             vertices += d.indices ? d.indices->size() : d.positions.size();
         }
         const uint64_t samples = uint64_t{c.target.width} * c.target.height * c.target.samples;
-        if (!c.blit && shard_of(c.id, kParts) == 1 && samples <= 1U << 12U &&
+        if (!c.blit && run::shard_of(c.id, kParts) == 1 && samples <= 1U << 12U &&
             vertices <= 1U << 12U) {
             out.push_back(std::move(c));
         }
@@ -80,7 +80,7 @@ capture::Capture empty_picture(cases::Case c) {
     for (cases::Draw& d : c.draws) {
         d.cull = cases::CullMode::front_and_back;
     }
-    return draw_by_reference(c);
+    return rasterizers::draw_by_reference(c);
 }
 
 TEST(DeliveredSuite, NoPlaneGivesAFalseAlarmAndNoEmptyOnePasses) {
@@ -93,7 +93,8 @@ TEST(DeliveredSuite, NoPlaneGivesAFalseAlarmAndNoEmptyOnePasses) {
         whole.target.has_depth = true;
         const ref::Expectation e = ref::expect(c, {}, cases::Profile::direct3d);
         const bool has_color = c.target.color.has_value();
-        for (const auto& [name, planes] : deliveries(draw_by_reference(whole), has_color)) {
+        for (const auto& [name, planes] :
+             deliveries(rasterizers::draw_by_reference(whole), has_color)) {
             const diff::Verdict v = diff::compare_delivered(c, e, planes);
             const bool is_told = v.error.find("a picture in which nothing is drawn") !=
                                  std::string::npos;  // depth and colour cannot always tell

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/depth/depth_test.hpp"
+#include "ref/depth/outcome.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "ref/depth/depth_compare.hpp"
+#include "ref/depth/compare.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 
 namespace ref {
@@ -22,9 +22,9 @@ using value::Answer;
 using value::Ball;
 using value::compare;
 using value::compare_sign;
+using value::DepthRange;
 using value::is_positive;
 using value::Outcome;
-using value::Span;
 using value::with_neighbours;
 
 constexpr int kClear = -1;  // instead of a candidate's number
@@ -60,9 +60,9 @@ struct DepthTest::Impl {
     // What is known of a triangle in one kind of number.
     template <class T>
     struct Known {
-        std::optional<value::WideSet<T>> set;
+        std::optional<value::CandidateSet<T>> set;
         uint64_t stamp = 0;  // of the sample that `span` belongs to
-        std::optional<Span<T>> span;
+        std::optional<DepthRange<T>> span;
     };
     struct Loaded {
         value::Primitive primitive;
@@ -78,8 +78,8 @@ struct DepthTest::Impl {
     value::Quantity depth;
     std::vector<std::unique_ptr<Loaded>> loaded;
     double steps;
-    Span<Ball> clear_ball;
-    Span<mpq_class> clear_exact;
+    DepthRange<Ball> clear_ball;
+    DepthRange<mpq_class> clear_exact;
     FixedPoint at;       // the sample whose spans are kept
     uint64_t stamp = 1;  // counts samples
 
@@ -95,7 +95,7 @@ struct DepthTest::Impl {
         depth.kind = value::Kind::linear;
         depth.at_sample = true;
         depth.plane = value::kPlaneDepth;
-        depth.attribute = -2;
+        depth.id = {};
         const mpq_class value(static_cast<double>(c.target.depth_clear));
         clear_exact = *with_neighbours<mpq_class>({value, value}, steps);
         clear_ball = {false, value::from_exact<Ball>(clear_exact.low),
@@ -120,7 +120,7 @@ struct DepthTest::Impl {
     }
 
     template <class T>
-    const Span<T>& clear() const {
+    const DepthRange<T>& clear() const {
         if constexpr (std::is_same_v<T, Ball>) {
             return clear_ball;
         } else {
@@ -130,14 +130,14 @@ struct DepthTest::Impl {
 
     // The depths of triangle t at p; nothing if T cannot tell.
     template <class T>
-    std::optional<Span<T>> make_span(uint32_t t, const FixedPoint& p) {
+    std::optional<DepthRange<T>> make_span(uint32_t t, const FixedPoint& p) {
         const value::Primitive& primitive = load(t).primitive;
         if (!primitive.is_finite) {
-            return Span<T>{true, {}, {}};
+            return DepthRange<T>{true, {}, {}};
         }
-        std::optional<value::WideSet<T>>& set = known<T>(t).set;
+        std::optional<value::CandidateSet<T>>& set = known<T>(t).set;
         if (!set) {
-            set = value::make_wide_set<T>(primitive, {&depth, 1}, limits, profile);
+            set = value::make_candidates<T>(primitive, {&depth, 1}, limits, profile);
         }
         if (!set->is_known) {
             return std::nullopt;
@@ -148,14 +148,14 @@ struct DepthTest::Impl {
             return std::nullopt;
         }
         if (reach.is_free) {
-            return Span<T>{true, {}, {}};
+            return DepthRange<T>{true, {}, {}};
         }
         return with_neighbours<T>(reach.range, steps);
     }
 
     // The same, or what depth was cleared to; the last sample's answers are kept.
     template <class T>
-    std::optional<Span<T>> span_of(int t, const FixedPoint& p) {
+    std::optional<DepthRange<T>> span_of(int t, const FixedPoint& p) {
         if (t == kClear) {
             return clear<T>();
         }

@@ -16,7 +16,7 @@ namespace {
 
 using cases::Profile;
 using ref::value::Ball;
-using ref::value::WideVerdict;
+using ref::value::CandidateVerdict;
 
 double uniform(std::mt19937_64& rng, double low, double high) {
     return low + (high - low) * static_cast<double>(rng() >> 11U) * 0x1p-53;
@@ -77,7 +77,7 @@ struct Random {
         for (size_t a = 0; a < 2; ++a) {
             for (uint32_t k = 0; k < sampled.c.draws[0].attributes[a].components; ++k) {
                 float& v = out.attributes[a][static_cast<int>(k)];
-                const auto range = loose.range(0, id, static_cast<int32_t>(a), k);
+                const auto range = loose.range(0, id, ref::QuantityId::of_attribute(a, k));
                 if (range.is_promised && rng() % 2 == 0) {
                     const double width = range.high - range.low;
                     v = static_cast<float>((rng() % 2 == 0 ? range.low : range.high) +
@@ -91,18 +91,19 @@ struct Random {
     }
 
     template <class T>
-    ref::value::WideSet<T> set(Profile at) const {
-        return ref::value::make_wide_set<T>(primitive, quantities, ref::Limits{}, at);
+    ref::value::CandidateSet<T> set(Profile at) const {
+        return ref::value::make_candidates<T>(primitive, quantities, ref::Limits{}, at);
     }
     ref::value::ProbePlace place(Profile at) const {
         return {fragment.id, fragment.target, fragment.draw, ref::Limits{}, at};
     }
     template <class T>
-    WideVerdict judge(const ref::value::WideSet<T>& wide,
-                      const std::vector<ref::value::Evaluation<T>>& evaluations, Profile at,
-                      const ref::FragmentValues& device) const {
-        return ref::value::judge_wide(wide, std::span<const ref::value::Quantity>(quantities),
-                                      primitive.is_projectable, evaluations, place(at), device, {});
+    CandidateVerdict judge(const ref::value::CandidateSet<T>& wide,
+                           const std::vector<ref::value::Evaluation<T>>& evaluations, Profile at,
+                           const ref::FragmentValues& device) const {
+        return ref::value::judge_candidates(wide, std::span<const ref::value::Quantity>(quantities),
+                                            primitive.is_projectable, evaluations, place(at),
+                                            device, {});
     }
 };
 
@@ -118,7 +119,7 @@ TEST(ValueAlone, FailsWhatTheWholeSetFails) {
         }
         for (const double spread : {1e-5, 1e-3, 0.03, 1.0}) {
             const ref::FragmentValues device = r.device(rng, spread);
-            const auto failing = ref::value::failing_alone(
+            const auto failing = ref::value::failing_separately(
                 balls, std::span<const ref::value::Quantity>(r.quantities),
                 r.primitive.is_projectable,
                 ref::value::evaluations<Ball>(r.fragment, Profile::vulkan),
@@ -153,10 +154,10 @@ TEST(ValueAlone, EvaluationsShareWhatIsTheSame) {
             }
             const auto evaluations = ref::value::evaluations<Ball>(r.fragment, at);
             const ref::FragmentValues device = r.device(rng, n % 2 == 0 ? 1e-3 : 0.1);
-            std::optional<WideVerdict> best;
+            std::optional<CandidateVerdict> best;
             bool is_known = true;
             for (const auto& where : evaluations) {
-                WideVerdict one = r.judge(set, {where}, at, device);
+                CandidateVerdict one = r.judge(set, {where}, at, device);
                 is_known = is_known && one.is_known;
                 if (!best || one.failing.size() < best->failing.size() ||
                     (one.failing.size() == best->failing.size() &&
@@ -167,7 +168,7 @@ TEST(ValueAlone, EvaluationsShareWhatIsTheSame) {
                     break;
                 }
             }
-            const WideVerdict all = r.judge(set, evaluations, at, device);
+            const CandidateVerdict all = r.judge(set, evaluations, at, device);
             ASSERT_EQ(all.is_known, is_known) << n;
             if (!is_known) {
                 continue;

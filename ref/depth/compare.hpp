@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "ref/depth/depth_test.hpp"
+#include "ref/depth/outcome.hpp"
 #include "ref/number/ball.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 
@@ -18,7 +18,7 @@ using cases::CompareOp;
 
 // A range of depths as they may take part in a comparison.
 template <class T>
-struct Span {
+struct DepthRange {
     bool is_free = false;
     T low{}, high{};
 };
@@ -36,17 +36,17 @@ inline std::optional<double> floor_of(const mpq_class& a) {
 
 // Each value itself or either neighbour among the codes.
 template <class T>
-std::optional<Span<T>> with_neighbours(const Range<T>& z, double steps) {
+std::optional<DepthRange<T>> with_neighbours(const Range<T>& z, double steps) {
     if (steps <= 0) {
-        return Span<T>{false, z.low, z.high};
+        return DepthRange<T>{false, z.low, z.high};
     }
     const std::optional<double> low = floor_of(T(z.low * T(steps)));
     const std::optional<double> minus_high = floor_of(T(-T(z.high * T(steps))));
     if (!low || !minus_high) {
         return std::nullopt;
     }
-    return Span<T>{false, smaller(T(T(*low) / T(steps)), z.low),
-                   larger(T(T(-*minus_high) / T(steps)), z.high)};
+    return DepthRange<T>{false, smaller(T(T(*low) / T(steps)), z.low),
+                         larger(T(T(-*minus_high) / T(steps)), z.high)};
 }
 
 // Three-valued, or nothing if T cannot tell.
@@ -76,7 +76,7 @@ inline Outcome opposite(const Outcome& o) {
 
 // Whether a < b; strictly less is what is_at_most() denies the other way round.
 template <class T>
-Outcome is_less(const Span<T>& a, const Span<T>& b) {
+Outcome is_less(const DepthRange<T>& a, const DepthRange<T>& b) {
     const auto negated = [](Answer answer) {
         return answer == Answer::yes ? Answer::no : answer == Answer::no ? Answer::yes : answer;
     };
@@ -84,7 +84,7 @@ Outcome is_less(const Span<T>& a, const Span<T>& b) {
 }
 
 template <class T>
-Outcome is_equal(const Span<T>& a, const Span<T>& b) {
+Outcome is_equal(const DepthRange<T>& a, const DepthRange<T>& b) {
     const Outcome less = is_less(a, b);
     const Outcome greater = is_less(b, a);
     if (less == DepthOutcome::passes || greater == DepthOutcome::passes) {
@@ -106,7 +106,7 @@ Outcome is_equal(const Span<T>& a, const Span<T>& b) {
 }
 
 template <class T>
-Outcome compare(CompareOp op, const Span<T>& fragment, const Span<T>& stored) {
+Outcome compare(CompareOp op, const DepthRange<T>& fragment, const DepthRange<T>& stored) {
     switch (op) {
         case CompareOp::never:
             return DepthOutcome::fails;

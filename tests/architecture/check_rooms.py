@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Holds the sources to the table of folders in docs/design.md ("Rooms and folders").
+
+Each row of that table names a folder, the file to read first, and the folders that it may include (a folder stands
+for all inside it). Checked: every folder with sources has one row; includes follow the rows; the arrows run one way;
+the file to read first exists; a folder has at most MOST_FILES files; libraries stay where they belong; no file is
+compiled into two libraries; nothing lists the planes of a capture or the fields of a structure a second time.
+
+usage: check_rooms.py SOURCE_DIR [COMPILE_COMMANDS] | --self-test
+"""
+import collections
+import json
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+
+MOST_FILES = 24
+# Third-party headers that belong to one folder (with the folders inside).
+ONLY_IN = {
+    r"(vulkan/|volk\.|vk_(?!harness/))": "vk_harness",
+    r"OpenImageIO/": "capture/image/image_io",
+    r"CLI/": "cli/options",
+    r"toml(\+\+/|\.hpp)": "cases/toml",
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^">]+)[">]')
+SUFFIXES = {".cpp", ".hpp", ".js"}
+
+
+class Table:
+    """The rows of docs/design.md: | `folder/` | what | `first` | `may`, `include` |"""
+
+    def __init__(self, root: pathlib.Path):
+        self.rows = {}
+        self.twice = []
+        text = (root / "docs/design.md").read_text()
+        for line in text.splitlines():
+            cells = [c.strip() for c in line.strip().strip("|").split("|")]
+            if len(cells) != 4 or not re.fullmatch(r"`[\w/]+/`", cells[0]):
+                continue
+            folder = cells[0].strip("`/")
+            if folder in self.rows:
+                self.twice.append(folder)
+            may = [m.rstrip("/") for m in re.findall(r"`([\w/]+)`", cells[3])]
+            self.rows[folder] = (cells[2].strip("`"), may)
+        self.rooms = {folder.split("/")[0] for folder in self.rows}
+
+    def allows(self, folder: str, other: str) -> bool:
+        return folder == other or any(other == m or other.startswith(m + "/") for m in self.rows[folder][1])
+
+
+def code_of(path: pathlib.Path):
+    return path.read_text(errors="replace").splitlines()
+
+
+def sources(root: pathlib.Path, room: str):
+    return sorted(p for p in (root / room).rglob("*") if p.suffix in SUFFIXES)
+
+
+def folder_problems(root, table):
+    for folder in table.twice:
+        yield f"docs/design.md: error: two rows claim the folder {folder}/"
+    files = collections.Counter(str(p.parent.relative_to(root)) for r in table.rooms for p in sources(root, r))
+    for folder, count in sorted(files.items()):
+        if folder not in table.rows:
+            yield f"{folder}: error: no row of docs/design.md tells what lives in this folder"
+        elif count > MOST_FILES:
+            yield f"{folder}: error: {count} files; a folder holds at most {MOST_FILES}, so divide it"
+    for folder, (first, _) in table.rows.items():
+        if not (root / folder / first).is_file():
+            yield f"docs/design.md: error: the file to read first, {folder}/{first}, is not there"
+
+
+def include_problems(root, table):
+    arrows = collections.defaultdict(set)
+    for room in sorted(table.rooms):
+        for path in sources(root, room):
+            relative = path.relative_to(root)
+            folder = str(relative.parent)
+            if folder not in table.rows:
+                continue
+            for number, line in enumerate(code_of(path), 1):
+                match = INCLUDE.match(line)
+                if not match:
+                    continue
+                name = match.group(2)
+                other = name.rpartition("/")[0]
+                if other.split("/")[0] in table.rooms:
+                    if other != folder:
+                        arrows[folder].add(other)
+                    if not table.allows(folder, other):
+                        yield f"{relative}:{number}: error: {folder}/ must not include {name}; see docs/design.md"
+                for pattern, home in ONLY_IN.items():
+                    if re.match(pattern, name) and not (folder + "/").startswith(home + "/"):
+                        yield f"{relative}:{number}: error: {name} may be included in {home}/ alone"
+    yield from circles(arrows)
+
+
+def circles(arrows):
+    """Folders that include each other, directly or around: each circle once."""
+    done = set()
+
+    def visit(folder, path):
+        if folder in path:
+            yield path[path.index(folder):] + [folder]
+        elif folder not in done:
+            for other in sorted(arrows.get(folder, ())):
+                yield from visit(other, path + [folder])
+            done.add(folder)
+
+    for folder in sorted(arrows):
+        for circle in visit(folder, []):
+            yield f"{circle[0]}: error: folders include each other: {' -> '.join(circle)}"
+
+
+def library_problems(commands: pathlib.Path, root: pathlib.Path):
+    """A source of a room is compiled once: one room, one library."""
+    owners = collections.defaultdict(set)
+    for entry in json.loads(commands.read_text()):
+        source = pathlib.Path(entry["directory"], entry["file"]).resolve()
+        target = re.search(r"CMakeFiles/([^/]+)\.dir/", entry.get("output", entry["command"]))
+        if source.is_relative_to(root) and target:
+            owners[source.relative_to(root)].add(target.group(1))
+    for source, targets in sorted(owners.items()):
+        if len(targets) > 1 and source.parts[0] != "tests":
+            yield f"{source}: error: two libraries claim this file: {', '.join(sorted(targets))}"
+
+
+FIELDS = re.compile(r"static void fields\(auto&& \w+, auto&\.\.\. \w+\) \{(.*?)\n    \}", re.S)
+STRUCT = re.compile(r"^(?:struct|class) (\w+)", re.M)
+PLANES = "capture/capture.hpp"
+LEAST_FIELDS = 8  # smaller structures are used field by field everywhere
+MOST_SHARE = 0.75  # of the fields, within as many lines as a list of them would take
+
+
+def lists_of(root, table):
+    """(what it lists, file that owns the list, names): structures with `fields`, and the planes of a capture."""
+    for room in sorted(table.rooms):
+        for path in sources(root, room):
+            text = path.read_text(errors="replace")
+            for match in FIELDS.finditer(text):
+                names = re.findall(r'visit\("(\w+)"', match.group(1))
+                owners = STRUCT.findall(text[: match.start()])
+                if len(names) >= LEAST_FIELDS and owners:
+                    yield owners[-1], str(path.relative_to(root)), names
+    if (root / PLANES).is_file():
+        names = re.findall(r'\badd\("(\w+)"', (root / PLANES).read_text())
+        if len(names) >= LEAST_FIELDS - 2:
+            yield "the planes of a capture", PLANES, names
+
+
+def second_lists(root, table):
+    """Nothing but a list's owner names most of its entries, one after the other.
+
+    Loaders and what uses a structure's fields one by one spread them over functions; a copy of the list has them
+    close together. So the names are looked for in windows of three lines an entry, as members or in quotes.
+    """
+    texts = {
+        path.relative_to(root): code_of(path)
+        for room in table.rooms
+        for path in sources(root, room)
+        if path.suffix != ".js"
+    }
+    for what, owner, names in lists_of(root, table):
+        word = re.compile(r'(?:\.|->|")(' + "|".join(names) + r")\b(?!\()")
+        reach = 3 * len(names)
+        for path, lines in texts.items():
+            if str(path) == owner or str(path.parent) == "cases/load":
+                continue
+            hits = [(n, m) for n, line in enumerate(lines, 1) for m in word.findall(line.split("//")[0])]
+            for k, (begin, _) in enumerate(hits):
+                seen = {m for n, m in hits[k:] if n < begin + reach}
+                if len(seen) >= MOST_SHARE * len(names):
+                    yield f"{path}:{begin}: error: this lists {what} a second time; walk the list of {owner}"
+                    break
+
+
+def problems(root: pathlib.Path, commands=None):
+    table = Table(root)
+    yield from folder_problems(root, table)
+    yield from include_problems(root, table)
+    yield from second_lists(root, table)
+    if commands:
+        yield from library_problems(commands, root)
+
+
+def plant(root, name, text):
+    with (root / name).open("a") as file:
+        file.write(text)
+
+
+# What is planted -> the words of the complaint.
+PLANTED = {
+    "an arrow back inside ref/": (
+        lambda root: plant(root, "ref/number/integer.hpp", '#include "ref/value/value.hpp"\n'),
+        ["ref/number/ must not include ref/value/value.hpp", "folders include each other"],
+    ),
+    "Vulkan outside vk_harness/": (
+        lambda root: plant(root, "diff/verdict.hpp", "#include <vulkan/vulkan.h>\n"),
+        ["vulkan/vulkan.h may be included in vk_harness/ alone"],
+    ),
+    "a TOML header in ref/": (
+        lambda root: plant(root, "ref/color/color.cpp", "#include <toml++/toml.h>\n"),
+        ["toml++/toml.h may be included in cases/toml/ alone"],
+    ),
+    "a second list of planes": (
+        lambda root: plant(
+            root,
+            "run/judge.cpp",
+            "void copy(A& a, const A& b) {\n"
+            + "".join(f"    a.{n} = b.{n};\n" for n in ("hits", "writers", "frag_coord", "depth", "color", "stencil",
+                                                       "resolved_color", "resolved_depth"))
+            + "}\n",
+        ),
+        ["lists the planes of a capture a second time"],
+    ),
+    "a folder that two rows claim": (
+        lambda root: plant(root, "docs/design.md", "| `diff/` | twice | `verdict.hpp` | `ref` |\n"),
+        ["two rows claim the folder diff/"],
+    ),
+    "a folder that nobody claims": (
+        lambda root: ((root / "ref/other").mkdir(), plant(root, "ref/other/a.hpp", "#pragma once\n")),
+        ["no row of docs/design.md tells what lives in this folder"],
+    ),
+    "a file in two libraries": (
+        lambda root: (root / "commands.json").write_text(
+            json.dumps(
+                [
+                    {"directory": str(root), "file": "diff/verdict.cpp", "command": f"-o CMakeFiles/{t}.dir/v.o"}
+                    for t in ("edgecase_diff", "edgecase_run")
+                ]
+            )
+        ),
+        ["two libraries claim this file: edgecase_diff, edgecase_run"],
+    ),
+}
+
+
+def self_test(source: pathlib.Path) -> int:
+    """Plants breaches into a copy of the sources, one at a time: each has to be told, and nothing else."""
+    failed = 0
+    rooms = Table(source).rooms
+    for what, (breach, told) in PLANTED.items():
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name).resolve()
+            for room in rooms | {"docs"}:
+                shutil.copytree(source / room, root / room, ignore=shutil.ignore_patterns("suite", "*.md.*", "findings"))
+            breach(root)
+            commands = root / "commands.json"
+            found = list(problems(root, commands if commands.exists() else None))
+        if not all(any(t in f for f in found) for t in told) or not all(any(t in f for t in told) for f in found):
+            print(f"the check does not tell of {what} alone:", *found, sep="\n")
+            failed = 1
+    return failed
+
+
+def main() -> int:
+    if sys.argv[1:2] == ["--self-test"]:
+        return self_test(pathlib.Path(sys.argv[2]).resolve())
+    commands = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
+    found = list(problems(pathlib.Path(sys.argv[1]).resolve(), commands))
+    print("\n".join(found) or "all sources follow the table of folders")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
