@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The keys of colour: what they mean, and every sentence about a mistake, word for word.
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 
 #include <gtest/gtest.h>
 
