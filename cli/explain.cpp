@@ -53,11 +53,11 @@ std::string values_text(const std::vector<ref::ExpectedValue>& values) {
     std::string text;
     for (const ref::ExpectedValue& v : values) {
         if (v.is_flat) {
-            text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", v.quantity, v.nearest,
+            text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", to_text(v), v.nearest,
                                 v.also.empty() ? "exactly" : v.also);
         } else {
             text += fmt::format(
-                "        {:<14} {:.9g} = {}{}{}{}\n", v.quantity, v.nearest, shortened(v.exact),
+                "        {:<14} {:.9g} = {}{}{}{}\n", to_text(v), v.nearest, shortened(v.exact),
                 v.factor > 0 ? fmt::format(", accepted within {:.4g} x {:.3g}", v.factor, v.budget)
                              : "",
                 v.also.empty() ? "" : ", ", v.also);

@@ -77,10 +77,10 @@ struct Reach {
 };
 
 inline bool is_depth(const Quantity& q) {
-    return q.attribute == -2;
+    return q.id.is_depth();
 }
 inline bool is_frag_coord_z(const Quantity& q) {
-    return q.attribute == -1 && q.plane == kPlaneDepth;
+    return q.id.of == QuantityId::Of::frag_coord && q.plane == kPlaneDepth;
 }
 
 // What bias may add to a quantity; FragCoord.z may have it or not.

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -42,24 +41,22 @@ struct Quantity {
     Kind kind = Kind::linear;
     bool at_sample = false;  // evaluated at the sample; otherwise where the fragment's inputs are
     uint32_t plane = 0;      // linear and perspective
-    int32_t attribute = -1;  // index into Draw::attributes; -1 frag_coord, -2 depth
-    uint32_t component = 0;
-    std::string name;       // "attribute 1.x", "depth", "frag_coord.w"
+    QuantityId id;
     std::string_view rule;  // of a mismatch that stays inside the hull
     bool at_centroid = false;
     cases::Probe probe = cases::Probe::value;  // of Kind::probe
     bool is_perspective = false;               // likewise: of the input that it looks at
-    float get(const FragmentValues& device) const;
+    float get(const FragmentValues& device) const { return number_of(device, id); }
 };
 
 // The largest error among the values of a fragment.
 struct WorstError {
-    double ratio = 0;           // in budgets
-    std::string_view quantity;  // Quantity::name of the value that has it; empty while ratio is 0
+    double ratio = 0;                    // in budgets
+    std::optional<QuantityId> quantity;  // which value has it; nothing while ratio is 0
 
     void raise(double other, const Quantity& of) {
         if (other > ratio) {
-            *this = {other, of.name};
+            *this = {other, of.id};
         }
     }
 };
