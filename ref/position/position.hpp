@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a vertex's clip-space quadruple to the positions that a device may use for it.
+// Derives the positions that a device may use for a vertex from its clip-space quadruple.
 #pragma once
 
 #include <gmpxx.h>
