@@ -42,6 +42,19 @@ struct Hit {
     Coverage coverage = Coverage::either;
 };
 
+// Triangles that share a number of hits, and why.
+struct FixedSet {
+    ReasonKind why = ReasonKind::shared_edge;
+    std::vector<uint32_t> triangles;  // all of them, in drawing order
+    uint32_t count = 0, least = 0;    // how many of them cover the sample: at most and at least
+};
+
+// What judge() rests on, for those who tell it.
+struct JudgeReasons {
+    std::vector<FixedSet> sets;
+    DepthResolution depth;  // of each hit; empty if the case tests no depth
+};
+
 // The arithmetic that narrowing rests on, so that both implementations bring their own.
 struct Predicates {
     // p lies in the closed convex hull of the boxes.
@@ -80,9 +93,10 @@ class Narrowing {
 
     // Bounds for sample `s` of a pixel, at p, from the triangles that must or may cover it, in
     // drawing order; appends the triangles that may have written last, and those whose depth may be
-    // stored.
+    // stored. Fills `reasons`, unless it is null.
     SampleExpectation judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
-                            std::vector<uint32_t>& writers, std::vector<uint32_t>& depth_writers);
+                            std::vector<uint32_t>& writers, std::vector<uint32_t>& depth_writers,
+                            JudgeReasons* reasons = nullptr);
 
   private:
     // Triangles of which exactly `count` cover the sample, or from `least` to `count`.
@@ -90,6 +104,8 @@ class Narrowing {
         std::vector<uint32_t> members;  // positions in the list of hits, ascending
         uint32_t count = 0;
         uint32_t least = 0;
+        bool is_complement = false;
+        std::vector<uint32_t> decided = {};  // triangles that belong to it and are decided alone
     };
     // An edge of a member; its band contains the sample.
     struct Side {
@@ -106,10 +122,11 @@ class Narrowing {
     bool is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const;
     DepthResolution resolve_depth(const FixedPoint& p, std::span<const Hit> hits,
                                   const std::vector<Fixed>& sets);
+    FixedSet told_set(const FixedPoint& p, std::span<const Hit> hits, const Fixed& set) const;
     // Takes the fragments away that fail the depth test.
     void apply_depth(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets,
                      std::vector<Coverage>& coverage, std::vector<uint32_t>& depth_writers,
-                     SampleExpectation& out);
+                     SampleExpectation& out, JudgeReasons* reasons);
     struct EdgeOwner {
         uint64_t edge = 0;
         uint32_t triangle = 0;

@@ -193,7 +193,7 @@ Store store_of(const CandidateSet<T>& set, const Quantity& q) {
     if (is_depth(q)) {
         store.may_clamp = true;
         store.must_clamp = set.depth.is_clamped;
-        store.steps = steps_of(set.depth.format);
+        store.steps = cases::depth_steps(set.depth.format);
         // Direct3D 11.3, 3.2.3.6: within 0.6 of a step; max norm is what that profile has, too.
         store.rounding = set.depth.is_max_norm ? 0.6 : 1;
     } else if (is_frag_coord_z(q)) {
@@ -215,7 +215,7 @@ Answer may_store(const Range<T>& range, double device, const Store& store) {
                                                            : Answer::unknown;
     }
     const double code = std::round(device * store.steps);
-    // depth_of_code() of capture/capture.hpp is within 2^-25 of the code's value.
+    // depth_of_code() of cases/format/depth_format.hpp is within 2^-25 of the code's value.
     if (std::fabs(device * store.steps - code) > 0.5) {
         return Answer::no;
     }

@@ -43,9 +43,6 @@ struct DepthPath {
     }
 };
 
-// 2^n - 1, exact; 0 for D32, which has no steps.
-double steps_of(cases::DepthFormat format);
-
 template <class T>
 DepthPath<T> make_depth_path(const Primitive& primitive, cases::Profile profile);
 
