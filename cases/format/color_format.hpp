@@ -39,7 +39,7 @@ struct ColorFormatRow {
     ColorFormat format;
     std::string_view word;  // in case files
     ComponentKind kind;     // of all components, but the alpha of sRGB is linear
-    // Of red, green, blue and alpha: how many bits, and the first of them. Bit k of a texel is bit
+    // How many bits red, green, blue and alpha have, and where they begin. Bit k of a texel is bit
     // k % 8 of its byte k / 8 [Vulkan, "Format Definition": a packed word is little-endian here].
     std::array<uint8_t, 4> bits, first_bit;
     uint32_t vulkan;  // VkFormat
@@ -71,17 +71,17 @@ constexpr const ColorFormatRow& row_of(ColorFormat format) {
 static_assert(std::all_of(kColorFormats.begin(), kColorFormats.end(),
                           [](const auto& row) { return &row == &row_of(row.format); }));
 
-// As it is written in case files: "rgba8-unorm".
+// The word of a format in case files, as "rgba8-unorm".
 constexpr std::string_view name_of(ColorFormat format) {
     return row_of(format).word;
 }
 
-// Whole numbers; never blended.
+// Whether the format holds whole numbers, which are never blended.
 constexpr bool is_integer(ColorFormat format) {
     return row_of(format).kind == ComponentKind::uint;
 }
 
-// Of a texel in memory: no format here has bits that mean nothing.
+// The size of a texel in memory; no format here has bits that mean nothing.
 constexpr uint32_t bytes_of(ColorFormat format) {
     uint32_t bits = 0;
     for (const uint8_t component : row_of(format).bits) {
@@ -90,7 +90,7 @@ constexpr uint32_t bytes_of(ColorFormat format) {
     return bits / 8;
 }
 
-// How component k (0: red ... 3: alpha) of a format is stored. bits == 0: the format lacks it.
+// How component k (0: red ... 3: alpha) of a format is stored; bits is 0 if the format lacks it.
 struct ComponentFormat {
     ComponentKind kind = ComponentKind::unorm;
     uint32_t bits = 0;
@@ -101,11 +101,11 @@ constexpr ComponentFormat component_of(ColorFormat format, uint32_t k) {
     return {is_linear ? ComponentKind::unorm : row.kind, row.bits.at(k)};
 }
 
-// The stored code of each component of a texel, as in the colour plane of a capture; 0 of those
-// that the format lacks.
+// The stored code of each component of a texel, as the colour plane of a capture has it; 0 where
+// the format lacks the component.
 using TexelCodes = std::array<uint32_t, 4>;
 
-// The codes in the bytes_of(format) bytes at `texel`, and the other way.
+// Read the codes of a texel from its bytes_of(format) bytes, and write them there.
 TexelCodes decode_texel(ColorFormat format, const std::byte* texel);
 void encode_texel(ColorFormat format, const TexelCodes& codes, std::byte* texel);
 
