@@ -17,10 +17,10 @@ namespace cases {
 // right, and by another downwards.
 std::vector<TexelCodes> blit_source(const Blit& blit);
 
-// Seed: a blit is clipped against the destination by adjusting the rectangles. The part of the blit
-// that falls on a destination of width x height texels, if it can be written with whole numbers:
-// the source corner moves by the same share of its side as the destination corner. `error` says
-// why not, in one sentence.
+// A blit is clipped against the destination by adjusting its two rectangles. This is the part of it
+// that falls on a destination of width x height texels, if whole numbers can describe it: the
+// source corner moves by the same share of its side as the destination corner. If they cannot,
+// `error` says why in one sentence.
 struct ClippedBlit {
     Corners source, destination;
     std::string error;

@@ -241,7 +241,7 @@ struct Target {
 };
 
 // vkCmdBlitImage instead of draws. The destination is the colour target, Target::color, cleared
-// first; the source is an image of its own, filled with a pattern (blit_source.hpp).
+// first; the source is an image of its own, filled with a pattern (cases/load/blit.hpp).
 enum class BlitFilter : uint8_t { nearest, linear };
 enum class BlitPattern : uint8_t {
     unique,  // every texel has other bits

@@ -95,7 +95,7 @@ struct DepthTest::Impl {
         depth.kind = value::Kind::linear;
         depth.at_sample = true;
         depth.plane = value::kPlaneDepth;
-        depth.attribute = -2;
+        depth.id = {};
         const mpq_class value(static_cast<double>(c.target.depth_clear));
         clear_exact = *with_neighbours<mpq_class>({value, value}, steps);
         clear_ball = {false, value::from_exact<Ball>(clear_exact.low),
