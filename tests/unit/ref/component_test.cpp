@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 namespace ref::color {
 namespace {
@@ -33,12 +34,14 @@ void for_each_code(uint32_t bits, const Visit& visit) {
     }
 }
 
+// Each kind of component once.
 template <class Visit>
 void for_each_component(const Visit& visit) {
+    std::set<std::pair<ComponentKind, uint32_t>> seen;
     for (const cases::ColorFormatRow& row : cases::kColorFormats) {
         for (uint32_t k = 0; k < 4; ++k) {
             const cases::ComponentFormat format = cases::component_of(row.format, k);
-            if (format.bits != 0) {
+            if (format.bits != 0 && seen.emplace(format.kind, format.bits).second) {
                 SCOPED_TRACE(std::string(row.word) + " component " + std::to_string(k));
                 visit(Component(format), format);
             }
