@@ -44,7 +44,7 @@ struct Ties {
 Ties ties_of(const ref::SampleExplanation& s) {
     Ties ties;
     for (const ref::TriangleExplanation& t : s.triangles) {
-        if (t.on_edge && t.in_layer && t.has_area && !t.culled) {
+        if (t.on_edge && t.in_layer && t.has_area && !t.culled && !t.is_discarded) {
             ++ties.edges;
             ties.vertices += t.on_vertex ? 1 : 0;
             ties.first = ties.first ? ties.first : &t;
@@ -94,6 +94,10 @@ std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
         if (!t.in_viewport) {
             return Cause{"clip.viewport",
                          fmt::format("{}: the sample lies outside its viewport", name_of(t))};
+        }
+        if (t.is_discarded) {
+            return Cause{"discard.rasterizer",
+                         fmt::format("the draw of {} has rasterizer discard", name_of(t))};
         }
         if (t.culled) {
             return Cause{"face.cull", fmt::format("{} is culled", name_of(t))};

@@ -273,6 +273,7 @@ class Needs {
         add(!(d.scissor == cases::Rect{0, 0, t.width, t.height}), "scissor");
         add(d.cull != cases::CullMode::none, "cull");
         add(d.provoking == cases::ProvokingVertex::last, "provoking-last");
+        add(d.rasterizer_discard, "rasterizer-discard");
         add(d.depth.compare != cases::CompareOp::always, "depth-test");
         add(!d.depth.write, "depth-write-mask");
         add(d.depth.bias.has_value(), "depth-bias");

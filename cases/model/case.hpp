@@ -291,6 +291,7 @@ struct Draw {
     CullMode cull = CullMode::none;
     FrontFace front_face = FrontFace::counter_clockwise;
     ProvokingVertex provoking = ProvokingVertex::first;
+    bool rasterizer_discard = false;  // rasterizerDiscardEnable: no fragment comes of it
     DepthState depth;
     ClipDistances distances;
     Multisample multisample;
@@ -310,6 +311,7 @@ struct Draw {
         visit("cull", d.cull...);
         visit("front_face", d.front_face...);
         visit("provoking_vertex", d.provoking...);
+        visit("rasterizer_discard", d.rasterizer_discard...);
         visit("depth", d.depth...);
         visit("multisample", d.multisample...);
         visit("distances", d.distances...);

@@ -297,6 +297,9 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
                    {draw, triangle.vertex},
                    clip_volume_of(draw)};
     const std::array<glm::vec4, 3>& clip = s.input.clip;
+    if (draw.rasterizer_discard) {
+        return t;  // covers nothing
+    }
     AreaSigns signs;
     const bool is_number = std::all_of(
         clip.begin(), clip.end(), [&](const glm::vec4& v) { return is_representable(v, profile); });

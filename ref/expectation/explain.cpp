@@ -22,6 +22,7 @@ cases::Case alone(const cases::Case& c, const cases::Triangle& t, cases::SampleI
                         draw.positions[t.vertex[2]]};
     single.viewport = draw.viewport;
     single.layer = draw.layer;
+    single.rasterizer_discard = draw.rasterizer_discard;
     single.cull = draw.cull;
     single.depth.clamp = draw.depth.clamp;
     single.depth.clip = draw.depth.clip;
@@ -142,6 +143,9 @@ std::string reason_for(const TriangleExplanation& t, const cases::Draw& draw) {
     }
     if (!t.in_viewport) {
         return "the sample lies outside the viewport";
+    }
+    if (t.is_discarded) {
+        return "the draw has rasterizer discard";
     }
     if (t.culled) {
         return "the triangle is culled";
@@ -368,6 +372,7 @@ SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cas
             }
             e.on_edge = zero && !negative;
         }
+        e.is_discarded = draw.rasterizer_discard;
         e.in_layer = draw.layer == sample.layer;
         e.in_scissor = single.draws[0].scissor.width != 0;
         e.in_viewport = in_viewport[t.draw];

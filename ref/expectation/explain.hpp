@@ -41,6 +41,7 @@ struct TriangleExplanation {
     Coverage coverage =
         Coverage::must_not;              // under the asked profile, scissor and culling included
     bool culled = false;                 // faces away for every allowed position
+    bool is_discarded = false;           // by rasterizer discard of its draw
     bool in_layer = true;                // its draw goes to the sample's layer
     bool in_scissor = true;              // of its draw
     bool in_viewport = true;             // of its draw
