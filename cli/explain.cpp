@@ -12,6 +12,7 @@
 #include "ref/blit/blit.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
+#include "ref/expectation/reason_table.hpp"
 #include "report/text/wrap.hpp"
 
 namespace cli {
@@ -53,11 +54,11 @@ std::string values_text(const std::vector<ref::ExpectedValue>& values) {
     std::string text;
     for (const ref::ExpectedValue& v : values) {
         if (v.is_flat) {
-            text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", v.quantity, v.nearest,
+            text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", to_text(v), v.nearest,
                                 v.also.empty() ? "exactly" : v.also);
         } else {
             text += fmt::format(
-                "        {:<14} {:.9g} = {}{}{}{}\n", v.quantity, v.nearest, shortened(v.exact),
+                "        {:<14} {:.9g} = {}{}{}{}\n", to_text(v), v.nearest, shortened(v.exact),
                 v.factor > 0 ? fmt::format(", accepted within {:.4g} x {:.3g}", v.factor, v.budget)
                              : "",
                 v.also.empty() ? "" : ", ", v.also);
@@ -67,22 +68,24 @@ std::string values_text(const std::vector<ref::ExpectedValue>& values) {
 }
 
 std::string triangle_text(const ref::TriangleExplanation& t) {
-    std::string text = fmt::format("    triangle {} of draw {}, vertices {} {} {}: {}\n",
-                                   t.triangle.primitive, t.triangle.draw, t.triangle.vertex[0],
-                                   t.triangle.vertex[1], t.triangle.vertex[2], name(t.coverage));
+    std::string text =
+        fmt::format("    triangle {} of draw {}, vertices {} {} {}: {}\n", t.triangle.primitive,
+                    t.triangle.draw, t.triangle.vertex[0], t.triangle.vertex[1],
+                    t.triangle.vertex[2], name(t.decision.coverage));
     for (const ref::EdgeExplanation& e : t.edges) {
         text += fmt::format("        E({},{}) from ({}, {}) to ({}, {}), a {} edge: {}{}\n", e.from,
                             e.to, ref::to_text(e.a.x), ref::to_text(e.a.y), ref::to_text(e.b.x),
                             ref::to_text(e.b.y), to_string(e.kind), ref::to_text(e.value),
                             e.value == 0 ? ", the sample is exactly on it" : "");
     }
-    if (!t.on_grid) {
+    const auto is_fixed = [](const auto& box) { return box && box->is_point(); };
+    if (!std::all_of(t.boxes.begin(), t.boxes.end(), is_fixed)) {
         text += "        a vertex is not on the subpixel grid: shown is the nearest position\n";
     }
-    if (t.needs_clipping) {
+    if (t.is_clipped) {
         text += "        a vertex lies outside the view volume: the clipped polygon counts too\n";
     }
-    text += fmt::format("        {}\n", t.reason);
+    text += report::wrapped(fmt::format("        {}\n", t.sentence), 100);
     return t.depth ? text + fmt::format("        {}\n", t.depth_text) : text;
 }
 
@@ -191,13 +194,8 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
         fmt::format("\n{}, sample {} at ({}, {}); profile {}, {} subpixel bits\n",
                     cases::pixel_text(c.target, sample), sample.sample, ref::to_text(s.position.x),
                     ref::to_text(s.position.y), to_string(profile), limits.subpixel_bits);
-    if (!s.in_layer) {
-        text += "    no draw goes to this layer\n";
-    } else if (!s.in_scissor) {
-        text += "    it lies outside every scissor rectangle\n";
-    }
-    if (s.in_layer && !s.in_viewport) {
-        text += "    it lies outside every viewport\n";
+    if (s.of_all) {
+        text += fmt::format("    {}\n", ref::sentence_of_all(*s.of_all));
     }
     // The interesting ones first: those that may cover the sample, then the near misses.
     std::vector<const ref::TriangleExplanation*> order;
@@ -205,14 +203,17 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
         order.push_back(&t);
     }
     std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
-        return (a->coverage != ref::Coverage::must_not || a->on_edge) >
-               (b->coverage != ref::Coverage::must_not || b->on_edge);
+        const auto is_close = [](const auto& t) {
+            return t.decision.coverage != ref::Coverage::must_not ||
+                   t.why() == ref::ReasonKind::top_left_out;
+        };
+        return is_close(*a) > is_close(*b);
     });
     constexpr size_t kShown = 12;
     ref::ValueReference values(c, limits, profile);
     for (size_t i = 0; i < std::min(order.size(), kShown); ++i) {
         text += triangle_text(*order[i]);
-        if (order[i]->coverage != ref::Coverage::must_not) {
+        if (order[i]->decision.coverage != ref::Coverage::must_not) {
             text += values_text(values.expected(order[i]->index, sample));
         }
     }
@@ -222,15 +223,18 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     if (order.empty()) {
         text += "    no triangle is within two pixels\n";
     }
+    for (const ref::SetExplanation& set : s.sets) {
+        text += report::wrapped(fmt::format("    {}\n", set.sentence), 100);
+    }
     text += drawing(c, limits, profile, sample);
-    text += "\n" + conclusion(s.expectation.hits) + "\n";
-    text += allowed_hits(s.expectation.hits) + "\n";
+    text += "\n" + conclusion(s.hits) + "\n";
+    text += allowed_hits(s.hits) + "\n";
     for (const cases::Profile looser : cases::kProfiles) {
         if (looser < profile) {
             const ref::SampleExplanation other = ref::explain_sample(c, limits, looser, sample);
-            if (!(other.expectation.hits == s.expectation.hits)) {
+            if (!(other.hits == s.hits)) {
                 text += fmt::format("    at profile {} {}\n", to_string(looser),
-                                    allowed_hits(other.expectation.hits));
+                                    allowed_hits(other.hits));
             }
         }
     }

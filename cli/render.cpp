@@ -49,7 +49,7 @@ Json number(double v) {
 Json values_json(Reference& r, uint32_t triangle, size_t index) {
     Json values = Json::array();
     for (const ref::ExpectedValue& v : r.values.expected(triangle, r.id(index))) {
-        values.push_back({{"quantity", v.quantity},
+        values.push_back({{"quantity", to_text(v)},
                           {"exact", v.exact},
                           {"nearest", number(v.nearest)},
                           {"flat", v.is_flat}});
@@ -124,8 +124,8 @@ capture::Image values_image(Reference& r) {
             continue;
         }
         for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
-            if (std::find(quantities.begin(), quantities.end(), v.quantity) == quantities.end()) {
-                quantities.push_back(v.quantity);
+            if (std::find(quantities.begin(), quantities.end(), to_text(v)) == quantities.end()) {
+                quantities.push_back(to_text(v));
             }
         }
     }
@@ -150,7 +150,7 @@ capture::Image values_image(Reference& r) {
             continue;
         }
         for (const ref::ExpectedValue& v : r.values.expected(writer_of(s), r.id(index))) {
-            const auto q = std::find(quantities.begin(), quantities.end(), v.quantity);
+            const auto q = std::find(quantities.begin(), quantities.end(), to_text(v));
             at[2 + (q - quantities.begin())] = static_cast<float>(v.nearest);
         }
     }

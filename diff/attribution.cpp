@@ -9,6 +9,7 @@
 
 #include "cases/model/sample.hpp"
 #include "ref/expectation/explain.hpp"
+#include "ref/expectation/reason_table.hpp"
 
 namespace diff {
 
@@ -35,30 +36,27 @@ std::string name_of(const ref::TriangleExplanation& t) {
     return fmt::format("triangle {} of draw {}", t.triangle.primitive, t.triangle.draw);
 }
 
-// The triangles whose edge or vertex the sample lies on.
-struct Ties {
-    size_t edges = 0, vertices = 0, clipped = 0;
-    const ref::TriangleExplanation* first = nullptr;
-};
+std::string told(const ref::TriangleExplanation& t) {
+    return fmt::format("{}: {}", name_of(t), t.sentence);
+}
 
-Ties ties_of(const ref::SampleExplanation& s) {
-    Ties ties;
-    for (const ref::TriangleExplanation& t : s.triangles) {
-        if (t.on_edge && t.in_layer && t.has_area && !t.culled && !t.is_discarded) {
-            ++ties.edges;
-            ties.vertices += t.on_vertex ? 1 : 0;
-            ties.first = ties.first ? ties.first : &t;
-        }
-        ties.clipped += t.needs_clipping ? 1 : 0;
-    }
-    return ties;
+template <class Fits>
+const ref::TriangleExplanation* first_that(const ref::SampleExplanation& s, Fits fits) {
+    const auto it = std::find_if(s.triangles.begin(), s.triangles.end(), fits);
+    return it == s.triangles.end() ? nullptr : &*it;
 }
 
 const ref::TriangleExplanation* first_with(const ref::SampleExplanation& s,
                                            ref::Coverage coverage) {
-    const auto it = std::find_if(s.triangles.begin(), s.triangles.end(),
-                                 [&](const auto& t) { return t.coverage == coverage; });
-    return it == s.triangles.end() ? nullptr : &*it;
+    return first_that(s, [&](const auto& t) { return t.decision.coverage == coverage; });
+}
+
+// A triangle that the top-left rule decides: if there is one, one that it gives the sample to
+// (takes it from).
+const ref::TriangleExplanation* first_tie(const ref::SampleExplanation& s, bool is_given) {
+    const auto asked = is_given ? ref::ReasonKind::top_left_in : ref::ReasonKind::top_left_out;
+    const auto* const t = first_that(s, [&](const auto& e) { return e.why() == asked; });
+    return t ? t : first_that(s, [](const auto& e) { return e.is_tie(); });
 }
 
 struct Cause {
@@ -66,56 +64,19 @@ struct Cause {
     std::string why;
 };
 
-// A triangle that would cover the sample but for scissor, viewport, culling or clipping: why it
-// must not. A draw to another layer comes last: any other cause says more.
-std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s) {
-    std::optional<Cause> other_layer;
-    for (const ref::TriangleExplanation& t : s.triangles) {
-        const bool negative =
-            std::any_of(t.edges.begin(), t.edges.end(), [](const auto& e) { return e.value < 0; });
-        const bool outside = negative || (!t.edges.empty() && !t.has_area);
-        if (outside || t.coverage != ref::Coverage::must_not) {
-            continue;
-        }
-        if (!t.in_layer) {
-            other_layer = other_layer.value_or(
-                Cause{"layer.select", fmt::format("{}: {}", name_of(t), t.reason)});
-            continue;
-        }
-        if (!t.in_scissor) {
-            return Cause{
-                "scissor.half-open",
-                fmt::format("{}: the sample lies outside its scissor rectangle", name_of(t))};
-        }
-        if (!t.in_mask) {
-            return Cause{"sample.mask",
-                         fmt::format("{}: its sample mask leaves the sample out", name_of(t))};
-        }
-        if (!t.in_viewport) {
-            return Cause{"clip.viewport",
-                         fmt::format("{}: the sample lies outside its viewport", name_of(t))};
-        }
-        if (t.is_discarded) {
-            return Cause{"discard.rasterizer",
-                         fmt::format("the draw of {} has rasterizer discard", name_of(t))};
-        }
-        if (t.culled) {
-            return Cause{"face.cull", fmt::format("{} is culled", name_of(t))};
-        }
-        if (t.culled_by_distance) {
-            return Cause{
-                "cull.distance",
-                fmt::format("a cull distance of {} is negative at all vertices", name_of(t))};
-        }
-        if (t.clipped_by_distance && !t.on_edge) {
-            return Cause{"clip.distance",
-                         fmt::format("a clip distance of {} is negative here", name_of(t))};
-        }
-        if (t.needs_clipping && !t.on_edge) {
-            return Cause{"clip.volume", fmt::format("{} is clipped away here", name_of(t))};
-        }
-    }
-    return other_layer;
+Cause cause_of(const ref::TriangleExplanation& t, cases::Profile level) {
+    return {ref::rule_of(t.why(), level), told(t)};
+}
+
+// A triangle that would cover the sample but for the state of its draw, or for planes and
+// distances: why it must not. A draw to another layer comes last: any other cause says more.
+std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s, cases::Profile level) {
+    const auto is_here = [](const auto& t) {
+        return t.is_suppressed() && t.why() != ref::ReasonKind::other_layer;
+    };
+    const ref::TriangleExplanation* t = first_that(s, is_here);
+    t = t ? t : first_that(s, [](const auto& e) { return e.is_suppressed(); });
+    return t ? std::optional<Cause>(cause_of(*t, level)) : std::nullopt;
 }
 
 // Why a sample was written last by a triangle that must not cover it; nothing if one of those that
@@ -126,14 +87,13 @@ std::optional<Cause> cause_of_stray_writer(
     std::erase_if(writers.triangles, [&](const auto& t) { return !wrote(t.triangle); });
     if (writers.triangles.empty() ||
         std::any_of(writers.triangles.begin(), writers.triangles.end(),
-                    [](const auto& t) { return t.coverage != ref::Coverage::must_not; })) {
+                    [](const auto& t) { return t.decision.coverage != ref::Coverage::must_not; })) {
         return std::nullopt;
     }
-    if (std::optional<Cause> cause = cause_of_suppressed(writers)) {
+    if (std::optional<Cause> cause = cause_of_suppressed(writers, cases::Profile::vulkan)) {
         return cause;
     }
-    const ref::TriangleExplanation& t = writers.triangles.front();
-    return Cause{"cover.outside", fmt::format("{}: {}", name_of(t), t.reason)};
+    return Cause{"cover.outside", told(writers.triangles.front())};
 }
 
 // A hit too many of a triangle that must fail the depth test, or one too few of a triangle that
@@ -143,7 +103,7 @@ std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExpla
     const ref::DepthOutcome asked =
         is_missing ? ref::DepthOutcome::passes : ref::DepthOutcome::fails;
     const auto fits = [&](const ref::TriangleExplanation& t) {
-        return t.depth == asked && (!is_missing || t.coverage == ref::Coverage::must);
+        return t.depth == asked && (!is_missing || t.decision.coverage == ref::Coverage::must);
     };
     const auto it = std::find_if(s.triangles.rbegin(), s.triangles.rend(), fits);
     // Without a test nothing can have been lost to it.
@@ -161,88 +121,63 @@ std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExpla
 
 // Too many hits at a sample that no triangle may cover.
 Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
-    if (!s.in_layer) {
-        return {"layer.select", "no draw goes to this layer"};
-    }
-    if (!s.in_scissor) {
-        return {"scissor.half-open", "the sample lies outside the scissor rectangle"};
-    }
-    if (!s.in_viewport) {
-        return {"clip.viewport", "the sample lies outside the viewport"};
+    if (s.of_all) {
+        const auto* const t =
+            first_that(s, [&](const auto& e) { return e.is_suppressed() && e.why() == *s.of_all; });
+        if (t && *s.of_all != ref::ReasonKind::other_layer) {
+            return cause_of(*t, level);
+        }
+        return {ref::rule_of(*s.of_all, level), std::string(ref::sentence_of_all(*s.of_all))};
     }
     if (level == cases::Profile::direct3d) {
-        for (const ref::TriangleExplanation& t : s.triangles) {
-            if (t.on_edge && t.in_layer && t.in_scissor && t.in_mask && !t.culled) {
-                return {t.has_area ? "tie.top-left" : "cover.degenerate",
-                        fmt::format("{}: {}", name_of(t), t.reason)};
-            }
-        }
-        return {"snap.nearest",
-                "no vertex position within the rounding of Direct3D covers the sample"};
+        const auto* const t = first_that(s, [](const auto& e) {
+            return e.why() == ref::ReasonKind::top_left_out || e.why() == ref::ReasonKind::no_area;
+        });
+        return t ? cause_of(*t, level)
+                 : Cause{"snap.nearest",
+                         "no vertex position within the rounding of Direct3D covers the sample"};
     }
-    if (const std::optional<Cause> cause = cause_of_suppressed(s)) {
+    if (const std::optional<Cause> cause = cause_of_suppressed(s, level)) {
         return *cause;
     }
     const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must_not);
-    return {"cover.outside", t ? fmt::format("{}: {}", name_of(*t), t->reason)
-                               : std::string("no triangle is within two pixels of the sample")};
+    return {"cover.outside",
+            t ? told(*t) : std::string("no triangle is within two pixels of the sample")};
 }
 
 // Too few hits, or too many where some hits are allowed.
-Cause cause_of_count(const cases::Case& c, const ref::SampleExplanation& s, cases::Profile level,
-                     uint32_t total) {
-    const Ties ties = ties_of(s);
+Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint32_t total,
+                     bool is_missing) {
     uint32_t must = 0, may = 0;
     for (const ref::TriangleExplanation& t : s.triangles) {
-        must += t.coverage == ref::Coverage::must ? 1U : 0U;
-        may += t.coverage != ref::Coverage::must_not ? 1U : 0U;
+        must += t.decision.coverage == ref::Coverage::must ? 1U : 0U;
+        may += t.decision.coverage != ref::Coverage::must_not ? 1U : 0U;
     }
+    const ref::TriangleExplanation* const covering = first_with(s, ref::Coverage::must);
     if (level == cases::Profile::direct3d) {
-        if (ties.first != nullptr) {
-            return {"tie.top-left",
-                    fmt::format("{}: {}", name_of(*ties.first), ties.first->reason)};
-        }
-        const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
-        return {"snap.nearest", t ? fmt::format("{}: {}", name_of(*t), t->reason)
-                                  : std::string("the vertices' nearest subpixel positions decide")};
+        const ref::TriangleExplanation* t = first_tie(s, is_missing);
+        t = t ? t : covering;
+        return t ? cause_of(*t, level)
+               : !s.sets.empty()
+                   ? Cause{ref::rule_of(s.sets[0].set.why, level), s.sets[0].sentence}
+                   : Cause{"snap.nearest", "the vertices' nearest subpixel positions decide"};
     }
     if (total >= must && total <= may) {
-        // Each triangle alone would allow it: what is broken is that shared edges close exactly.
-        if (std::any_of(s.triangles.begin(), s.triangles.end(),
-                        [](const auto& t) { return t.near_distance; })) {
-            return {"clip.complement",
-                    "a clip distance and its negative are 0 here within their error: exactly one "
-                    "side draws the sample"};
-        }
-        const std::string who = fmt::format("{} triangles meet here", may);
-        if (level == cases::Profile::practice && ties.clipped > 0) {
-            return {"cover.clipped-edge", who + " along edges they share, clipped"};
-        }
-        if (level == cases::Profile::practice && ties.vertices > 0) {
-            return {"cover.shared-vertex", who + " in a vertex they share"};
-        }
-        return {"cover.shared-edge", who + " along edges they share with identical end points"};
+        // Each triangle alone would allow it: what is broken is the number that some share.
+        return s.sets.empty()
+                   ? Cause{"cover.shared-edge", fmt::format("{} triangles meet here", may)}
+                   : Cause{ref::rule_of(s.sets[0].set.why, level), s.sets[0].sentence};
     }
     if (total < must) {
-        const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
-        // What might have removed it, but must not have: culling by distance goes first.
-        if (c.draws[t->triangle.draw].distances.cull_count > 0) {
-            return {"cull.distance",
-                    fmt::format("{}: {}, and no cull distance is negative at all vertices",
-                                name_of(*t), t->reason)};
-        }
-        return {t->has_distances ? "clip.distance" : "cover.inside",
-                fmt::format("{}: {}{}", name_of(*t), t->reason,
-                            t->has_distances ? ", and no clip distance is negative" : "")};
+        return cause_of(*covering, level);
     }
-    if (const std::optional<Cause> cause = cause_of_suppressed(s)) {
+    if (const std::optional<Cause> cause = cause_of_suppressed(s, level)) {
         return *cause;
     }
     // Whichever hit it once more: one that lies elsewhere, or one of these again.
     if (may == 1) {
-        const auto t = std::find_if(s.triangles.begin(), s.triangles.end(), [](const auto& e) {
-            return e.coverage != ref::Coverage::must_not;
-        });
+        const auto* const t = first_that(
+            s, [](const auto& e) { return e.decision.coverage != ref::Coverage::must_not; });
         return {"cover.outside",
                 fmt::format("{} alone may cover the sample, and only once", name_of(*t))};
     }
@@ -269,6 +204,14 @@ const ref::Expectation& Attribution::at(cases::Profile profile) {
     std::optional<ref::Expectation>& slot = looser_[static_cast<size_t>(profile)];
     if (!slot) {
         slot = ref::expect(case_, expectation_.limits, profile);
+    }
+    return *slot;
+}
+
+ref::Explainer& Attribution::explainer(cases::Profile level) {
+    std::optional<ref::Explainer>& slot = explainers_[static_cast<size_t>(level)];
+    if (!slot) {
+        slot.emplace(case_, expectation_.limits, level);
     }
     return *slot;
 }
@@ -310,8 +253,7 @@ void Attribution::attribute_writer(Finding& finding,
         return;
     }
     ++explained_;
-    const ref::SampleExplanation s =
-        ref::explain_sample(case_, expectation_.limits, finding.level, sample_of(finding));
+    const ref::SampleExplanation s = explainer(finding.level).explain(sample_of(finding));
     if (finding.level == cases::Profile::vulkan) {
         // Whatever is granted, that triangle cannot have been the last. If it may not cover the
         // sample at all, that says more than the order.
@@ -324,9 +266,9 @@ void Attribution::attribute_writer(Finding& finding,
     }
     // A looser profile lets the writer cover the sample: it is a question of who owns it.
     const bool is_direct3d = finding.level == cases::Profile::direct3d;
-    if (const Ties ties = ties_of(s); is_direct3d && ties.first != nullptr) {
-        finding.rule = "tie.top-left";
-        finding.why = fmt::format("{}: {}", name_of(*ties.first), ties.first->reason);
+    if (const auto* const tie = first_tie(s, true); is_direct3d && tie != nullptr) {
+        finding.rule = ref::rule_of(tie->why(), finding.level);
+        finding.why = told(*tie);
     } else {
         finding.rule = is_direct3d ? "snap.nearest" : "cover.outside";
         finding.why = "where the vertices snap decides which triangle covers the sample";
@@ -360,16 +302,14 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     like_.insert_or_assign(key, finding);
 }
 
-void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked,
-                               uint32_t total) const {
-    const ref::SampleExplanation s =
-        ref::explain_sample(case_, expectation_.limits, finding.level, sample_of(finding));
+void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) {
+    const ref::SampleExplanation s = explainer(finding.level).explain(sample_of(finding));
     if (finding.kind == FindingKind::value) {
-        if (const Ties ties = ties_of(s);
-            finding.level == cases::Profile::direct3d && ties.first != nullptr) {
-            finding.rule = "tie.top-left";
+        if (const auto* const tie = first_tie(s, true);
+            finding.level == cases::Profile::direct3d && tie != nullptr) {
+            finding.rule = ref::rule_of(tie->why(), finding.level);
             finding.quantity = "facing";
-            finding.why = fmt::format("{}: {}", name_of(*ties.first), ties.first->reason);
+            finding.why = told(*tie);
             return;
         }
         finding.rule = "face.area-sign";
@@ -385,8 +325,9 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked,
         finding.why = depth->why;
         return;
     }
-    const Cause cause = asked.total_max == 0 ? cause_of_extra(s, finding.level)
-                                             : cause_of_count(case_, s, finding.level, total);
+    const Cause cause = asked.total_max == 0
+                            ? cause_of_extra(s, finding.level)
+                            : cause_of_count(s, finding.level, total, total < asked.total_min);
     finding.rule = cause.rule;
     finding.why = cause.why;
 }

@@ -14,6 +14,7 @@
 #include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/expectation/explain.hpp"
 
 namespace diff {
 
@@ -46,8 +47,9 @@ class Attribution {
 
   private:
     size_t index_of(const Finding& finding) const;
+    ref::Explainer& explainer(cases::Profile level);
     // Rule and why, from the story of the sample.
-    void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) const;
+    void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total);
 
     // Explaining a sample costs as much as judging thousands, and more with each triangle of the
     // case. After kExplained findings, or kTriangles set up for them, one that looks like an
@@ -59,6 +61,7 @@ class Attribution {
     const cases::Case& case_;
     const ref::Expectation& expectation_;
     std::optional<ref::Expectation> looser_[2];
+    std::optional<ref::Explainer> explainers_[3];  // by profile, made when first asked for
     size_t explains_;  // how many findings are explained before one takes over another's rule
     size_t explained_ = 0;
     std::map<std::string, Finding> like_;            // by kind, level, expected and got

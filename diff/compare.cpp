@@ -179,8 +179,9 @@ class Comparison {
         verdict_.compared_values += outcome.compared_values;
         if (outcome.worst_ratio > verdict_.worst_ratio) {
             verdict_.worst_ratio = outcome.worst_ratio;
-            verdict_.worst_quantity = fmt::format("{} at {}", outcome.worst_quantity,
-                                                  cases::sample_text(case_.target, id));
+            verdict_.worst_quantity = fmt::format(
+                "{} at {}", outcome.worst_quantity ? to_text(*outcome.worst_quantity) : "",
+                cases::sample_text(case_.target, id));
         }
         verdict_.raise_error(index, outcome.worst_ratio);
         judge_color(index, id, outcome.triangle);

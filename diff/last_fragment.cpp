@@ -9,15 +9,20 @@
 
 namespace diff {
 
+ref::FragmentValues values_at(const capture::CaptureView& capture, size_t index) {
+    ref::FragmentValues values;
+    values.frag_coord = capture.frag_coord[index];
+    values.depth = capture.depth.empty() ? 0.0F : capture.depth[index];
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        values.attributes[a] = capture.attributes[a][index];
+    }
+    return values;
+}
+
 LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
     const ref::SampleExpectation& expected = expectation_.samples[index];
     const capture::Writer& writer = capture_.writers[index];
-    ref::FragmentValues device;
-    device.frag_coord = capture_.frag_coord[index];
-    device.depth = capture_.depth.empty() ? 0.0F : capture_.depth[index];
-    for (uint32_t a = 0; a < capture_.attribute_count; ++a) {
-        device.attributes[a] = capture_.attributes[a][index];
-    }
+    const ref::FragmentValues device = values_at(capture_, index);
     Outcome out;
     // Without gl_PrimitiveID several triangles may have the writer's provoking vertex: one that
     // explains the fragment is enough.
@@ -62,7 +67,7 @@ Finding LastFragment::value_finding(cases::SampleId id, ref::ValueMismatch misma
     Finding finding = finding_at(FindingKind::value, case_.target, id);
     finding.rule = std::move(mismatch.rule);
     finding.level = mismatch.level;
-    finding.quantity = std::move(mismatch.quantity);
+    finding.quantity = to_text(mismatch.quantity);
     finding.expected = std::move(mismatch.expected);
     finding.got = std::move(mismatch.got);
     finding.ratio = mismatch.ratio;

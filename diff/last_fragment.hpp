@@ -29,6 +29,9 @@ inline ref::FragmentPart part_of(const cases::Case& c, const ref::Expectation& e
                                                               : ref::FragmentPart::all_but_depth;
 }
 
+// What a capture with instruments holds at a sample; depth 0 if it has none.
+ref::FragmentValues values_at(const capture::CaptureView& capture, size_t index);
+
 class LastFragment {
   public:
     // All must outlive this object; `values` judges what `selection` says.
@@ -47,10 +50,10 @@ class LastFragment {
         // Without a triangle: what is said of the writer. Else of depth that the triangle did not
         // write.
         std::optional<Finding> finding;
-        std::vector<Finding> values;      // that the triangle does not give
-        double worst_ratio = 0;           // largest error of the values, in budgets
-        std::string_view worst_quantity;  // whose, as in ref::FragmentVerdict
-        uint64_t compared_values = 0;     // numbers
+        std::vector<Finding> values;                    // that the triangle does not give
+        double worst_ratio = 0;                         // largest error of the values, in budgets
+        std::optional<ref::QuantityId> worst_quantity;  // whose
+        uint64_t compared_values = 0;                   // numbers
     };
 
     // Judges a sample that was hit as often as it may be; `index` is that of `id`.

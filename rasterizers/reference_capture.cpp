@@ -27,30 +27,6 @@ std::pair<uint32_t, uint32_t> pick_hits(const ref::HitBounds& bounds) {
     return {0, 0};
 }
 
-// Where the reference's value of that name is kept: "attribute 1.x", "depth", "frag_coord.w".
-float* value_slot(capture::Capture& capture, size_t index, const std::string& quantity) {
-    if (quantity == "depth") {
-        return &capture.depth[index];
-    }
-    const size_t dot = quantity.rfind('.');
-    if (dot == std::string::npos || dot + 2 != quantity.size()) {
-        return nullptr;
-    }
-    const size_t component = std::string("xyzw").find(quantity[dot + 1]);
-    if (component == std::string::npos) {
-        return nullptr;
-    }
-    const auto at = static_cast<glm::vec4::length_type>(component);
-    if (quantity.rfind("frag_coord", 0) == 0) {
-        return &capture.frag_coord[index][at];
-    }
-    if (quantity.rfind("attribute ", 0) == 0 && quantity[10] >= '0' && quantity[10] <= '3') {
-        const size_t a = static_cast<size_t>(quantity[10] - '0');
-        return a < capture.attribute_count ? &capture.attributes[a][index][at] : nullptr;
-    }
-    return nullptr;
-}
-
 capture::Capture blit_by_reference(const cases::Case& c) {
     const ref::BlitReference reference(c);
     capture::Capture capture;
@@ -89,26 +65,26 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                                   capture::kClearId};
         const cases::SampleId id = cases::sample_at(c.target, index);
-        capture.frag_coord[index] =
-            glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
-        const size_t attributes = c.draws[triangle.draw].attributes.size();
-        for (size_t a = 0; a < attributes; ++a) {
-            capture.attributes[a][index] = glm::vec4(0);
-        }
         const bool writes_depth = c.draws[triangle.draw].depth.write;
+        ref::FragmentValues drawn;
+        drawn.frag_coord =
+            glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
+        drawn.depth = capture.depth[index];
         for (const ref::ExpectedValue& value : values.expected(t, id)) {
-            if (value.quantity == "depth" && !writes_depth) {
-                continue;
+            if (value.part.empty() && (writes_depth || !value.quantity.is_depth())) {
+                number_of(drawn, value.quantity) = static_cast<float>(value.nearest);
             }
-            if (float* slot = value_slot(capture, index, value.quantity); slot != nullptr) {
-                *slot = static_cast<float>(value.nearest);
-            }
+        }
+        capture.frag_coord[index] = drawn.frag_coord;
+        capture.depth[index] = drawn.depth;
+        for (size_t a = 0; a < c.draws[triangle.draw].attributes.size(); ++a) {
+            capture.attributes[a][index] = drawn.attributes[a];
         }
         if (!writes_depth && sample.depth_count > 0) {
             const uint32_t last =
                 expectation.depth_writers[sample.depth_begin + sample.depth_count - 1];
             for (const ref::ExpectedValue& value : values.expected(last, id)) {
-                if (value.quantity == "depth") {
+                if (value.quantity.is_depth()) {
                     capture.depth[index] = static_cast<float>(value.nearest);
                 }
             }

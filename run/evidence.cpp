@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "diff/last_fragment.hpp"
 #include "ref/value/value.hpp"
 #include "run/picture.hpp"
 
@@ -74,32 +75,6 @@ std::string hits_text(const ref::HitBounds& b) {
     return text;
 }
 
-// Which number of the capture a quantity names.
-struct Plane {
-    enum class Kind : uint8_t { none, attribute, frag_coord, depth } kind = Kind::none;
-    uint32_t attribute = 0, component = 0;
-};
-Plane plane_of(const std::string& quantity) {
-    const auto component_at = [&](size_t at) {
-        const size_t k = std::string_view("xyzw").find(quantity[at]);
-        return at + 1 == quantity.size() ? k : std::string::npos;
-    };
-    if (quantity == "depth") {
-        return {Plane::Kind::depth, 0, 0};
-    }
-    if (quantity.size() == 12 && quantity.starts_with("frag_coord.") &&
-        component_at(11) != std::string::npos) {
-        return {Plane::Kind::frag_coord, 0, static_cast<uint32_t>(component_at(11))};
-    }
-    if (quantity.size() == 13 && quantity.starts_with("attribute ") && quantity[11] == '.' &&
-        quantity[10] >= '0' && quantity[10] < static_cast<char>('0' + cases::kMaxAttributes) &&
-        component_at(12) != std::string::npos) {
-        return {Plane::Kind::attribute, static_cast<uint32_t>(quantity[10] - '0'),
-                static_cast<uint32_t>(component_at(12))};
-    }
-    return {};
-}
-
 class EvidenceMaker {
   public:
     EvidenceMaker(const cases::Case& c, const ref::Expectation& expectation,
@@ -150,12 +125,11 @@ class EvidenceMaker {
   private:
     void add(SampleEvidence& e, const ref::ExpectedValue& v, uint32_t triangle, cases::SampleId id,
              std::optional<size_t> drawn) {
-        const Plane plane = plane_of(v.quantity);
-        if (plane.kind == Plane::Kind::none) {
+        if (!v.part.empty()) {
             return;  // what a derivative is made of: no plane holds it
         }
         SampleValue value;
-        value.quantity = v.quantity;
+        value.quantity = to_text(v.quantity);
         value.exact = v.exact.size() <= 48 ? v.exact : std::string();
         value.nearest = v.nearest;
         value.also = v.also;
@@ -163,35 +137,22 @@ class EvidenceMaker {
         const double reach = v.factor * value.budget;
         value.low = v.nearest - reach;
         value.high = v.nearest + reach;
-        if (plane.kind != Plane::Kind::frag_coord && !v.is_flat) {
-            const ref::ValueRange range = values_.range(triangle, id,
-                                                        plane.kind == Plane::Kind::depth
-                                                            ? ref::kDepthAttribute
-                                                            : static_cast<int32_t>(plane.attribute),
-                                                        plane.component);
+        if (v.quantity.of != ref::QuantityId::Of::frag_coord && !v.is_flat) {
+            const ref::ValueRange range = values_.range(triangle, id, v.quantity);
             if (range.is_promised) {
                 value.low = range.low;
                 value.high = range.high;
             }
         }
         if (drawn) {
-            const auto component = static_cast<glm::vec4::length_type>(plane.component);
-            switch (plane.kind) {
-                case Plane::Kind::depth:
-                    value.has_device = *drawn < capture_.depth.size();
-                    value.bits =
-                        value.has_device ? std::bit_cast<uint32_t>(capture_.depth[*drawn]) : 0;
-                    break;
-                case Plane::Kind::frag_coord:
-                    value.has_device = true;
-                    value.bits = std::bit_cast<uint32_t>(capture_.frag_coord[*drawn][component]);
-                    break;
-                default:
-                    value.has_device = plane.attribute < capture_.attribute_count;
-                    value.bits = value.has_device ? std::bit_cast<uint32_t>(capture_.attributes.at(
-                                                        plane.attribute)[*drawn][component])
-                                                  : 0;
-            }
+            const bool is_read = v.quantity.is_depth() ? *drawn < capture_.depth.size()
+                                 : v.quantity.is_attribute()
+                                     ? v.quantity.attribute < capture_.attribute_count
+                                     : true;
+            value.has_device = is_read;
+            value.bits = is_read ? std::bit_cast<uint32_t>(
+                                       number_of(diff::values_at(capture_, *drawn), v.quantity))
+                                 : 0;
         }
         e.values.push_back(std::move(value));
     }

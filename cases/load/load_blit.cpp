@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cases/load/load_blit.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "cases/load/blit.hpp"
 #include "cases/load/color.hpp"
+#include "cases/model/blit_source.hpp"
 
 namespace cases {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cases/load/blit.hpp"
+#include "cases/load/load_blit.hpp"
 #include "cases/load/load_draw.hpp"
 #include "cases/load/load_relations.hpp"
 #include "cases/load/load_target.hpp"

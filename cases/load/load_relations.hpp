@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The key `relations` of a case file.
+// Loads the key `relations` of a case file.
 #pragma once
 
 #include "cases/model/case.hpp"

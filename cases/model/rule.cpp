@@ -108,11 +108,11 @@ constexpr std::array kRules = {
     Rule{"sample.locations", Profile::vulkan, "Samples lie exactly at their locations",
          "The standard locations, or those that the pipeline asks for, in the order of their "
          "indices; they are points, never areas, and are not snapped.",
-         "primsrast-multisampling", "19.2.4.1", "ref/number/sample.hpp"},
+         "primsrast-multisampling", "19.2.4.1", "cases/model/sample.hpp"},
     Rule{"sample.mask", Profile::vulkan, "The sample mask removes samples",
          "Bit s of pSampleMask, and bit s of what the shader writes to gl_SampleMask, let sample s "
          "be written: coverage is their AND.",
-         "fragops-samplemask", "17.17", "ref/number/sample.hpp"},
+         "fragops-samplemask", "17.17", "cases/model/sample.hpp"},
     Rule{"sample.mask-in", Profile::vulkan, "gl_SampleMaskIn holds the samples of the invocation",
          "Without sample shading the covered samples after the sample mask; with it a subset that "
          "holds the sample itself, which is that sample alone where every sample has an invocation "
@@ -146,12 +146,12 @@ constexpr std::array kRules = {
     Rule{"provoking.first", Profile::vulkan, "Flat values come from the first vertex",
          "The provoking vertex is 3i in a list, i in a strip, i+1 in a fan; values are copied "
          "before clipping.",
-         "drawing-primitive-topologies", "8.14", "ref/position/triangle.hpp"},
+         "drawing-primitive-topologies", "8.14", "cases/model/triangle.hpp"},
     Rule{"provoking.last", Profile::vulkan,
          "Flat values come from the last vertex, if the state says so",
          "VK_EXT_provoking_vertex: 3i+2 in a list, i+2 in a strip and in a fan. The order of the "
          "vertices, and with it facing, stays.",
-         "drawing-primitive-topologies", "", "ref/position/triangle.hpp"},
+         "drawing-primitive-topologies", "", "cases/model/triangle.hpp"},
     Rule{"interp.linear", Profile::vulkan, "noperspective values are linear in framebuffer space",
          "a f_a + b f_b + c f_c with barycentric coordinates at the sample, each operation to 1 "
          "part "

@@ -31,6 +31,8 @@ std::string find_program(const std::string& name) {
 
 }  // namespace
 
+const char* const kVersion = EDGECASE_VERSION;
+
 Program make_program(int argc, const char* const* argv) {
     Program program;
     for (int k = 0; k < argc; ++k) {

@@ -10,12 +10,8 @@
 
 namespace cli {
 
-inline constexpr const char* kVersion =
-#ifdef EDGECASE_VERSION
-    EDGECASE_VERSION;
-#else
-    "0.1.0";
-#endif
+// The program's version, as project() of CMakeLists.txt has it.
+extern const char* const kVersion;
 
 struct Program {
     std::vector<std::string> arguments;  // argv

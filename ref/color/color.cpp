@@ -105,7 +105,8 @@ const color::Source& ColorReference::source_of(uint32_t triangle, cases::SampleI
     }
     const auto [found, is_new] = sources_.try_emplace(triangle);
     if (is_new) {
-        const std::array<ValueRange, 4> ranges = values_.ranges(triangle, id, attribute);
+        const std::array<ValueRange, 4> ranges =
+            values_.ranges(triangle, id, static_cast<size_t>(attribute));
         for (size_t k = 0; k < 4; ++k) {
             // Nothing is promised of the value: any finite one.
             const double most = 0x1.fffffep127;
@@ -368,7 +369,7 @@ bool ColorReference::explains_depth(size_t index, cases::SampleId id, float dept
                if (is_constant_depth(sequence.back(), depth)) {
                    return true;
                }
-               const ValueRange range = values_.range(sequence.back(), id, kDepthAttribute, 0);
+               const ValueRange range = values_.range(sequence.back(), id, QuantityId{});
                const auto value = static_cast<double>(depth);
                return std::isfinite(depth) &&
                       (!range.is_promised || (value >= range.low && value <= range.high));

@@ -19,12 +19,11 @@
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
 #include "cases/model/triangle.hpp"
+#include "ref/coverage/reason.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
 
 namespace ref {
-
-enum class Coverage : uint8_t { must_not, either, must };
 
 // Which way a triangle faces for every position the device may use, or that it depends on them.
 enum class Facing : uint8_t { front, back, depends };
@@ -33,7 +32,7 @@ enum class Facing : uint8_t { front, back, depends };
 // Opaque to others; setup.hpp has the definition.
 struct TriangleSetup;
 
-// Which way it was settled; reports turn it into a rule (diff/attribution).
+// The answer alone, without its reasons.
 struct Classification {
     Coverage coverage = Coverage::must_not;
     bool on_edge = false;  // the sample lies exactly on an edge of a point-box triangle (a tie)

@@ -424,7 +424,8 @@ std::optional<std::vector<DistanceCut>> distance_cuts(const CutSource& source,
         if (is_zero) {
             continue;  // 0 x = 0 and x + 0 = x hold exactly: c = 0 everywhere
         }
-        const DistanceCut cut = to_cut(planes[k], w);
+        DistanceCut cut = to_cut(planes[k], w);
+        cut.distance = static_cast<uint8_t>(k);
         if (!is_passed_by_all(cut, boxes)) {
             out.push_back(cut);
         }

@@ -8,6 +8,8 @@
 #include <array>
 #include <vector>
 
+#include "ref/coverage/reason_names.hpp"
+
 namespace ref::exact {
 
 namespace {
@@ -167,11 +169,11 @@ Coverage after_cuts(Coverage c, const Outline& o, const FixedPoint& p) {
     return c;
 }
 
+}  // namespace
+
 bool is_on_segment(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
     return edge(a, b, p) == 0 && dot(between(p, a), between(p, b)) <= 0;
 }
-
-}  // namespace
 
 bool covers(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c, const FixedPoint& p) {
     const int area = sgn(edge(a, b, c));
@@ -221,41 +223,73 @@ bool is_inside_whole(const TriangleSetup& setup, const Outline& outline, const F
     return outline.mode == OutlineMode::boxes && by_boxes(outline, p) == Coverage::must;
 }
 
-Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
-    Classification out;
-    if (setup.kind == TriangleSetup::Kind::nothing || !setup.window.may_touch(p)) {
-        return out;
+Coverage coverage_of(const TriangleSetup& setup, const Outline& o, const FixedPoint& p) {
+    switch (o.mode) {
+        case OutlineMode::empty:
+            break;
+        case OutlineMode::snapped:
+            return by_snapping(o, setup.grid_step, p);
+        case OutlineMode::boxes:
+            return by_boxes(o, p);
     }
+    return Coverage::must_not;
+}
+
+Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told) {
+    const Window& window = setup.window;
+    const bool may_draw = setup.kind != TriangleSetup::Kind::nothing && window.may_touch(p);
+    if (!may_draw && !is_told) {
+        return {};
+    }
+    Decision out;
     if (setup.kind == TriangleSetup::Kind::anywhere) {
         out.coverage = Coverage::either;
+    } else {
+        size_t count = 0;
+        const auto outlines = setup.outlines(count);
+        std::array<Coverage, 4> each{};
+        for (size_t k = 0; k < count; ++k) {
+            each[k] = after_cuts(coverage_of(setup, *outlines[k], p), *outlines[k], p);
+        }
+        const auto [least, most] = std::minmax_element(each.begin(), each.begin() + count);
+        out.coverage = count == 0 || *most == Coverage::must_not ? Coverage::must_not
+                       : *least == Coverage::must                ? Coverage::must
+                                                                 : Coverage::either;
+        for (size_t k = 0; is_told && k < count; ++k) {
+            name_reasons(setup, *outlines[k], p, each[k], out);
+        }
+    }
+    if (!may_draw) {
+        if (out.coverage != Coverage::must_not) {
+            out.reasons.clear();
+        }
+        out.coverage = Coverage::must_not;
+    } else if (out.coverage == Coverage::must && (setup.may_be_culled || !window.must_touch(p))) {
+        out.reasons.clear();
+        out.coverage = Coverage::either;
+    }
+    if (is_told) {
+        name_setup_reasons(setup, p, out);
+    }
+    return out;
+}
+
+Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
+    Classification out;
+    out.coverage = decide(setup, p, false).coverage;
+    if (setup.kind != TriangleSetup::Kind::outlines || !setup.window.may_touch(p)) {
         return out;
     }
     size_t count = 0;
     const auto outlines = setup.outlines(count);
-    bool is_in_all = true;
-    bool is_in_some = false;
     for (size_t k = 0; k < count; ++k) {
         const Outline& o = *outlines[k];
-        Coverage c = Coverage::must_not;
-        if (o.mode == OutlineMode::snapped) {
-            c = by_snapping(o, setup.grid_step, p);
-        } else if (o.mode == OutlineMode::boxes) {
-            c = by_boxes(o, p);
-        }
-        c = after_cuts(c, o, p);
-        is_in_all = is_in_all && c == Coverage::must;
-        is_in_some = is_in_some || c != Coverage::must_not;
         for (uint32_t i = 0; i < o.count; ++i) {
             const Box& a = o.boxes[i];
             const Box& b = o.boxes[(i + 1) % o.count];
             out.on_edge = out.on_edge || (a.is_point() && b.is_point() &&
                                           is_on_segment({a.x0, a.y0}, {b.x0, b.y0}, p));
         }
-    }
-    if (is_in_some) {
-        out.coverage = is_in_all && !setup.may_be_culled && setup.window.must_touch(p)
-                           ? Coverage::must
-                           : Coverage::either;
     }
     return out;
 }

@@ -15,6 +15,15 @@ namespace ref::exact {
 // Coverage of one sample.
 Classification classify(const TriangleSetup& setup, const FixedPoint& p);
 
+// The same with its reasons, if they are to be told; `setup` is then one that is told, too.
+Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told);
+
+// What one outline says of a sample, without its cuts and whatever the window.
+Coverage coverage_of(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
+
+// True if p lies on the closed segment.
+bool is_on_segment(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p);
+
 // True if p lies in the closed convex hull of the boxes: no line through p has all corners strictly
 // on one side.
 bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p);

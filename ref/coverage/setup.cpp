@@ -19,45 +19,6 @@ mpq_class exact(float f) {
     return mpq_class(static_cast<double>(f));
 }
 
-mpz_class floor_units(const mpq_class& pixels) {
-    const mpq_class units = pixels * kFixedOne;
-    mpz_class r;
-    mpz_fdiv_q(r.get_mpz_t(), units.get_num_mpz_t(), units.get_den_mpz_t());
-    return r;
-}
-
-mpz_class ceil_units(const mpq_class& pixels) {
-    return -floor_units(-pixels);
-}
-
-int64_t saturate(const mpz_class& v) {
-    constexpr int64_t kFar = int64_t{1} << kPositionBits;
-    return v > kFar ? kFar : (v < -kFar ? -kFar : int64_t{v.get_si()});
-}
-
-bool is_integer(float f) {
-    return !(std::floor(f) < f);
-}
-
-void axis_window(float origin, float extent, cases::Profile profile, FixedRange& zone,
-                 FixedRange& core) {
-    const mpq_class end = exact(origin) + exact(extent);
-    const mpq_class low = std::min<mpq_class>(exact(origin), end);
-    const mpq_class high = std::max<mpq_class>(exact(origin), end);
-    if (is_integer(origin) && is_integer(extent)) {
-        // Polygon clipping: a sample on the border lies on an edge; only the top-left rule decides
-        // it.
-        const int64_t open = profile == cases::Profile::direct3d ? 1 : 0;
-        zone = {saturate(ceil_units(low)), saturate(floor_units(high)) - open};
-        core = zone;
-        return;
-    }
-    // viewportSubPixelBits may be 0, and Direct3D 11.3, 15.6.1 has a zone of up to half a pixel:
-    // within less than a pixel of a fractional border both answers are left open.
-    zone = {saturate(floor_units(low - 1)) + 1, saturate(ceil_units(high + 1)) - 1};
-    core = {saturate(ceil_units(low + 1)), saturate(floor_units(high - 1))};
-}
-
 struct Source {
     const cases::Draw& draw;
     const cases::Triangle& triangle;
@@ -223,108 +184,75 @@ void apply_facing(TriangleSetup& t, const AreaSigns& signs, const cases::Draw& d
     t.may_be_culled = (culls_front && t.can_be_front) || (culls_back && t.can_be_back);
     t.can_be_front = t.can_be_front && !culls_front;
     t.can_be_back = t.can_be_back && !culls_back;
-    if (!t.can_be_front && !t.can_be_back) {
+    t.is_culled = !t.can_be_front && !t.can_be_back;
+    if (t.is_culled) {
         t.kind = TriangleSetup::Kind::nothing;
     }
 }
 
 // "discarded if ... negative for all of the vertices".
+bool is_culled_by_distance(const cases::Draw& draw, const cases::Triangle& triangle, uint32_t k) {
+    return std::all_of(triangle.vertex.begin(), triangle.vertex.end(), [&](uint32_t v) {
+        return draw.distances.cull[v][static_cast<glm::vec4::length_type>(k)] < 0;
+    });
+}
 bool is_culled_by_distance(const cases::Draw& draw, const cases::Triangle& triangle) {
     for (uint32_t k = 0; k < draw.distances.cull_count; ++k) {
-        if (std::all_of(triangle.vertex.begin(), triangle.vertex.end(), [&](uint32_t v) {
-                return draw.distances.cull[v][static_cast<glm::vec4::length_type>(k)] < 0;
-            })) {
+        if (is_culled_by_distance(draw, triangle, k)) {
             return true;
         }
     }
     return false;
 }
 
-}  // namespace
-
-bool Window::may_touch(const FixedPoint& p) const {
-    const int64_t i = p.x >> kFixedBits;  // arithmetic shift: floor
-    const int64_t j = p.y >> kFixedBits;
-    return i >= pixel_x0 && i < pixel_x1 && j >= pixel_y0 && j < pixel_y1 &&
-           (is_viewport_ignored || (zone_x.contains(p.x) && zone_y.contains(p.y)));
+// Nothing is promised of the triangle but that it stays inside `window`.
+void set_up_anywhere(const Source& s, ReasonKind why, TriangleSetup& t) {
+    t.kind = TriangleSetup::Kind::anywhere;
+    t.window.is_viewport_ignored = true;
+    apply_facing(t, {true, true, true}, s.draw);
+    t.reasons = {{why}};
 }
 
-bool Window::must_touch(const FixedPoint& p) const {
-    return may_touch(p) && core_x.contains(p.x) && core_y.contains(p.y);
-}
-
-std::array<const Outline*, 4> TriangleSetup::outlines(size_t& count) const {
-    std::array<const Outline*, 4> out{};
-    count = 0;
-    if (has_outline) {
-        out[count++] = &unclipped;
-    }
-    if (is_clipped) {
-        out[count++] = clipped.get();
-    }
-    for (const Outline& o : tested) {
-        out[count++] = &o;
-    }
-    return out;
-}
-
-Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile profile) {
-    Window w;
-    const cases::Rect& r = draw.scissor;
-    w.pixel_x0 = std::max<int64_t>(0, r.x);
-    w.pixel_y0 = std::max<int64_t>(0, r.y);
-    w.pixel_x1 = std::min<int64_t>(c.target.width, int64_t{r.x} + r.width);
-    w.pixel_y1 = std::min<int64_t>(c.target.height, int64_t{r.y} + r.height);
-    axis_window(draw.viewport.x, draw.viewport.width, profile, w.zone_x, w.core_x);
-    axis_window(draw.viewport.y, draw.viewport.height, profile, w.zone_y, w.core_y);
-    const cases::Multisample& m = draw.multisample;
-    w.sample_mask = m.sample_mask & m.shader_mask.value_or(0xffffffffU);
-    return w;
-}
-
-TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, const Limits& limits,
-                     cases::Profile profile, VertexBoxes& boxes, const Window& window) {
-    const cases::Draw& draw = c.draws[triangle.draw];
-    TriangleSetup t;
-    t.window = window;
-    t.grid_step = int64_t{1} << (kFixedBits - limits.subpixel_bits);
-    const Source s{draw,
-                   triangle,
-                   limits,
-                   profile,
-                   boxes,
-                   window,
-                   {draw, triangle.vertex},
-                   clip_volume_of(draw)};
-    const std::array<glm::vec4, 3>& clip = s.input.clip;
+// Nothing of the triangle is drawn if its draw has rasterizer discard.
+void discard_by_state(const cases::Draw& draw, TriangleSetup& t) {
     if (draw.rasterizer_discard) {
-        return t;  // covers nothing
+        t.kind = TriangleSetup::Kind::nothing;
+        t.reasons.push_back({ReasonKind::discarded});
     }
+}
+
+// That planes take the whole triangle away: those beyond which all of its vertices lie, or else
+// those beyond which some do.
+void tell_planes(const Source& s, TriangleSetup& t) {
+    for (const size_t least : {size_t{3}, size_t{1}}) {
+        for (const ClipPlane plane : s.volume.all()) {
+            size_t beyond = 0;
+            for (size_t i = 0; i < 3; ++i) {
+                beyond += is_inside(s.input, i, {&plane, 1}) ? 0U : 1U;
+            }
+            if (beyond >= least) {
+                t.reasons.push_back(reason_of_plane(plane));
+            }
+        }
+        if (!t.reasons.empty()) {
+            break;
+        }
+    }
+    t.has_outline = outline_by(s, {}, t.unclipped);
+    AreaSigns signs{true, true, true};
+    if (t.has_outline) {
+        choose_mode(t.unclipped, t.grid_step, s.profile);
+        signs = signs_of(t.unclipped, t.grid_step);
+    }
+    apply_facing(t, signs, s.draw);
+    t.kind = TriangleSetup::Kind::nothing;
+}
+
+// The set-up of a triangle of numbers, some of which lies inside each plane.
+void set_up_outlines(const Source& s, bool is_told, TriangleSetup& t) {
+    const std::array<glm::vec4, 3>& clip = s.input.clip;
+    const cases::Profile profile = s.profile;
     AreaSigns signs;
-    const bool is_number = std::all_of(
-        clip.begin(), clip.end(), [&](const glm::vec4& v) { return is_representable(v, profile); });
-    if (!is_number) {
-        // Undefined for this primitive, anywhere inside scissor and framebuffer.
-        t.kind = TriangleSetup::Kind::anywhere;
-        t.window.is_viewport_ignored = true;
-        apply_facing(t, {true, true, true}, draw);
-        return t;
-    }
-    if (is_trivially_outside(clip, s.volume.view()) || is_culled_by_distance(draw, triangle)) {
-        return t;
-    }
-    // "x/w ... division by zero produces an unspecified result" (Vulkan, "General Requirements"); a
-    // denormal w may be flushed to zero. Direct3D clips to 0 < w before it divides.
-    const bool may_divide_by_zero = profile != cases::Profile::direct3d &&
-                                    std::any_of(clip.begin(), clip.end(), [](const glm::vec4& v) {
-                                        return std::fabs(v.w) < 0x1p-126F;
-                                    });
-    if (may_divide_by_zero) {
-        t.kind = TriangleSetup::Kind::anywhere;
-        t.window.is_viewport_ignored = true;
-        apply_facing(t, {true, true, true}, draw);
-        return t;
-    }
     t.kind = TriangleSetup::Kind::outlines;
     const std::array<size_t, 3> all{0, 1, 2};
     t.is_clipped = !std::all_of(all.begin(), all.end(),
@@ -336,7 +264,7 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
     }
     // A vertex beyond the range takes what is cut from its edges with it.
     const bool is_in_range = std::all_of(clip.begin(), clip.end(), [&](const glm::vec4& v) {
-        return is_in_guaranteed_range(v, profile);
+        return ref::is_in_guaranteed_range(v, profile);
     });
     bool is_defined = is_in_range && (t.has_outline || t.is_clipped);
     if (t.is_clipped) {
@@ -369,6 +297,9 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
         std::any_of(clip.begin(), clip.end(), [](const glm::vec4& v) { return !(v.w > 0); });
     if (!is_defined) {
         t.kind = TriangleSetup::Kind::anywhere;
+        if (is_told) {
+            t.reasons = {{ReasonKind::unbounded}};
+        }
         signs = {true, true, true};
     } else if (crosses_eye && profile == cases::Profile::vulkan) {
         // "(clipped or unclipped)": the unclipped area may have the opposite sign.
@@ -376,9 +307,80 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
     }
     if (!signs.negative && !signs.zero && !signs.positive) {
         t.kind = TriangleSetup::Kind::nothing;  // every outline is empty
+        if (is_told) {
+            tell_planes(s, t);
+        }
+        return;
+    }
+    apply_facing(t, signs, s.draw);
+}
+
+}  // namespace
+
+std::array<const Outline*, 4> TriangleSetup::outlines(size_t& count) const {
+    std::array<const Outline*, 4> out{};
+    count = 0;
+    if (has_outline) {
+        out[count++] = &unclipped;
+    }
+    if (is_clipped) {
+        out[count++] = clipped.get();
+    }
+    for (const Outline& o : tested) {
+        out[count++] = &o;
+    }
+    return out;
+}
+
+TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, const Limits& limits,
+                     cases::Profile profile, VertexBoxes& boxes, const Window& window,
+                     bool is_told) {
+    const cases::Draw& draw = c.draws[triangle.draw];
+    TriangleSetup t;
+    t.window = window;
+    t.grid_step = int64_t{1} << (kFixedBits - limits.subpixel_bits);
+    const Source s{draw,
+                   triangle,
+                   limits,
+                   profile,
+                   boxes,
+                   window,
+                   {draw, triangle.vertex},
+                   clip_volume_of(draw)};
+    const std::array<glm::vec4, 3>& clip = s.input.clip;
+    const bool is_number = std::all_of(
+        clip.begin(), clip.end(), [&](const glm::vec4& v) { return is_representable(v, profile); });
+    if (!is_number) {
+        // Undefined for this primitive, anywhere inside scissor and framebuffer.
+        set_up_anywhere(s, ReasonKind::undefined, t);
+        discard_by_state(draw, t);
         return t;
     }
-    apply_facing(t, signs, draw);
+    const bool is_outside = is_trivially_outside(clip, s.volume.view());
+    const bool is_culled = is_culled_by_distance(draw, triangle);
+    if (!is_told && (is_outside || is_culled || draw.rasterizer_discard)) {
+        return t;
+    }
+    // "x/w ... division by zero produces an unspecified result" (Vulkan, "General Requirements"); a
+    // denormal w may be flushed to zero. Direct3D clips to 0 < w before it divides.
+    const bool may_divide_by_zero = profile != cases::Profile::direct3d &&
+                                    std::any_of(clip.begin(), clip.end(), [](const glm::vec4& v) {
+                                        return std::fabs(v.w) < 0x1p-126F;
+                                    });
+    if (is_outside) {
+        tell_planes(s, t);
+    } else if (may_divide_by_zero) {
+        set_up_anywhere(s, ReasonKind::undefined, t);
+    } else {
+        set_up_outlines(s, is_told, t);
+    }
+    for (uint32_t k = 0; is_culled && k < draw.distances.cull_count; ++k) {
+        if (is_culled_by_distance(draw, triangle, k)) {
+            t.kind = TriangleSetup::Kind::nothing;
+            t.reasons.push_back({ReasonKind::cull_distance, static_cast<uint8_t>(k)});
+        }
+    }
+    discard_by_state(draw, t);
     return t;
 }
 

@@ -48,6 +48,7 @@ enum class EdgeTest : uint8_t {
 // may pass, inside `must` it passes whatever the device's freedom.
 struct DistanceCut {
     HalfPlane may, must;
+    uint8_t distance = kNothing;  // its number; nothing: of no distance in particular
 };
 
 // The boxes of an outline, in one piece. Nearly every outline is a triangle, and there may be
@@ -122,7 +123,9 @@ struct Window {
     uint32_t sample_mask = 0xffffffffU;  // bit s: sample s passes the sample masks
 
     bool may_write(uint32_t sample) const { return ((sample_mask >> sample) & 1U) != 0; }
-    bool may_touch(const FixedPoint& p) const;
+    bool is_in_scissor(const FixedPoint& p) const;
+    bool is_in_zone(const FixedPoint& p) const;
+    bool may_touch(const FixedPoint& p) const { return is_in_scissor(p) && is_in_zone(p); }
     bool must_touch(const FixedPoint& p) const;
 };
 
@@ -148,11 +151,22 @@ struct TriangleSetup {
     bool can_be_front = false;        // drawn so, after culling
     bool can_be_back = false;
     bool may_be_culled = false;
+    bool is_culled = false;  // by its face
     Window window;
+    Reasons reasons;  // of `kind`, but for is_culled; only if set up to be told
 
     // The outlines that a device may use, one to four.
     std::array<const Outline*, 4> outlines(size_t& count) const;
 };
+
+// What is cut off by a plane of the clip volume.
+inline Reason reason_of_plane(ClipPlane plane) {
+    return plane >= ClipPlane::user_0
+               ? Reason{ReasonKind::clip_distance,
+                        static_cast<uint8_t>(static_cast<uint8_t>(plane) -
+                                             static_cast<uint8_t>(ClipPlane::user_0))}
+               : Reason{ReasonKind::clip_plane, static_cast<uint8_t>(plane)};
+}
 
 // The boxes of a draw's vertices, computed when first asked for.
 class VertexBoxes {
@@ -179,8 +193,11 @@ class VertexBoxes {
 // The window of a draw.
 Window window_of(const cases::Case& c, const cases::Draw& draw, cases::Profile profile);
 
+// `is_told`: also why nothing is drawn or anything may be. A triangle beyond a plane of the view
+// volume then has the outline that it would have without planes.
 TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, const Limits& limits,
-                     cases::Profile profile, VertexBoxes& boxes, const Window& window);
+                     cases::Profile profile, VertexBoxes& boxes, const Window& window,
+                     bool is_told = false);
 
 // A position in the middle of a box, on no grid.
 FixedPoint middle_of(const Box& box);

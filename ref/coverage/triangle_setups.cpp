@@ -19,11 +19,12 @@ bool has_sample(int64_t low, int64_t high, int64_t offset) {
 }  // namespace
 
 TriangleSetups::TriangleSetups(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
-                               const Limits& limits, cases::Profile profile)
+                               const Limits& limits, cases::Profile profile, bool is_told)
     : case_(c),
       triangles_(triangles),
       limits_(limits),
       profile_(profile),
+      is_told_(is_told),
       boxes_(c, limits, profile),
       slot_(triangles.size(), kUnknown) {
     for (const cases::Draw& d : c.draws) {
@@ -38,7 +39,7 @@ const TriangleSetup& TriangleSetups::operator[](uint32_t t) {
     if (slot_[t] == kUnknown || slot_[t] == kForgotten) {
         const cases::Triangle& triangle = triangles_[t];
         kept_.push_back(
-            set_up(case_, triangle, limits_, profile_, boxes_, windows_[triangle.draw]));
+            set_up(case_, triangle, limits_, profile_, boxes_, windows_[triangle.draw], is_told_));
         if (slot_[t] == kUnknown) {
             known_.push_back(t);
         }

@@ -19,9 +19,9 @@ namespace ref {
 
 class TriangleSetups {
   public:
-    // Keeps references to the case and its assembled triangles.
+    // Keeps references to the case and its assembled triangles. `is_told`: as of set_up.
     TriangleSetups(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
-                   const Limits& limits, cases::Profile profile);
+                   const Limits& limits, cases::Profile profile, bool is_told = false);
 
     // The set-up of triangle t, made when first asked for; valid as long as this object, or until
     // it is forgotten.
@@ -46,6 +46,7 @@ class TriangleSetups {
     const std::vector<cases::Triangle>& triangles_;
     Limits limits_;
     cases::Profile profile_;
+    bool is_told_;
     VertexBoxes boxes_;
     std::vector<Window> windows_;     // by draw
     std::vector<uint32_t> slot_;      // 1 + place in kept_, by triangle; or one of the two above

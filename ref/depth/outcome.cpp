@@ -91,11 +91,11 @@ struct DepthTest::Impl {
           profile(the_profile),
           exact_only(exact),
           loaded(the_triangles.size()),
-          steps(value::steps_of(the_case.target.depth_format)) {
+          steps(cases::depth_steps(the_case.target.depth_format)) {
         depth.kind = value::Kind::linear;
         depth.at_sample = true;
         depth.plane = value::kPlaneDepth;
-        depth.attribute = -2;
+        depth.id = {};
         const mpq_class value(static_cast<double>(c.target.depth_clear));
         clear_exact = *with_neighbours<mpq_class>({value, value}, steps);
         clear_ball = {false, value::from_exact<Ball>(clear_exact.low),

@@ -11,6 +11,7 @@
 #include "ref/coverage/setup.hpp"
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/expectation/narrowing.hpp"
+#include "ref/expectation/scan_all.hpp"
 
 namespace ref {
 
@@ -101,6 +102,29 @@ class HitTable {
 
 }  // namespace
 
+std::vector<fast::Span> scan_all(const cases::Case& c,
+                                 const std::vector<cases::Triangle>& triangles,
+                                 TriangleSetups& setups) {
+    std::vector<fast::Span> spans;
+    for (uint32_t t = 0; t < triangles.size(); ++t) {
+        if (!setups.may_touch_a_sample(t)) {
+            continue;
+        }
+        const size_t first = spans.size();
+        fast::scan(setups[t], t, c.target, spans);
+        const uint32_t down = c.draws[triangles[t].draw].layer * c.target.height;
+        for (size_t k = first; down > 0 && k < spans.size(); ++k) {
+            spans[k].y += down;
+        }
+        // What has no sample is asked for again only where an open sample is near one of its edges
+        // (Narrowing::triangles_at).
+        if (spans.size() == first) {
+            setups.forget_last(t);
+        }
+    }
+    return spans;
+}
+
 Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile) {
     Expectation out;
     out.limits = limits;
@@ -108,22 +132,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     out.target = c.target;
     out.triangles = assemble(c);
     TriangleSetups setups(c, out.triangles, limits, profile);
-    std::vector<fast::Span> spans;
-    for (uint32_t t = 0; t < out.triangles.size(); ++t) {
-        if (setups.may_touch_a_sample(t)) {
-            const size_t first = spans.size();
-            fast::scan(setups[t], t, c.target, spans);
-            const uint32_t down = c.draws[out.triangles[t].draw].layer * c.target.height;
-            for (size_t k = first; down > 0 && k < spans.size(); ++k) {
-                spans[k].y += down;
-            }
-            // What has no sample is asked for again only where an open sample is near one of its
-            // edges (Narrowing::triangles_at).
-            if (spans.size() == first) {
-                setups.forget_last(t);
-            }
-        }
-    }
+    const std::vector<fast::Span> spans = scan_all(c, out.triangles, setups);
     HitTable table(c.target, spans);
     std::optional<DepthTest> depth;
     if (DepthTest::is_needed(c)) {

@@ -6,51 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "ref/coverage/exact.hpp"
+#include "ref/expectation/reason_table.hpp"
+#include "ref/expectation/scan_all.hpp"
 #include "ref/position/clip.hpp"
 
 namespace ref {
 
 namespace {
-
-// The triangle alone, seen through a scissor of one pixel: what the reference then says of that
-// pixel is the class of this triangle.
-cases::Case alone(const cases::Case& c, const cases::Triangle& t, cases::SampleId sample) {
-    const cases::Draw& draw = c.draws[t.draw];
-    cases::Draw single;
-    single.positions = {draw.positions[t.vertex[0]], draw.positions[t.vertex[1]],
-                        draw.positions[t.vertex[2]]};
-    single.viewport = draw.viewport;
-    single.layer = draw.layer;
-    single.rasterizer_discard = draw.rasterizer_discard;
-    single.cull = draw.cull;
-    single.depth.clamp = draw.depth.clamp;
-    single.depth.clip = draw.depth.clip;
-    single.depth.negative_one_to_one = draw.depth.negative_one_to_one;
-    single.front_face = draw.front_face;
-    single.multisample = draw.multisample;
-    single.distances.clip_count = draw.distances.clip_count;
-    single.distances.cull_count = draw.distances.cull_count;
-    for (const uint32_t v : t.vertex) {
-        if (draw.distances.clip_count > 0) {
-            single.distances.clip.push_back(draw.distances.clip[v]);
-        }
-        if (draw.distances.cull_count > 0) {
-            single.distances.cull.push_back(draw.distances.cull[v]);
-        }
-    }
-    const auto x = static_cast<int64_t>(sample.x);
-    const auto y = static_cast<int64_t>(sample.y);
-    const bool inside = x >= draw.scissor.x && x < draw.scissor.x + int64_t{draw.scissor.width} &&
-                        y >= draw.scissor.y && y < draw.scissor.y + int64_t{draw.scissor.height};
-    single.scissor = {static_cast<int32_t>(sample.x), static_cast<int32_t>(sample.y),
-                      inside ? 1U : 0U, inside ? 1U : 0U};
-    cases::Case result;
-    result.id = c.id;
-    result.target = c.target;
-    result.draws.push_back(std::move(single));
-    return result;
-}
 
 mpq_class pixels(int64_t fixed) {
     mpq_class value(static_cast<long>(fixed), static_cast<long>(kFixedOne));
@@ -59,7 +24,7 @@ mpq_class pixels(int64_t fixed) {
 }
 
 // E_ab(p) in square pixels (coverage.hpp has sign and source).
-mpq_class edge_function(FixedPoint a, FixedPoint b, FixedPoint p) {
+mpq_class edge_in_pixels(FixedPoint a, FixedPoint b, FixedPoint p) {
     return (pixels(b.x) - pixels(a.x)) * (pixels(p.y) - pixels(a.y)) -
            (pixels(b.y) - pixels(a.y)) * (pixels(p.x) - pixels(a.x));
 }
@@ -71,40 +36,6 @@ EdgeKind kind_of(FixedPoint a, FixedPoint b) {
         return b.x > a.x ? EdgeKind::top : EdgeKind::bottom;
     }
     return b.y < a.y ? EdgeKind::left : EdgeKind::right;
-}
-
-Coverage coverage_of(const HitBounds& bounds) {
-    return bounds.total_min > 0   ? Coverage::must
-           : bounds.total_max > 0 ? Coverage::either
-                                  : Coverage::must_not;
-}
-
-// What the distances of a triangle alone change.
-void explain_distances(const cases::Case& single, const Limits& limits, cases::Profile profile,
-                       size_t index, TriangleExplanation& e) {
-    const cases::ClipDistances& distances = single.draws[0].distances;
-    const auto without = [&](bool clip, bool cull) {
-        cases::Case other = single;
-        cases::ClipDistances& d = other.draws[0].distances;
-        if (clip) {
-            d.clip_count = 0;
-            d.clip.clear();
-        }
-        if (cull) {
-            d.cull_count = 0;
-            d.cull.clear();
-        }
-        return coverage_of(expect(other, limits, profile).samples[index].hits);
-    };
-    e.has_distances = distances.clip_count > 0;
-    if (distances.cull_count > 0 && e.coverage == Coverage::must_not) {
-        e.culled_by_distance = without(false, true) != Coverage::must_not;
-    }
-    if (distances.clip_count > 0 && e.coverage != Coverage::must) {
-        const Coverage whole = without(true, false);
-        e.clipped_by_distance = e.coverage == Coverage::must_not && whole != Coverage::must_not;
-        e.near_distance = e.coverage == Coverage::either && whole == Coverage::must;
-    }
 }
 
 // Rough screen distance test that decides which triangles an explanation mentions at all.
@@ -131,75 +62,6 @@ bool is_near(const cases::Draw& draw, const cases::Triangle& t, FixedPoint p) {
     return px >= x0 - 2 && px <= x1 + 2 && py >= y0 - 2 && py <= y1 + 2;
 }
 
-std::string reason_for(const TriangleExplanation& t, const cases::Draw& draw) {
-    if (!t.in_layer) {
-        return fmt::format("the draw goes to layer {}", draw.layer);
-    }
-    if (!t.in_mask) {
-        return "the sample mask of the draw leaves the sample out";
-    }
-    if (!t.in_scissor) {
-        return "the sample lies outside the scissor rectangle";
-    }
-    if (!t.in_viewport) {
-        return "the sample lies outside the viewport";
-    }
-    if (t.is_discarded) {
-        return "the draw has rasterizer discard";
-    }
-    if (t.culled) {
-        return "the triangle is culled";
-    }
-    if (t.culled_by_distance) {
-        return "a cull distance is negative at all three vertices";
-    }
-    if (t.clipped_by_distance) {
-        return "a clip distance is negative at the sample";
-    }
-    if (t.near_distance) {
-        return "inside the triangle, but a clip distance is 0 within its error at the sample";
-    }
-    if (t.is_undefined) {
-        return "a vertex has a NaN, an infinity or a number beyond the guaranteed range: the "
-               "triangle "
-               "may cover any sample or none";
-    }
-    if (t.edges.empty()) {
-        return "a vertex lies behind the eye or beyond 2^32 pixels; the clipped polygon decides";
-    }
-    if (!t.has_area) {
-        return "the triangle has no area after snapping";
-    }
-    for (const EdgeExplanation& e : t.edges) {
-        if (e.value < 0) {
-            return fmt::format(
-                "E({},{}) = {} < 0: outside that edge{}", e.from, e.to, to_text(e.value),
-                t.coverage == Coverage::either ? ", but within what snapping may move"
-                : t.coverage == Coverage::must ? ", yet inside for every allowed position"
-                                               : "");
-        }
-    }
-    std::string ties;
-    bool owned = true;
-    for (const EdgeExplanation& e : t.edges) {
-        if (e.value == 0) {
-            const bool owns = e.kind == EdgeKind::top || e.kind == EdgeKind::left;
-            owned = owned && owns;
-            ties += fmt::format("{}E({},{}) = 0 exactly, a {} edge", ties.empty() ? "" : "; ",
-                                e.from, e.to, to_string(e.kind));
-        }
-    }
-    if (!ties.empty()) {
-        return ties + (owned ? ": covered under the top-left rule"
-                             : ": not covered under the top-left rule");
-    }
-    return fmt::format("inside: E = {}, {}, {} are all positive{}", to_text(t.edges[0].value),
-                       to_text(t.edges[1].value), to_text(t.edges[2].value),
-                       t.coverage == Coverage::either     ? ", but within what snapping may move"
-                       : t.coverage == Coverage::must_not ? ", yet clipped away"
-                                                          : "");
-}
-
 constexpr std::string_view kCompareNames[] = {
     "NEVER", "LESS", "EQUAL", "LESS_OR_EQUAL", "GREATER", "NOT_EQUAL", "GREATER_OR_EQUAL",
     "ALWAYS"};
@@ -218,31 +80,13 @@ std::string depth_text(DepthOutcome outcome, DepthReason reason, std::string_vie
     return fmt::format("{} the depth test {}, {}{}", verdict, op, range, because);
 }
 
-// The depth test of every triangle that may cover the sample.
-void explain_depth(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
-                   const Limits& limits, cases::Profile profile, SampleExplanation& out) {
-    if (!DepthTest::is_needed(c)) {
-        return;
+// Takes a triangle away that the state of its draw keeps from the sample.
+void refuse(Decision& d, ReasonKind why) {
+    if (d.coverage != Coverage::must_not) {
+        d = {};
     }
-    DepthTest test(c, triangles, limits, profile, true);
-    std::vector<DepthCandidate> candidates;
-    std::vector<TriangleExplanation*> explained;
-    for (TriangleExplanation& t : out.triangles) {
-        if (t.coverage != Coverage::must_not) {
-            candidates.push_back({t.index, t.coverage == Coverage::must, false, -1});
-            explained.push_back(&t);
-        }
-    }
-    const DepthResolution r = test.resolve(out.position, candidates);
-    for (size_t k = 0; k < explained.size(); ++k) {
-        TriangleExplanation& t = *explained[k];
-        const cases::CompareOp op = c.draws[t.triangle.draw].depth.compare;
-        t.depth = r.outcomes[k];
-        t.depth_reason = r.reasons[k];
-        t.depth_text =
-            depth_text(r.outcomes[k], r.reasons[k], kCompareNames[static_cast<size_t>(op)],
-                       test.range_text(t.index, out.position));
-    }
+    d.reasons.push_back({why});
+    std::sort(d.reasons.begin(), d.reasons.end());
 }
 
 }  // namespace
@@ -282,106 +126,156 @@ std::string to_text(int64_t fixed) {
     return to_text(pixels(fixed));
 }
 
-SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cases::Profile profile,
-                                 cases::SampleId sample) {
-    SampleExplanation result;
-    result.position = sample_position(sample.x, sample.y, sample.sample, c.target);
-    const size_t index = index_of(c.target, sample);
+bool TriangleExplanation::has(ReasonKind kind) const {
+    return std::any_of(decision.reasons.begin(), decision.reasons.end(),
+                       [&](const Reason& r) { return r.kind == kind; });
+}
 
-    // The whole case, seen through this pixel's scissor.
-    cases::Case window = c;
-    result.in_layer = false;
-    result.in_scissor = false;
-    result.in_viewport = false;
-    std::vector<bool> in_viewport;  // of each draw
-    for (cases::Draw& draw : window.draws) {
-        const auto x = static_cast<int64_t>(sample.x);
-        const auto y = static_cast<int64_t>(sample.y);
-        const bool inside =
-            x >= draw.scissor.x && x < draw.scissor.x + int64_t{draw.scissor.width} &&
-            y >= draw.scissor.y && y < draw.scissor.y + int64_t{draw.scissor.height};
-        const bool in_layer = draw.layer == sample.layer;
-        result.in_layer = result.in_layer || in_layer;
-        result.in_scissor = result.in_scissor || (in_layer && inside);
-        draw.scissor = {static_cast<int32_t>(sample.x), static_cast<int32_t>(sample.y),
-                        inside ? 1U : 0U, inside ? 1U : 0U};
-        const auto& v = draw.viewport;
-        const mpq_class px = pixels(result.position.x);
-        const mpq_class py = pixels(result.position.y);
-        const mpq_class vx0 = v.x, vx1 = mpq_class(v.x) + mpq_class(v.width);
-        const mpq_class va = v.y, vb = mpq_class(v.y) + mpq_class(v.height);
-        in_viewport.push_back(px >= vx0 && px <= vx1 && py >= std::min(va, vb) &&
-                              py <= std::max(va, vb));
-        result.in_viewport = result.in_viewport || (in_layer && in_viewport.back());
+bool TriangleExplanation::is_tie() const {
+    return why() == ReasonKind::top_left_in || why() == ReasonKind::top_left_out;
+}
+
+bool TriangleExplanation::is_suppressed() const {
+    return decision.coverage == Coverage::must_not && !has(ReasonKind::outside) &&
+           !has(ReasonKind::outside_hull) && !has(ReasonKind::no_area) &&
+           !has(ReasonKind::top_left_out);
+}
+
+Explainer::Explainer(const cases::Case& c, const Limits& limits, cases::Profile profile)
+    : case_(c),
+      limits_(limits),
+      profile_(profile),
+      triangles_(cases::assemble(c)),
+      setups_(c, triangles_, limits, profile, true),
+      spans_(scan_all(c, triangles_, setups_)),
+      depth_(DepthTest::is_needed(c)
+                 ? std::make_optional<DepthTest>(c, triangles_, limits, profile, false)
+                 : std::nullopt),
+      narrowing_(c, profile, triangles_, setups_,
+                 {fast::is_in_hull, fast::winding, fast::is_inside_whole},
+                 depth_ ? &*depth_ : nullptr) {}
+
+Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId sample) {
+    const cases::Draw& draw = case_.draws[triangles_[t].draw];
+    Decision out = exact::decide(setups_[t], p, true);
+    if (!is_in_mask(draw.multisample, sample.sample)) {
+        refuse(out, ReasonKind::masked);
     }
-    const Expectation whole = expect(window, limits, profile);
-    result.expectation = whole.samples[index];
+    if (draw.layer != sample.layer) {
+        refuse(out, ReasonKind::other_layer);
+    }
+    // What might have taken it away, but must not have: culling by distance goes first.
+    if (out.coverage == Coverage::must && out.reasons[0].kind == ReasonKind::inside) {
+        out.reasons[0].kind = draw.distances.cull_count > 0   ? ReasonKind::passes_cull_distance
+                              : draw.distances.clip_count > 0 ? ReasonKind::passes_clip_distance
+                                                              : ReasonKind::inside;
+    }
+    return out;
+}
 
-    const std::vector<cases::Triangle> triangles = assemble(c);
-    for (uint32_t i = 0; i < triangles.size(); ++i) {
-        const cases::Triangle& t = triangles[i];
-        const cases::Draw& draw = c.draws[t.draw];
-        if (!is_near(draw, t, result.position)) {
+TriangleExplanation Explainer::explain_triangle(uint32_t t, const FixedPoint& p,
+                                                Decision decision) {
+    TriangleExplanation e;
+    e.index = t;
+    e.triangle = triangles_[t];
+    e.decision = std::move(decision);
+    e.facing = setups_[t].facing;
+    const cases::Draw& draw = case_.draws[e.triangle.draw];
+    std::array<std::optional<FixedPoint>, 3> snapped;
+    for (size_t k = 0; k < 3; ++k) {
+        const glm::vec4& clip = draw.positions[e.triangle.vertex[k]];
+        e.is_clipped = e.is_clipped || !is_inside(clip, clip_volume_of(draw).view());
+        if (is_projectable(clip)) {
+            snapped[k] = snap_nearest(clip, draw.viewport, limits_);
+            e.boxes[k] = position_box(clip, draw.viewport, limits_, profile_);
+        }
+    }
+    if (!snapped[0] || !snapped[1] || !snapped[2]) {
+        return e;
+    }
+    const bool is_reversed = edge_in_pixels(*snapped[0], *snapped[1], *snapped[2]) < 0;
+    for (const size_t from :
+         is_reversed ? std::array<size_t, 3>{0, 2, 1} : std::array<size_t, 3>{0, 1, 2}) {
+        const size_t to = (from + (is_reversed ? 2 : 1)) % 3;
+        EdgeExplanation edge;
+        edge.label = static_cast<EdgeLabel>(is_reversed ? to : from);
+        edge.from = e.triangle.vertex[from];
+        edge.to = e.triangle.vertex[to];
+        edge.a = *snapped[from];
+        edge.b = *snapped[to];
+        edge.value = edge_in_pixels(edge.a, edge.b, p);
+        edge.kind = kind_of(edge.a, edge.b);
+        e.edges.push_back(std::move(edge));
+    }
+    return e;
+}
+
+SampleExplanation Explainer::explain(cases::SampleId sample) {
+    SampleExplanation out;
+    out.position = sample_position(sample.x, sample.y, sample.sample, case_.target);
+    const FixedPoint& p = out.position;
+    out.of_all = ReasonKind::other_layer;
+    for (const cases::Draw& draw : case_.draws) {
+        const Window window = window_of(case_, draw, profile_);
+        const ReasonKind why = draw.layer != sample.layer ? ReasonKind::other_layer
+                               : !window.is_in_scissor(p) ? ReasonKind::scissor
+                                                          : ReasonKind::viewport;
+        if (draw.layer == sample.layer && window.may_touch(p)) {
+            out.of_all.reset();
+            break;
+        }
+        out.of_all = std::max(*out.of_all, why);
+    }
+    std::set<uint32_t> at_sample;
+    const uint32_t row = sample.layer * case_.target.height + sample.y;
+    for (const fast::Span& s : spans_) {
+        if (s.y == row && s.sample == sample.sample && s.x0 <= sample.x && sample.x < s.x1) {
+            at_sample.insert(s.triangle);
+        }
+    }
+    std::vector<Hit> hits;
+    std::vector<size_t> explained;  // the explanation of each hit, or none of those told
+    constexpr size_t kUntold = ~size_t{0};
+    for (uint32_t t = 0; t < triangles_.size(); ++t) {
+        const bool is_told = is_near(case_.draws[triangles_[t].draw], triangles_[t], p);
+        if (!is_told && !at_sample.contains(t)) {
             continue;
         }
-        TriangleExplanation e;
-        e.index = i;
-        e.triangle = t;
-        const cases::Case single = alone(c, t, sample);
-        e.coverage = coverage_of(expect(single, limits, profile).samples[index].hits);
-        explain_distances(single, limits, profile, index, e);
-        if (draw.cull != cases::CullMode::none && e.coverage == Coverage::must_not) {
-            cases::Case unculled = single;
-            unculled.draws[0].cull = cases::CullMode::none;
-            e.culled = expect(unculled, limits, profile).samples[index].hits.total_max > 0;
+        Decision decision = decide(t, p, sample);
+        if (decision.coverage != Coverage::must_not) {
+            hits.push_back({t, decision.coverage});
+            explained.push_back(is_told ? out.triangles.size() : kUntold);
         }
-        std::array<std::optional<FixedPoint>, 3> snapped;
-        e.on_grid = true;
-        for (size_t k = 0; k < 3; ++k) {
-            const glm::vec4& clip = draw.positions[t.vertex[k]];
-            e.is_undefined = e.is_undefined || !is_representable(clip, profile);
-            e.needs_clipping = e.needs_clipping || !is_inside(clip, clip_volume_of(draw).view());
-            if (is_projectable(clip)) {
-                snapped[k] = snap_nearest(clip, draw.viewport, limits);
-            }
-            const std::optional<Box> box = is_projectable(clip)
-                                               ? position_box(clip, draw.viewport, limits, profile)
-                                               : std::nullopt;
-            e.on_grid = e.on_grid && box && box->is_point();
+        if (is_told) {
+            TriangleExplanation e = explain_triangle(t, p, std::move(decision));
+            e.sentence = sentence_of(e.decision.reasons.front(), e, case_, sample);
+            out.triangles.push_back(std::move(e));
         }
-        if (snapped[0] && snapped[1] && snapped[2]) {
-            const mpq_class area = edge_function(*snapped[0], *snapped[1], *snapped[2]);
-            e.has_area = area != 0;
-            const std::array<size_t, 3> order =
-                area < 0 ? std::array<size_t, 3>{0, 2, 1} : std::array<size_t, 3>{0, 1, 2};
-            bool negative = false, zero = false;
-            for (size_t k = 0; k < 3; ++k) {
-                const size_t from = order[k];
-                const size_t to = order[(k + 1) % 3];
-                EdgeExplanation edge;
-                edge.from = t.vertex[from];
-                edge.to = t.vertex[to];
-                edge.a = *snapped[from];
-                edge.b = *snapped[to];
-                edge.value = edge_function(edge.a, edge.b, result.position);
-                edge.kind = kind_of(edge.a, edge.b);
-                negative = negative || edge.value < 0;
-                zero = zero || edge.value == 0;
-                e.on_vertex = e.on_vertex || edge.a == result.position;
-                e.edges.push_back(std::move(edge));
-            }
-            e.on_edge = zero && !negative;
-        }
-        e.is_discarded = draw.rasterizer_discard;
-        e.in_layer = draw.layer == sample.layer;
-        e.in_scissor = single.draws[0].scissor.width != 0;
-        e.in_viewport = in_viewport[t.draw];
-        e.in_mask = is_in_mask(draw.multisample, sample.sample);
-        e.reason = reason_for(e, draw);
-        result.triangles.push_back(std::move(e));
     }
-    explain_depth(c, triangles, limits, profile, result);
-    return result;
+    std::vector<uint32_t> writers, depth_writers;
+    JudgeReasons reasons;
+    out.hits = narrowing_.judge(p, sample.sample, hits, writers, depth_writers, &reasons).hits;
+    for (FixedSet& set : reasons.sets) {
+        std::string sentence = sentence_of(set, triangles_);
+        out.sets.push_back({std::move(set), std::move(sentence)});
+    }
+    for (size_t m = 0; m < reasons.depth.outcomes.size(); ++m) {
+        if (explained[m] == kUntold) {
+            continue;
+        }
+        TriangleExplanation& t = out.triangles[explained[m]];
+        const cases::CompareOp op = case_.draws[t.triangle.draw].depth.compare;
+        t.depth = reasons.depth.outcomes[m];
+        t.depth_reason = reasons.depth.reasons[m];
+        t.depth_text = depth_text(*t.depth, t.depth_reason, kCompareNames[static_cast<size_t>(op)],
+                                  depth_->range_text(t.index, p));
+    }
+    return out;
+}
+
+SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cases::Profile profile,
+                                 cases::SampleId sample) {
+    return Explainer(c, limits, profile).explain(sample);
 }
 
 }  // namespace ref

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Why a sample must, must not or may be covered, in exact arithmetic a reader can check by hand.
-// Slow and independent of the fast path: it works one sample at a time.
+// Why a sample must, must not or may be covered, with numbers that a reader can check by hand: the
+// reasons that the oracle decides each triangle for, and the sets that narrowing found.
 #pragma once
 
 #include <gmpxx.h>
@@ -14,13 +14,16 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
+#include "ref/coverage/fast/fast.hpp"
+#include "ref/coverage/triangle_setups.hpp"
 #include "ref/depth/outcome.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/expectation/narrowing.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
-#include "ref/value/value.hpp"
 
 namespace ref {
 
@@ -29,6 +32,7 @@ std::string_view to_string(EdgeKind kind);
 
 // One edge of a triangle with nearest snapping, in the order that makes the area positive.
 struct EdgeExplanation {
+    EdgeLabel label = 0;
     uint32_t from = 0, to = 0;  // vertex numbers in the draw
     FixedPoint a, b;            // snapped end points, S47.16
     mpq_class value;            // E_ab(p) in square pixels; > 0 is inside
@@ -38,42 +42,63 @@ struct EdgeExplanation {
 struct TriangleExplanation {
     uint32_t index = 0;  // into assemble(case)
     cases::Triangle triangle;
-    Coverage coverage =
-        Coverage::must_not;              // under the asked profile, scissor and culling included
-    bool culled = false;                 // faces away for every allowed position
-    bool is_discarded = false;           // by rasterizer discard of its draw
-    bool in_layer = true;                // its draw goes to the sample's layer
-    bool in_scissor = true;              // of its draw
-    bool in_viewport = true;             // of its draw
-    bool in_mask = true;                 // of its draw
-    bool is_undefined = false;           // a vertex is beyond what the profile promises anything of
-    bool needs_clipping = false;         // a vertex lies outside the view volume
-    bool has_distances = false;          // of clipping
-    bool culled_by_distance = false;     // it could cover the sample but for its cull distances
-    bool clipped_by_distance = false;    // or but for its clip distances
-    bool near_distance = false;          // only its clip distances leave the sample open
-    bool has_area = true;                // with nearest snapping
-    bool on_edge = false;                // some E is 0 and no E is negative, with nearest snapping
-    bool on_vertex = false;              // the sample equals a snapped vertex
-    bool on_grid = false;                // every vertex may be in one place only
-    std::vector<EdgeExplanation> edges;  // three; none if a vertex has no snapped position
-    std::string reason;                  // one sentence
+    Decision decision;  // of the triangle alone, under the asked profile
+    Facing facing = Facing::depends;
+    bool is_clipped = false;                  // a vertex lies outside the clip volume
+    std::array<std::optional<Box>, 3> boxes;  // where a device may have the vertices
+    std::vector<EdgeExplanation> edges;       // three; none if a vertex has no snapped position
+    std::string sentence;                     // of the first reason
     // Of a triangle that may cover the sample, if the case tests depth.
     std::optional<DepthOutcome> depth;
     DepthReason depth_reason = DepthReason::ranges;
     std::string depth_text;  // one sentence
+
+    ReasonKind why() const { return decision.reasons.front().kind; }
+    bool has(ReasonKind kind) const;
+    // That the sample lies on an edge decides.
+    bool is_tie() const;
+    // It would cover the sample but for the state of its draw, or for planes and distances.
+    bool is_suppressed() const;
+};
+
+struct SetExplanation {
+    FixedSet set;
+    std::string sentence;
 };
 
 struct SampleExplanation {
     FixedPoint position;
-    bool in_layer = true;                        // at least one draw goes to its layer
-    bool in_scissor = true;                      // of at least one of these draws
-    bool in_viewport = true;                     // of at least one of them
-    SampleExpectation expectation;               // of the whole case
+    // What keeps every draw from the sample: other_layer, scissor or viewport.
+    std::optional<ReasonKind> of_all;
+    HitBounds hits;                              // of the whole case
     std::vector<TriangleExplanation> triangles;  // those within two pixels of the sample
+    std::vector<SetExplanation> sets;
 };
 
-// Explains a sample of a case. Layer, pixel and sample must lie inside the target.
+// Explains samples of one case at one profile. What does not depend on the sample is computed once.
+class Explainer {
+  public:
+    // Keeps a reference to the case.
+    Explainer(const cases::Case& c, const Limits& limits, cases::Profile profile);
+
+    // Layer, pixel and sample must lie inside the target.
+    SampleExplanation explain(cases::SampleId sample);
+
+  private:
+    Decision decide(uint32_t t, const FixedPoint& p, cases::SampleId sample);
+    TriangleExplanation explain_triangle(uint32_t t, const FixedPoint& p, Decision decision);
+
+    const cases::Case& case_;
+    Limits limits_;
+    cases::Profile profile_;
+    std::vector<cases::Triangle> triangles_;
+    TriangleSetups setups_;
+    std::vector<fast::Span> spans_;
+    std::optional<DepthTest> depth_;
+    Narrowing narrowing_;
+};
+
+// Explains one sample.
 SampleExplanation explain_sample(const cases::Case& c, const Limits& limits, cases::Profile profile,
                                  cases::SampleId sample);
 

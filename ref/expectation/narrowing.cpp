@@ -169,8 +169,12 @@ DepthResolution Narrowing::resolve_depth(const FixedPoint& p, std::span<const Hi
 
 void Narrowing::apply_depth(const FixedPoint& p, std::span<const Hit> hits,
                             std::vector<Fixed>& sets, std::vector<Coverage>& coverage,
-                            std::vector<uint32_t>& depth_writers, SampleExpectation& out) {
+                            std::vector<uint32_t>& depth_writers, SampleExpectation& out,
+                            JudgeReasons* reasons) {
     const DepthResolution depth = resolve_depth(p, hits, sets);
+    if (reasons != nullptr) {
+        reasons->depth = depth;
+    }
     for (size_t m = 0; m < hits.size(); ++m) {
         if (depth.outcomes[m] == DepthOutcome::fails) {
             coverage[m] = Coverage::must_not;
@@ -201,7 +205,7 @@ void Narrowing::apply_depth(const FixedPoint& p, std::span<const Hit> hits,
 
 SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
                                    std::vector<uint32_t>& writers,
-                                   std::vector<uint32_t>& depth_writers) {
+                                   std::vector<uint32_t>& depth_writers, JudgeReasons* reasons) {
     SampleExpectation out;
     sample_ = s;
     out.writers_begin = static_cast<uint32_t>(writers.size());
@@ -223,12 +227,15 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
         return out;
     }
     std::vector<Fixed> sets = fixed_sets(p, hits);
+    for (size_t k = 0; reasons != nullptr && k < sets.size(); ++k) {
+        reasons->sets.push_back(told_set(p, hits, sets[k]));
+    }
     std::vector<Coverage> coverage(hits.size());
     for (size_t m = 0; m < hits.size(); ++m) {
         coverage[m] = hits[m].coverage;
     }
     if (depth_ != nullptr && !hits.empty()) {
-        apply_depth(p, hits, sets, coverage, depth_writers, out);
+        apply_depth(p, hits, sets, coverage, depth_writers, out, reasons);
     }
     std::vector<bool> is_counted(hits.size(), false);
     uint32_t first = 0;  // nothing before it can have written last

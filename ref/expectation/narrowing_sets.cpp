@@ -87,7 +87,7 @@ std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p
             const bool is_hit = is_must(m) || is_must(n) ||
                                 (c.fills && is_inside_whole(p, setups_[hits[m].triangle]) &&
                                  is_inside_whole(p, setups_[hits[n].triangle]));
-            out.push_back({{m, n}, 1, is_hit ? 1U : 0U});
+            out.push_back({{m, n}, 1, is_hit ? 1U : 0U, true});
             is_paired[m] = is_paired[n] = true;
         }
     }
@@ -174,6 +174,8 @@ void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
             sure += all[m].coverage == Coverage::must ? 1U : 0U;
             if (is_open(m)) {
                 open.members.push_back(m);
+            } else {
+                open.decided.push_back(all[m].triangle);
             }
         }
         if (!open.members.empty() && set.count >= sure && set.count - sure <= open.members.size()) {
@@ -181,6 +183,42 @@ void Narrowing::add_decided_sets(const FixedPoint& p, std::span<const Hit> hits,
             sets.push_back(std::move(open));
         }
     }
+}
+
+FixedSet Narrowing::told_set(const FixedPoint& p, std::span<const Hit> hits,
+                             const Fixed& set) const {
+    FixedSet out;
+    out.triangles = set.decided;
+    uint32_t sure = 0;
+    for (const uint32_t m : set.members) {
+        out.triangles.push_back(hits[m].triangle);
+    }
+    bool is_clipped = false;
+    bool is_vertex = false;
+    for (const uint32_t t : out.triangles) {
+        const TriangleSetup& setup = setups_[t];
+        is_clipped = is_clipped || setup.is_clipped;
+        size_t count = 0;
+        const auto outlines = setup.outlines(count);
+        for (size_t k = 0; k < count; ++k) {
+            for (const Box& box : outlines[k]->vertices()) {
+                is_vertex = is_vertex || predicates_.is_in_hull({&box, 1}, p);
+            }
+        }
+    }
+    for (const uint32_t t : set.decided) {
+        sure += std::any_of(hits.begin(), hits.end(), [&](const Hit& h) {
+            return h.triangle == t && h.coverage == Coverage::must;
+        });
+    }
+    std::sort(out.triangles.begin(), out.triangles.end());
+    out.count = set.count + sure;
+    out.least = set.least + sure;
+    out.why = set.is_complement ? ReasonKind::complement
+              : is_clipped      ? ReasonKind::clipped_edge
+              : is_vertex       ? ReasonKind::shared_vertex
+                                : ReasonKind::shared_edge;
+    return out;
 }
 
 std::vector<Narrowing::Fixed> Narrowing::closed_sets(const FixedPoint& p, std::span<const Hit> hits,

@@ -49,7 +49,8 @@ bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
         return false;
     }
     for (const Quantity& other : all) {
-        if (other.attribute != q.attribute || other.component == q.component) {
+        if (other.id.of != q.id.of || other.id.attribute != q.id.attribute ||
+            other.id.component == q.id.component) {
             continue;
         }
         const auto v = exact_value(basis, other, place, profile);
@@ -67,8 +68,7 @@ namespace {
 std::optional<Partials> partials_of(const Primitive& primitive, const Quantity& q,
                                     const ProbePlace& place) {
     const Vertices<mpq_class> v = ideal_vertices<mpq_class>(primitive);
-    const auto values =
-        attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+    const auto values = attribute_values(primitive, q.id.attribute, q.id.component);
     std::array<PartialVertex, 3> vertices;
     for (size_t i = 0; i < 3; ++i) {
         if (!v.finite[i] || !std::isfinite(values[i])) {
@@ -90,7 +90,7 @@ void add_expected_probe(const Primitive& primitive, const Basis<mpq_class>& basi
         return;
     }
     ExpectedValue e;
-    e.quantity = q.name;
+    e.quantity = q.id;
     e.exact = v->exact ? v->exact->get_str() : fmt::format("{}", v->nearest);
     e.nearest = v->nearest;
     e.budget = v->budget;
@@ -110,7 +110,7 @@ void add_expected_probe(const Primitive& primitive, const Basis<mpq_class>& basi
     for (const auto& [name, value] :
          {std::pair{"partial x of ", partials->dx}, std::pair{"partial y of ", partials->dy},
           std::pair{"total differential of ", partials->total}}) {
-        out.push_back({name + q.name, value.get_str(), value.get_d(), 0, 0, false});
+        out.push_back({q.id, name, value.get_str(), value.get_d(), 0, 0, false});
     }
 }
 

@@ -24,22 +24,24 @@ using value::Kind;
 using value::nominal_depth;
 using value::Quantity;
 
-ValueRange ValueReference::range(uint32_t t, cases::SampleId sample, int32_t attribute,
-                                 uint32_t component) {
+ValueRange ValueReference::range(uint32_t t, cases::SampleId sample, const QuantityId& id) {
     std::array<ValueRange, 4> out;
-    add_ranges(t, sample, attribute, std::array{component}, out);
-    return out.at(component);
+    add_ranges(t, sample, {&id, 1}, out);
+    return out.at(id.component);
 }
 
 std::array<ValueRange, 4> ValueReference::ranges(uint32_t t, cases::SampleId sample,
-                                                 int32_t attribute) {
+                                                 size_t attribute) {
     std::array<ValueRange, 4> out;
-    add_ranges(t, sample, attribute, std::array{0U, 1U, 2U, 3U}, out);
+    std::array<QuantityId, 4> ids;
+    for (size_t k = 0; k < ids.size(); ++k) {
+        ids[k] = QuantityId::of_attribute(attribute, k);
+    }
+    add_ranges(t, sample, ids, out);
     return out;
 }
 
-void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, int32_t attribute,
-                                std::span<const uint32_t> components,
+void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<const QuantityId> ids,
                                 std::array<ValueRange, 4>& out) {
     const value::Primitive& primitive = impl_->load(t).primitive;
     if (!primitive.is_finite) {
@@ -48,9 +50,10 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, int32_t attr
     const std::vector<Quantity>& all = impl_->quantities_of(t);
     std::vector<size_t> only;  // the interpolated ones that are asked for
     std::vector<uint32_t> component_of;
-    for (const uint32_t component : components) {
-        if (attribute >= 0) {
-            const cases::Attribute& a = primitive.draw->attributes[static_cast<size_t>(attribute)];
+    for (const QuantityId& id : ids) {
+        const uint32_t component = id.component;
+        if (id.is_attribute()) {
+            const cases::Attribute& a = primitive.draw->attributes[id.attribute];
             if (component >= a.components) {
                 out.at(component) = {true, 0, 0};
                 continue;
@@ -64,8 +67,7 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, int32_t attr
             }
         }
         const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) {
-            return q.attribute == attribute && q.component == component &&
-                   (q.kind == Kind::linear || q.kind == Kind::perspective);
+            return q.id == id && (q.kind == Kind::linear || q.kind == Kind::perspective);
         });
         const auto index = static_cast<size_t>(found - all.begin());
         if (found != all.end() && impl_->is_asked(t, index, impl_->profile)) {
@@ -125,14 +127,14 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
     const value::Basis<mpq_class>& basis = impl_->exact_basis(t);
     for (const Quantity& q : all) {
         ExpectedValue e;
-        e.quantity = q.name;
+        e.quantity = q.id;
         if (value::is_sample_kind(q.kind) || q.kind == Kind::flat) {
             e.is_flat = true;
             float f = nominal_number(fragment, q);
             if (q.kind == Kind::flat) {
-                f = primitive.draw->attributes[static_cast<size_t>(q.attribute)]
+                f = primitive.draw->attributes[q.id.attribute]
                         .values[primitive.triangle.provoking]
-                               [static_cast<glm::vec4::length_type>(q.component)];
+                               [static_cast<glm::vec4::length_type>(q.id.component)];
             }
             e.nearest = static_cast<double>(f);
             e.also =
@@ -156,7 +158,7 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
             e.nearest = v.value.get_d();
             e.budget = v.budget.get_d();
             e.factor = budget_factor(impl_->profile);
-            if (q.attribute == -2 && !is_plain_depth(primitive)) {
+            if (q.id.is_depth() && !is_plain_depth(primitive)) {
                 e.nearest = nominal_depth(primitive, basis, e.nearest, impl_->profile);
             }
         }

@@ -26,7 +26,7 @@ void ValueReference::Impl::judge_samples(uint32_t t, cases::SampleId id,
                                          FragmentVerdict& out) {
     std::array<std::optional<value::Fragment>, std::size(cases::kProfiles)> fragments;
     for (const Quantity& q : quantities_of(t)) {
-        if (!value::is_sample_kind(q.kind) || !selection.has(q.attribute)) {
+        if (!value::is_sample_kind(q.kind) || !selection.has(q.id)) {
             continue;
         }
         // What is allowed at a profile is allowed at every looser one.
@@ -47,7 +47,7 @@ void ValueReference::Impl::judge_samples(uint32_t t, cases::SampleId id,
                 continue;
             }
             ValueMismatch m;
-            m.quantity = q.name;
+            m.quantity = q.id;
             m.rule = q.rule;
             m.level = at;
             m.expected = allowed_text(*f, q, at);
@@ -132,7 +132,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
         if (!verdict.ok && is_brief) {
             for (size_t k = 0; k < verdict.failing.size(); ++k) {
                 ValueMismatch m;
-                m.quantity = all[verdict.failing[k]].name;
+                m.quantity = all[verdict.failing[k]].id;
                 m.level = profile;
                 m.ratio = verdict.ratios[k];
                 out.mismatches.push_back(std::move(m));
@@ -144,11 +144,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
     out.ok = out.mismatches.empty();
     for (const ValueMismatch& m : out.mismatches) {
         if (m.ratio > out.worst_ratio) {
-            const auto q = std::find_if(all.begin(), all.end(), [&](const Quantity& any) {
-                return any.name == m.quantity;
-            });
-            tell_worst({m.ratio, q == all.end() ? std::string_view() : std::string_view(q->name)},
-                       out);
+            tell_worst({m.ratio, m.quantity}, out);
         }
     }
     return out;
@@ -163,7 +159,7 @@ void ValueReference::judge_only(const ValueSelection& selection) {
     impl_->selection = selection;
     impl_->selected = impl_->quantities;
     for (std::vector<Quantity>& draw : impl_->selected) {
-        std::erase_if(draw, [&](const Quantity& q) { return !selection.has(q.attribute); });
+        std::erase_if(draw, [&](const Quantity& q) { return !selection.has(q.id); });
     }
 }
 

@@ -49,14 +49,14 @@ double value::nominal_depth(const Primitive& primitive, const Basis<mpq_class>& 
     const auto path = value::make_depth_path<mpq_class>(primitive, profile);
     double out = z + value::nominal_bias(path, basis);
     out = std::clamp(out, path.viewport.low, path.viewport.high);
-    const double steps = value::steps_of(path.format);
+    const double steps = cases::depth_steps(path.format);
     return steps > 0 ? std::nearbyint(out * steps) / steps : out;
 }
 
 void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Quantity& q,
                                       float got, FragmentVerdict& out) const {
-    const auto component = static_cast<glm::vec4::length_type>(q.component);
-    const auto& values = primitive.draw->attributes[static_cast<size_t>(q.attribute)].values;
+    const auto component = static_cast<glm::vec4::length_type>(q.id.component);
+    const auto& values = primitive.draw->attributes[q.id.attribute].values;
     const float want = values[primitive.triangle.provoking][component];
     const auto bits = [](float f) { return std::bit_cast<uint32_t>(f); };
     if (bits(got) == bits(want)) {
@@ -71,7 +71,7 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
         return;  // denormals may be flushed, the sign of zero may be lost
     }
     ValueMismatch m;
-    m.quantity = q.name;
+    m.quantity = q.id;
     m.rule = "interp.flat";
     m.level = Profile::vulkan;
     for (const uint32_t v : primitive.triangle.vertex) {
@@ -155,7 +155,7 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
         const Quantity& q = all[index];
         const float got = q.get(device);
         ValueMismatch m;
-        m.quantity = q.name;
+        m.quantity = q.id;
         m.rule = q.rule;
         m.level = levels[k];
         m.got = bits_of(got);
@@ -177,7 +177,7 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
                                          value::number_text(v.value.get_d(), v.value),
                                          budget_factor(profile), v.budget.get_d());
                 reach = v.reach.get_d();
-                if (q.attribute == -2 && !is_plain_depth(primitive)) {
+                if (q.id.is_depth() && !is_plain_depth(primitive)) {
                     m.rule = depth_rule(primitive, v.value.get_d());
                     m.expected =
                         fmt::format("{:.9g} or near it (plane {:.9g} within {:.4g} x {:.3g})",
@@ -194,7 +194,7 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
         const double low = hull.low.v - hull.low.e - reach * (1 + 0x1p-30);
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
         const bool is_moved =
-            (q.attribute == -2 || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
+            (q.id.is_depth() || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
         if (q.rule != "barycentric.value" &&
             (!std::isfinite(got) || (!is_moved && (g < low || g > high)))) {
             m.rule = "interp.hull";

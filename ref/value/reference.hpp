@@ -224,9 +224,8 @@ struct ValueReference::Impl {
 
     // Whether the part of the fragment that is being judged has the quantity.
     bool is_part(const Quantity& q) const {
-        return selection.has(q.attribute) &&
-               (part == FragmentPart::all ||
-                (q.attribute == kDepthAttribute) == (part == FragmentPart::depth));
+        return selection.has(q.id) &&
+               (part == FragmentPart::all || q.id.is_depth() == (part == FragmentPart::depth));
     }
 
     static bool is_other(const Ball& a, const Ball& b) {

@@ -158,13 +158,13 @@ bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, 
             const Pair at{device.frag_coord.x, device.frag_coord.y};
             if (shading_rate(*f.draw, f.target->samples) == ShadingRate::fragment) {
                 const Pair centre = centre_of(f);  // the only one; no list for every fragment
-                return is_in({&centre, 1}, at, q.component);
+                return is_in({&centre, 1}, at, q.id.component);
             }
-            return is_in(frag_coords(f, profile), at, q.component);
+            return is_in(frag_coords(f, profile), at, q.id.component);
         }
         case Kind::sample_position: {
-            const glm::vec4& v = device.attributes[static_cast<size_t>(q.attribute)];
-            return is_in(sample_positions(f, profile), {v.x, v.y}, q.component);
+            const glm::vec4& v = device.attributes[q.id.attribute];
+            return is_in(sample_positions(f, profile), {v.x, v.y}, q.id.component);
         }
         case Kind::sample_id:
             return profile == Profile::vulkan
@@ -182,7 +182,7 @@ bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, 
 }
 
 float nominal_number(const Fragment& f, const Quantity& q) {
-    const auto component = [&](const Pair& p) { return q.component == 0 ? p.x : p.y; };
+    const auto component = [&](const Pair& p) { return q.id.component == 0 ? p.x : p.y; };
     const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
     switch (q.kind) {
         case Kind::pixel_centre:
@@ -212,9 +212,9 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
     const ShadingRate rate = shading_rate(*f.draw, f.target->samples);
     switch (q.kind) {
         case Kind::pixel_centre:
-            return others(frag_coords(f, profile), q.component, number);
+            return others(frag_coords(f, profile), q.id.component, number);
         case Kind::sample_position:
-            return others(sample_positions(f, profile), q.component, number);
+            return others(sample_positions(f, profile), q.id.component, number);
         case Kind::sample_id:
             return profile == Profile::vulkan && f.target->samples > 1
                        ? "or that of another sample of the pixel"

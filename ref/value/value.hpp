@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,7 +35,7 @@ namespace ref {
 
 // One value that no basis explains.
 struct ValueMismatch {
-    std::string quantity;                             // "attribute 1.x", "depth", "frag_coord.w"
+    QuantityId quantity;
     std::string rule;                                 // rule id
     cases::Profile level = cases::Profile::practice;  // loosest profile at which it is wrong
     std::string expected;                             // exact value, budget, as text
@@ -46,22 +47,26 @@ struct FragmentVerdict {
     bool ok = true;
     BasisKind basis = BasisKind::unsnapped;  // the basis that explains the fragment best
     double worst_ratio = 0;  // largest |error| / budget over its values under that basis
-    // The value that has it, as in ValueMismatch; empty if none has an error. Refers to the
-    // ValueReference.
-    std::string_view worst_quantity;
+    std::optional<QuantityId> worst_quantity;  // the value that has it; nothing without an error
     std::vector<ValueMismatch> mismatches;
 };
 
 // One value as the reference has it, for pictures and explanations.
 struct ExpectedValue {
-    std::string quantity;
-    std::string exact;      // "p/q"
-    double nearest = 0;     // the exact value rounded
-    double budget = 0;      // one budget, absolute
+    QuantityId quantity;
+    std::string_view part = {};  // "partial x of ": not the value, but what it is made of
+    std::string exact;           // "p/q"
+    double nearest = 0;          // the exact value rounded
+    double budget = 0;           // one budget, absolute
     double factor = 0;      // so many budgets are accepted; 0: what is accepted is not told in them
     bool is_flat = false;   // compared bit for bit
     std::string also = {};  // "or 1.375": what else is right
 };
+
+// As reports show it: "attribute 1.x", "partial x of attribute 1.x".
+inline std::string to_text(const ExpectedValue& value) {
+    return std::string(value.part) + to_text(value.quantity);
+}
 
 // All that a value may be under a profile, rounded outwards to binary64.
 struct ValueRange {
@@ -73,11 +78,8 @@ struct ValueSelection {
     bool frag_coord = true, depth = true;
     std::array<bool, cases::kMaxAttributes> attributes{true, true, true, true};
     bool is_all() const { return *this == ValueSelection{}; }
-    // `attribute` as in Quantity: an index, -1 FragCoord, -2 depth.
-    bool has(int32_t attribute) const {
-        return attribute == kDepthAttribute ? depth
-               : attribute < 0              ? frag_coord
-                                            : attributes.at(static_cast<size_t>(attribute));
+    bool has(const QuantityId& id) const {
+        return id.is_depth() ? depth : id.is_attribute() ? attributes.at(id.attribute) : frag_coord;
     }
     friend bool operator==(const ValueSelection&, const ValueSelection&) = default;
 };
@@ -86,7 +88,7 @@ struct ValueSelection {
 // others, if the last one does not write depth.
 enum class FragmentPart : uint8_t { all, all_but_depth, depth };
 
-// Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
+// Judges the fragments of one case. It sets a triangle up when first asked; it is not thread-safe.
 class ValueReference {
   public:
     ValueReference(const cases::Case& c, const Limits& limits, cases::Profile profile);
@@ -96,30 +98,29 @@ class ValueReference {
     // From now on only these values are judged; one basis has to explain those together.
     void judge_only(const ValueSelection& selection);
 
-    // From now on a mismatch has its quantity and ratio only; its level is the asked profile. What
-    // a wholly broken device has thousands of, beyond those that a report tells.
+    // From now on a mismatch has its quantity and ratio only; its level is the asked profile. This
+    // suffices for what a report does not tell: a broken device has thousands of mismatches.
     void judge_briefly();
 
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
     FragmentVerdict judge(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                           FragmentPart part = FragmentPart::all);
 
-    // The oracle: the same question answered by rationals alone, without any filter. Slow.
+    // The oracle answers the same question by rationals alone, without any filter. It is slow.
     FragmentVerdict judge_exact(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                                 FragmentPart part = FragmentPart::all);
 
     // The exact values of triangle t at a sample, unsnapped basis.
     std::vector<ExpectedValue> expected(uint32_t t, cases::SampleId sample);
 
-    // What component `component` of an attribute (index into Draw::attributes, or kDepthAttribute)
-    // may be; a point if it is flat. Components beyond the attribute's are 0.
-    ValueRange range(uint32_t t, cases::SampleId sample, int32_t attribute, uint32_t component);
-    // The same of all components, in less time than one after another.
-    std::array<ValueRange, 4> ranges(uint32_t t, cases::SampleId sample, int32_t attribute);
+    // What a quantity may be; a point if it is flat. Components beyond the attribute's are 0.
+    ValueRange range(uint32_t t, cases::SampleId sample, const QuantityId& id);
+    // The same of all components of an attribute, in less time than one after another.
+    std::array<ValueRange, 4> ranges(uint32_t t, cases::SampleId sample, size_t attribute);
 
   private:
-    void add_ranges(uint32_t t, cases::SampleId sample, int32_t attribute,
-                    std::span<const uint32_t> components, std::array<ValueRange, 4>& out);
+    void add_ranges(uint32_t t, cases::SampleId sample, std::span<const QuantityId> ids,
+                    std::array<ValueRange, 4>& out);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

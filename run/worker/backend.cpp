@@ -6,14 +6,8 @@
 #include <span>
 #include <string>
 
-#include "capture/blank_capture.hpp"
 #include "capture/capture.hpp"
-#include "diff/consistency.hpp"
 #include "diff/resolve.hpp"
-#include "rasterizers/color_plane.hpp"
-#include "ref/blit/blit.hpp"
-#include "ref/expectation/expectation.hpp"
-#include "ref/value/value.hpp"
 
 namespace run {
 

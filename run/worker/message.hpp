@@ -32,11 +32,11 @@ struct WorkerOptions {
 std::string encode_options(const WorkerOptions& options);
 std::optional<WorkerOptions> decode_options(std::string_view bytes);
 
-// Where in the shared memory a batch may write its captures; size 0: nowhere.
+// Where in the shared memory a batch may write its captures; with size 0 it may do so nowhere.
 struct Room {
     uint64_t offset = 0, size = 0;
 };
-// A batch of cases; attempt counts from 1.
+// A batch of cases that a worker is to draw; `attempt` counts from 1.
 struct RenderRequest {
     uint32_t attempt = 1;
     Room room;

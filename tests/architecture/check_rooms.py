@@ -21,7 +21,7 @@ import tempfile
 MOST_FILES = 24
 # Third-party headers that belong to one folder (with the folders inside).
 ONLY_IN = {
-    r"(vulkan/|volk\.|vk_)": "vk_harness",
+    r"(vulkan/|volk\.|vk_(?!harness/))": "vk_harness",
     r"OpenImageIO/": "capture/image/image_io",
     r"CLI/": "cli/options",
     r"toml(\+\+/|\.hpp)": "cases/toml",
@@ -129,7 +129,54 @@ def library_problems(commands: pathlib.Path, root: pathlib.Path):
             yield f"{source}: error: two libraries claim this file: {', '.join(sorted(targets))}"
 
 
-@@LISTS@@
+FIELDS = re.compile(r"static void fields\(auto&& \w+, auto&\.\.\. \w+\) \{(.*?)\n    \}", re.S)
+STRUCT = re.compile(r"^(?:struct|class) (\w+)", re.M)
+PLANES = "capture/capture.hpp"
+LEAST_FIELDS = 8  # smaller structures are used field by field everywhere
+MOST_SHARE = 0.75  # of the fields, within as many lines as a list of them would take
+
+
+def lists_of(root, table):
+    """(what it lists, file that owns the list, names): structures with `fields`, and the planes of a capture."""
+    for room in sorted(table.rooms):
+        for path in sources(root, room):
+            text = path.read_text(errors="replace")
+            for match in FIELDS.finditer(text):
+                names = re.findall(r'visit\("(\w+)"', match.group(1))
+                owners = STRUCT.findall(text[: match.start()])
+                if len(names) >= LEAST_FIELDS and owners:
+                    yield owners[-1], str(path.relative_to(root)), names
+    if (root / PLANES).is_file():
+        names = re.findall(r'\badd\("(\w+)"', (root / PLANES).read_text())
+        if len(names) >= LEAST_FIELDS - 2:
+            yield "the planes of a capture", PLANES, names
+
+
+def second_lists(root, table):
+    """Nothing but a list's owner names most of its entries, one after the other.
+
+    Loaders and what uses a structure's fields one by one spread them over functions; a copy of the list has them
+    close together. So the names are looked for in windows of three lines an entry, as members or in quotes.
+    """
+    texts = {
+        path.relative_to(root): code_of(path)
+        for room in table.rooms
+        for path in sources(root, room)
+        if path.suffix != ".js"
+    }
+    for what, owner, names in lists_of(root, table):
+        word = re.compile(r'(?:\.|->|")(' + "|".join(names) + r")\b(?!\()")
+        reach = 3 * len(names)
+        for path, lines in texts.items():
+            if str(path) == owner or str(path.parent) == "cases/load":
+                continue
+            hits = [(n, m) for n, line in enumerate(lines, 1) for m in word.findall(line.split("//")[0])]
+            for k, (begin, _) in enumerate(hits):
+                seen = {m for n, m in hits[k:] if n < begin + reach}
+                if len(seen) >= MOST_SHARE * len(names):
+                    yield f"{path}:{begin}: error: this lists {what} a second time; walk the list of {owner}"
+                    break
+
 
 def problems(root: pathlib.Path, commands=None):
     table = Table(root)
@@ -140,7 +187,75 @@ def problems(root: pathlib.Path, commands=None):
         yield from library_problems(commands, root)
 
 
-@@SELFTEST@@
+def plant(root, name, text):
+    with (root / name).open("a") as file:
+        file.write(text)
+
+
+# What is planted -> the words of the complaint.
+PLANTED = {
+    "an arrow back inside ref/": (
+        lambda root: plant(root, "ref/number/integer.hpp", '#include "ref/value/value.hpp"\n'),
+        ["ref/number/ must not include ref/value/value.hpp", "folders include each other"],
+    ),
+    "Vulkan outside vk_harness/": (
+        lambda root: plant(root, "diff/verdict.hpp", "#include <vulkan/vulkan.h>\n"),
+        ["vulkan/vulkan.h may be included in vk_harness/ alone"],
+    ),
+    "a TOML header in ref/": (
+        lambda root: plant(root, "ref/color/color.cpp", "#include <toml++/toml.h>\n"),
+        ["toml++/toml.h may be included in cases/toml/ alone"],
+    ),
+    "a second list of planes": (
+        lambda root: plant(
+            root,
+            "run/judge.cpp",
+            "void copy(A& a, const A& b) {\n"
+            + "".join(f"    a.{n} = b.{n};\n" for n in ("hits", "writers", "frag_coord", "depth", "color", "stencil",
+                                                       "resolved_color", "resolved_depth"))
+            + "}\n",
+        ),
+        ["lists the planes of a capture a second time"],
+    ),
+    "a folder that two rows claim": (
+        lambda root: plant(root, "docs/design.md", "| `diff/` | twice | `verdict.hpp` | `ref` |\n"),
+        ["two rows claim the folder diff/"],
+    ),
+    "a folder that nobody claims": (
+        lambda root: ((root / "ref/other").mkdir(), plant(root, "ref/other/a.hpp", "#pragma once\n")),
+        ["no row of docs/design.md tells what lives in this folder"],
+    ),
+    "a file in two libraries": (
+        lambda root: (root / "commands.json").write_text(
+            json.dumps(
+                [
+                    {"directory": str(root), "file": "diff/verdict.cpp", "command": f"-o CMakeFiles/{t}.dir/v.o"}
+                    for t in ("edgecase_diff", "edgecase_run")
+                ]
+            )
+        ),
+        ["two libraries claim this file: edgecase_diff, edgecase_run"],
+    ),
+}
+
+
+def self_test(source: pathlib.Path) -> int:
+    """Plants breaches into a copy of the sources, one at a time: each has to be told, and nothing else."""
+    failed = 0
+    rooms = Table(source).rooms
+    for what, (breach, told) in PLANTED.items():
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name).resolve()
+            for room in rooms | {"docs"}:
+                shutil.copytree(source / room, root / room, ignore=shutil.ignore_patterns("suite", "*.md.*", "findings"))
+            breach(root)
+            commands = root / "commands.json"
+            found = list(problems(root, commands if commands.exists() else None))
+        if not all(any(t in f for f in found) for t in told) or not all(any(t in f for t in told) for f in found):
+            print(f"the check does not tell of {what} alone:", *found, sep="\n")
+            failed = 1
+    return failed
+
 
 def main() -> int:
     if sys.argv[1:2] == ["--self-test"]:

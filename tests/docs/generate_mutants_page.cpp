@@ -17,6 +17,7 @@
 
 #include "mutants/judge.hpp"
 #include "mutants/recorded.hpp"
+#include "tests/docs/wrapped.hpp"
 
 namespace {
 
@@ -105,23 +106,26 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
                              info.change, where, code_words(info.rules), is_found ? "" : "! ", top,
                              cases::to_string(mutants::loosest(kills)), kills.size(), cases);
     }
+    const auto count_of = [&](auto&& is_counted) {
+        return std::count_if(mutants::all_faults().begin(), mutants::all_faults().end(),
+                             [&](const FaultInfo& info) {
+                                 return is_counted(mutants::kills_of(matrix, info.fault).size());
+                             });
+    };
     fmt::print(
-        "## Faults\n\n"
-        "{} faults, {} of them caught by at least two families; survivors: {}. A report of all "
-        "their failures tells a rule first that the fault breaks for {} of them ({:.1f} %); where "
-        "it does not, the rule is marked `!`. *Profile*: the loosest at which a case fails; "
-        "*families*: how many catch it; *cases*: the cheapest of two families.\n\n"
+        "## Faults\n\n{}\n"
         "| fault | what the device does | where | breaks | told first | profile | families | cases "
         "|\n| --- | --- | --- | --- | --- | --- | --- | --- |\n{}",
-        count,
-        std::count_if(mutants::all_faults().begin(), mutants::all_faults().end(),
-                      [&](const FaultInfo& info) {
-                          return mutants::kills_of(matrix, info.fault).size() > 1;
-                      }),
-        std::count_if(
-            mutants::all_faults().begin(), mutants::all_faults().end(),
-            [&](const FaultInfo& info) { return mutants::kills_of(matrix, info.fault).empty(); }),
-        found, 100.0 * static_cast<double>(found) / static_cast<double>(count), table);
+        wrapped(fmt::format(
+            "At least two families catch {} of {} faults; {} survive. A report of all their "
+            "failures tells a rule first that the fault breaks for {} of them ({:.1f} %); where it "
+            "does not, the rule is marked `!`. *Profile* is the loosest at which a case fails, "
+            "*families* says how many catch the fault, and *cases* are the cheapest of two "
+            "families.",
+            count_of([](size_t kills) { return kills > 1; }), count,
+            count_of([](size_t kills) { return kills == 0; }), found,
+            100.0 * static_cast<double>(found) / static_cast<double>(count))),
+        table);
     return is_complete;
 }
 
@@ -147,12 +151,14 @@ bool print_legal(const Matrix& matrix) {
                              result->worst_ratio);
     }
     fmt::print(
-        "\n## Legal devices\n\n"
-        "{} devices that break no rule of their profile; false alarms: {}. *Budgets*: the largest "
-        "accepted error of a value, in units of what its rule allows.\n\n"
+        "\n## Legal devices\n\n{}\n"
         "| device | what it does | profile | cases | false alarms | budgets |\n"
         "| --- | --- | --- | --- | --- | --- |\n{}",
-        devices.size(), alarms, table);
+        wrapped(fmt::format(
+            "{} devices break no rule of their profile, and {} of their results were false alarms. "
+            "*Budgets* is the largest accepted error of a value, in units of what its rule allows.",
+            devices.size(), alarms)),
+        table);
     return is_complete;
 }
 
@@ -180,14 +186,14 @@ void print_families(const Matrix& matrix) {
         }
     }
     fmt::print(
-        "\n## Families\n\n"
-        "Which faults hang on a family. *Alone*: no other family catches the fault at its loosest "
-        "profile. *One of two*: without the family only one would be left that catches it. Here "
-        "each "
-        "case is drawn once, as these faults stay the same from rendering to rendering; what the "
-        "relations of `repeat` and `tiled` see is a device that changes its mind, which no other "
-        "check does (`tests/mutants/inconsistent_test.cpp`).\n\n"
-        "| family | faults caught | alone | one of two |\n| --- | --- | --- | --- |\n");
+        "\n## Families\n\n{}\n"
+        "| family | faults caught | alone | one of two |\n| --- | --- | --- | --- |\n",
+        wrapped("The table says which faults hang on a family. *Alone* are those that no other "
+                "family catches at the fault's loosest profile; *one of two* are those that only "
+                "one other family would be left to catch. Here each case is drawn once, as these "
+                "faults stay the same from rendering to rendering; what the relations of `repeat` "
+                "and `tiled` see is a device that changes its mind, which no other check does "
+                "(`tests/mutants/inconsistent_test.cpp`)."));
     const auto list = [](const std::vector<std::string>& names) {
         std::string out;
         for (const std::string& name : names) {
@@ -211,16 +217,17 @@ int main(int argc, char** argv) try {
     const Matrix matrix = mutants::read_matrix(argv[1]);
     fmt::print(
         "# What the suite catches of a broken rasterizer\n\n"
-        "Generated from `tests/mutants` by `scripts/generate-docs`; do not edit.\n\n"
-        "[tests/mutants](../tests/mutants/README.md) holds a rasterizer of its own, written as "
-        "drivers are, that shares no arithmetic with the reference. It can be given one fault at a "
-        "time that an author could make, and it can be given each choice that the specifications "
-        "leave open. Below is what a run of {} cases from {} case files found; "
-        "`cmake --build --preset release --target record_mutants` runs the whole suite and "
-        "rewrites what this page is made of. The tests run each fault again on two of its cases, "
-        "each legal device on a share of the suite. A real driver with faults: "
-        "[breaking-layer.md](breaking-layer.md).\n\n",
-        matrix.leaves, matrix.files);
+        "Generated from `tests/mutants` by `scripts/generate-docs`; do not edit.\n\n{}\n",
+        wrapped(fmt::format(
+            "[tests/mutants](../tests/mutants/README.md) holds a rasterizer of its own, written as "
+            "drivers are, that shares no arithmetic with the reference. It can be given one fault "
+            "at a time that an author could make, and it can be given each choice that the "
+            "specifications leave open. Below is what a run of {} cases from {} case files found; "
+            "`cmake --build --preset release --target record_mutants` runs the whole suite and "
+            "rewrites what this page is made of. The tests run each fault again on two of its "
+            "cases, and each legal device on a share of the suite. "
+            "[breaking-layer.md](breaking-layer.md) has the same of a real driver with faults.",
+            matrix.leaves, matrix.files)));
     const bool all_caught = print_faults(matrix, Sources(argv[1]));
     const bool all_legal = print_legal(matrix);
     print_families(matrix);

@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/statement.hpp"
+#include "tests/docs/wrapped.hpp"
 
 namespace {
 
@@ -24,21 +26,32 @@ std::string link_to(std::string_view rule) {
     return fmt::format("[`{}`](#{})", rule, anchor);
 }
 
+// Whether the file that a rule names as the one that decides it is in the source tree.
+bool code_is_there(const cases::Rule& rule, const std::filesystem::path& source) {
+    const bool is_there = std::filesystem::exists(source / rule.code);
+    if (!is_there) {
+        fmt::print(stderr, "error: the rule {} is decided in {}, which does not exist\n", rule.id,
+                   rule.code);
+    }
+    return is_there;
+}
+
 // The table of statements; false if one of them is judged by no case and does not say why, or if
 // no statement names some rule.
 bool print_statements(const LeavesOfRule& leaves) {
     bool is_complete = true;
     std::set<std::string_view> named;
     fmt::print(
-        "\n## What the specifications say\n\n"
-        "Every statement of Vulkan 1.4 and Direct3D 11.3 on filled triangles, how strict it is, "
-        "and what holds a device to it. *exact*: one answer a sample; *tolerance*: a bound that "
-        "the text states; *free*: the device's choice among several answers; *undefined*: any "
-        "value, but no harm to anything else; *unclear*: the text contradicts itself or is "
-        "silent.\n\n"
+        "\n## What the specifications say\n\n{}\n"
         "| # | statement | Vulkan | Direct3D | a finding from | how it is judged | rules | "
         "reference code |\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+        "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        wrapped(
+            "The table has every statement of Vulkan 1.4 and Direct3D 11.3 on filled triangles, "
+            "how strict it is, and what holds a device to it. *exact* means that there is one "
+            "answer a sample; *tolerance* that the text states a bound; *free* that the device "
+            "chooses among several answers; *undefined* that any value is right as long as "
+            "nothing else is harmed; *unclear* that the text contradicts itself or is silent."));
     for (const cases::Statement& statement : cases::all_statements()) {
         std::string rules, code;
         cases::Profile profile = cases::Profile::direct3d;
@@ -114,21 +127,21 @@ int main(int argc, char** argv) {
         "# The rules\n\n"
         "Generated from `cases/model/rule.cpp` and the suite by `scripts/generate-docs`; do not "
         "edit.\n\n"
-        "The profile is the loosest one at which breaking the rule is a finding: `vulkan` is what "
-        "the Vulkan "
-        "text forbids, `practice` adds floor/ceil snapping and binary32-like arithmetic, "
-        "`direct3d` adds what "
-        "Direct3D 11 writes down and nearly all devices do. Only a finding at `vulkan` says that a "
-        "device is "
-        "not conformant.\n\n"
-        "| rule | profile | demands | leaves |\n| --- | --- | --- | --- |\n");
+        "{}\n| rule | profile | demands | leaves |\n| --- | --- | --- | --- |\n",
+        wrapped(
+            "The profile is the loosest one at which breaking the rule is a finding: `vulkan` is "
+            "what the Vulkan text forbids, `practice` adds floor/ceil snapping and "
+            "binary32-like arithmetic, `direct3d` adds what Direct3D 11 writes down and nearly "
+            "all devices do. Only a finding at `vulkan` says that a device is not conformant."));
     for (const cases::Rule& rule : cases::all_rules()) {
         fmt::print("| {} | {} | {} | {} |\n", link_to(rule.id), to_string(rule.profile), rule.title,
                    leaves_of_rule[std::string(rule.id)]);
     }
-    const bool is_complete = print_statements(leaves_of_rule);
+    bool is_complete = print_statements(leaves_of_rule);
+    const std::filesystem::path suite_folder = argv[1];
     for (const cases::Rule& rule : cases::all_rules()) {
-        fmt::print("\n## {}\n{}. {}\n\n", rule.id, rule.title, rule.text);
+        is_complete &= code_is_there(rule, suite_folder.parent_path().parent_path());
+        fmt::print("\n## {}\n{}\n", rule.id, wrapped(fmt::format("{}. {}", rule.title, rule.text)));
         if (!rule.anchor.empty()) {
             fmt::print(
                 "* Vulkan: "
@@ -138,13 +151,14 @@ int main(int argc, char** argv) {
         if (!rule.direct3d.empty()) {
             fmt::print("* Direct3D 11.3 functional specification: section {}\n", rule.direct3d);
         }
-        fmt::print("* Decided in: `{}`\n* Cases:", rule.code);
-        const auto& files = files_of_rule[std::string(rule.id)];
-        for (const std::string& file : files) {
-            fmt::print(" `{}`", file);
+        std::string cases = "* Cases:";
+        for (const std::string& file : files_of_rule[std::string(rule.id)]) {
+            cases += " `" + file + "`";
         }
-        fmt::print("{}\n",
-                   files.empty() ? " none; it is found by the comparison in every case" : "");
+        if (cases.ends_with(':')) {
+            cases += " none; it is found by the comparison in every case";
+        }
+        fmt::print("* Decided in: `{}`\n{}", rule.code, wrapped(cases, "  "));
     }
     return is_complete ? 0 : 3;
 }

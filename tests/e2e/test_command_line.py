@@ -189,6 +189,11 @@ class Usage(ProgramTest):
             for code, meaning in rows:
                 self.assertRegex(text, rf"\b{code}  {re.escape(meaning)}\n")
 
+    def test_version_is_that_of_the_build(self):
+        version = re.search(r"^project\(edgecase VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(), re.M)[1]
+        self.assertTrue(self.edgecase("--version", check=0).stdout.startswith(f"edgecase {version}\n"))
+        self.assertIn(f'"edgecase {version}"', self.edgecase("man", check=0).stdout)
+
     def test_manual_lists_every_option(self):
         manual = (SOURCE / "docs" / "cli.md").read_text()
         for command in COMMANDS:

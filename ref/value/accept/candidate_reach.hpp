@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which numbers the candidates of a set accept, quantity by quantity, at one evaluation, and what
-// of it holds at the next one, too. Part of judge_candidates.cpp and judge_separately.cpp.
+// Finds which numbers the candidates of a set accept, quantity by quantity, at one evaluation, and
+// what of it holds at the next one, too. judge_candidates.cpp and judge_separately.cpp use it.
 #pragma once
 
 #include <algorithm>
@@ -37,10 +37,10 @@ std::span<const Point<T>> points_at(const Evaluation<T>& where, size_t place) {
 // The list at which a quantity is evaluated.
 template <class T>
 size_t place_of(const Quantity& q, const Evaluation<T>& where) {
-    return q.at_sample                                      ? kSample
-           : q.at_centroid                                  ? kCentroid
-           : q.attribute == -1 && !where.frag_coord.empty() ? kFragCoord
-                                                            : kAttributes;
+    return q.at_sample                                                          ? kSample
+           : q.at_centroid                                                      ? kCentroid
+           : q.id.of == QuantityId::Of::frag_coord && !where.frag_coord.empty() ? kFragCoord
+                                                                                : kAttributes;
 }
 
 // Adds what a candidate accepts for every judged quantity.
@@ -85,7 +85,7 @@ void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
         const Quantity& q = quantities[i];
         // A noperspective value of a triangle that reaches behind the eye has no plane that agrees
         // with the vertices: only their hull is claimed.
-        const bool free_plane = q.kind == Kind::linear && q.attribute >= 0 && !is_projectable;
+        const bool free_plane = q.kind == Kind::linear && q.id.is_attribute() && !is_projectable;
         if (is_judged(q, i, only) && (free_plane || candidate.is_unbounded)) {
             if (set.depth.bias && (is_depth(q) || is_frag_coord_z(q))) {
                 reaches[i].is_free = true;  // of a gradient without bounds

@@ -263,10 +263,10 @@ std::vector<Range<T>> hulls_of(const Primitive& primitive, const std::vector<Pla
             out[q].high = is_first ? g : larger(out[q].high, g);
             is_first = false;
         };
-        if (quantity.attribute >= 0) {
+        if (quantity.id.is_attribute()) {
             // Attributes are convex combinations of the three, clipped or not.
-            for (const float f : attribute_values(
-                     primitive, static_cast<uint32_t>(quantity.attribute), quantity.component)) {
+            for (const float f :
+                 attribute_values(primitive, quantity.id.attribute, quantity.id.component)) {
                 add(from_float<T>(std::isfinite(f) ? f : 0.0F));  // as in plane_inputs()
             }
         } else if (polygon.empty()) {

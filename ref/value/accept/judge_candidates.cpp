@@ -30,7 +30,7 @@ std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<co
     std::vector<size_t> out;
     for (size_t i = 0; i < quantities.size(); ++i) {
         const Quantity& q = quantities[i];
-        if (is_judged(q, i, only) && q.attribute >= 0 && !q.at_sample &&
+        if (is_judged(q, i, only) && q.id.is_attribute() && !q.at_sample &&
             q.at_centroid == at_centroid) {
             out.push_back(i);
         }
@@ -189,7 +189,7 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Qu
                         verdict.failing.push_back(blamed);
                         verdict.ratios.push_back(std::numeric_limits<double>::infinity());
                         verdict.worst = {std::numeric_limits<double>::infinity(),
-                                         quantities[blamed].name};
+                                         quantities[blamed].id};
                         break;
                     case Answer::yes:
                         break;

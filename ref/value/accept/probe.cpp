@@ -176,8 +176,7 @@ class Prober {
         std::vector<Point<T>> points = where_.attributes;
         const double x = place_.id.x;
         const double y = place_.id.y;
-        const cases::Auxiliary auxiliary =
-            place_.draw->attributes[static_cast<size_t>(q.attribute)].auxiliary;
+        const cases::Auxiliary auxiliary = place_.draw->attributes[q.id.attribute].auxiliary;
         if (place_.target->samples > 1 && auxiliary == cases::Auxiliary::sample) {
             points = {where_.sample};  // the same sample of each pixel
         } else if (place_.target->samples > 1 && auxiliary == cases::Auxiliary::centroid) {
@@ -259,9 +258,8 @@ class Prober {
 
     // Each of the quad's pixels and each of its rows and columns may stand for the quad.
     Result judge_lod(const Quantity& q, const Quad& quad, double device) const {
-        const std::array<uint32_t, 2>& size =
-            place_.draw->attributes[static_cast<size_t>(q.attribute)].texture_size;
-        const uint32_t first_plane = q.plane - q.component;
+        const std::array<uint32_t, 2>& size = place_.draw->attributes[q.id.attribute].texture_size;
+        const uint32_t first_plane = q.plane - q.id.component;
         std::array<std::array<std::vector<Accepted<T>>, 2>, 2> m;  // of u and v, by x and y
         for (uint32_t c = 0; c < 2; ++c) {
             for (int axis = 0; axis < 2; ++axis) {
@@ -286,7 +284,7 @@ class Prober {
                     }
                 }
                 const int bits = place_.limits.mipmap_bits;
-                if (is_undefined || is_lod(lod_bounds(low, high, bits), q.component,
+                if (is_undefined || is_lod(lod_bounds(low, high, bits), q.id.component,
                                            levels_of(size), place_, device)) {
                     best = {Answer::yes, 0};
                 }

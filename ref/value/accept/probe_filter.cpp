@@ -158,12 +158,11 @@ class FilterProber {
     }
 
     bool is_level(const Quantity& q, const Quad& quad, double device) const {
-        const std::array<uint32_t, 2>& size =
-            place_.draw->attributes[static_cast<size_t>(q.attribute)].texture_size;
+        const std::array<uint32_t, 2>& size = place_.draw->attributes[q.id.attribute].texture_size;
         std::array<std::array<double, 2>, 2> low{}, high{};
         for (size_t c = 0; c < 2; ++c) {
             for (size_t axis = 0; axis < 2; ++axis) {
-                const auto plane = static_cast<uint32_t>(q.plane - q.component + c);
+                const auto plane = static_cast<uint32_t>(q.plane - q.id.component + c);
                 const Inner inner = along(q, plane, quad, static_cast<int>(axis), false).front();
                 if (is_empty(inner)) {
                     return false;
@@ -174,7 +173,7 @@ class FilterProber {
             }
         }
         const int bits = place_.limits.mipmap_bits;
-        return is_lod(lod_bounds(low, high, bits), q.component, levels_of(size), place_, device);
+        return is_lod(lod_bounds(low, high, bits), q.id.component, levels_of(size), place_, device);
     }
 
     const Filter& filter_;

@@ -36,7 +36,7 @@ std::array<Quad, 8> quads_of(cases::SampleId id) {
 std::vector<Spots> probe_spots(const Quantity& q, const ProbePlace& place) {
     const double x = place.id.x + 0.5;
     const double y = place.id.y + 0.5;
-    const cases::Attribute& attribute = place.draw->attributes[static_cast<size_t>(q.attribute)];
+    const cases::Attribute& attribute = place.draw->attributes[q.id.attribute];
     if (q.probe == Probe::at_sample) {
         const FixedPoint p =
             sample_position(place.id.x, place.id.y, attribute.probe_sample, *place.target);
@@ -180,13 +180,12 @@ Valuation difference_of(const Basis<mpq_class>& basis, const Quantity& q, uint32
 
 std::optional<ProbeValue> expected_lod(const Basis<mpq_class>& basis, const Quantity& q,
                                        const ProbePlace& place) {
-    const std::array<uint32_t, 2>& size =
-        place.draw->attributes[static_cast<size_t>(q.attribute)].texture_size;
+    const std::array<uint32_t, 2>& size = place.draw->attributes[q.id.attribute].texture_size;
     double rho = 0;
     for (int axis = 0; axis < 2; ++axis) {
         double squares = 0;
         for (uint32_t c = 0; c < 2; ++c) {
-            const auto d = difference_of(basis, q, q.plane - q.component + c, axis, true, place);
+            const auto d = difference_of(basis, q, q.plane - q.id.component + c, axis, true, place);
             if (!d) {
                 return std::nullopt;
             }
@@ -197,7 +196,7 @@ std::optional<ProbeValue> expected_lod(const Basis<mpq_class>& basis, const Quan
     }
     ProbeValue out;
     out.nearest = std::log2(rho);
-    if (q.component == 0) {
+    if (q.id.component == 0) {
         out.nearest = std::clamp(out.nearest, 0.0, static_cast<double>(levels_of(size) - 1));
     }
     out.budget = std::ldexp(1.0, -place.limits.mipmap_bits);

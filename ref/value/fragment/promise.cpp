@@ -23,15 +23,15 @@ bool is_unpromised(const Primitive& primitive, const Quantity& q) {
         return false;
     }
     Triple<float> values{1, 1, 1};
-    if (q.attribute >= 0) {
-        values = attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+    if (q.id.is_attribute()) {
+        values = attribute_values(primitive, q.id.attribute, q.id.component);
     } else if (q.plane == kPlaneDepth) {
         values = {primitive.clip[0].z, primitive.clip[1].z, primitive.clip[2].z};
     }
     for (size_t i = 0; i < 3; ++i) {
         const double f = std::fabs(static_cast<double>(values[i]));
         const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
-        const bool is_divided = q.attribute < 0 || is_quotient(q);
+        const bool is_divided = !q.id.is_attribute() || is_quotient(q);
         // Products with a power of two: exact.
         if (!std::isfinite(f) || w * kLargest < 1 || f > kLargest ||
             (is_divided && f > w * kLargest)) {
@@ -65,8 +65,7 @@ bool is_position_beyond(const Primitive& primitive) {
 
 // Whether an attribute f, or f/w if the quantity is a quotient, is beyond it.
 bool is_attribute_beyond(const Primitive& primitive, const Quantity& q) {
-    const auto values =
-        attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+    const auto values = attribute_values(primitive, q.id.attribute, q.id.component);
     for (size_t i = 0; i < 3; ++i) {
         const double f = std::fabs(static_cast<double>(values[i]));
         const double w = std::fabs(static_cast<double>(primitive.clip[i].w));
@@ -86,7 +85,7 @@ std::vector<Promise> promises_of(const Primitive& primitive, std::span<const Qua
         const bool is_numeric = has_plane(q);
         const bool is_beyond =
             is_numeric &&
-            (is_everything || (q.attribute >= 0 && is_attribute_beyond(primitive, q)));
+            (is_everything || (q.id.is_attribute() && is_attribute_beyond(primitive, q)));
         out.push_back({!is_unpromised(primitive, q), !(is_numeric && is_beyond)});
     }
     return out;

@@ -12,8 +12,6 @@ namespace ref::value {
 
 namespace {
 
-constexpr char kComponentNames[] = {'x', 'y', 'z', 'w'};
-
 // Viewport transform: x_f = scale x_d + offset (Vulkan specification, "Controlling the Viewport").
 template <class T>
 struct Transform {
@@ -150,38 +148,25 @@ void set_probe(const cases::Attribute& attribute, bool multisampled, Quantity& q
     q.probe = attribute.probe;
 }
 
-float Quantity::get(const FragmentValues& device) const {
-    const auto c = static_cast<glm::vec4::length_type>(component);
-    if (attribute == -2) {
-        return device.depth;
-    }
-    if (attribute == -1) {
-        return device.frag_coord[c];
-    }
-    return device.attributes[static_cast<size_t>(attribute)][c];
-}
-
 std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target) {
     // With one sample in the centre the sample is where everything is evaluated.
     const bool multisampled = target.samples > 1 || !target.sample_locations.empty();
     const bool is_shaded = shading_rate(draw, target.samples) != ShadingRate::fragment;
     const std::string_view xy = is_shaded ? "fragcoord.sample" : "fragcoord.xy";
     std::vector<Quantity> all;
-    all.push_back({Kind::pixel_centre, false, 0, -1, 0, "frag_coord.x", xy});
-    all.push_back({Kind::pixel_centre, false, 0, -1, 1, "frag_coord.y", xy});
-    all.push_back({Kind::linear, false, kPlaneDepth, -1, 2, "frag_coord.z", "depth.linear"});
-    all.push_back({Kind::linear, false, kPlaneInvW, -1, 3, "frag_coord.w", "fragcoord.w"});
-    all.push_back({Kind::linear, multisampled, kPlaneDepth, -2, 0, "depth", "depth.linear"});
+    all.push_back({Kind::pixel_centre, false, 0, QuantityId::of_frag_coord(0), xy});
+    all.push_back({Kind::pixel_centre, false, 0, QuantityId::of_frag_coord(1), xy});
+    all.push_back({Kind::linear, false, kPlaneDepth, QuantityId::of_frag_coord(2), "depth.linear"});
+    all.push_back({Kind::linear, false, kPlaneInvW, QuantityId::of_frag_coord(3), "fragcoord.w"});
+    all.push_back({Kind::linear, multisampled, kPlaneDepth, QuantityId{}, "depth.linear"});
     uint32_t plane = kPlaneDepth + 1;
     for (size_t a = 0; a < draw.attributes.size(); ++a) {
         const cases::Attribute& attribute = draw.attributes[a];
         for (uint32_t c = 0; c < attribute.components; ++c) {
             Quantity q;
-            q.attribute = static_cast<int32_t>(a);
-            q.component = c;
-            q.name = "attribute " + std::to_string(a) + "." + kComponentNames[c];
+            q.id = QuantityId::of_attribute(a, c);
             if (set_sample_source(attribute.source, q)) {
-                all.push_back(std::move(q));
+                all.push_back(q);
                 continue;
             }
             switch (attribute.interpolation) {
@@ -211,7 +196,7 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
             if (attribute.source == cases::Source::barycentric) {
                 q.rule = "barycentric.value";
             }
-            all.push_back(std::move(q));
+            all.push_back(q);
         }
     }
     return all;
@@ -345,11 +330,10 @@ std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
         }
     }
     for (const Quantity& q : quantities) {
-        if (q.attribute < 0 || !has_plane(q)) {
+        if (!q.id.is_attribute() || !has_plane(q)) {
             continue;
         }
-        Triple<float> f =
-            attribute_values(primitive, static_cast<uint32_t>(q.attribute), q.component);
+        Triple<float> f = attribute_values(primitive, q.id.attribute, q.id.component);
         for (float& value : f) {
             value = std::isfinite(value) ? value : 0.0F;  // nothing is asked of it (promises_of)
         }

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,34 +36,32 @@ enum class Kind : uint8_t {
     probe,  // made of an input by a function (probe.hpp)
 };
 
-// One scalar of a fragment.
+// A scalar of a fragment, and how it is judged.
 struct Quantity {
     Kind kind = Kind::linear;
     bool at_sample = false;  // evaluated at the sample; otherwise where the fragment's inputs are
     uint32_t plane = 0;      // linear and perspective
-    int32_t attribute = -1;  // index into Draw::attributes; -1 frag_coord, -2 depth
-    uint32_t component = 0;
-    std::string name;       // "attribute 1.x", "depth", "frag_coord.w"
+    QuantityId id;
     std::string_view rule;  // of a mismatch that stays inside the hull
     bool at_centroid = false;
     cases::Probe probe = cases::Probe::value;  // of Kind::probe
     bool is_perspective = false;               // likewise: of the input that it looks at
-    float get(const FragmentValues& device) const;
+    float get(const FragmentValues& device) const { return number_of(device, id); }
 };
 
 // The largest error among the values of a fragment.
 struct WorstError {
-    double ratio = 0;           // in budgets
-    std::string_view quantity;  // Quantity::name of the value that has it; empty while ratio is 0
+    double ratio = 0;                    // in budgets
+    std::optional<QuantityId> quantity;  // which value has it; nothing while ratio is 0
 
     void raise(double other, const Quantity& of) {
         if (other > ratio) {
-            *this = {other, of.name};
+            *this = {other, of.id};
         }
     }
 };
 
-// Whether a plane of its own belongs to it, and whether that plane's value is a quotient by 1/w.
+// Whether a quantity has a plane of its own, and whether that plane's value is divided by 1/w.
 inline bool has_plane(const Quantity& q) {
     return q.kind == Kind::linear || q.kind == Kind::perspective || q.kind == Kind::probe;
 }
@@ -75,7 +72,7 @@ inline bool is_quotient(const Quantity& q) {
 // All quantities of a draw, in the order in which mismatches are told.
 std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target);
 
-// One triangle, everything that is exact in binary32 or cheap to have.
+// What is known of one triangle exactly in binary32, or is cheap to have.
 struct Primitive {
     const cases::Draw* draw = nullptr;
     cases::Triangle triangle;
@@ -90,20 +87,20 @@ Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle);
 // Vertex values g_i of a plane that come straight from the case (attributes); not for 1/w and z.
 Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, uint32_t component);
 
-// Vertices with their ideal positions. `ex`, `ey` bound the device's rounding of them.
+// The vertices at their ideal positions. `ex` and `ey` bound the device's rounding of them.
 template <class T>
 Vertices<T> ideal_vertices(const Primitive& primitive);
-// Vertices moved to given positions, S47.16; exact, so ex = ey = 0.
+// The vertices moved to given positions, S47.16, which are exact, so ex = ey = 0.
 template <class T>
 Vertices<T> moved_vertices(const Primitive& primitive, const std::array<FixedPoint, 3>& at);
 
-// Homogeneous values of all planes.
+// The homogeneous vertex values h_i of all planes.
 template <class T>
 std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
                                         std::span<const Quantity> quantities);
 
 // The nearest grid points of the three vertices; nothing if one has w = 0 or is farther than 2^32
-// pixels. Also for w < 0, where the projected position is snapped.
+// pixels. A vertex with w < 0 has one, too: its projected position is snapped.
 std::optional<std::array<FixedPoint, 3>> snapped_positions(const Primitive& primitive,
                                                            const Limits& limits);
 

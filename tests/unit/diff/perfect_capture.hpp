@@ -60,32 +60,18 @@ inline void write_fragment(capture::Capture& capture, const cases::Case& c,
     const cases::Triangle& triangle = e.triangles[t];
     capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                               capture::kClearId};
-    capture.frag_coord[index] = {static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F,
-                                 0, 0};
-    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
-        capture.attributes[a][index] = glm::vec4(0.0F);
-    }
+    ref::FragmentValues drawn;
+    drawn.frag_coord = {static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0, 0};
+    drawn.depth = capture.depth[index];
     for (const ref::ExpectedValue& v : values.expected(t, id)) {
-        const auto value = static_cast<float>(v.nearest);
-        if (v.quantity == "depth") {
-            capture.depth[index] = value;
-        } else if (v.quantity == "frag_coord.x") {
-            capture.frag_coord[index].x = value;
-        } else if (v.quantity == "frag_coord.y") {
-            capture.frag_coord[index].y = value;
-        } else if (v.quantity == "frag_coord.z") {
-            capture.frag_coord[index].z = value;
-        } else if (v.quantity == "frag_coord.w") {
-            capture.frag_coord[index].w = value;
-        } else if (v.quantity.rfind("attribute ", 0) == 0) {
-            const auto a = static_cast<size_t>(v.quantity[10] - '0');
-            const char component = v.quantity[12];
-            glm::vec4& target = capture.attributes[a][index];
-            (component == 'x'   ? target.x
-             : component == 'y' ? target.y
-             : component == 'z' ? target.z
-                                : target.w) = value;
+        if (v.part.empty()) {
+            number_of(drawn, v.quantity) = static_cast<float>(v.nearest);
         }
+    }
+    capture.frag_coord[index] = drawn.frag_coord;
+    capture.depth[index] = drawn.depth;
+    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
+        capture.attributes[a][index] = drawn.attributes[a];
     }
 }
 

@@ -87,8 +87,8 @@ std::set<float> accepted_numbers(ValueReference& values, cases::SampleId id,
             const FragmentVerdict verdict = values.judge(0, id, v);
             const auto blamed = std::count_if(
                 verdict.mismatches.begin(), verdict.mismatches.end(), [&](const auto& m) {
-                    return m.quantity.substr(0, m.quantity.find('.')) ==
-                           quantity.substr(0, quantity.find('.'));
+                    const std::string text = to_text(m.quantity);
+                    return text.substr(0, text.find('.')) == quantity.substr(0, quantity.find('.'));
                 });
             if (blamed == 0) {
                 out.insert(n);
@@ -120,7 +120,7 @@ TEST(BuiltIns, OtherNumbersThatAreRightAreTold) {
                     values, id, name, numbers,
                     [&](FragmentValues& v, float a, float b) { put(v, id, a, b); });
                 for (const ExpectedValue& e : values.expected(0, id)) {
-                    if (e.quantity != name) {
+                    if (to_text(e) != name) {
                         continue;
                     }
                     EXPECT_TRUE(e.is_flat);

@@ -24,9 +24,7 @@ bool is_stored_exactly(const Component& component, double low, double high, uint
                        Profile profile) {
     const Interval stored =
         component.stored({mpq_class(low), mpq_class(high)}, profile, /*is_blended=*/false);
-    mpq_class value;
-    return component.is_overflow(code, stored) ||
-           (component.value_of(code, value) && value >= stored.low && value <= stored.high);
+    return component.allows(code, stored);
 }
 
 // Up to three numbers of binary64 away, or not at all.
@@ -312,10 +310,11 @@ TEST(Ranges, AreThoseOfEveryComponent) {
             ValueReference reference(c, Limits{8}, profile);
             for (uint32_t s = 0; s < 16; ++s) {
                 const cases::SampleId id{s % 4 * 3, s / 4 * 3, 0};
-                for (const int32_t attribute : {kDepthAttribute, 0, 1, 2}) {
+                for (const size_t attribute : {0U, 1U, 2U}) {
                     const std::array<ValueRange, 4> all = reference.ranges(0, id, attribute);
                     for (uint32_t k = 0; k < 4; ++k) {
-                        const ValueRange one = reference.range(0, id, attribute, k);
+                        const ValueRange one =
+                            reference.range(0, id, QuantityId::of_attribute(attribute, k));
                         ASSERT_EQ(all[k].is_promised, one.is_promised);
                         ASSERT_EQ(std::bit_cast<uint64_t>(all[k].low),
                                   std::bit_cast<uint64_t>(one.low));

@@ -318,7 +318,7 @@ TEST(DepthHand, ExplanationNamesTheTest) {
     c.draws[1].depth.compare = CompareOp::less;
     const SampleExplanation s = explain_sample(c, Limits{}, Profile::direct3d, {0, 0, 0});
     ASSERT_EQ(s.triangles.size(), 2U);
-    ASSERT_EQ(s.triangles[1].coverage, Coverage::must) << s.triangles[1].reason;
+    ASSERT_EQ(s.triangles[1].decision.coverage, Coverage::must) << s.triangles[1].sentence;
     EXPECT_EQ(s.triangles[1].depth, DepthOutcome::fails);
     EXPECT_EQ(s.triangles[1].depth_text.rfind("fails the depth test LESS, depth 0.7", 0), 0U)
         << s.triangles[1].depth_text;

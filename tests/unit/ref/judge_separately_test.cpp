@@ -77,7 +77,7 @@ struct Random {
         for (size_t a = 0; a < 2; ++a) {
             for (uint32_t k = 0; k < sampled.c.draws[0].attributes[a].components; ++k) {
                 float& v = out.attributes[a][static_cast<int>(k)];
-                const auto range = loose.range(0, id, static_cast<int32_t>(a), k);
+                const auto range = loose.range(0, id, ref::QuantityId::of_attribute(a, k));
                 if (range.is_promised && rng() % 2 == 0) {
                     const double width = range.high - range.low;
                     v = static_cast<float>((rng() % 2 == 0 ? range.low : range.high) +

@@ -185,16 +185,16 @@ TEST(Layers, ExplanationsNameTheLayerOfTheDraw) {
     const cases::Case c = layered(8, 3, {kUpper, kLower}, {1, 2});
     const SampleExplanation here = explain_sample(c, Limits{8}, Profile::direct3d, {1, 1, 0, 1});
     ASSERT_EQ(here.triangles.size(), 2U);
-    EXPECT_TRUE(here.in_layer);
-    EXPECT_TRUE(here.triangles[0].in_layer);
-    EXPECT_EQ(here.triangles[0].coverage, Coverage::must);
-    EXPECT_FALSE(here.triangles[1].in_layer);
-    EXPECT_EQ(here.triangles[1].reason, "the draw goes to layer 2");
+    EXPECT_FALSE(here.of_all);
+    EXPECT_FALSE(here.triangles[0].has(ReasonKind::other_layer));
+    EXPECT_EQ(here.triangles[0].decision.coverage, Coverage::must);
+    EXPECT_TRUE(here.triangles[1].has(ReasonKind::other_layer));
+    EXPECT_EQ(here.triangles[1].sentence, "the draw goes to layer 2");
     const SampleExplanation none = explain_sample(c, Limits{8}, Profile::direct3d, {1, 1, 0, 0});
-    EXPECT_FALSE(none.in_layer);
-    EXPECT_EQ(none.triangles[0].coverage, Coverage::must_not);
-    EXPECT_EQ(none.triangles[0].reason, "the draw goes to layer 1");
-    EXPECT_EQ(none.expectation.hits.total_max, 0U);
+    EXPECT_EQ(none.of_all, ReasonKind::other_layer);
+    EXPECT_EQ(none.triangles[0].decision.coverage, Coverage::must_not);
+    EXPECT_EQ(none.triangles[0].sentence, "the draw goes to layer 1");
+    EXPECT_EQ(none.hits.total_max, 0U);
 }
 
 }  // namespace ref::test

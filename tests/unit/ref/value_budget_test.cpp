@@ -22,7 +22,7 @@ using value_test::make_case;
 double budget_at(const cases::Case& c, cases::SampleId id) {
     const auto all = ref::ValueReference(c, ref::Limits{}, Profile::direct3d).expected(0, id);
     const auto it = std::find_if(all.begin(), all.end(), [](const ref::ExpectedValue& e) {
-        return e.quantity == "attribute 0.x";
+        return to_text(e.quantity) == "attribute 0.x";
     });
     return it == all.end() ? 0 : it->budget * 0x1p24;
 }
@@ -67,9 +67,9 @@ TEST(ValueBudget, HullOfAClippedPolygonHasTheErrorsOfTheProfile) {
             primitive, std::span<const ref::value::Quantity>(quantities), ref::Limits{}, profile);
         std::array<double, 2> out{};  // of 1/w, which is within [1/2, 1], and of the attribute
         for (size_t i = 0; i < quantities.size(); ++i) {
-            if (quantities[i].name == "frag_coord.w") {
+            if (quantities[i].id == ref::QuantityId::of_frag_coord(3)) {
                 out[0] = mpq_class(mpq_class(1, 2) - set.hulls[i].low).get_d();
-            } else if (quantities[i].name == "attribute 0.x") {
+            } else if (quantities[i].id == ref::QuantityId::of_attribute(0, 0)) {
                 out[1] = mpq_class(set.hulls[i].high - 2).get_d();
             }
         }

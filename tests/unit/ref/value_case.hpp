@@ -52,19 +52,8 @@ inline glm::vec4 clip_of(double x, double y, double z, double w, uint32_t size) 
 inline ref::FragmentValues rounded(const std::vector<ref::ExpectedValue>& all) {
     ref::FragmentValues out;
     for (const ref::ExpectedValue& e : all) {
-        if (e.quantity.starts_with("partial") || e.quantity.starts_with("total")) {
-            continue;  // shown beside the others, written by no device
-        }
-        const auto f = static_cast<float>(e.nearest);
-        const auto axis = [&] {
-            return static_cast<glm::vec4::length_type>(std::string("xyzw").find(e.quantity.back()));
-        };
-        if (e.quantity == "depth") {
-            out.depth = f;
-        } else if (e.quantity.starts_with("frag_coord")) {
-            out.frag_coord[axis()] = f;
-        } else {
-            out.attributes[static_cast<size_t>(e.quantity[10] - '0')][axis()] = f;
+        if (e.part.empty()) {  // the parts are shown beside the others, written by no device
+            number_of(out, e.quantity) = static_cast<float>(e.nearest);
         }
     }
     return out;

@@ -135,7 +135,7 @@ void expect_pieces_pass(uint64_t seed, bool behind) {
                 ref::ValueReference reference(s.c, ref::Limits{}, profile);
                 const ref::FragmentVerdict verdict = reference.judge(0, s.id, v);
                 ASSERT_TRUE(verdict.ok)
-                    << n << " " << verdict.mismatches[0].quantity << " "
+                    << n << " " << to_text(verdict.mismatches[0].quantity) << " "
                     << verdict.mismatches[0].expected << " got " << verdict.mismatches[0].got;
                 worst = std::max(worst, verdict.worst_ratio);
                 pieces += verdict.basis == ref::BasisKind::clipped_piece ? 1U : 0U;

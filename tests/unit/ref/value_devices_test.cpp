@@ -43,8 +43,8 @@ Tally run(Device device, Fault fault, uint64_t seed, int count, int w_exponent) 
                 ++tally.rejected;
                 if (tally.first.empty()) {
                     const ref::ValueMismatch& m = verdict.mismatches.front();
-                    tally.first = "triangle " + std::to_string(n) + " " + m.quantity + " " +
-                                  m.expected + " got " + m.got;
+                    tally.first = "triangle " + std::to_string(n) + " " + to_text(m.quantity) +
+                                  " " + m.expected + " got " + m.got;
                 }
             }
         }

@@ -27,7 +27,7 @@ ref::ValueReference reference_of(const cases::Case& c, Profile profile = Profile
 
 const ExpectedValue& find(const std::vector<ExpectedValue>& all, const std::string& name) {
     const auto it = std::find_if(all.begin(), all.end(),
-                                 [&](const ExpectedValue& e) { return e.quantity == name; });
+                                 [&](const ExpectedValue& e) { return to_text(e) == name; });
     if (it == all.end()) {
         throw std::runtime_error("no quantity " + name);
     }
@@ -159,8 +159,8 @@ TEST(ValueHand, TheLargestErrorIsThatOfTheValueThatWasMoved) {
             const ref::FragmentValues device = rounded(other);
             for (const ref::FragmentVerdict& verdict :
                  {reference.judge(0, id, device), reference.judge_exact(0, id, device)}) {
-                EXPECT_EQ(verdict.ok, budgets < 2) << all[k].quantity;
-                EXPECT_NEAR(verdict.worst_ratio, budgets, 0.6) << all[k].quantity;
+                EXPECT_EQ(verdict.ok, budgets < 2) << to_text(all[k].quantity);
+                EXPECT_NEAR(verdict.worst_ratio, budgets, 0.6) << to_text(all[k].quantity);
                 EXPECT_EQ(verdict.worst_quantity, all[k].quantity);
             }
         }
@@ -168,7 +168,7 @@ TEST(ValueHand, TheLargestErrorIsThatOfTheValueThatWasMoved) {
     EXPECT_EQ(moved, 5U);  // z, w, depth, two inputs
     ref::FragmentValues device = rounded(all);
     device.attributes[2].x += 1;
-    EXPECT_EQ(reference.judge(0, id, device).worst_quantity, "attribute 2.x");
+    EXPECT_EQ(reference.judge(0, id, device).worst_quantity, ref::QuantityId::of_attribute(2, 0));
 }
 
 // A bad number of one vertex leaves its own component free and no other, in both implementations.
@@ -192,7 +192,7 @@ TEST(ValueHand, BadNumbersOfAVertexFreeTheirComponentAlone) {
             for (const ref::FragmentVerdict& verdict :
                  {reference.judge(0, id, device), reference.judge_exact(0, id, device)}) {
                 ASSERT_EQ(verdict.mismatches.size(), 1U);
-                EXPECT_EQ(verdict.mismatches[0].quantity, "attribute 0.y");
+                EXPECT_EQ(to_text(verdict.mismatches[0].quantity), "attribute 0.y");
             }
         }
     }
@@ -224,7 +224,7 @@ TEST(ValueHand, RulesAndLevels) {
     auto m = mismatch_of(c, Profile::direct3d, id, [&](auto& v) { v.attributes[0].x = nan; });
     EXPECT_EQ(m.rule, "interp.hull");
     EXPECT_EQ(m.level, Profile::vulkan);
-    EXPECT_EQ(m.quantity, "attribute 0.x");
+    EXPECT_EQ(to_text(m.quantity), "attribute 0.x");
     m = mismatch_of(c, Profile::vulkan, id, [&](auto& v) { v.depth = inf; });
     EXPECT_EQ(m.rule, "interp.hull");
     EXPECT_EQ(m.level, Profile::vulkan);

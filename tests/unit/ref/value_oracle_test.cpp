@@ -29,16 +29,6 @@ float step(float x, int steps) {
     return x;
 }
 
-float* slot(ref::FragmentValues& v, const std::string& name) {
-    const auto axis = static_cast<glm::vec4::length_type>(std::string("xyzw").find(name.back()));
-    if (name == "depth") {
-        return &v.depth;
-    }
-    return name.starts_with("frag_coord")
-               ? &v.frag_coord[axis]
-               : &v.attributes[static_cast<size_t>(name[10] - '0')][axis];
-}
-
 bool same(const ref::FragmentVerdict& a, const ref::FragmentVerdict& b) {
     return a.ok == b.ok &&
            std::equal(a.mismatches.begin(), a.mismatches.end(), b.mismatches.begin(),
@@ -61,7 +51,7 @@ TEST(ValueOracle, FilterAgreesAroundTheThreshold) {
         const auto all = reference.expected(0, id);
         ref::FragmentValues base;
         for (const auto& e : all) {
-            *slot(base, e.quantity) = static_cast<float>(e.nearest);
+            number_of(base, e.quantity) = static_cast<float>(e.nearest);
         }
         for (const auto& e : all) {
             if (e.is_flat) {
@@ -74,13 +64,14 @@ TEST(ValueOracle, FilterAgreesAroundTheThreshold) {
                             continue;
                         }
                         ref::FragmentValues device = base;
-                        *slot(device, e.quantity) =
+                        number_of(device, e.quantity) =
                             step(static_cast<float>(e.nearest +
                                                     sign * scale * ref::kBudgetFactor * e.budget),
                                  ulps);
                         const auto fast = reference.judge(0, id, device);
                         const auto slow = reference.judge_exact(0, id, device);
-                        ASSERT_TRUE(same(fast, slow)) << n << " " << e.quantity << " " << scale;
+                        ASSERT_TRUE(same(fast, slow))
+                            << n << " " << to_text(e.quantity) << " " << scale;
                         values += all.size() - 3;  // two centres and a flat value are not filtered
                         ++fragments;
                         ++(fast.ok ? accepted : rejected);
@@ -222,8 +213,8 @@ TEST(ValueOracle, DecisionMatchesTheFormulaWrittenTwice) {
         const cases::SampleId id{i, j, 0};
         ref::FragmentValues device;
         for (const auto& e : reference.expected(0, id)) {
-            *slot(device, e.quantity) = static_cast<float>(e.nearest);
-            if (e.quantity == "attribute 0.x") {
+            number_of(device, e.quantity) = static_cast<float>(e.nearest);
+            if (to_text(e.quantity) == "attribute 0.x") {
                 EXPECT_EQ(mpq_class(e.exact), value);
             }
         }

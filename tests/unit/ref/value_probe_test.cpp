@@ -201,7 +201,7 @@ TEST(ValueProbe, WhatIsAcceptedIsWithinItsBudgets) {
                         const float middle = (right + wrong) / 2;
                         const ref::FragmentVerdict verdict = judged(middle);
                         if (verdict.worst_ratio > 1) {
-                            EXPECT_EQ(verdict.worst_quantity, "attribute 0.x");
+                            EXPECT_EQ(verdict.worst_quantity, ref::QuantityId::of_attribute(0, 0));
                         }
                         if (verdict.ok) {
                             EXPECT_LE(verdict.worst_ratio, 1.01 * ref::budget_factor(profile));
@@ -247,12 +247,12 @@ TEST(ValueProbe, LevelsOfDetailAreToldWithTheirFreedom) {
         ref::ValueReference reference(c, ref::Limits{}, profile);
         size_t levels = 0;
         for (const ref::ExpectedValue& e : reference.expected(0, {1, 1, 0})) {
-            if (e.quantity.starts_with("attribute")) {
+            if (e.quantity.is_attribute()) {
                 ++levels;
-                EXPECT_EQ(e.factor, 0) << e.quantity;
+                EXPECT_EQ(e.factor, 0) << to_text(e.quantity);
                 EXPECT_EQ(e.also, "or up to half a level and the freedom of the quad away");
             } else if (!e.is_flat) {
-                EXPECT_EQ(e.factor, ref::budget_factor(profile)) << e.quantity;
+                EXPECT_EQ(e.factor, ref::budget_factor(profile)) << to_text(e.quantity);
             }
         }
         EXPECT_EQ(levels, 2U);
@@ -352,14 +352,10 @@ TEST(ValueProbe, FilterAgreesWithTheOracle) {
         for (int k = 0; k < 8; ++k) {
             ref::FragmentValues device = value_test::rounded(expected);
             for (const ref::ExpectedValue& e : expected) {
-                if (e.quantity.starts_with("attribute ") && !e.is_flat && k > 0) {
+                if (e.quantity.is_attribute() && e.part.empty() && !e.is_flat && k > 0) {
                     const double off =
                         e.budget * 0.5 * k * (static_cast<double>(rng() % 2001) / 1000 - 1);
-                    auto& value =
-                        device.attributes[static_cast<size_t>(e.quantity[10] - '0')]
-                                         [static_cast<glm::vec4::length_type>(
-                                             std::string("xyzw").find(e.quantity.back()))];
-                    value = static_cast<float>(e.nearest + off);
+                    number_of(device, e.quantity) = static_cast<float>(e.nearest + off);
                 }
             }
             const auto fast = reference.judge(0, id, device);

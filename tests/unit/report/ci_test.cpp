@@ -219,7 +219,7 @@ TEST(merge, puts_parts_together_or_says_why_not) {
     wrong[1].run.tool_version = "9";
     ASSERT_FALSE(merge_runs(wrong));
     EXPECT_EQ(merge_runs(wrong).error().message,
-              "the version of edgecase is '0.1.0' in a and '9' in b; only parts of one run can be "
+              "the version of edgecase is '0.2.0' in a and '9' in b; only parts of one run can be "
               "merged, use 'edgecase compare' for different ones");
     EXPECT_FALSE(merge_runs({}));
 }

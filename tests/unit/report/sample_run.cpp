@@ -112,7 +112,7 @@ SampleEvidence make_evidence() {
 
 Run sample_run() {
     Run run;
-    run.tool_version = "0.1.0";
+    run.tool_version = "0.2.0";
     run.arguments = {"edgecase", "run", "-o", "out"};
     run.environment = {{"VK_DRIVER_FILES", "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"}};
     run.started = "2026-01-02T03:04:05Z";

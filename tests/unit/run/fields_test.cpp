@@ -66,9 +66,9 @@ TYPED_TEST(Fields, AreAllListed) {
 
 // Its other fields are those of its two bases.
 TEST(Fields, OfARecordAreAllListed) {
-    EXPECT_EQ(listed<report::CaseRecord>().size(),
-              field_count<report::CaseRecord>() - 2 + listed<report::PlannedCase>().size() +
-                  listed<diff::Outcome>().size());
+    EXPECT_EQ(listed<report::CaseRecord>().size(), field_count<report::CaseRecord>() - 2 +
+                                                       listed<report::PlannedCase>().size() +
+                                                       listed<diff::Outcome>().size());
 }
 
 TEST(Planes, AreAllListed) {

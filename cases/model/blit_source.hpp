@@ -1,21 +1,15 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blits: the table [blit] of a case file, what the source holds, and clipping at the destination.
+// What the source of a blit holds, and clipping at the destination.
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cases/model/case.hpp"
-#include "cases/toml/field_reader.hpp"
 
 namespace cases {
-
-// The stored code of each component of a texel, as in the colour plane of a capture.
-using TexelCodes = std::array<uint32_t, 4>;
 
 // The source image, texel (x, y) at y * source_width + x. `unique`: no two texels have the same
 // codes as long as the format has enough of them; every value is finite and representable, of
@@ -23,18 +17,15 @@ using TexelCodes = std::array<uint32_t, 4>;
 // right, and by another downwards.
 std::vector<TexelCodes> blit_source(const Blit& blit);
 
-// Seed: a blit is clipped against the destination by adjusting the rectangles. The part of the blit
-// that falls on a destination of width x height texels, if it can be written with whole numbers:
-// the source corner moves by the same share of its side as the destination corner. `error` says
-// why not, in one sentence.
+// A blit is clipped against the destination by adjusting its two rectangles. This is the part of it
+// that falls on a destination of width x height texels, if whole numbers can describe it: the
+// source corner moves by the same share of its side as the destination corner. If they cannot,
+// `error` says why in one sentence.
 struct ClippedBlit {
     Corners source, destination;
     std::string error;
 };
 ClippedBlit clip_to_destination(const Corners& source, const Corners& destination, uint32_t width,
                                 uint32_t height);
-
-// The table [blit] of a case whose target has been read: a colour target alone.
-std::optional<Blit> load_blit(LeafContext& context, const TomlValue& table, const Target& target);
 
 }  // namespace cases
