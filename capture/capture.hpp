@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What any renderer produced for a case, sample by sample, float bits as they are. A sample's index
-// is (j * width + i) * samples + s. All but sample_state() is header only, so that the harness
-// needs nothing else of this room.
+// is (j * width + i) * samples + s.
 #pragma once
 
 #include <array>
@@ -64,61 +63,117 @@ struct StrayWrite {
     uint32_t got = 0;
     uint64_t words = 0;       // that changed
     uint32_t renderings = 1;  // in the submission, any of which may have done it
+    static void fields(auto&& visit, auto&... w) {
+        visit("attachment", w.attachment...);
+        visit("is_before", w.is_before...);
+        visit("distance", w.distance...);
+        visit("expected", w.expected...);
+        visit("got", w.got...);
+        visit("words", w.words...);
+        visit("renderings", w.renderings...);
+    }
     friend bool operator==(const StrayWrite&, const StrayWrite&) = default;
 };
 
-// Which planes a target has. Without instruments only `color` and `depth` are there.
-struct Capture {
+// What was captured, and a plane of each kind; a Store is a vector of entries or a view of them. A
+// plane that the target lacks is empty (for_each_plane says which).
+template <template <class> class Store>
+struct Planes {
     cases::Target target;
     bool has_primitive = false;  // Writer::primitive is meaningful
     uint32_t attribute_count = 0;
 
-    std::vector<glm::vec4> hits;        // front hits, back hits, kHitGuard, kHitGuard + hits
-    std::vector<Writer> writers;        // last writer
-    std::vector<glm::vec4> frag_coord;  // of the last writer
-    std::vector<float> depth;           // of the last writer whose draw writes depth
-    std::array<std::vector<glm::vec4>, cases::kMaxAttributes> attributes;  // of the last writer
-    std::vector<ColorCodes> color;                                         // Target::color
-    std::vector<uint32_t> stencil;           // Target::has_stencil; 0..255 or kPoison
-    std::vector<ColorCodes> resolved_color;  // one a pixel: Target::color_resolve
-    std::vector<float> resolved_depth;       // one a pixel: Target::depth_resolve
+    Store<glm::vec4> hits;        // front hits, back hits, kHitGuard, kHitGuard + hits
+    Store<Writer> writers;        // last writer
+    Store<glm::vec4> frag_coord;  // of the last writer
+    std::array<Store<glm::vec4>, cases::kMaxAttributes> attributes;  // of the last writer
+    Store<float> depth;                // of the last writer whose draw writes depth
+    Store<ColorCodes> color;           // Target::color
+    Store<uint32_t> stencil;           // Target::has_stencil; 0..255 or kPoison
+    Store<ColorCodes> resolved_color;  // one a pixel: Target::color_resolve
+    Store<float> resolved_depth;       // one a pixel: Target::depth_resolve
 
     size_t sample_count() const { return size_t{target.width} * target.rows() * target.samples; }
+    // All but the planes, which travel as they lie (for_each_plane).
+    static void fields(auto&& visit, auto&... p) {
+        visit("target", p.target...);
+        visit("has_primitive", p.has_primitive...);
+        visit("attribute_count", p.attribute_count...);
+    }
+};
+
+// The numbers of the planes, in the order of for_each_plane.
+inline constexpr uint32_t kHitsPlane = 0;
+inline constexpr uint32_t kWritersPlane = 1;
+inline constexpr uint32_t kFragCoordPlane = 2;
+inline constexpr uint32_t kAttributePlane = 3;  // of attribute 0; the others follow
+inline constexpr uint32_t kDepthPlane = kAttributePlane + cases::kMaxAttributes;
+inline constexpr uint32_t kColorPlane = kDepthPlane + 1;
+
+// A plane of the list below: its number, how reports call it and how many entries it has, one a
+// sample or one a resolved pixel; 0 if the target has no such plane.
+struct Plane {
+    uint32_t number = 0;
+    const char* name = "";
+    size_t entries = 0;
+};
+
+// The one list of planes, in the order in which they lie in memory: calls visit(plane, p...) with
+// the vector or span of each. `shape` says which planes there are: anything with the target and the
+// attribute count. Without instruments only colour, depth and what hangs on them are there.
+template <class Shape, class... P>
+void for_each_plane(auto&& visit, const Shape& shape, P&... p) {
+    static constexpr std::array<const char*, cases::kMaxAttributes> kAttributeNames = {
+        "attribute 0", "attribute 1", "attribute 2", "attribute 3"};
+    const cases::Target& target = shape.target;
+    const size_t pixels = size_t{target.width} * target.rows();
+    const size_t samples = pixels * target.samples;
+    const auto if_there = [](bool is_there, size_t entries) { return is_there ? entries : 0; };
+    const size_t instruments = if_there(target.has_instruments, samples);
+    uint32_t number = 0;
+    const auto add = [&](const char* name, size_t entries, auto&... planes) {
+        visit(Plane{number++, name, entries}, planes...);
+    };
+    add("hits", instruments, p.hits...);
+    add("writers", instruments, p.writers...);
+    add("frag_coord", instruments, p.frag_coord...);
+    for (uint32_t a = 0; a < cases::kMaxAttributes; ++a) {
+        add(kAttributeNames[a], if_there(a < shape.attribute_count, instruments),
+            p.attributes[a]...);
+    }
+    add("depth", if_there(target.has_depth, samples), p.depth...);
+    add("color", if_there(target.color.has_value(), samples), p.color...);
+    add("stencil", if_there(target.has_stencil, samples), p.stencil...);
+    add("resolved_color", if_there(target.color_resolve != cases::Resolve::none, pixels),
+        p.resolved_color...);
+    add("resolved_depth", if_there(target.depth_resolve != cases::Resolve::none, pixels),
+        p.resolved_depth...);
+}
+
+// "hits", "attribute 1", ...; empty for a number that no plane has.
+std::string_view name_of_plane(uint32_t number);
+
+namespace detail {
+template <class T>
+using Vector = std::vector<T>;
+template <class T>
+using ConstSpan = std::span<const T>;
+template <class T>
+using Span = std::span<T>;
+}  // namespace detail
+
+struct Capture : Planes<detail::Vector> {};
+
+// Planes that lie anywhere, to be written.
+struct PlaneSpans : Planes<detail::Span> {
+    PlaneSpans() = default;
+    explicit PlaneSpans(Capture& c);
 };
 
 // A capture whose planes lie anywhere: in a Capture, or in memory shared with another process.
-struct CaptureView {
-    cases::Target target;
-    bool has_primitive = false;
-    uint32_t attribute_count = 0;
-    std::span<const glm::vec4> hits;
-    std::span<const Writer> writers;
-    std::span<const glm::vec4> frag_coord;
-    std::span<const float> depth;
-    std::array<std::span<const glm::vec4>, cases::kMaxAttributes> attributes;
-    std::span<const ColorCodes> color;
-    std::span<const uint32_t> stencil;
-    std::span<const ColorCodes> resolved_color;
-    std::span<const float> resolved_depth;
-
+struct CaptureView : Planes<detail::ConstSpan> {
     CaptureView() = default;
-    CaptureView(const Capture& c)  // not explicit: a capture is a view of itself
-        : target(c.target),
-          has_primitive(c.has_primitive),
-          attribute_count(c.attribute_count),
-          hits(c.hits),
-          writers(c.writers),
-          frag_coord(c.frag_coord),
-          depth(c.depth),
-          color(c.color),
-          stencil(c.stencil),
-          resolved_color(c.resolved_color),
-          resolved_depth(c.resolved_depth) {
-        for (size_t a = 0; a < attributes.size(); ++a) {
-            attributes[a] = c.attributes[a];
-        }
-    }
-    size_t sample_count() const { return size_t{target.width} * target.rows() * target.samples; }
+    CaptureView(const Capture& c);  // not explicit: a capture is a view of itself
 };
 
 inline bool resolves_color(const cases::Target& target) {
@@ -128,81 +183,17 @@ inline bool resolves_depth(const cases::Target& target) {
     return target.depth_resolve != cases::Resolve::none;
 }
 
-// Bytes of all planes of a capture, one after the other: hits, writers, frag_coord, attributes,
-// color, depth, stencil, resolved colour and depth; those that the target has.
-inline uint64_t plane_bytes(const cases::Target& target, uint32_t attribute_count) {
-    const uint64_t samples = uint64_t{target.width} * target.rows() * target.samples;
-    const uint64_t instruments =
-        target.has_instruments
-            ? sizeof(glm::vec4) * (2 + uint64_t{attribute_count}) + sizeof(Writer)
-            : 0;
-    const uint64_t pixels = uint64_t{target.width} * target.rows();
-    const auto size_if = [](bool present, uint64_t bytes) { return present ? bytes : 0; };
-    return samples * (instruments + size_if(target.color.has_value(), sizeof(ColorCodes)) +
-                      size_if(target.has_depth, sizeof(float)) +
-                      size_if(target.has_stencil, sizeof(uint32_t))) +
-           pixels * (size_if(resolves_color(target), sizeof(ColorCodes)) +
-                     size_if(resolves_depth(target), sizeof(float)));
-}
+// Bytes of all planes of a capture, one after the other: those that the target has.
+uint64_t plane_bytes(const cases::Target& target, uint32_t attribute_count);
 
 // The capture whose planes lie at `planes`: plane_bytes() bytes, aligned to 16.
-inline CaptureView view_planes(const cases::Target& target, bool has_primitive,
-                               uint32_t attribute_count, const std::byte* planes) {
-    CaptureView view;
-    view.target = target;
-    view.has_primitive = has_primitive;
-    view.attribute_count = attribute_count;
-    const size_t count = view.sample_count();
-    // Storage of bytes holds whatever objects were written there (C++20, implicit object creation).
-    const auto take_some = [&]<class T>(std::span<const T>& plane, size_t entries) {
-        plane = std::span(reinterpret_cast<const T*>(planes), entries);
-        planes += entries * sizeof(T);
-    };
-    const auto take = [&](auto& plane) { take_some(plane, count); };
-    if (target.has_instruments) {
-        take(view.hits);
-        take(view.writers);
-        take(view.frag_coord);
-        for (uint32_t a = 0; a < attribute_count; ++a) {
-            take(view.attributes[a]);
-        }
-    }
-    if (target.color) {
-        take(view.color);
-    }
-    if (target.has_depth) {
-        take(view.depth);
-    }
-    if (target.has_stencil) {
-        take(view.stencil);
-    }
-    const size_t pixels = size_t{target.width} * target.rows();
-    if (resolves_color(target)) {
-        take_some(view.resolved_color, pixels);
-    }
-    if (resolves_depth(target)) {
-        take_some(view.resolved_depth, pixels);
-    }
-    return view;
-}
+CaptureView view_planes(const cases::Target& target, bool has_primitive, uint32_t attribute_count,
+                        const std::byte* planes);
+// The same, to be written.
+PlaneSpans planes_at(const cases::Target& target, uint32_t attribute_count, std::byte* planes);
 
 // True if the planes are those that the target has, one entry a sample or resolved pixel.
-inline bool has_all_planes(const CaptureView& c) {
-    const size_t count = c.sample_count();
-    const size_t pixels = size_t{c.target.width} * c.target.rows();
-    const size_t instruments = c.target.has_instruments ? count : 0;
-    bool fits = c.hits.size() == instruments && c.writers.size() == instruments &&
-                c.frag_coord.size() == instruments &&
-                c.color.size() == (c.target.color ? count : 0) &&
-                c.depth.size() == (c.target.has_depth ? count : 0) &&
-                c.stencil.size() == (c.target.has_stencil ? count : 0) &&
-                c.resolved_color.size() == (resolves_color(c.target) ? pixels : 0) &&
-                c.resolved_depth.size() == (resolves_depth(c.target) ? pixels : 0);
-    for (uint32_t a = 0; a < c.attribute_count; ++a) {
-        fits = fits && c.attributes[a].size() == instruments;
-    }
-    return fits;
-}
+bool has_all_planes(const CaptureView& c);
 
 // What the sample's bits say before any expectation is asked.
 enum class SampleState : uint8_t {

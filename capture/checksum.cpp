@@ -23,21 +23,19 @@ std::string_view raw(std::span<const T> v) {
 }  // namespace
 
 uint64_t capture_bits(const CaptureView& capture) {
+    // In older reports depth came before the attributes, so it does here.
+    std::vector<uint64_t> sums;
+    for_each_plane(
+        [&sums](const Plane& plane, const auto& entries) {
+            const auto at =
+                plane.number == kDepthPlane ? sums.begin() + kAttributePlane : sums.end();
+            sums.insert(at, cases::checksum(kResultSeed, raw(entries)));
+        },
+        capture, capture);
     uint64_t sum = 0;
-    const auto add = [&](std::string_view bytes) {
-        sum = sum * 0x9e3779b97f4a7c15U + cases::checksum(kResultSeed, bytes);
-    };
-    add(raw(capture.hits));
-    add(raw(capture.writers));
-    add(raw(capture.frag_coord));
-    add(raw(capture.depth));
-    for (const std::span<const glm::vec4> attribute : capture.attributes) {
-        add(raw(attribute));
+    for (const uint64_t of_plane : sums) {
+        sum = sum * 0x9e3779b97f4a7c15U + of_plane;
     }
-    add(raw(capture.color));
-    add(raw(capture.stencil));
-    add(raw(capture.resolved_color));
-    add(raw(capture.resolved_depth));
     return sum;
 }
 

@@ -13,6 +13,11 @@
 
 namespace diff {
 
+using capture::kColorPlane;
+using capture::kDepthPlane;
+using capture::kHitsPlane;
+using capture::kWritersPlane;
+
 namespace {
 
 // A plane as 32-bit words, `words` a sample; empty if the capture has none.
@@ -38,14 +43,13 @@ PlaneWords words_of(std::span<const T> plane) {
 
 std::array<PlaneWords, kPlanes> planes_of(const capture::CaptureView& capture) {
     std::array<PlaneWords, kPlanes> planes;
-    planes[0] = words_of(capture.hits);
-    planes[1] = words_of(capture.writers);
-    planes[2] = words_of(capture.frag_coord);
-    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
-        planes[3 + a] = words_of(capture.attributes[a]);
-    }
-    planes[kDepthPlane] = words_of(capture.depth);
-    planes[kColorPlane] = words_of(capture.color);
+    capture::for_each_plane(
+        [&planes](const capture::Plane& plane, const auto& words) {
+            if (plane.number < kPlanes) {
+                planes.at(plane.number) = words_of(words);
+            }
+        },
+        capture, capture);
     return planes;
 }
 
@@ -58,11 +62,11 @@ bool is_masked(const cases::Variation& variation, uint32_t plane) {
 uint32_t clear_word(uint32_t plane, uint32_t word, const cases::Variation& variation) {
     const bool other = variation.other_clears;
     switch (plane) {
-        case 0:
+        case kHitsPlane:
             return std::bit_cast<uint32_t>(word < 2 ? 0.0F
                                            : other  ? capture::kOtherHitGuard
                                                     : capture::kHitGuard);
-        case 1:
+        case kWritersPlane:
             return other ? capture::kOtherClearId : capture::kClearId;
         case kDepthPlane:
             return std::bit_cast<uint32_t>(variation.other_depth_clear ? capture::kOtherClearDepth
@@ -84,7 +88,7 @@ uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, capture::Samp
         (state == capture::SampleState::clear && plane != kColorPlane)) {
         return clear_word(plane, word, variation);
     }
-    if (plane == 0 && word >= 2 && variation.other_clears) {
+    if (plane == kHitsPlane && word >= 2 && variation.other_clears) {
         return std::bit_cast<uint32_t>(std::bit_cast<float>(base) +
                                        (capture::kOtherHitGuard - capture::kHitGuard));
     }
@@ -104,8 +108,8 @@ bool may_be_clear_depth(uint32_t plane, uint32_t base, uint32_t got,
 // none.
 uint32_t original_of(uint32_t plane, const capture::CaptureView& base,
                      const cases::Derivation& derivation) {
-    const bool is_attribute = plane >= 3 && plane < kDepthPlane;
-    if (!is_attribute || plane - 3 < base.attribute_count) {
+    const bool is_attribute = plane >= capture::kAttributePlane && plane < kDepthPlane;
+    if (!is_attribute || plane - capture::kAttributePlane < base.attribute_count) {
         return plane;
     }
     return derivation.kind == cases::RelationKind::more_attributes ? plane - base.attribute_count
@@ -214,7 +218,7 @@ std::string why_of(const cases::Derivation& derivation) {
 }
 
 std::string show_bits(uint32_t plane, uint32_t bits) {
-    return plane == 1 || plane == kColorPlane
+    return plane == kWritersPlane || plane == kColorPlane
                ? fmt::format("{:#010x}", bits)
                : fmt::format("{:#010x} ({})", bits, std::bit_cast<float>(bits));
 }
@@ -248,29 +252,25 @@ void vary(capture::Capture& capture, const cases::Variation& variation) {
     for (size_t sample = 0; sample < states.size(); ++sample) {
         states[sample] = capture::sample_state(capture, sample);
     }
-    vary_plane(capture.hits, 0, states, variation);
-    vary_plane(capture.writers, 1, states, variation);
-    vary_plane(capture.frag_coord, 2, states, variation);
-    for (uint32_t a = 0; a < capture.attribute_count; ++a) {
-        vary_plane(capture.attributes[a], 3 + a, states, variation);
-    }
-    vary_plane(capture.depth, kDepthPlane, states, variation);
+    capture::for_each_plane(
+        [&](const capture::Plane& plane, auto& words) {
+            if (plane.number <= kDepthPlane) {
+                vary_plane(words, plane.number, states, variation);
+            }
+        },
+        capture, capture);
 }
 
 std::string plane_name(uint32_t plane, uint32_t word) {
-    constexpr std::array<const char*, 3> kNames = {"hits", "writer", "frag_coord"};
     constexpr std::array<const char*, 4> kOrigins = {"draw", "primitive", "provoking vertex",
                                                      "spare"};
     if (plane == kDepthPlane) {
         return "depth";
     }
-    if (plane == 1) {
+    if (plane == kWritersPlane) {
         return fmt::format("writer's {}", kOrigins[word % 4]);
     }
-    const std::string name = plane == kColorPlane ? "color"
-                             : plane < 3          ? kNames[plane]
-                                                  : fmt::format("attribute {}", plane - 3);
-    return fmt::format("{}.{}", name, "xyzw"[word % 4]);
+    return fmt::format("{}.{}", capture::name_of_plane(plane), "xyzw"[word % 4]);
 }
 
 void add_differences(const cases::Case& c, std::span<const cases::Derivation> derivations,

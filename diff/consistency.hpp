@@ -19,15 +19,21 @@ namespace diff {
 // One sample whose bits differ: its first word that does.
 struct Difference {
     uint64_t sample = 0;    // index in the capture
-    uint32_t plane = 0;     // 0 hits, 1 writers, 2 frag_coord, 3.. attributes, kDepthPlane, ...
+    uint32_t plane = 0;     // its number (capture.hpp), below kPlanes
     uint32_t word = 0;      // of the sample in its plane
     uint32_t expected = 0;  // bits of the case itself, changed as the variation demands
     uint32_t got = 0;
+    static void fields(auto&& visit, auto&... d) {
+        visit("sample", d.sample...);
+        visit("plane", d.plane...);
+        visit("word", d.word...);
+        visit("expected", d.expected...);
+        visit("got", d.got...);
+    }
     friend bool operator==(const Difference&, const Difference&) = default;
 };
-inline constexpr uint32_t kDepthPlane = 3 + cases::kMaxAttributes;
-inline constexpr uint32_t kColorPlane = kDepthPlane + 1;
-inline constexpr uint32_t kPlanes = kColorPlane + 1;
+// The planes that are compared: those of samples, as far as the case itself draws them.
+inline constexpr uint32_t kPlanes = capture::kColorPlane + 1;
 inline constexpr size_t kMaxDifferences = 64;
 
 // What comparing one derived rendering with the case's own has found.
@@ -35,6 +41,11 @@ struct Consistency {
     uint64_t compared = 0;                // samples
     uint64_t different = 0;               // samples
     std::vector<Difference> differences;  // the first kMaxDifferences
+    static void fields(auto&& visit, auto&... c) {
+        visit("compared", c.compared...);
+        visit("different", c.different...);
+        visit("differences", c.differences...);
+    }
     friend bool operator==(const Consistency&, const Consistency&) = default;
 };
 

@@ -74,7 +74,7 @@ void Verdict::add(Finding finding, const cases::Target& target) {
     }
 }
 
-std::optional<uint64_t> Verdict::wrong_samples() const {
+std::optional<uint64_t> Verdict::count_wrong_samples() const {
     if (has_unmarked || marks.empty()) {
         return std::nullopt;
     }

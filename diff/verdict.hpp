@@ -43,6 +43,20 @@ struct Finding {
     std::string why;                     // one sentence with the exact arithmetic
     double ratio = 0;                    // value findings: error in budgets
     std::optional<uint32_t> layer = {};  // of a target with several layers
+    static void fields(auto&& visit, auto&... f) {
+        visit("kind", f.kind...);
+        visit("rule", f.rule...);
+        visit("level", f.level...);
+        visit("x", f.x...);
+        visit("y", f.y...);
+        visit("sample", f.sample...);
+        visit({"layer", cases::kLeftOutIfEmpty}, f.layer...);
+        visit("quantity", f.quantity...);
+        visit("expected", f.expected...);
+        visit("got", f.got...);
+        visit("why", f.why...);
+        visit("ratio", f.ratio...);
+    }
 };
 
 // Where a finding is.
@@ -69,18 +83,39 @@ enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value,
 
 inline constexpr size_t kMaxFindings = 1000;
 
-struct Verdict {
-    cases::Profile profile = cases::Profile::direct3d;
-    std::string
-        error;  // not empty: the case or the capture cannot be judged (status error), and why
+// What a comparison says of a case: all of it that the records of a run keep.
+struct Outcome {
     std::vector<Finding> findings;                    // the first kMaxFindings, in sample order
     std::array<uint64_t, kFindingKinds> counts{};     // of all, capped or not
+    std::optional<uint64_t> wrong_samples;            // which may have several findings each
     cases::Profile level = cases::Profile::direct3d;  // loosest level among all findings
     // Bounding box of the wrong samples, inclusive; y counts the rows of the stacked layers.
     uint32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;
     uint64_t must_samples = 0, either_samples = 0, compared_samples = 0, compared_values = 0;
     double worst_ratio = 0;      // largest accepted or rejected error in budgets (K of this case)
     std::string worst_quantity;  // whose and where: "attribute 0.x at pixel (3, 4)"
+    static void fields(auto&& visit, auto&... o) {
+        visit("findings", o.findings...);
+        visit("counts", o.counts...);
+        visit({"wrong_samples", cases::kOlderLackIt}, o.wrong_samples...);
+        visit("level", o.level...);
+        visit("min_x", o.min_x...);
+        visit("min_y", o.min_y...);
+        visit("max_x", o.max_x...);
+        visit("max_y", o.max_y...);
+        visit("must_samples", o.must_samples...);
+        visit("either_samples", o.either_samples...);
+        visit("compared_samples", o.compared_samples...);
+        visit("compared_values", o.compared_values...);
+        visit("worst_ratio", o.worst_ratio...);
+        visit("worst_quantity", o.worst_quantity...);
+    }
+};
+
+struct Verdict : Outcome {
+    cases::Profile profile = cases::Profile::direct3d;
+    std::string
+        error;  // not empty: the case or the capture cannot be judged (status error), and why
     std::vector<uint8_t>
         expected_hits;  // nominal hits a sample, saturated at 254; 255 where several are allowed
     std::vector<uint8_t> device_hits;  // saturated at 255
@@ -95,7 +130,7 @@ struct Verdict {
     // at a sample gives it its mark.
     void add(Finding finding, const cases::Target& target);
     // How many samples have a finding, which may have several; nothing where it is not known.
-    std::optional<uint64_t> wrong_samples() const;
+    std::optional<uint64_t> count_wrong_samples() const;
     // The error at a sample, in budgets, is at least `ratio`.
     void raise_error(size_t index, double ratio);
 };

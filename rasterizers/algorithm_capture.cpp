@@ -34,7 +34,7 @@ capture::Capture draw_by_algorithm(const cases::Case& c, const Device& device) {
     if (c.target.color) {
         add_color_plane(capture, c, ref::expect(c, ref::Limits{}, cases::Profile::direct3d));
     }
-    drop_unattached(capture, c);
+    drop_unattached(capture);
     return capture;
 }
 

@@ -43,18 +43,14 @@ void add_color_plane(capture::Capture& capture, const cases::Case& c,
     }
 }
 
-void drop_unattached(capture::Capture& capture, const cases::Case& c) {
-    if (!c.target.has_instruments) {
-        capture.hits.clear();
-        capture.writers.clear();
-        capture.frag_coord.clear();
-        for (auto& attribute : capture.attributes) {
-            attribute.clear();
-        }
-    }
-    if (!c.target.has_depth) {
-        capture.depth.clear();
-    }
+void drop_unattached(capture::Capture& capture) {
+    capture::for_each_plane(
+        [](const capture::Plane& plane, auto& entries) {
+            if (plane.entries == 0) {
+                entries.clear();
+            }
+        },
+        capture, capture);
 }
 
 }  // namespace rasterizers

@@ -18,7 +18,7 @@ namespace rasterizers {
 void add_color_plane(capture::Capture& capture, const cases::Case& c,
                      const ref::Expectation& expectation);
 
-// Takes away the planes that the case does not attach: instruments and depth.
-void drop_unattached(capture::Capture& capture, const cases::Case& c);
+// Takes away the planes that the target does not have.
+void drop_unattached(capture::Capture& capture);
 
 }  // namespace rasterizers

@@ -91,7 +91,7 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         }
     }
     add_color_plane(capture, c, expectation);
-    drop_unattached(capture, c);
+    drop_unattached(capture);
     diff::vary(capture, c.variation);
     return capture;
 }

@@ -27,20 +27,8 @@ bool keep_verdict(CaseRecord& record, const diff::Verdict& verdict, KeepPictures
                     : verdict.ok()         ? Status::pass
                                            : Status::fail;
     record.reason = verdict.error;
-    record.findings = verdict.findings;
-    record.counts = verdict.counts;
-    record.wrong_samples = verdict.wrong_samples();
-    record.level = verdict.level;
-    record.min_x = verdict.min_x;
-    record.min_y = verdict.min_y;
-    record.max_x = verdict.max_x;
-    record.max_y = verdict.max_y;
-    record.must_samples = verdict.must_samples;
-    record.either_samples = verdict.either_samples;
-    record.compared_samples = verdict.compared_samples;
-    record.compared_values = verdict.compared_values;
-    record.worst_ratio = verdict.worst_ratio;
-    record.worst_quantity = verdict.worst_quantity;
+    static_cast<diff::Outcome&>(record) = verdict;
+    record.wrong_samples = verdict.count_wrong_samples();
     return pictures == KeepPictures::all ||
            (pictures == KeepPictures::failed && record.status != Status::pass);
 }

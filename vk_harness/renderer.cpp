@@ -251,8 +251,9 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
                 result.capture.has_primitive = has_primitive;
                 result.capture.attribute_count =
                     target.has_instruments ? attribute_count(*plan.test) : 0;
-                read_planes(target, plan.attachments, plan.readback, readback->bytes(),
-                            result.placed);
+                read_planes(plan.attachments, plan.readback, readback->bytes(),
+                            capture::planes_at(target, result.capture.attribute_count,
+                                               result.placed.data()));
             }
         }
     }

@@ -62,20 +62,72 @@ Vectors vectors(const std::vector<glm::vec4>& from, uint32_t count) {
     return out;
 }
 
-Json attribute_json(const cases::Attribute& a) {
-    Json out = {{"name", a.name},
-                {"interpolation", cases::word_of(a.interpolation)},
-                {"auxiliary", cases::word_of(a.auxiliary)},
-                {"source", cases::word_of(a.source)},
-                {"probe", cases::word_of(a.probe)},
-                {"components", a.components}};
-    if (a.probe == cases::Probe::at_sample) {
-        out["probe_sample"] = a.probe_sample;
-    } else if (a.probe == cases::Probe::at_offset) {
-        out["probe_offset"] = {number(a.probe_offset[0]), number(a.probe_offset[1])};
-    } else if (a.probe == cases::Probe::lod) {
-        out["texture_size"] = a.texture_size;
+// A value as it stands, by its type; structures by their lists of fields. Those of which an export
+// says more, or says it otherwise, have functions of their own below.
+template <class T>
+Json told(const T& value);
+Json told(const cases::Attribute& a);
+Json told(const cases::DepthState& d);
+Json told(const cases::ColorOutput& c);
+
+Json distances(const std::vector<glm::vec4>& from, uint32_t count) {
+    Vectors v = vectors(from, count);
+    return {{"count", count}, {"values", v.values}, {"value_bits", v.bits}};
+}
+
+// All fields of a structure that alter the picture, put into `out`.
+template <class T>
+void tell_fields(const T& value, Json& out) {
+    T::fields(
+        [&out]<class M>(const cases::Field& field, const M& member) {
+            if constexpr (std::is_same_v<M, cases::ClipDistances>) {
+                out["clip_distances"] = distances(member.clip, member.clip_count);
+                out["cull_distances"] = distances(member.cull, member.cull_count);
+            } else if (!field.has(cases::kNotExported)) {
+                out[field.name] = told(member);
+            }
+        },
+        value);
+}
+
+template <class T>
+Json told(const T& value) {
+    if constexpr (cases::HasFields<T>) {
+        Json out = Json::object();
+        tell_fields(value, out);
+        return out;
+    } else if constexpr (std::is_same_v<T, float>) {
+        return number(value);
+    } else if constexpr (std::is_same_v<T, glm::vec4>) {
+        return numbers(value, 4);
+    } else if constexpr (std::is_enum_v<T>) {
+        return cases::word_of(value);
+    } else if constexpr (cases::is_optional<T>) {
+        return value ? told(*value) : Json();
+    } else if constexpr (cases::is_vector<T> || cases::is_array<T>) {
+        Json list = Json::array();
+        for (const auto& entry : value) {
+            list.push_back(told(entry));
+        }
+        return list;
+    } else {
+        return value;
     }
+}
+
+// What only some probes and sources have is told of those alone.
+Json told(const cases::Attribute& a) {
+    Json out = Json::object();
+    tell_fields(a, out);
+    const auto drop = [&out](bool is_there, const char* key) {
+        if (!is_there) {
+            out.erase(key);
+        }
+    };
+    drop(a.probe == cases::Probe::at_sample, "probe_sample");
+    drop(a.probe == cases::Probe::at_offset, "probe_offset");
+    drop(a.probe == cases::Probe::lod, "texture_size");
+    drop(a.source == cases::Source::vertex, "values");
     if (a.source == cases::Source::vertex) {
         Vectors values = vectors(a.values, a.components);
         out["values"] = std::move(values.values);
@@ -84,98 +136,44 @@ Json attribute_json(const cases::Attribute& a) {
     return out;
 }
 
-Json depth_json(const cases::DepthState& d) {
-    Json out = {{"compare", cases::word_of(d.compare)},
-                {"write", d.write},
-                {"bias", nullptr},
-                {"clamp", d.clamp},
-                {"clip", d.clip.value_or(!d.clamp)},
-                {"volume", cases::kVolumeWords.at(d.negative_one_to_one ? 1 : 0)}};
-    if (d.bias) {
-        out["bias"] = {{"constant", number(d.bias->constant)},
-                       {"slope", number(d.bias->slope)},
-                       {"clamp", number(d.bias->clamp)},
-                       {"representation", cases::word_of(d.bias->representation)},
-                       {"exact", d.bias->is_exact}};
-    }
+Json told(const cases::DepthState& d) {
+    Json out = Json::object();
+    tell_fields(d, out);
+    out["clip"] = d.clip.value_or(!d.clamp);
+    out["volume"] = cases::kVolumeWords.at(d.negative_one_to_one ? 1 : 0);
     return out;
 }
 
-Json equation_json(const cases::BlendEquation& e) {
-    return {{"source", cases::word_of(e.source)},
-            {"destination", cases::word_of(e.destination)},
-            {"op", cases::word_of(e.op)}};
-}
-
-Json color_json(const cases::ColorOutput& c) {
-    Json out = {{"value", numbers(c.value, 4)},
-                {"attribute", nullptr},
-                {"blend", nullptr},
-                {"write_mask", c.write_mask}};
-    if (c.attribute >= 0) {
-        out["attribute"] = c.attribute;
-    }
-    if (c.blend) {
-        out["blend"] = {{"color", equation_json(c.blend->color)},
-                        {"alpha", equation_json(c.blend->alpha)},
-                        {"constants", numbers(c.blend->constants, 4)}};
+Json told(const cases::ColorOutput& c) {
+    Json out = Json::object();
+    tell_fields(c, out);
+    if (c.attribute < 0) {
+        out["attribute"] = nullptr;
     }
     return out;
 }
 
 Json draw_json(const cases::Draw& d, const std::vector<cases::Triangle>& triangles,
                bool has_color) {
-    Vectors positions = vectors(d.positions, 4);
     // Number k of these is gl_PrimitiveID k.
     Json assembled = Json::array(), provoking = Json::array();
     for (const cases::Triangle& t : triangles) {
         assembled.push_back(t.vertex);
         provoking.push_back(t.provoking);
     }
-    Json out = {
-        {"topology", cases::word_of(d.topology)},     {"positions", std::move(positions.values)},
-        {"position_bits", std::move(positions.bits)}, {"indices", nullptr},
-        {"primitive_restart", d.primitive_restart},   {"triangles", std::move(assembled)},
-        {"provoking_vertices", std::move(provoking)}};
-    if (d.indices) {
-        out["indices"] = *d.indices;
+    Vectors positions = vectors(d.positions, 4);
+    // What follows from fields stands beside them.
+    Json out;
+    for (const char* key : {"topology", "positions", "position_bits", "indices",
+                            "primitive_restart", "triangles", "provoking_vertices"}) {
+        out[key] = nullptr;
     }
-    out["viewport"] = {{"x", number(d.viewport.x)},
-                       {"y", number(d.viewport.y)},
-                       {"width", number(d.viewport.width)},
-                       {"height", number(d.viewport.height)},
-                       {"min_depth", number(d.viewport.min_depth)},
-                       {"max_depth", number(d.viewport.max_depth)}};
-    out["viewport_index"] = d.viewport_index;
-    out["layer"] = d.layer;
-    out["scissor"] = {{"x", d.scissor.x},
-                      {"y", d.scissor.y},
-                      {"width", d.scissor.width},
-                      {"height", d.scissor.height}};
-    out["cull"] = cases::word_of(d.cull);
-    out["front_face"] = cases::word_of(d.front_face);
-    out["provoking_vertex"] = cases::word_of(d.provoking);
-    out["depth"] = depth_json(d.depth);
-    Json multisample = {{"sample_mask", d.multisample.sample_mask},
-                        {"shader_mask", nullptr},
-                        {"min_sample_shading", nullptr}};
-    if (d.multisample.shader_mask) {
-        multisample["shader_mask"] = *d.multisample.shader_mask;
-    }
-    if (d.multisample.min_sample_shading) {
-        multisample["min_sample_shading"] = number(*d.multisample.min_sample_shading);
-    }
-    out["multisample"] = std::move(multisample);
-    const auto distances = [](const std::vector<glm::vec4>& from, uint32_t count) {
-        Vectors v = vectors(from, count);
-        return Json{{"count", count}, {"values", v.values}, {"value_bits", v.bits}};
-    };
-    out["clip_distances"] = distances(d.distances.clip, d.distances.clip_count);
-    out["cull_distances"] = distances(d.distances.cull, d.distances.cull_count);
-    out["color"] = has_color ? color_json(d.color) : Json();
-    out["attributes"] = Json::array();
-    for (const cases::Attribute& a : d.attributes) {
-        out["attributes"].push_back(attribute_json(a));
+    tell_fields(d, out);
+    out["position_bits"] = std::move(positions.bits);
+    out["triangles"] = std::move(assembled);
+    out["provoking_vertices"] = std::move(provoking);
+    if (!has_color) {
+        out["color"] = nullptr;
     }
     return out;
 }
@@ -185,41 +183,31 @@ Json target_json(const cases::Target& t) {
     for (const std::array<uint8_t, 2>& at : cases::sample_locations(t)) {
         locations.push_back({at[0] / 16.0, at[1] / 16.0});
     }
-    Json out = {{"width", t.width},
-                {"height", t.height},
-                {"samples", t.samples},
-                {"layers", t.layers},
-                {"sample_locations", std::move(locations)},
-                {"depth", nullptr},
-                {"color", nullptr},
-                {"stencil", t.has_stencil},
-                {"color_resolve", cases::word_of(t.color_resolve)},
-                {"depth_resolve", cases::word_of(t.depth_resolve)}};
+    Json out = told(t);
+    out["sample_locations"] = std::move(locations);
+    out["depth"] = nullptr;
     if (t.has_depth) {
-        out["depth"] = {{"format", cases::word_of(t.depth_format)},
-                        {"clear", number(t.depth_clear)},
+        out["depth"] = {{"format", std::move(out["depth_format"])},
+                        {"clear", std::move(out["depth_clear"])},
                         {"clear_bits", bits(glm::vec4(t.depth_clear), 1)}};
     }
-    if (t.color) {
-        out["color"] = {{"format", cases::word_of(t.color->format)},
-                        {"clear", numbers(t.color->clear, 4)}};
-    }
+    out.erase("depth_format");
+    out.erase("depth_clear");
     return out;
 }
 
-Json corners_json(const cases::Corners& c) {
-    return {{"x0", c.x0}, {"y0", c.y0}, {"x1", c.x1}, {"y1", c.y1}};
-}
-
 Json blit_json(const cases::Blit& b) {
-    return {{"filter", cases::word_of(b.filter)},
-            {"source",
-             {{"format", cases::word_of(b.source_format)},
-              {"width", b.source_width},
-              {"height", b.source_height},
-              {"codes", cases::blit_source(b)}}},
-            {"source_region", corners_json(b.source)},
-            {"destination_region", corners_json(b.destination)}};
+    Json out = {{"filter", nullptr}, {"source", nullptr}};
+    tell_fields(b, out);
+    // The texels instead of how they were made.
+    out["source"] = {{"format", std::move(out["source_format"])},
+                     {"width", b.source_width},
+                     {"height", b.source_height},
+                     {"codes", cases::blit_source(b)}};
+    for (const char* key : {"source_format", "source_width", "source_height", "pattern", "seed"}) {
+        out.erase(key);
+    }
+    return out;
 }
 
 Json planes_json(const cases::Case& c) {
@@ -285,6 +273,7 @@ class Needs {
         add(!(d.scissor == cases::Rect{0, 0, t.width, t.height}), "scissor");
         add(d.cull != cases::CullMode::none, "cull");
         add(d.provoking == cases::ProvokingVertex::last, "provoking-last");
+        add(d.rasterizer_discard, "rasterizer-discard");
         add(d.depth.compare != cases::CompareOp::always, "depth-test");
         add(!d.depth.write, "depth-write-mask");
         add(d.depth.bias.has_value(), "depth-bias");

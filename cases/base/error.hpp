@@ -14,6 +14,11 @@ struct SourceLocation {
     std::string file;
     uint32_t line = 0;
     uint32_t column = 0;
+    static void fields(auto&& visit, auto&... w) {
+        visit("file", w.file...);
+        visit("line", w.line...);
+        visit("column", w.column...);
+    }
 };
 
 // One thing wrong with a file or a request, told in one sentence: what is wrong, where, what to do.

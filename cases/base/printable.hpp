@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "cases/base/fields.hpp"
+
 namespace cases {
 
 // Text that a driver or file may have filled with anything, made safe for a terminal or XML:
@@ -15,5 +17,10 @@ std::string printable(std::string_view bytes);
 // The same as text or an attribute value in double quotes of HTML and XML: printable() leaves only
 // what XML 1.0 allows (section 2.2); ">" is escaped too, so that "]]>" never appears.
 std::string markup(std::string_view bytes);
+
+// All texts of a structure (fields.hpp).
+void make_printable(auto& structure) {
+    change_texts(structure, [](std::string& text) { text = printable(text); });
+}
 
 }  // namespace cases

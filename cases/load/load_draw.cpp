@@ -34,21 +34,23 @@ class DrawLoader {
     // Once: what is loaded is moved out.
     Draw load(const std::string& name, std::vector<std::string>& notes) {
         context_.known_keys(table_, "[[draw]]",
-                            {"topology",      "space",          "vertices",
-                             "generate",      "indices",        "viewport",
-                             "scissor",       "viewport_index", "layer",
-                             "cull",          "front_face",     "provoking",
-                             "depth",         "depth_volume",   "clip_distance",
-                             "cull_distance", "attribute",      "mirror",
-                             "rotate",        "offset",         "winding",
-                             "first",         "order",          "color",
-                             "sample_mask",   "shader_mask",    "min_sample_shading"});
+                            {"topology",      "space",       "vertices",     "generate",
+                             "indices",       "viewport",    "scissor",      "viewport_index",
+                             "layer",         "cull",        "front_face",   "rasterizer_discard",
+                             "provoking",     "depth",       "depth_volume", "clip_distance",
+                             "cull_distance", "attribute",   "mirror",       "rotate",
+                             "offset",        "winding",     "first",        "order",
+                             "color",         "sample_mask", "shader_mask",  "min_sample_shading"});
         draw_.where = table_.where;
         draw_.topology = enumerated("topology", Topology::triangle_list);
         draw_.cull = enumerated("cull", CullMode::none);
         draw_.front_face = enumerated("front_face", FrontFace::counter_clockwise);
         space_ = worded("space", kSpace, Space::pixels);
         draw_.multisample = load_multisample(context_, table_);
+        if (const TomlValue* value = table_.find("rasterizer_discard")) {
+            draw_.rasterizer_discard =
+                context_.boolean(*value, "rasterizer_discard").value_or(false);
+        }
         read_viewport();
         read_scissor();
         if (const TomlValue* value = table_.find("viewport_index")) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cases/base/error.hpp"
+#include "cases/base/fields.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/format/depth_format.hpp"
 #include "cases/model/relation.hpp"
@@ -79,6 +80,14 @@ inline constexpr float kMaxAttributeMagnitude =
 struct Viewport {
     float x = 0, y = 0, width = 0, height = 0;
     float min_depth = 0, max_depth = 1;
+    static void fields(auto&& visit, auto&... v) {
+        visit("x", v.x...);
+        visit("y", v.y...);
+        visit("width", v.width...);
+        visit("height", v.height...);
+        visit("min_depth", v.min_depth...);
+        visit("max_depth", v.max_depth...);
+    }
     friend bool operator==(const Viewport&, const Viewport&) = default;
 };
 
@@ -86,6 +95,12 @@ struct Viewport {
 struct Rect {
     int32_t x = 0, y = 0;
     uint32_t width = 0, height = 0;
+    static void fields(auto&& visit, auto&... r) {
+        visit("x", r.x...);
+        visit("y", r.y...);
+        visit("width", r.width...);
+        visit("height", r.height...);
+    }
     friend bool operator==(const Rect&, const Rect&) = default;
 };
 
@@ -101,6 +116,18 @@ struct Attribute {
     std::array<float, 2> probe_offset{};     // pixels from the centre; at_offset
     uint32_t probe_sample = 0;               // at_sample
     std::array<uint32_t, 2> texture_size{};  // texels, lod
+    static void fields(auto&& visit, auto&... a) {
+        visit("name", a.name...);
+        visit("interpolation", a.interpolation...);
+        visit("auxiliary", a.auxiliary...);
+        visit("source", a.source...);
+        visit("probe", a.probe...);
+        visit("components", a.components...);
+        visit("probe_sample", a.probe_sample...);
+        visit("probe_offset", a.probe_offset...);
+        visit("texture_size", a.texture_size...);
+        visit("values", a.values...);
+    }
     friend bool operator==(const Attribute&, const Attribute&) = default;
 };
 
@@ -118,6 +145,13 @@ struct DepthBias {
     bool is_controlled() const {
         return representation != DepthBiasRepresentation::format || is_exact;
     }
+    static void fields(auto&& visit, auto&... b) {
+        visit("constant", b.constant...);
+        visit("slope", b.slope...);
+        visit("clamp", b.clamp...);
+        visit("representation", b.representation...);
+        visit("exact", b.is_exact...);
+    }
     friend bool operator==(const DepthBias&, const DepthBias&) = default;
 };
 
@@ -130,6 +164,14 @@ struct DepthState {
     bool clamp = false;                  // depthClampEnable
     std::optional<bool> clip = {};       // VK_EXT_depth_clip_enable; nothing: !clamp
     bool negative_one_to_one = false;    // VK_EXT_depth_clip_control
+    static void fields(auto&& visit, auto&... d) {
+        visit("compare", d.compare...);
+        visit("write", d.write...);
+        visit("bias", d.bias...);
+        visit("clamp", d.clamp...);
+        visit("clip", d.clip...);
+        visit("volume", d.negative_one_to_one...);
+    }
     friend bool operator==(const DepthState&, const DepthState&) = default;
 };
 
@@ -137,6 +179,12 @@ struct DepthState {
 struct ClipDistances {
     uint32_t clip_count = 0, cull_count = 0;      // 0..4 each
     std::vector<glm::vec4> clip = {}, cull = {};  // one a vertex, or empty if the count is 0
+    static void fields(auto&& visit, auto&... d) {
+        visit("clip_count", d.clip_count...);
+        visit("clip", d.clip...);
+        visit("cull_count", d.cull_count...);
+        visit("cull", d.cull...);
+    }
     friend bool operator==(const ClipDistances&, const ClipDistances&) = default;
 };
 
@@ -145,6 +193,11 @@ struct Multisample {
     uint32_t sample_mask = 0xffffffffU;            // pSampleMask
     std::optional<uint32_t> shader_mask = {};      // written to gl_SampleMask
     std::optional<float> min_sample_shading = {};  // sampleShadingEnable, minSampleShading, 0..1
+    static void fields(auto&& visit, auto&... m) {
+        visit("sample_mask", m.sample_mask...);
+        visit("shader_mask", m.shader_mask...);
+        visit("min_sample_shading", m.min_sample_shading...);
+    }
     friend bool operator==(const Multisample&, const Multisample&) = default;
 };
 
@@ -170,11 +223,21 @@ enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };  // 
 struct BlendEquation {
     BlendFactor source = BlendFactor::one, destination = BlendFactor::zero;
     BlendOp op = BlendOp::add;
+    static void fields(auto&& visit, auto&... e) {
+        visit("source", e.source...);
+        visit("destination", e.destination...);
+        visit("op", e.op...);
+    }
     friend bool operator==(const BlendEquation&, const BlendEquation&) = default;
 };
 struct Blend {
     BlendEquation color, alpha;
     glm::vec4 constants{};
+    static void fields(auto&& visit, auto&... b) {
+        visit("color", b.color...);
+        visit("alpha", b.alpha...);
+        visit("constants", b.constants...);
+    }
     friend bool operator==(const Blend&, const Blend&) = default;
 };
 
@@ -184,12 +247,22 @@ struct ColorOutput {
     int32_t attribute = -1;  // index of the attribute that is written instead
     std::optional<Blend> blend = {};
     uint8_t write_mask = 0xf;  // bit 0: red ... bit 3: alpha
+    static void fields(auto&& visit, auto&... c) {
+        visit("value", c.value...);
+        visit("attribute", c.attribute...);
+        visit("blend", c.blend...);
+        visit("write_mask", c.write_mask...);
+    }
     friend bool operator==(const ColorOutput&, const ColorOutput&) = default;
 };
 // One more colour attachment, judged by its stored bits.
 struct ColorTarget {
     ColorFormat format = ColorFormat::rgba8_unorm;
     glm::vec4 clear{};  // as the clear colour; whole numbers for integer formats
+    static void fields(auto&& visit, auto&... c) {
+        visit("format", c.format...);
+        visit("clear", c.clear...);
+    }
     friend bool operator==(const ColorTarget&, const ColorTarget&) = default;
 };
 
@@ -205,6 +278,7 @@ struct Draw {
     CullMode cull = CullMode::none;
     FrontFace front_face = FrontFace::counter_clockwise;
     ProvokingVertex provoking = ProvokingVertex::first;
+    bool rasterizer_discard = false;  // rasterizerDiscardEnable: no fragment comes of it
     DepthState depth;
     ClipDistances distances;
     Multisample multisample;
@@ -212,6 +286,26 @@ struct Draw {
     uint32_t layer = 0;  // below Target::layers; gl_Layer of all its primitives
     uint32_t viewport_index = 0;
     SourceLocation where;
+    static void fields(auto&& visit, auto&... d) {
+        visit("topology", d.topology...);
+        visit("positions", d.positions...);
+        visit("indices", d.indices...);
+        visit("primitive_restart", d.primitive_restart...);
+        visit("viewport", d.viewport...);
+        visit("viewport_index", d.viewport_index...);
+        visit("layer", d.layer...);
+        visit("scissor", d.scissor...);
+        visit("cull", d.cull...);
+        visit("front_face", d.front_face...);
+        visit("provoking_vertex", d.provoking...);
+        visit("rasterizer_discard", d.rasterizer_discard...);
+        visit("depth", d.depth...);
+        visit("multisample", d.multisample...);
+        visit("distances", d.distances...);
+        visit("color", d.color...);
+        visit("attributes", d.attributes...);
+        visit({"where", kNotOnWire | kNotExported}, d.where...);  // for errors
+    }
 };
 
 // How the samples of a pixel become one value at the end of rendering (VkResolveModeFlagBits).
@@ -237,6 +331,21 @@ struct Target {
     bool has_stencil = false;
     // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
     uint32_t rows() const { return height * layers; }
+    static void fields(auto&& visit, auto&... t) {
+        visit("width", t.width...);
+        visit("height", t.height...);
+        visit("samples", t.samples...);
+        visit("layers", t.layers...);
+        visit("sample_locations", t.sample_locations...);
+        visit("depth", t.has_depth...);
+        visit("depth_format", t.depth_format...);
+        visit("depth_clear", t.depth_clear...);
+        visit("color", t.color...);
+        visit("stencil", t.has_stencil...);
+        visit("color_resolve", t.color_resolve...);
+        visit("depth_resolve", t.depth_resolve...);
+        visit({"instruments", kNotExported}, t.has_instruments...);  // how this program looks
+    }
     friend bool operator==(const Target&, const Target&) = default;
 };
 
@@ -250,6 +359,12 @@ enum class BlitPattern : uint8_t {
 // Two corners of a region in texels, in either order: x1 < x0 mirrors.
 struct Corners {
     int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    static void fields(auto&& visit, auto&... c) {
+        visit("x0", c.x0...);
+        visit("y0", c.y0...);
+        visit("x1", c.x1...);
+        visit("y1", c.y1...);
+    }
     friend bool operator==(const Corners&, const Corners&) = default;
 };
 struct Blit {
@@ -259,6 +374,16 @@ struct Blit {
     uint32_t seed = 1;
     BlitFilter filter = BlitFilter::nearest;
     Corners source, destination;  // each inside its image
+    static void fields(auto&& visit, auto&... b) {
+        visit("filter", b.filter...);
+        visit("source_format", b.source_format...);
+        visit("source_width", b.source_width...);
+        visit("source_height", b.source_height...);
+        visit("pattern", b.pattern...);
+        visit("seed", b.seed...);
+        visit("source_region", b.source...);
+        visit("destination_region", b.destination...);
+    }
     friend bool operator==(const Blit&, const Blit&) = default;
 };
 
@@ -268,6 +393,10 @@ struct Blit {
 struct ExpectedHits {
     std::vector<std::string> rows;
     SourceLocation where;
+    static void fields(auto&& visit, auto&... e) {
+        visit("rows", e.rows...);
+        visit("where", e.where...);
+    }
 };
 
 struct Case {
@@ -285,6 +414,22 @@ struct Case {
     Variation variation = {};  // of such a rendering, derive.hpp; neither in files nor on the wire
     std::optional<ExpectedHits> expected_hits;
     std::vector<std::string> notes;  // conversions that rounded, one sentence each
+    static void fields(auto&& visit, auto&... c) {
+        visit("id", c.id...);
+        visit({"where", kNotOnWire}, c.where...);  // up to parameters: for readers
+        visit({"description", kNotOnWire}, c.description...);
+        visit({"catches", kNotOnWire}, c.catches...);
+        visit({"rules", kNotOnWire}, c.rules...);
+        visit({"links", kNotOnWire}, c.links...);
+        visit({"parameters", kNotOnWire}, c.parameters...);
+        visit("target", c.target...);
+        visit("draws", c.draws...);
+        visit("blit", c.blit...);
+        visit("relations", c.relations...);
+        visit({"variation", kNotOnWire}, c.variation...);  // the worker makes it of relations
+        visit({"expected_hits", kNotOnWire}, c.expected_hits...);  // for the reference
+        visit({"notes", kNotOnWire}, c.notes...);                  // for readers
+    }
 };
 
 }  // namespace cases

@@ -23,11 +23,15 @@ inline constexpr RelationKind kLastRelationKind = RelationKind::more_attributes;
 struct Relation {
     RelationKind kind = RelationKind::same_twice;
     std::array<uint32_t, 2> tile{};  // scissor_tiles: width and height in pixels
+    static void fields(auto&& visit, auto&... r) {
+        visit("kind", r.kind...);
+        visit("tile", r.tile...);
+    }
     friend bool operator==(const Relation&, const Relation&) = default;
 };
 
-// How a rendering differs from that of the case as it stands. Planes are counted as in a capture:
-// hits, writers, frag_coord, attributes; the colour target is neither masked nor cleared otherwise.
+// How a rendering differs from that of the case as it stands. Planes have their numbers of
+// capture/capture.hpp; the colour target is neither masked nor cleared otherwise.
 struct Variation {
     std::array<uint32_t, 2> tile{};  // not 0: every draw is repeated under each tile's scissor
     bool other_clears = false;       // of attachments
@@ -35,6 +39,14 @@ struct Variation {
     uint32_t masked = 0;             // bit k: plane k is not written
     bool masks_depth = false;        // depth is not written
     bool later = false;              // in a later submission than the case
+    static void fields(auto&& visit, auto&... v) {
+        visit("tile", v.tile...);
+        visit("other_clears", v.other_clears...);
+        visit("other_depth_clear", v.other_depth_clear...);
+        visit("masked", v.masked...);
+        visit("masks_depth", v.masks_depth...);
+        visit("later", v.later...);
+    }
     friend bool operator==(const Variation&, const Variation&) = default;
 };
 

@@ -59,6 +59,11 @@ constexpr std::array kRules = {
     Rule{"face.cull", Profile::vulkan, "A culled triangle draws nothing",
          "Culling by facing happens before fragments are produced.", "primsrast-polygons-basic",
          "15.11", "ref/coverage/setup.cpp"},
+    Rule{
+        "discard.rasterizer", Profile::vulkan, "With rasterizer discard a draw leaves no trace",
+        "Its primitives are discarded before rasterization: no sample, no depth, no stencil and no "
+        "colour changes, and the draws before and after it are drawn as ever.",
+        "primsrast-discard", "", "ref/coverage/setup.cpp"},
     Rule{"clip.volume", Profile::vulkan, "Nothing is drawn outside the clip volume",
          "-w <= x <= w, -w <= y <= w, 0 <= z <= w; what lies behind the eye does not show.",
          "vertexpostproc-clipping", "15.4", "ref/position/clip.hpp"},

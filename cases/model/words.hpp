@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "cases/base/fields.hpp"
 #include "cases/model/case.hpp"
 
 namespace cases {
@@ -93,6 +94,10 @@ inline constexpr WordList<6> kWords<RelationKind> = {"same-twice",       "scisso
                                                      "fewer-attributes", "more-attributes"};
 // DepthState::negative_one_to_one.
 inline constexpr WordList<2> kVolumeWords = {"zero-to-one", "negative-one-to-one"};
+
+template <class Enum>
+    requires(kWords<Enum>.size() > 0)
+inline constexpr size_t kValueCount<Enum> = kWords<Enum>.size();
 
 namespace detail {
 template <class Enum>

@@ -1,127 +1,171 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plain values to bytes and back, for case_bytes.cpp. Reading never goes past the end and takes no
-// memory for elements that are not there.
+// Values to bytes and back, for the pipe between the parent and its workers: same machine, same
+// program, so native byte order and no versions. Structures go by their lists of fields
+// (cases/base/fields.hpp). Reading never goes past the end and takes no memory for elements that
+// are not there.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
-#include <glm/vec4.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "cases/base/fields.hpp"
+
 namespace cases::wire {
+
+// Whether the memory of a T is what travels: numbers, vectors and arrays of them, words of planes.
+template <class T>
+inline constexpr bool is_raw = std::is_trivially_copyable_v<T> && !HasFields<T> &&
+                               !std::is_enum_v<T> && !std::is_same_v<T, bool> && !is_optional<T>;
 
 class Writer {
   public:
     template <class T>
-    void number(T value) {
-        static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-        char raw[sizeof(T)];
-        std::memcpy(raw, &value, sizeof(T));
-        bytes_.append(raw, sizeof(T));
-    }
-    void flag(bool value) { number(static_cast<uint8_t>(value ? 1 : 0)); }
-    void text(const std::string& value) {
-        number(static_cast<uint64_t>(value.size()));
-        bytes_ += value;
-    }
-    void real(float value) { number(std::bit_cast<uint32_t>(value)); }
-    void vector(const glm::vec4& v) {
-        real(v.x);
-        real(v.y);
-        real(v.z);
-        real(v.w);
-    }
-    void vectors(const std::vector<glm::vec4>& values) {
-        number(static_cast<uint64_t>(values.size()));
-        for (const glm::vec4& v : values) {
-            vector(v);
+    void put(const T& value) {
+        if constexpr (HasFields<T>) {
+            T::fields(
+                [this](const Field& field, const auto& member) {
+                    if (!field.has(kNotOnWire)) {
+                        put(member);
+                    }
+                },
+                value);
+        } else if constexpr (is_optional<T>) {
+            put(value.has_value());
+            if (value) {
+                put(*value);
+            }
+        } else if constexpr (is_pair<T>) {
+            put(value.first);
+            put(value.second);
+        } else if constexpr (std::is_same_v<T, std::string>) {
+            list(std::span(value));
+        } else if constexpr (is_vector<T>) {
+            list(std::span(value));
+        } else if constexpr (std::is_same_v<T, bool>) {
+            put(static_cast<uint8_t>(value ? 1 : 0));
+        } else if constexpr (std::is_enum_v<T>) {
+            put(static_cast<std::underlying_type_t<T>>(value));
+        } else {
+            static_assert(is_raw<T>);
+            raw(std::as_bytes(std::span(&value, 1)));
         }
     }
+    // A vector's bytes, wherever its elements lie.
+    template <class T>
+    void list(std::span<const T> values) {
+        put(uint64_t{values.size()});
+        if constexpr (is_raw<T>) {
+            raw(std::as_bytes(values));
+        } else {
+            for (const T& value : values) {
+                put(value);
+            }
+        }
+    }
+    void reserve(size_t size) { bytes_.reserve(size); }
     std::string take() { return std::move(bytes_); }
 
   private:
+    void raw(std::span<const std::byte> bytes) {
+        bytes_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    }
     std::string bytes_;
 };
 
-// After the first failure every further read yields zero; good() tells.
+// After the first failure every further read leaves zeros; good() tells.
 class Reader {
   public:
-    explicit Reader(std::span<const char> bytes) : rest_(bytes) {}
+    explicit Reader(std::string_view bytes) : rest_(bytes) {}
 
     template <class T>
-    T number() {
+    void get(T& to) {
+        if constexpr (HasFields<T>) {
+            T::fields(
+                [this](const Field& field, auto& member) {
+                    if (!field.has(kNotOnWire)) {
+                        get(member);
+                    }
+                },
+                to);
+        } else if constexpr (is_optional<T>) {
+            to.reset();
+            if (get<bool>()) {
+                get(to.emplace());
+            }
+        } else if constexpr (is_pair<T>) {
+            get(to.first);
+            get(to.second);
+        } else if constexpr (is_vector<T> || std::is_same_v<T, std::string>) {
+            get_list(to);
+        } else if constexpr (std::is_same_v<T, bool>) {
+            to = checked(get<uint8_t>(), 2) != 0;
+        } else if constexpr (std::is_enum_v<T>) {
+            static_assert(kValueCount<T> > 0, "nothing says which values this enumeration has");
+            to = static_cast<T>(checked(get<std::underlying_type_t<T>>(), kValueCount<T>));
+        } else {
+            static_assert(is_raw<T>);
+            to = T{};
+            raw(&to, sizeof to);
+        }
+    }
+    template <class T>
+    T get() {
         T value{};
-        if (rest_.size() < sizeof(T)) {
-            fail();
-            return value;
-        }
-        std::memcpy(&value, rest_.data(), sizeof(T));
-        rest_ = rest_.subspan(sizeof(T));
+        get(value);
         return value;
-    }
-    bool flag() {
-        const auto value = number<uint8_t>();
-        if (value > 1) {
-            fail();
-        }
-        return value == 1;
-    }
-    template <class Enum>
-    Enum enumerator(Enum last) {
-        const auto value = number<std::underlying_type_t<Enum>>();
-        if (value > static_cast<std::underlying_type_t<Enum>>(last)) {
-            fail();
-            return Enum{};
-        }
-        return static_cast<Enum>(value);
-    }
-    // A number of elements of at least `element_size` bytes each; checked before memory is taken.
-    size_t count(size_t element_size) {
-        const auto n = number<uint64_t>();
-        if (n > rest_.size() / element_size) {
-            fail();
-            return 0;
-        }
-        return static_cast<size_t>(n);
-    }
-    std::string text() {
-        const size_t size = count(1);
-        std::string value(rest_.data(), size);
-        rest_ = rest_.subspan(size);
-        return value;
-    }
-    float real() { return std::bit_cast<float>(number<uint32_t>()); }
-    glm::vec4 vector() {
-        glm::vec4 v;
-        v.x = real();
-        v.y = real();
-        v.z = real();
-        v.w = real();
-        return v;
-    }
-    std::vector<glm::vec4> vectors() {
-        std::vector<glm::vec4> values(count(4 * sizeof(uint32_t)));
-        for (glm::vec4& v : values) {
-            v = vector();
-        }
-        return values;
     }
     void fail() {
-        good_ = false;
+        is_good_ = false;
         rest_ = {};
     }
-    bool good() const { return good_; }
+    bool good() const { return is_good_; }
     bool at_end() const { return rest_.empty(); }
 
   private:
-    std::span<const char> rest_;
-    bool good_ = true;
+    void raw(void* to, size_t size) {
+        if (rest_.size() < size) {
+            fail();
+        } else if (size > 0) {
+            std::memcpy(to, rest_.data(), size);
+            rest_.remove_prefix(size);
+        }
+    }
+    template <class T>
+    void get_list(T& to) {
+        using Element = typename T::value_type;
+        constexpr size_t kLeast = is_raw<Element> ? sizeof(Element) : 1;  // bytes of an element
+        const auto count = get<uint64_t>();
+        to.clear();
+        if (count > rest_.size() / kLeast) {
+            fail();
+        } else if constexpr (is_raw<Element>) {
+            to.resize(static_cast<size_t>(count));
+            raw(to.data(), to.size() * sizeof(Element));
+        } else {
+            for (uint64_t k = 0; k < count && is_good_; ++k) {
+                get(to.emplace_back());
+            }
+        }
+    }
+    // 0 for a number that is not below `end`.
+    template <class T>
+    T checked(T number, size_t end) {
+        if (number < T{} || static_cast<size_t>(number) >= end) {
+            fail();
+            return T{};
+        }
+        return number;
+    }
+
+    std::string_view rest_;
+    bool is_good_ = true;
 };
 
 }  // namespace cases::wire

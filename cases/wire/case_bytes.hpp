@@ -12,12 +12,8 @@
 
 namespace cases {
 
-// What a renderer needs of a case: id, target and draws, float bits as they are.
+// What a renderer needs of a case: all fields but those marked kNotOnWire, float bits as they are.
 std::string to_bytes(const Case& c);
 Expected<Case> from_bytes(std::span<const char> bytes);
-
-// A target alone; the same form as inside a case.
-std::string target_to_bytes(const Target& target);
-Expected<Target> target_from_bytes(std::span<const char> bytes);
 
 }  // namespace cases

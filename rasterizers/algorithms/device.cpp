@@ -164,10 +164,10 @@ std::string unsupported_reason(const cases::Case& c) {
     }
     for (const cases::Draw& d : c.draws) {
         if (!(d.depth == cases::DepthState{}) || !(d.distances == cases::ClipDistances{}) ||
-            !(d.multisample == cases::Multisample{}) ||
+            !(d.multisample == cases::Multisample{}) || d.rasterizer_discard ||
             d.provoking != cases::ProvokingVertex::first || d.layer != 0 || d.viewport_index != 0) {
-            return "the algorithms have no depth state, clip distances, sample masks, layers and "
-                   "provoking vertices";
+            return "the algorithms have no depth state, clip distances, sample masks, layers, "
+                   "provoking vertices and rasterizer discard";
         }
         if (!std::all_of(d.attributes.begin(), d.attributes.end(), is_plain)) {
             return "the algorithms interpolate plain vertex attributes only";

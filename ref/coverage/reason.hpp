@@ -25,6 +25,7 @@ enum class ReasonKind : uint8_t {
     masked,         // a sample mask of the draw leaves the sample out
     scissor,        // outside the scissor rectangle or the target
     viewport,       // outside the viewport
+    discarded,      // the draw has rasterizer discard
     outside,        // outside an edge, wherever its ends may lie; the edge, 0 to 2
     outside_hull,   // outside all that the positions of the vertices span
     no_area,        // on a triangle that has no area once it is snapped

@@ -213,6 +213,14 @@ void set_up_anywhere(const Source& s, ReasonKind why, TriangleSetup& t) {
     t.reasons = {{why}};
 }
 
+// Nothing of the triangle is drawn if its draw has rasterizer discard.
+void discard_by_state(const cases::Draw& draw, TriangleSetup& t) {
+    if (draw.rasterizer_discard) {
+        t.kind = TriangleSetup::Kind::nothing;
+        t.reasons.push_back({ReasonKind::discarded});
+    }
+}
+
 // That planes take the whole triangle away: those beyond which all of its vertices lie, or else
 // those beyond which some do.
 void tell_planes(const Source& s, TriangleSetup& t) {
@@ -345,11 +353,12 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
     if (!is_number) {
         // Undefined for this primitive, anywhere inside scissor and framebuffer.
         set_up_anywhere(s, ReasonKind::undefined, t);
+        discard_by_state(draw, t);
         return t;
     }
     const bool is_outside = is_trivially_outside(clip, s.volume.view());
     const bool is_culled = is_culled_by_distance(draw, triangle);
-    if (!is_told && (is_outside || is_culled)) {
+    if (!is_told && (is_outside || is_culled || draw.rasterizer_discard)) {
         return t;
     }
     // "x/w ... division by zero produces an unspecified result" (Vulkan, "General Requirements"); a
@@ -371,6 +380,7 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
             t.reasons.push_back({ReasonKind::cull_distance, static_cast<uint8_t>(k)});
         }
     }
+    discard_by_state(draw, t);
     return t;
 }
 

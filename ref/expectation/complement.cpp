@@ -46,7 +46,8 @@ bool same_attributes(const cases::Draw& a, const cases::Draw& b) {
 bool are_complementary(const cases::Draw& a, const cases::Draw& b) {
     const cases::ClipDistances& da = a.distances;
     const cases::ClipDistances& db = b.distances;
-    return da.clip_count > 0 && da.clip_count == db.clip_count && da.cull_count == db.cull_count &&
+    return !a.rasterizer_discard && !b.rasterizer_discard && da.clip_count > 0 &&
+           da.clip_count == db.clip_count && da.cull_count == db.cull_count &&
            a.topology == b.topology && a.indices == b.indices &&
            a.primitive_restart == b.primitive_restart && a.viewport == b.viewport &&
            a.scissor == b.scissor && a.cull == b.cull && a.front_face == b.front_face &&

@@ -36,6 +36,8 @@ constexpr std::array kRows = {
         "the sample lies outside the scissor rectangle, {scissor}"},
     Row{ReasonKind::viewport, "clip.viewport", "clip.viewport",
         "the sample lies outside the viewport, {viewport}"},
+    Row{ReasonKind::discarded, "discard.rasterizer", "discard.rasterizer",
+        "the draw has rasterizer discard"},
     Row{ReasonKind::outside, "cover.outside", "snap.nearest", "{edge}: outside that edge"},
     Row{ReasonKind::outside_hull, "cover.outside", "snap.nearest",
         "outside all that the vertices can span, wherever they are snapped"},

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "cases/base/printable.hpp"
+#include "report/journal/json_codec.hpp"
 #include "report/journal/json_object.hpp"
 #include "report/journal/picture_codec.hpp"
-#include "report/journal/record_codec.hpp"
 #include "report/text/causes.hpp"
 #include "report/text/sentences.hpp"
 
@@ -28,28 +28,19 @@ Json texts(const std::vector<std::string>& list) {
     return json;
 }
 
-Json device_json(Device d) {
-    for (std::string* text :
-         {&d.name, &d.driver_name, &d.driver_info, &d.uuid, &d.type, &d.api_version}) {
-        *text = cases::printable(*text);
-    }
-    return encode_device(d);
-}
-
-Json finding_json(const diff::Finding& f) {
+// As in the journal, but the sample is an object and texts are printable.
+Json finding_json(diff::Finding f) {
+    cases::make_printable(f);
+    Json json = encode(f);
     Json sample{{"x", f.x}, {"y", f.y}, {"index", f.sample}};
     if (f.layer) {
         sample["layer"] = *f.layer;
     }
-    return object_of({{"kind", diff::to_string(f.kind)},
-                      {"rule", cases::printable(f.rule)},
-                      {"level", cases::to_string(f.level)},
-                      {"sample", std::move(sample)},
-                      {"quantity", cases::printable(f.quantity)},
-                      {"expected", cases::printable(f.expected)},
-                      {"got", cases::printable(f.got)},
-                      {"why", cases::printable(f.why)},
-                      {"ratio", encode_number(f.ratio)}});
+    json["sample"] = std::move(sample);
+    for (const char* key : {"x", "y", "layer"}) {
+        json.erase(key);
+    }
+    return json;
 }
 
 Json counts_json(const CaseRecord& r) {
@@ -189,13 +180,15 @@ std::string to_json(const Run& run) {
     for (const CaseRecord& record : run.cases) {
         list.push_back(case_json(record, run.profile));
     }
+    Device device = run.device;
+    cases::make_printable(device);
     const CaseRecord* worst = worst_case(run);
     const Json json{
         {"schema", "edgecase-results-1"},
         {"tool", Json{{"name", "edgecase"}, {"version", cases::printable(run.tool_version)}}},
         {"profile", cases::to_string(run.profile)},
         {"run", run_json(run)},
-        {"device", device_json(run.device)},
+        {"device", encode(device)},
         {"totals", total},
         {"worst", worst == nullptr ? Json(nullptr)
                                    : Json{{"ratio", encode_number(worst->worst_ratio)},

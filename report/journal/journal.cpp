@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "cases/base/parallel.hpp"
-#include "report/journal/record_codec.hpp"
+#include "report/journal/json_codec.hpp"
 
 namespace report {
 
@@ -140,16 +140,16 @@ cases::Expected<void> Journal::write_line(const std::string& line) {
 
 cases::Expected<void> Journal::write_run(const Run& header) {
     Json body = {{"format", kFormat}};
-    body.update(encode_header(header));
+    body.update(encode<RunHeader>(header));
     Json& list = body["cases"] = Json::array();
     for (const CaseRecord& record : header.cases) {
-        list.push_back(encode_planned(record));
+        list.push_back(encode<PlannedCase>(record));
     }
     return write_line(line_of("run", body));
 }
 
 cases::Expected<void> Journal::write_device(const Device& device) {
-    return write_line(line_of("device", encode_device(device)));
+    return write_line(line_of("device", encode(device)));
 }
 
 cases::Expected<void> Journal::write_begin(const std::string& id, uint32_t attempt) {
@@ -157,11 +157,11 @@ cases::Expected<void> Journal::write_begin(const std::string& id, uint32_t attem
 }
 
 cases::Expected<void> Journal::write_end(const CaseRecord& record) {
-    return write_line(line_of("end", encode_case(record)));
+    return write_line(line_of("end", encode(record)));
 }
 
 cases::Expected<void> Journal::write_stop(const Run& run) {
-    return write_line(line_of("stop", encode_stop(run)));
+    return write_line(line_of("stop", encode<RunEnd>(run)));
 }
 
 namespace {
@@ -169,7 +169,7 @@ namespace {
 // Puts records together, in the order of the file.
 class Rebuilder {
   public:
-    // `ended`: what decode_case makes of an "end" record, if it is known.
+    // `ended`: what decode makes of an "end" record, if it is known.
     void add(const Json& record, std::optional<CaseRecord> ended) {
         if (!record.is_object() || !record.contains("record") || !record["record"].is_string()) {
             throw std::invalid_argument("this is not a record of a journal");
@@ -181,16 +181,16 @@ class Rebuilder {
         if (type == "run") {
             add_run(record);
         } else if (type == "device") {
-            run_.device = decode_device(record);
+            run_.device = decode<Device>(record);
         } else if (type == "begin") {
             open_.insert(known(decode_id(record)));
         } else if (type == "end") {
-            CaseRecord done = ended ? std::move(*ended) : decode_case(record);
+            CaseRecord done = ended ? std::move(*ended) : decode<CaseRecord>(record);
             const size_t at = known(done.id);
             open_.erase(at);
             run_.cases[at] = std::move(done);
         } else if (type == "stop") {
-            decode_stop(record, run_);
+            decode<RunEnd>(record, "record", run_);
         } else {
             throw std::invalid_argument(fmt::format("\"{}\" is no kind of record", type));
         }
@@ -232,7 +232,8 @@ class Rebuilder {
             throw std::invalid_argument(fmt::format(
                 "the journal is not of format {}; use the edgecase that wrote it", kFormat));
         }
-        Run header = decode_header(record);
+        Run header;
+        decode<RunHeader>(record, "record", header);
         const auto cases = record.find("cases");
         if (cases == record.end() || !cases->is_array()) {
             throw std::invalid_argument("\"cases\" is not a list");
@@ -246,7 +247,8 @@ class Rebuilder {
         begun_ = true;
         run_ = std::move(header);
         for (const Json& entry : *cases) {
-            CaseRecord c = decode_planned(entry);
+            CaseRecord c;
+            decode<PlannedCase>(entry, "cases", c);
             if (index_.emplace(c.id, run_.cases.size()).second) {
                 run_.cases.push_back(std::move(c));
             }
@@ -270,7 +272,7 @@ Line read_line(const std::string& text) {
     try {
         line.record = Json::parse(text);
         if (line.record->is_object() && line.record->value("record", "") == "end") {
-            line.ended = decode_case(*line.record);
+            line.ended = decode<CaseRecord>(*line.record);
         }
     } catch (const std::bad_alloc&) {
         throw;

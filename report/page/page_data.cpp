@@ -11,8 +11,7 @@
 
 #include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
-#include "report/journal/evidence_codec.hpp"
-#include "report/journal/record_codec.hpp"
+#include "report/journal/json_codec.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -159,7 +158,7 @@ std::vector<size_t> add_evidence(const Run& run, Json& list) {
     const auto add_picture = [&](size_t k) {
         const CaseRecord& r = run.cases[k];
         if (r.pictures.width > 0 && r.pictures.height > 0) {
-            Json both = Json::array({encode_pictures(r.pictures), encode_geometry(r.geometry)});
+            Json both = Json::array({encode(r.pictures), encode(r.geometry)});
             const size_t size = both.dump().size();
             const bool is_first =
                 left == kEvidenceBudget;  // fits by definition: parts come to an end
@@ -175,15 +174,8 @@ std::vector<size_t> add_evidence(const Run& run, Json& list) {
     const auto add_values = [&](size_t k) {
         Json values = Json::array();
         for (SampleEvidence e : run.cases[k].evidence) {
-            for (std::string* text : {&e.writer, &e.allowed, &e.hits}) {
-                *text = cases::printable(*text);
-            }
-            for (SampleValue& v : e.values) {
-                v.quantity = cases::printable(v.quantity);
-                v.exact = cases::printable(v.exact);
-                v.also = cases::printable(v.also);
-            }
-            values.push_back(encode_evidence(e));
+            cases::make_printable(e);
+            values.push_back(encode(e));
         }
         if (!values.empty() && list[k].contains("pictures")) {
             const size_t size = values.dump().size();

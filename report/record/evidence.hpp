@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "cases/base/fields.hpp"
+
 namespace report {
 
 // One assembled triangle.
@@ -37,6 +39,16 @@ struct Geometry {
     std::vector<std::array<int64_t, 4>> scissors;          // x, y, width, height; one a draw
     // x0, y0, x1, y1 of a blit's regions in texels; empty for a case with draws.
     std::vector<std::array<int64_t, 4>> blit_regions;  // source, destination
+    static void fields(auto&& visit, auto&... g) {
+        visit("width", g.width...);
+        visit("height", g.height...);
+        visit("samples", g.samples...);
+        visit("locations", g.sample_locations...);
+        visit("triangles", g.triangles...);
+        visit("triangle_total", g.triangle_total...);
+        visit("scissors", g.scissors...);
+        visit("blit", g.blit_regions...);
+    }
     friend bool operator==(const Geometry&, const Geometry&) = default;
 };
 inline constexpr size_t kMaxShapes = 512;
@@ -51,6 +63,17 @@ struct SampleValue {
     std::string also;          // "or 1.375": other numbers that are right where bits are compared
     bool has_device = false;   // the device wrote it
     uint32_t bits = 0;         // then: the binary32 that it wrote
+    static void fields(auto&& visit, auto&... v) {
+        visit("quantity", v.quantity...);
+        visit("exact", v.exact...);
+        visit("nearest", v.nearest...);
+        visit("budget", v.budget...);
+        visit("low", v.low...);
+        visit("high", v.high...);
+        visit("also", v.also...);
+        visit("has_device", v.has_device...);
+        visit("bits", v.bits...);
+    }
     friend bool operator==(const SampleValue&, const SampleValue&) = default;
 };
 
@@ -60,6 +83,15 @@ struct SampleEvidence {
     std::string allowed;                // the hits that are allowed here
     std::string hits;                   // what the device's hit counter says
     std::vector<SampleValue> values;    // of the writer, or of the triangle that ought to be it
+    static void fields(auto&& visit, auto&... e) {
+        visit("x", e.x...);
+        visit("y", e.y...);
+        visit("sample", e.sample...);
+        visit("writer", e.writer...);
+        visit("allowed", e.allowed...);
+        visit("hits", e.hits...);
+        visit("values", e.values...);
+    }
     friend bool operator==(const SampleEvidence&, const SampleEvidence&) = default;
 };
 inline constexpr size_t kMaxEvidence = 32;  // samples of a case

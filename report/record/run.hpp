@@ -60,6 +60,21 @@ struct Device {
     uint32_t vendor_id = 0, device_id = 0, driver_version = 0, driver_id = 0;
     uint32_t subpixel_bits = 0, viewport_subpixel_bits = 0;
     bool has_primitive_id = false;
+    static void fields(auto&& visit, auto&... d) {
+        visit("name", d.name...);
+        visit("driver_name", d.driver_name...);
+        visit("driver_info", d.driver_info...);
+        visit("uuid", d.uuid...);
+        visit("type", d.type...);
+        visit("api_version", d.api_version...);
+        visit("vendor_id", d.vendor_id...);
+        visit("device_id", d.device_id...);
+        visit("driver_version", d.driver_version...);
+        visit("driver_id", d.driver_id...);
+        visit("subpixel_bits", d.subpixel_bits...);
+        visit("viewport_subpixel_bits", d.viewport_subpixel_bits...);
+        visit("has_primitive_id", d.has_primitive_id...);
+    }
 };
 
 // Pictures of a case, one byte a sample, row by row; empty if none were kept.
@@ -79,16 +94,48 @@ struct Pictures {
     // Depth: 1 + 254 (z - depth_low) / (depth_high - depth_low), 0 where it holds the clear value.
     std::vector<uint8_t> device_depths;
     double depth_low = 0, depth_high = 0;
+    static void fields(auto&& visit, auto&... p) {
+        visit("width", p.width...);
+        visit("height", p.height...);
+        visit("left", p.left...);
+        visit("top", p.top...);
+        visit({"layer_height", cases::kOlderLackIt}, p.layer_height...);
+        visit("expected_hits", p.expected_hits...);
+        visit("device_hits", p.device_hits...);
+        visit("marks", p.marks...);
+        visit({"errors", cases::kOlderLackIt}, p.errors...);
+        visit({"device_colors", cases::kOlderLackIt}, p.device_colors...);
+        visit({"expected_colors", cases::kOlderLackIt}, p.expected_colors...);
+        visit({"device_depths", cases::kOlderLackIt}, p.device_depths...);
+        visit({"depth_low", cases::kOlderLackIt}, p.depth_low...);
+        visit({"depth_high", cases::kOlderLackIt}, p.depth_high...);
+    }
     friend bool operator==(const Pictures&, const Pictures&) = default;
 };
 // 0: nothing was compared, 1: no error, 2..254: about 2^((code - 128) / 8) budgets, 255: infinite.
 uint8_t error_code(float ratio);
 
-struct CaseRecord {
+// What is known of a case before it is drawn: where it comes from, what it says of itself.
+struct PlannedCase {
     std::string id, file;
     uint32_t line = 0;
     std::string description;
     std::vector<std::string> rules, links;
+    std::string rerun;    // command line that repeats it
+    std::string catches;  // which fault would break the case
+    static void fields(auto&& visit, auto&... p) {
+        visit("id", p.id...);
+        visit("file", p.file...);
+        visit("line", p.line...);
+        visit("description", p.description...);
+        visit("rules", p.rules...);
+        visit("links", p.links...);
+        visit("rerun", p.rerun...);
+        visit({"catches", cases::kOlderLackIt}, p.catches...);
+    }
+};
+
+struct CaseRecord : PlannedCase, diff::Outcome {
     Status status = Status::not_run;
     std::optional<Status> expected;  // of an expectation file
     std::string bug;                 // its bug reference
@@ -105,38 +152,79 @@ struct CaseRecord {
     double seconds = 0;
     uint32_t attempts = 0;
     std::vector<std::string> messages;  // validation layer
-    // From the verdict:
-    std::vector<diff::Finding> findings;
-    std::array<uint64_t, diff::kFindingKinds> counts{};
-    std::optional<uint64_t> wrong_samples;  // a sample may have several findings
-    cases::Profile level = cases::Profile::direct3d;
-    uint32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;  // as in diff::Verdict
-    uint64_t must_samples = 0, either_samples = 0, compared_samples = 0, compared_values = 0;
-    double worst_ratio = 0;
-    std::string worst_quantity;
     Pictures pictures;
-    std::string rerun;    // command line that repeats it
     std::string explain;  // command line that explains the first wrong sample; empty if none
-    std::string catches;  // which fault would break the case
     Geometry geometry;    // with pictures
     std::vector<SampleEvidence> evidence;  // of wrong samples and some of their neighbours
+    static void fields(auto&& visit, auto&... r) {
+        PlannedCase::fields(visit, r...);
+        visit("status", r.status...);
+        visit("expected", r.expected...);
+        visit("bug", r.bug...);
+        visit({"expectation", cases::kOlderLackIt}, r.expectation...);
+        visit({"expired", cases::kOlderLackIt}, r.expired...);
+        visit({"actual", cases::kOlderLackIt}, r.actual...);
+        visit({"bits", cases::kOlderLackIt}, r.bits...);
+        visit({"hit_bits", cases::kOlderLackIt}, r.hit_bits...);
+        visit("reason", r.reason...);
+        visit("step", r.step...);
+        visit("signal", r.signal...);
+        visit("stderr", r.stderr_text...);
+        visit("seconds", r.seconds...);
+        visit("attempts", r.attempts...);
+        visit("messages", r.messages...);
+        diff::Outcome::fields(visit, r...);
+        visit("explain", r.explain...);
+        visit({"evidence", cases::kOlderLackIt}, r.evidence...);
+        visit({"pictures", cases::kLeftOutIfEmpty}, r.pictures...);  // of most cases none are kept
+        visit({"geometry", cases::kLeftOutIfEmpty}, r.geometry...);
+    }
 };
 
-struct Run {
+// What is known of a run when it begins.
+struct RunHeader {
     std::string tool_version;
     std::vector<std::string> arguments;  // argv
     std::vector<std::pair<std::string, std::string>>
-        environment;             // VK_*, EDGECASE_*, LP_*, MESA_* ... that were set
-    std::string started, ended;  // ISO 8601 UTC; ended empty if the run was cut off
-    std::string host;            // operating system and machine
+        environment;      // VK_*, EDGECASE_*, LP_*, MESA_* ... that were set
+    std::string started;  // ISO 8601 UTC
+    std::string host;     // operating system and machine
     cases::Profile profile = cases::Profile::direct3d;
     uint64_t seed = 0;
     std::string suite_root;
     std::string suite_hash;        // of the suite's files, hexadecimal; empty in older journals
     std::string expectation_file;  // empty if none applied
     uint32_t shard = 1, shards = 1, jobs = 1;
-    bool interrupted = false;
+    static void fields(auto&& visit, auto&... h) {
+        visit("tool_version", h.tool_version...);
+        visit("arguments", h.arguments...);
+        visit("environment", h.environment...);
+        visit("started", h.started...);
+        visit("host", h.host...);
+        visit("profile", h.profile...);
+        visit("seed", h.seed...);
+        visit("suite_root", h.suite_root...);
+        visit({"suite_hash", cases::kOlderLackIt}, h.suite_hash...);
+        visit("expectation_file", h.expectation_file...);
+        visit("shard", h.shard...);
+        visit("shards", h.shards...);
+        visit("jobs", h.jobs...);
+    }
+};
+
+// How it ended.
+struct RunEnd {
+    std::string ended;  // ISO 8601 UTC; empty if the run was cut off
     double seconds = 0;
+    bool interrupted = false;
+    static void fields(auto&& visit, auto&... e) {
+        visit("ended", e.ended...);
+        visit("seconds", e.seconds...);
+        visit("interrupted", e.interrupted...);
+    }
+};
+
+struct Run : RunHeader, RunEnd {
     Device device;
     std::vector<CaseRecord> cases;  // selection order; those without an end are not_run
 };

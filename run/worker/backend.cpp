@@ -41,22 +41,13 @@ void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t
         return;
     }
     std::byte* to = rendered.placed.data();
-    const auto move = [&to](auto& plane) {
-        const auto bytes = std::as_bytes(std::span(plane));
-        to = std::copy(bytes.begin(), bytes.end(), to);
-        plane.clear();
-    };
-    move(c.hits);
-    move(c.writers);
-    move(c.frag_coord);
-    for (auto& attribute : c.attributes) {
-        move(attribute);
-    }
-    move(c.color);
-    move(c.depth);
-    move(c.stencil);
-    move(c.resolved_color);
-    move(c.resolved_depth);
+    capture::for_each_plane(
+        [&to](const capture::Plane&, auto& plane) {
+            const auto bytes = std::as_bytes(std::span(plane));
+            to = std::copy(bytes.begin(), bytes.end(), to);
+            plane.clear();
+        },
+        c, c);
 }
 
 // Draws without a driver: with an algorithm, or as the reference expects it.

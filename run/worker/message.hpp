@@ -24,6 +24,10 @@ struct WorkerOptions {
     // No driver if not empty: "reference" draws what the reference expects (tests of the runner),
     // other names are devices of rasterizers/algorithms.
     std::string renderer;
+    static void fields(auto&& visit, auto&... o) {
+        visit("vulkan", o.vulkan...);
+        visit("renderer", o.renderer...);
+    }
 };
 std::string encode_options(const WorkerOptions& options);
 std::optional<WorkerOptions> decode_options(std::string_view bytes);
@@ -65,6 +69,15 @@ struct CaseResult {
     // In the parent: the capture, wherever it lies, and what keeps it there.
     capture::CaptureView view;
     std::shared_ptr<const void> keep;
+    // Of a message; the planes follow it unless they are shared.
+    static void fields(auto&& visit, auto&... r) {
+        visit("index", r.index...);
+        visit("rendered", r.rendered...);
+        visit("consistency", r.consistency...);
+        visit("is_shared", r.is_shared...);
+        visit("offset", r.offset...);
+        visit("bits", r.bits...);
+    }
 };
 // Of what the worker found itself: the same bytes for the same findings.
 std::string encode_findings(const CaseResult& result);

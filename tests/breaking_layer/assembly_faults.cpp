@@ -98,6 +98,9 @@ constexpr std::array kFaults = {
           "A triangle fan is drawn as a strip.",
           {.topology =
                topology<VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP>}},
+    Fault{"discard-ignored",
+          "Rasterizer discard is off.",
+          {.rasterizer_discard = [](VkBool32& d) { return change(d, VK_FALSE); }}},
     Fault{"restart-ignored",
           "Primitive restart is off.",
           {.primitive_restart = [](VkBool32& r) { return change(r, VK_FALSE); }}},
@@ -141,10 +144,7 @@ constexpr std::array kFaults = {
           true},
     Fault{"discard-all",
           "The rasterizer discards everything.",
-          {.pipeline =
-               [](PipelineCopy& p) {
-                   return change(p.rasterization.rasterizerDiscardEnable, VK_TRUE);
-               }}},
+          {.rasterizer_discard = [](VkBool32& d) { return change(d, VK_TRUE); }}},
 };
 
 }  // namespace

@@ -27,6 +27,7 @@ namespace breaking {
     X(CmdSetFrontFace) \
     X(CmdSetPrimitiveTopology) \
     X(CmdSetPrimitiveRestartEnable) \
+    X(CmdSetRasterizerDiscardEnable) \
     X(CmdSetDepthCompareOp) \
     X(CmdSetDepthWriteEnable) \
     X(CmdSetDepthBiasEnable) \

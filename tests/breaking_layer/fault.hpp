@@ -76,6 +76,7 @@ struct Hooks {
     bool (*front_face)(VkFrontFace&) = nullptr;
     bool (*topology)(VkPrimitiveTopology&) = nullptr;
     bool (*primitive_restart)(VkBool32&) = nullptr;
+    bool (*rasterizer_discard)(VkBool32&) = nullptr;
     bool (*index_type)(VkIndexType&) = nullptr;
     bool (*depth_compare)(VkCompareOp&) = nullptr;
     bool (*depth_write)(VkBool32&) = nullptr;

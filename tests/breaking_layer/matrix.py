@@ -32,6 +32,7 @@ FOCUS = [  # families that are about the faults whose names match
     ("stencil", ["stencil/**", "resolve/**", "combination/**"]),
     ("blit|upload|clear-image|read-back", ["blit/**", "field/**"]),
     ("viewport", ["viewport/**", "snap/**", "ties/**"]),
+    ("discard", ["discard/**", "depth-test/**"]),
     ("scissor", ["scissor/**", "tiled/**", "viewport/**"]),
     ("cull|front-face", ["facing/**", "stencil/**", "topology/**"]),
     ("strip|list|fan|restart|index|vertex|draw", ["topology/**", "batch/**", "order/**", "combination/**", "mesh/**"]),

@@ -63,6 +63,11 @@ VKAPI_ATTR void VKAPI_CALL set_restart(VkCommandBuffer commands, VkBool32 enable
               driver_of_handle(commands).CmdSetPrimitiveRestartEnable);
 }
 
+VKAPI_ATTR void VKAPI_CALL set_discard(VkCommandBuffer commands, VkBool32 enable) {
+    set_value(commands, "rasterizer discard", enable, hooks().rasterizer_discard,
+              driver_of_handle(commands).CmdSetRasterizerDiscardEnable);
+}
+
 VKAPI_ATTR void VKAPI_CALL set_depth_compare(VkCommandBuffer commands, VkCompareOp op) {
     set_value(commands, "depth compare", op, hooks().depth_compare,
               driver_of_handle(commands).CmdSetDepthCompareOp);
@@ -152,6 +157,7 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(CmdSetFrontFace, set_front_face),
     BREAKING_OWN(CmdSetPrimitiveTopology, set_topology),
     BREAKING_OWN(CmdSetPrimitiveRestartEnable, set_restart),
+    BREAKING_OWN(CmdSetRasterizerDiscardEnable, set_discard),
     BREAKING_OWN(CmdSetDepthCompareOp, set_depth_compare),
     BREAKING_OWN(CmdSetDepthWriteEnable, set_depth_write),
     BREAKING_OWN(CmdSetDepthBiasEnable, set_depth_bias_enable),

@@ -77,6 +77,9 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
       samples_(sample_offsets(c.target, device)) {}
 
 void DrawCommand::run() {
+    if (draw_.rasterizer_discard && device_.fault != Fault::discard_ignored) {
+        return;
+    }
     for (const Primitive& primitive : assemble_primitives(draw_, device_.fault)) {
         const int times = device_.fault == Fault::draw_doubled ? 2 : 1;
         for (int k = 0; k < times; ++k) {

@@ -127,6 +127,7 @@ enum class Fault : uint8_t {
     frag_coord_always_centre,
     depth_at_centre,
     // scissor
+    discard_ignored,
     scissor_closed,
     scissor_off_by_one,
     scissor_ignored,

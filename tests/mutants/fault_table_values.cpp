@@ -52,6 +52,8 @@ constexpr FaultInfo kFaults[] = {
     {Fault::depth_at_centre, "depth_at_centre",
      "Depth of every sample is taken at the pixel's centre.",
      "depth.linear depth.compare depth.bias"},
+    {Fault::discard_ignored, "discard_ignored", "Rasterizer discard is ignored.",
+     "discard.rasterizer"},
     {Fault::scissor_closed, "scissor_closed", "The scissor's right and bottom ends are inclusive.",
      "scissor.half-open"},
     {Fault::scissor_off_by_one, "scissor_off_by_one", "The scissor starts one pixel late.",

@@ -185,7 +185,7 @@ void for_each_parallel(size_t count, const std::function<void(size_t)>& work) {
 
 capture::Capture captured(const cases::Case& c, const Device& device) {
     capture::Capture out = render(c, device);
-    rasterizers::drop_unattached(out, c);
+    rasterizers::drop_unattached(out);
     return out;
 }
 

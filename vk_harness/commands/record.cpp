@@ -210,6 +210,7 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     vk.vkCmdSetFrontFace(commands, to_vulkan(draw.front_face));
     vk.vkCmdSetPrimitiveTopology(commands, to_vulkan(draw.topology));
     vk.vkCmdSetPrimitiveRestartEnable(commands, draw.primitive_restart ? VK_TRUE : VK_FALSE);
+    vk.vkCmdSetRasterizerDiscardEnable(commands, draw.rasterizer_discard ? VK_TRUE : VK_FALSE);
     const cases::DepthState& depth = draw.depth;
     vk.vkCmdSetDepthCompareOp(commands, static_cast<VkCompareOp>(depth.compare));
     vk.vkCmdSetDepthWriteEnable(commands,

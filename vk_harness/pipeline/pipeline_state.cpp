@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "capture/capture.hpp"
 #include "vk_harness/device/sample_locations.hpp"
 
 namespace vk_harness {
@@ -119,10 +120,14 @@ VkPipelineColorBlendAttachmentState blend_state(const ColorKey& key) {
 
 namespace {
 
+using capture::kAttributePlane;
+using capture::kFragCoordPlane;
+using capture::kHitsPlane;
+using capture::kWritersPlane;
+
 constexpr uint8_t kNothing = 0, kRgb = 0x7, kAlpha = 0x8, kAll = 0xf;
 
-// Attachments of instruments in the order of attachments_of. `masked` counts the planes of a
-// capture: hits, writers, frag_coord, attributes.
+// Attachments of instruments in the order of attachments_of.
 void instrument_states(const PipelineKey& key, ColorState& state) {
     const auto add = [&state](VkFormat format, const ColorKey& blend) {
         state.formats.push_back(format);
@@ -141,20 +146,20 @@ void instrument_states(const PipelineKey& key, ColorState& state) {
                      VK_BLEND_OP_ADD,     VK_BLEND_FACTOR_ONE,
                      VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD};
     if (key.layout.split) {
-        hits.write_mask = is_masked(0) ? kNothing : kAll;
-        add(kTwoNumbers, replaced(1));
+        hits.write_mask = is_masked(kHitsPlane) ? kNothing : kAll;
+        add(kTwoNumbers, replaced(kWritersPlane));
         add(kTwoNumbers, hits);
-        add(kTwoNumbers, replaced(2));
-        add(kTwoNumbers, replaced(2));
+        add(kTwoNumbers, replaced(kFragCoordPlane));
+        add(kTwoNumbers, replaced(kFragCoordPlane));
     } else {
-        hits.write_mask = static_cast<uint8_t>((is_masked(0) ? kNothing : kAlpha) |
-                                               (is_masked(1) ? kNothing : kRgb));
+        hits.write_mask = static_cast<uint8_t>((is_masked(kHitsPlane) ? kNothing : kAlpha) |
+                                               (is_masked(kWritersPlane) ? kNothing : kRgb));
         add(kColorFormat, hits);
-        add(kColorFormat, replaced(2));
+        add(kColorFormat, replaced(kFragCoordPlane));
     }
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
         for (uint32_t half = 0; half < key.layout.attribute_attachments(); ++half) {
-            add(key.layout.attribute_format(k), replaced(3 + k));
+            add(key.layout.attribute_format(k), replaced(kAttributePlane + k));
         }
     }
 }

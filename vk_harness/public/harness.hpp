@@ -29,6 +29,27 @@ struct DeviceInfo {
     uint32_t interpolation_offset_bits = 0, mipmap_bits = 0;  // of interpolateAtOffset, of a LOD
     bool has_primitive_id = false;                            // the feature geometryShader
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
+    static void fields(auto&& visit, auto&... d) {
+        visit("index", d.index...);
+        visit("name", d.name...);
+        visit("driver_name", d.driver_name...);
+        visit("driver_info", d.driver_info...);
+        visit("uuid", d.uuid...);
+        visit("device_type", d.device_type...);
+        visit("vendor_id", d.vendor_id...);
+        visit("device_id", d.device_id...);
+        visit("api_version", d.api_version...);
+        visit("driver_version", d.driver_version...);
+        visit("driver_id", d.driver_id...);
+        visit("subpixel_bits", d.subpixel_bits...);
+        visit("viewport_subpixel_bits", d.viewport_subpixel_bits...);
+        visit("max_color_attachments", d.max_color_attachments...);
+        visit("max_target_size", d.max_target_size...);
+        visit("interpolation_offset_bits", d.interpolation_offset_bits...);
+        visit("mipmap_bits", d.mipmap_bits...);
+        visit("has_primitive_id", d.has_primitive_id...);
+        visit("missing", d.missing...);
+    }
 };
 
 enum class Stage { loader, instance, device, shader, pipeline, memory, submit, readback };
@@ -40,6 +61,12 @@ struct Failure {
     int vk_result = 0;                 // VkResult, 0 if none
     std::string message;               // one sentence: what, and what to do
     std::vector<std::string> reasons;  // one a rejected device
+    static void fields(auto&& visit, auto&... f) {
+        visit("stage", f.stage...);
+        visit("vk_result", f.vk_result...);
+        visit("message", f.message...);
+        visit("reasons", f.reasons...);
+    }
 };
 template <class T>
 using Result = tl::expected<T, Failure>;
@@ -49,6 +76,11 @@ struct Options {
     std::string icd_file;  // not empty: VK_DRIVER_FILES / VK_ICD_FILENAMES are set to it
     bool validation =
         false;  // the Khronos validation layer; its messages end up in Rendered::messages
+    static void fields(auto&& visit, auto&... o) {
+        visit("device", o.device...);
+        visit("icd_file", o.icd_file...);
+        visit("validation", o.validation...);
+    }
 };
 
 // All devices of the machine; for doctor and for error texts.
@@ -62,6 +94,14 @@ struct Rendered {
     std::span<std::byte> placed;        // if not empty: the capture's planes, which are not in it
     std::vector<std::string> messages;  // of the validation layer
     std::vector<capture::StrayWrite> stray_writes;  // if drawn: one a side of an attachment at most
+    static void fields(auto&& visit, auto&... r) {
+        visit("status", r.status...);
+        visit("reason", r.reason...);
+        visit("capture", r.capture...);
+        visit({"placed", cases::kNotOnWire}, r.placed...);  // an address
+        visit("messages", r.messages...);
+        visit("stray_writes", r.stray_writes...);
+    }
 };
 
 // Memory for the planes of case `slot` of the batch, capture::plane_bytes() long and aligned to 16;
@@ -96,3 +136,8 @@ class Renderer {
 };
 
 }  // namespace vk_harness
+
+template <>
+inline constexpr size_t cases::kValueCount<vk_harness::Stage> = 8;
+template <>
+inline constexpr size_t cases::kValueCount<vk_harness::Rendered::Status> = 4;

@@ -263,12 +263,6 @@ void decode_color(const cases::Target& target, const Attachment& attachment,
 namespace {
 
 // Where the planes of a capture go that are decoded together.
-struct InstrumentPlanes {
-    glm::vec4* hits = nullptr;
-    capture::Writer* writers = nullptr;
-    glm::vec4* frag_coord = nullptr;
-};
-
 Words words_of(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                std::span<const std::byte> memory, size_t attachment) {
     return {reinterpret_cast<const uint32_t*>(memory.data() + layout.offset[attachment]),
@@ -278,20 +272,21 @@ Words words_of(const std::vector<Attachment>& attachments, const ReadbackLayout&
 // The planes that attachment k begins: hits and writers, or FragCoord.
 void decode_instrument(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                        std::span<const std::byte> memory, size_t count, size_t k,
-                       const InstrumentPlanes& to) {
+                       const capture::PlaneSpans& to) {
     const auto words = [&](size_t attachment) {
         return words_of(attachments, layout, memory, attachment);
     };
     switch (attachments[k].role) {
         case Role::writer_and_hits:
-            decode_writers_and_hits(words(k), words(k), 0, count, to.hits, to.writers);
+            decode_writers_and_hits(words(k), words(k), 0, count, to.hits.data(),
+                                    to.writers.data());
             break;
         case Role::writer:  // then hits
-            decode_writers_and_hits(words(k), words(k + 1), attachments[k].draws, count, to.hits,
-                                    to.writers);
+            decode_writers_and_hits(words(k), words(k + 1), attachments[k].draws, count,
+                                    to.hits.data(), to.writers.data());
             break;
         case Role::frag_coord:
-            std::memcpy(to.frag_coord, words(k).first, count * sizeof(glm::vec4));
+            std::memcpy(to.frag_coord.data(), words(k).first, count * sizeof(glm::vec4));
             break;
         case Role::frag_xy: {  // then frag_zw
             const auto* xy = reinterpret_cast<const float*>(words(k).first);
@@ -328,86 +323,47 @@ capture::Capture read_capture(const cases::Target& target,
     capture::Capture capture;
     capture.target = target;
     capture.has_primitive = has_primitive;
-    const size_t count = capture.sample_count();
-    for (size_t k = 0; k < attachments.size(); ++k) {
-        const VkDeviceSize at = layout.offset[k];
-        switch (attachments[k].role) {
-            case Role::attribute: {
-                std::vector<glm::vec4>& plane = capture.attributes[capture.attribute_count++];
-                plane.resize(count);
-                decode_attribute(attachments, layout, memory, count, k, plane.data());
-                break;
-            }
-            case Role::color:
-                capture.color.resize(count);
-                decode_color(target, attachments[k], memory.data() + at, capture.color.data());
-                break;
-            case Role::depth:
-                capture.depth.resize(count);
-                decode_depth(target, memory.subspan(at), capture.depth.data());
-                break;
-            case Role::stencil:
-                capture.stencil.resize(count);
-                decode_stencil(target, memory.subspan(at), capture.stencil.data());
-                break;
-            case Role::resolved_color:
-                capture.resolved_color.resize(size_t{target.width} * target.rows());
-                decode_color(shape_of(attachments[k], target), attachments[k], memory.data() + at,
-                             capture.resolved_color.data());
-                break;
-            case Role::resolved_depth:
-                capture.resolved_depth.resize(size_t{target.width} * target.rows());
-                decode_depth(shape_of(attachments[k], target), memory.subspan(at),
-                             capture.resolved_depth.data());
-                break;
-            default:
-                capture.hits.resize(count);
-                capture.writers.resize(count);
-                capture.frag_coord.resize(count);
-                decode_instrument(
-                    attachments, layout, memory, count, k,
-                    {capture.hits.data(), capture.writers.data(), capture.frag_coord.data()});
-                break;
-        }
-    }
+    capture.attribute_count = static_cast<uint32_t>(
+        std::count_if(attachments.begin(), attachments.end(),
+                      [](const Attachment& a) { return a.role == Role::attribute; }));
+    capture::for_each_plane(
+        [](const capture::Plane& plane, auto& entries) { entries.resize(plane.entries); }, capture,
+        capture);
+    read_planes(attachments, layout, memory, capture::PlaneSpans(capture));
     return capture;
 }
 
-void read_planes(const cases::Target& target, const std::vector<Attachment>& attachments,
-                 const ReadbackLayout& layout, std::span<const std::byte> memory,
-                 std::span<std::byte> planes) {
-    std::byte* to = planes.data();
-    const size_t samples = size_t{target.width} * target.rows() * target.samples;
-    InstrumentPlanes instruments;
-    if (target.has_instruments) {
-        instruments.hits = reinterpret_cast<glm::vec4*>(to);
-        to += samples * sizeof(glm::vec4);
-        instruments.writers = reinterpret_cast<capture::Writer*>(to);
-        to += samples * sizeof(capture::Writer);
-        instruments.frag_coord = reinterpret_cast<glm::vec4*>(to);
-        to += samples * sizeof(glm::vec4);
-    }
+void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
+                 std::span<const std::byte> memory, const capture::PlaneSpans& to) {
+    size_t attribute = 0;
     for (size_t k = 0; k < attachments.size(); ++k) {
         const Attachment& attachment = attachments[k];
-        const cases::Target shape = shape_of(attachment, target);
+        const cases::Target shape = shape_of(attachment, to.target);
+        const auto from = memory.subspan(layout.offset[k]);
         const size_t count = size_t{shape.width} * shape.rows() * shape.samples;
-        const std::byte* from = memory.data() + layout.offset[k];
-        if (attachment.role == Role::color || attachment.role == Role::resolved_color) {
-            decode_color(shape, attachment, from, reinterpret_cast<capture::ColorCodes*>(to));
-            to += count * sizeof(capture::ColorCodes);
-        } else if (attachment.is_depth()) {
-            decode_depth(shape, memory.subspan(layout.offset[k]), reinterpret_cast<float*>(to));
-            to += count * sizeof(float);
-        } else if (attachment.role == Role::stencil) {
-            decode_stencil(target, memory.subspan(layout.offset[k]),
-                           reinterpret_cast<uint32_t*>(to));
-            to += count * sizeof(uint32_t);
-        } else if (attachment.role == Role::attribute) {
-            decode_attribute(attachments, layout, memory, count, k,
-                             reinterpret_cast<glm::vec4*>(to));
-            to += count * sizeof(glm::vec4);
-        } else {
-            decode_instrument(attachments, layout, memory, count, k, instruments);
+        switch (attachment.role) {
+            case Role::attribute:
+                decode_attribute(attachments, layout, memory, count, k,
+                                 to.attributes.at(attribute++).data());
+                break;
+            case Role::color:
+                decode_color(shape, attachment, from.data(), to.color.data());
+                break;
+            case Role::depth:
+                decode_depth(shape, from, to.depth.data());
+                break;
+            case Role::stencil:
+                decode_stencil(shape, from, to.stencil.data());
+                break;
+            case Role::resolved_color:
+                decode_color(shape, attachment, from.data(), to.resolved_color.data());
+                break;
+            case Role::resolved_depth:
+                decode_depth(shape, from, to.resolved_depth.data());
+                break;
+            default:
+                decode_instrument(attachments, layout, memory, count, k, to);
+                break;
         }
     }
 }

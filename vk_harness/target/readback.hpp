@@ -35,10 +35,9 @@ capture::Capture read_capture(const cases::Target& target,
                               const std::vector<Attachment>& attachments, bool has_primitive,
                               const ReadbackLayout& layout, std::span<const std::byte> memory);
 
-// The same into `planes`, in the order of capture::view_planes; capture::plane_bytes() bytes.
-void read_planes(const cases::Target& target, const std::vector<Attachment>& attachments,
-                 const ReadbackLayout& layout, std::span<const std::byte> memory,
-                 std::span<std::byte> planes);
+// The same into planes that are there (capture::planes_at).
+void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
+                 std::span<const std::byte> memory, const capture::PlaneSpans& to);
 
 // The stored codes of one texel of the colour target, `bytes` (2, 4, 8 or 16) long; kPoison four
 // times if its bytes are those of the fill pattern.

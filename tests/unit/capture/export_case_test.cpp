@@ -86,8 +86,9 @@ std::vector<Change> target_changes() {
 
 std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
-                                  viewport, scissor, cull, front_face, provoking, depth, distances,
-                                  multisample, color, layer, viewport_index, where] = cases::Draw{};
+                                  viewport, scissor, cull, front_face, provoking, discard, depth,
+                                  distances, multisample, color, layer, viewport_index, where] =
+        cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
     [[maybe_unused]] const auto& [left, top, columns, rows] = cases::Rect{};
     [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] =
@@ -112,6 +113,7 @@ std::vector<Change> draw_changes() {
         {"cull", [](Case& c) { draw(c).cull = cases::CullMode::back; }},
         {"front_face", [](Case& c) { draw(c).front_face = cases::FrontFace::clockwise; }},
         {"provoking", [](Case& c) { draw(c).provoking = cases::ProvokingVertex::last; }},
+        {"rasterizer_discard", [](Case& c) { draw(c).rasterizer_discard = true; }},
         {"sample_mask", [](Case& c) { draw(c).multisample.sample_mask = 1; }},
         {"shader_mask", [](Case& c) { draw(c).multisample.shader_mask = 1; }},
         {"min_sample_shading", [](Case& c) { draw(c).multisample.min_sample_shading = 1; }},

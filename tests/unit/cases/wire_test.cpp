@@ -38,6 +38,7 @@ Case sample() {
     weights.source = Source::barycentric;
     draw.attributes.push_back(weights);
     draw.provoking = ProvokingVertex::last;
+    draw.rasterizer_discard = true;
     draw.depth.compare = CompareOp::less_or_equal;
     draw.depth.write = false;
     draw.depth.bias = DepthBias{2, -0.25F, 1.5F, DepthBiasRepresentation::force_unorm, true};
@@ -130,6 +131,7 @@ TEST(Wire, RoundTripKeepsEveryBit) {
             EXPECT_EQ(a.attributes[i].texture_size, b.attributes[i].texture_size);
         }
         EXPECT_EQ(a.provoking, b.provoking);
+        EXPECT_EQ(a.rasterizer_discard, b.rasterizer_discard);
         EXPECT_EQ(a.depth, b.depth);
         EXPECT_EQ(a.distances, b.distances);
         EXPECT_EQ(a.multisample, b.multisample);

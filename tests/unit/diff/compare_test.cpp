@@ -391,13 +391,13 @@ TEST(Compare, OneTriangleThatHitsTwiceIsNotSaidToBeElsewhere) {
 
 TEST(Compare, WrongSamplesAreCountedOnceEach) {
     Checked k(diagonal());
-    EXPECT_EQ(k.verdict().wrong_samples(), 0U);
+    EXPECT_EQ(k.verdict().count_wrong_samples(), 0U);
     k.capture.frag_coord[k.at(1, 1)].x += 1;
     k.capture.frag_coord[k.at(1, 1)].y += 1;
     clear_sample(k.capture, k.at(2, 2));
     const diff::Verdict v = k.verdict();
     EXPECT_EQ(v.findings.size(), 3U);
-    EXPECT_EQ(v.wrong_samples(), 2U);
+    EXPECT_EQ(v.count_wrong_samples(), 2U);
 }
 
 TEST(Compare, AFractionIsToldWhereItSaysMore) {

@@ -46,7 +46,7 @@ void flip_each(capture::Capture& capture, Flip&& check) {
         flip(capture.writers[sample], 1);
         flip(capture.frag_coord[sample], 2);
         flip(capture.attributes[0][sample], 3);
-        flip(capture.depth[sample], kDepthPlane);
+        flip(capture.depth[sample], capture::kDepthPlane);
     }
 }
 
@@ -191,12 +191,12 @@ TEST(Consistency, AllDifferentSamplesAreCountedAndTheFirstOnesKept) {
     verdict.marks.assign(64, SampleMark::ok);
     add_differences(scene.test, d, found, verdict);
     EXPECT_EQ(verdict.counts[static_cast<size_t>(FindingKind::value)], 64U);
-    EXPECT_EQ(verdict.wrong_samples(), 64U);
+    EXPECT_EQ(verdict.count_wrong_samples(), 64U);
     // Of those beyond what is kept it is not known whether they were wrong already.
     std::vector<Consistency> more = found;
     more[0].different = 65;
     add_differences(scene.test, d, more, verdict);
-    EXPECT_EQ(verdict.wrong_samples(), std::nullopt);
+    EXPECT_EQ(verdict.count_wrong_samples(), std::nullopt);
 }
 
 TEST(Consistency, OtherShadersAreHeldToItFromPracticeOn) {

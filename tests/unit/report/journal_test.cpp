@@ -16,8 +16,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "report/journal/json_codec.hpp"
 #include "report/journal/picture_codec.hpp"
-#include "report/journal/record_codec.hpp"
 #include "sample_run.hpp"
 
 namespace report {
@@ -69,9 +69,9 @@ class JournalTest : public testing::Test {
 // Everything that the codec writes of a run: two runs are equal if these are.
 std::string image_of(const report::Run& run) {
     std::string text =
-        encode_header(run).dump() + encode_stop(run).dump() + encode_device(run.device).dump();
+        encode<RunHeader>(run).dump() + encode<RunEnd>(run).dump() + encode(run.device).dump();
     for (const CaseRecord& r : run.cases) {
-        text += encode_case(r).dump() + '\n';
+        text += encode(r).dump() + '\n';
     }
     return text;
 }
@@ -143,8 +143,8 @@ RC_GTEST_FIXTURE_PROP(JournalTest, every_text_and_number_survives,
     r.stderr_text = text;
     r.worst_ratio = std::bit_cast<double>(bits);
     r.pictures.marks = bytes;
-    const auto json = nlohmann::ordered_json::parse(encode_case(r).dump());
-    const CaseRecord back = decode_case(json);
+    const auto json = nlohmann::ordered_json::parse(encode(r).dump());
+    const CaseRecord back = decode<CaseRecord>(json);
     RC_ASSERT(back.stderr_text == text);
     RC_ASSERT(back.pictures.marks == bytes);
     if (!std::isnan(back.worst_ratio)) {
@@ -159,14 +159,14 @@ TEST_F(JournalTest, special_numbers_survive) {
     for (const double value : {kInfinity, -kInfinity, -0.0, 5e-324, 1.7976931348623157e308, 0.1}) {
         CaseRecord r;
         r.seconds = value;
-        const auto json = nlohmann::ordered_json::parse(encode_case(r).dump());
-        EXPECT_EQ(std::bit_cast<uint64_t>(decode_case(json).seconds),
+        const auto json = nlohmann::ordered_json::parse(encode(r).dump());
+        EXPECT_EQ(std::bit_cast<uint64_t>(decode<CaseRecord>(json).seconds),
                   std::bit_cast<uint64_t>(value));
     }
 }
 
 TEST(evidence, of_older_journals_is_empty) {
-    auto json = encode_case(test::sample_run().cases[3]);
+    auto json = encode(test::sample_run().cases[3]);
     for (const char* key : {"catches", "geometry", "evidence"}) {
         json.erase(key);
     }
@@ -174,7 +174,7 @@ TEST(evidence, of_older_journals_is_empty) {
                             "depth_low", "depth_high"}) {
         json["pictures"].erase(key);
     }
-    const CaseRecord old = decode_case(json);
+    const CaseRecord old = decode<CaseRecord>(json);
     EXPECT_EQ(old.geometry, Geometry{});
     EXPECT_TRUE(old.evidence.empty());
     EXPECT_TRUE(old.pictures.errors.empty());
@@ -183,8 +183,8 @@ TEST(evidence, of_older_journals_is_empty) {
 
 TEST(evidence, that_is_malformed_is_an_error) {
     using Json = nlohmann::ordered_json;
-    const Json good = encode_case(test::sample_run().cases[3]);
-    EXPECT_NO_THROW(decode_case(good));
+    const Json good = encode(test::sample_run().cases[3]);
+    EXPECT_NO_THROW(decode<CaseRecord>(good));
     const std::pair<const char*, Json> breaks[] = {
         {"/geometry", nullptr},
         {"/geometry/width", -1},
@@ -208,7 +208,7 @@ TEST(evidence, that_is_malformed_is_an_error) {
     for (const auto& [place, value] : breaks) {
         Json bad = good;
         bad[Json::json_pointer(place)] = value;
-        EXPECT_THROW(decode_case(bad), std::invalid_argument) << place;
+        EXPECT_THROW(decode<CaseRecord>(bad), std::invalid_argument) << place;
     }
 }
 

@@ -183,7 +183,8 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     EXPECT_EQ(capture.color[1], (capture::ColorCodes{99, 0xdb, 0xba, 0xff}));
     // The same into planes one after the other.
     std::vector<glm::vec4> planes(capture::plane_bytes(c.target, 1) / sizeof(glm::vec4) + 1);
-    read_planes(c.target, attachments, layout, memory, std::as_writable_bytes(std::span(planes)));
+    read_planes(attachments, layout, memory,
+                capture::planes_at(c.target, 1, std::as_writable_bytes(std::span(planes)).data()));
     const capture::CaptureView view =
         capture::view_planes(c.target, true, 1, std::as_bytes(std::span(planes)).data());
     EXPECT_EQ(view.color[1], capture.color[1]);
@@ -255,8 +256,9 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
                         words[k].size() * sizeof(float));
         }
         std::vector<glm::vec4> planes(capture::plane_bytes(c.target, 3) / sizeof(glm::vec4) + 1);
-        read_planes(c.target, attachments, places, memory,
-                    std::as_writable_bytes(std::span(planes)));
+        read_planes(
+            attachments, places, memory,
+            capture::planes_at(c.target, 3, std::as_writable_bytes(std::span(planes)).data()));
         const capture::Capture capture = read_capture(c.target, attachments, true, places, memory);
         const capture::CaptureView view =
             capture::view_planes(c.target, true, 3, std::as_bytes(std::span(planes)).data());
