@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/load/load_blit.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
 #include "cases/load/color.hpp"
+#include "cases/load/parts.hpp"
 #include "cases/model/blit_source.hpp"
 
 namespace cases {
