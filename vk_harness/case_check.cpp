@@ -209,15 +209,14 @@ std::optional<Rejection> check_viewport(const Capabilities& c, const cases::View
 }
 
 std::optional<Rejection> check_depth(const Capabilities& c, const cases::DepthState& depth) {
-    if (depth.clamp && !c.depth_clamp) {
-        return unsupported("the device lacks the feature depthClamp");
-    }
-    if (depth.clip && !c.depth_clip_enable) {
-        return unsupported(
-            "the device lacks the feature depthClipEnable of VK_EXT_depth_clip_enable");
-    }
-    if (depth.bias && std::abs(depth.bias->clamp) > 0.0F && !c.depth_bias_clamp) {
-        return unsupported("the device lacks the feature depthBiasClamp");
+    const bool clamps_bias = depth.bias && std::abs(depth.bias->clamp) > 0.0F;
+    for (const auto& [lacks, feature] :
+         {std::pair(depth.clamp && !c.depth_clamp, "depthClamp"),
+          {depth.clip && !c.depth_clip_enable, "depthClipEnable of VK_EXT_depth_clip_enable"},
+          {clamps_bias && !c.depth_bias_clamp, "depthBiasClamp"}}) {
+        if (lacks) {
+            return unsupported(fmt::format("the device lacks the feature {}", feature));
+        }
     }
     if (depth.bias) {
         if (auto missing = missing_depth_bias_support(c.depth_bias, *depth.bias)) {

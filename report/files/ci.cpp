@@ -52,24 +52,10 @@ std::string command_text(std::string_view bytes, bool is_property) {
 std::string cell(std::string_view bytes) {
     std::string text;
     for (const char c : cases::markup(bytes)) {
-        switch (c) {
-            case '\n':
-            case '\t':
-                text += ' ';
-                break;
-            case '|':
-            case '`':
-            case '*':
-            case '_':
-            case '[':
-            case ']':
-            case '\\':
-                text += '\\';
-                text += c;
-                break;
-            default:
-                text += c;
+        if (std::string_view("|`*_[]\\").find(c) != std::string_view::npos) {
+            text += '\\';
         }
+        text += c == '\n' || c == '\t' ? ' ' : c;
     }
     return text;
 }

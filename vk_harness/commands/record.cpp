@@ -3,6 +3,7 @@
 #include "vk_harness/commands/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <optional>
@@ -18,29 +19,15 @@ namespace vk_harness {
 namespace {
 
 VkPrimitiveTopology to_vulkan(cases::Topology topology) {
-    switch (topology) {
-        case cases::Topology::triangle_list:
-            return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-        case cases::Topology::triangle_strip:
-            return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
-        case cases::Topology::triangle_fan:
-            break;
-    }
-    return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN;
+    return std::array{VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
+                      VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN}
+        .at(static_cast<size_t>(topology));
 }
 
 VkCullModeFlags to_vulkan(cases::CullMode mode) {
-    switch (mode) {
-        case cases::CullMode::none:
-            return VK_CULL_MODE_NONE;
-        case cases::CullMode::front:
-            return VK_CULL_MODE_FRONT_BIT;
-        case cases::CullMode::back:
-            return VK_CULL_MODE_BACK_BIT;
-        case cases::CullMode::front_and_back:
-            break;
-    }
-    return VK_CULL_MODE_FRONT_AND_BACK;
+    return std::array{VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT,
+                      VK_CULL_MODE_FRONT_AND_BACK}
+        .at(static_cast<size_t>(mode));
 }
 
 VkFrontFace to_vulkan(cases::FrontFace face) {

@@ -5,27 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
-
-#include "vk_harness/device/vertex_outputs.hpp"
+#include <utility>
 
 namespace vk_harness {
 
 namespace {
 
 std::string device_type_name(VkPhysicalDeviceType type) {
-    switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-            return "integrated-gpu";
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-            return "discrete-gpu";
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-            return "virtual-gpu";
-        case VK_PHYSICAL_DEVICE_TYPE_CPU:
-            return "cpu";
-        default:
-            return "other";
-    }
+    constexpr std::array<const char*, 5> kNames = {"other", "integrated-gpu", "discrete-gpu",
+                                                   "virtual-gpu", "cpu"};  // numbered by Vulkan
+    return static_cast<size_t>(type) < kNames.size() ? kNames.at(type) : "other";
 }
 
 std::string version_text(uint32_t version) {
@@ -118,24 +109,6 @@ void query_properties(Capabilities& c, uint32_t index) {
     }
 }
 
-// Optional extensions of depth; each is asked for alone, since its structure may only be chained if
-// the device has the extension.
-void query_depth_features(Capabilities& c) {
-    const auto query = [&](void* chained) {
-        VkPhysicalDeviceFeatures2 features{};
-        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-        features.pNext = chained;
-        vkGetPhysicalDeviceFeatures2(c.physical, &features);
-    };
-    if (has_device_extension(c.physical, VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME)) {
-        VkPhysicalDeviceDepthClipEnableFeaturesEXT clip{};
-        clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
-        query(&clip);
-        c.depth_clip_enable = clip.depthClipEnable == VK_TRUE;
-    }
-    c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
-}
-
 // Sample locations in sixteenths of a pixel, one grid cell a pixel.
 void query_sample_locations(Capabilities& c) {
     c.has_standard_locations = c.limits.standardSampleLocations == VK_TRUE;
@@ -166,47 +139,53 @@ void query_features(Capabilities& c) {
         portability.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR;
         VkPhysicalDeviceVulkan13Features features13{};
         features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+        VkPhysicalDeviceVulkan12Features features12{};
+        features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+        features12.pNext = &features13;
+        VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip{};
+        depth_clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
         VkPhysicalDeviceFeatures2 features{};
         features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-        features.pNext = &features13;
+        features.pNext = &features12;
         VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
         barycentric.sType =
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
-        const auto ask = [&features](auto& structure) {
-            structure.pNext = features.pNext;
-            features.pNext = &structure;
+        // A structure may only be chained if the device has its extension.
+        const auto ask = [&](const char* extension, auto& structure) {
+            const bool has = has_device_extension(c.physical, extension);
+            if (has) {
+                structure.pNext = features.pNext;
+                features.pNext = &structure;
+            }
+            return has;
         };
-        c.portability_subset =
-            has_device_extension(c.physical, VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
-        if (c.portability_subset) {
-            ask(portability);
-        }
-        if (has_device_extension(c.physical, VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME)) {
-            ask(barycentric);
-        }
+        c.portability_subset = ask(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
+        ask(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
+        ask(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
         vkGetPhysicalDeviceFeatures2(c.physical, &features);
         c.triangle_fans = !c.portability_subset || portability.triangleFans == VK_TRUE;
         c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
         c.depth_clamp = features.features.depthClamp == VK_TRUE;
         c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
-        query_depth_features(c);
+        c.depth_clip_enable = depth_clip.depthClipEnable == VK_TRUE;
+        c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
         c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
         query_sample_locations(c);
-        c.max_viewports = query_max_viewports(c.physical);
-        query_layers(c);
+        if (features.features.multiViewport == VK_TRUE &&
+            features12.shaderOutputViewportIndex == VK_TRUE) {
+            c.max_viewports = c.limits.maxViewports;
+        }
+        c.layer_output = features12.shaderOutputLayer == VK_TRUE;
+        c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
         c.clip = query_clip_support(c.physical, has_device_extension);
         c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
-        if (features13.dynamicRendering != VK_TRUE) {
-            missing.emplace_back("the device lacks the feature dynamicRendering");
-        }
-        if (features13.synchronization2 != VK_TRUE) {
-            missing.emplace_back("the device lacks the feature synchronization2");
-        }
-        if (features13.maintenance4 != VK_TRUE) {
-            missing.emplace_back("the device lacks the feature maintenance4");
-        }
-        if (features.features.independentBlend != VK_TRUE) {
-            missing.emplace_back("the device lacks the feature independentBlend");
+        for (const auto& [has, name] : {std::pair(features13.dynamicRendering, "dynamicRendering"),
+                                        {features13.synchronization2, "synchronization2"},
+                                        {features13.maintenance4, "maintenance4"},
+                                        {features.features.independentBlend, "independentBlend"}}) {
+            if (has != VK_TRUE) {
+                missing.push_back(fmt::format("the device lacks the feature {}", name));
+            }
         }
     }
 

@@ -37,9 +37,11 @@ struct Capabilities {
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     DepthBiasSupport depth_bias;
     bool triangle_fans = true;
-    uint32_t max_viewports = 1;  // that gl_ViewportIndex can choose from
-    uint32_t max_layers = 1;     // of a target
-    bool layer_output = false;   // shaderOutputLayer: gl_Layer in a vertex shader
+    // That gl_ViewportIndex of a vertex shader can choose from; 1 without the features
+    // multiViewport and shaderOutputViewportIndex.
+    uint32_t max_viewports = 1;
+    uint32_t max_layers = 1;    // of a target
+    bool layer_output = false;  // shaderOutputLayer: gl_Layer in a vertex shader
     ClipSupport clip;
     bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
     bool portability_subset = false;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vk_harness/device/depth_bias_control.hpp"
 
+#include <utility>
+
 namespace vk_harness {
 
 namespace {
@@ -60,20 +62,16 @@ std::optional<std::string> missing_depth_bias_support(const DepthBiasSupport& su
     if (!bias.is_controlled()) {
         return std::nullopt;
     }
-    const auto missing = [](const char* feature) {
-        return std::string("the device lacks the feature ") + feature + " of " + kExtension;
-    };
-    if (!support.control) {
-        return missing("depthBiasControl");
-    }
-    if (bias.representation == Representation::force_unorm && !support.force_unorm) {
-        return missing("leastRepresentableValueForceUnormRepresentation");
-    }
-    if (bias.representation == Representation::floating && !support.floating) {
-        return missing("floatRepresentation");
-    }
-    if (bias.is_exact && !support.exact) {
-        return missing("depthBiasExact");
+    for (const auto& [lacks, feature] :
+         {std::pair(!support.control, "depthBiasControl"),
+          {bias.representation == Representation::force_unorm && !support.force_unorm,
+           "leastRepresentableValueForceUnormRepresentation"},
+          {bias.representation == Representation::floating && !support.floating,
+           "floatRepresentation"},
+          {bias.is_exact && !support.exact, "depthBiasExact"}}) {
+        if (lacks) {
+            return std::string("the device lacks the feature ") + feature + " of " + kExtension;
+        }
     }
     return std::nullopt;
 }

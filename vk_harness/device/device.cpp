@@ -9,8 +9,6 @@
 #include <cstring>
 #include <utility>
 
-#include "vk_harness/device/vertex_outputs.hpp"
-
 namespace vk_harness {
 
 namespace {
@@ -103,6 +101,12 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features13.dynamicRendering = VK_TRUE;
     features13.synchronization2 = VK_TRUE;
     features13.maintenance4 = VK_TRUE;  // outputs that the next stage does not read
+    const VkBool32 has_viewports = capabilities.max_viewports > 1 ? VK_TRUE : VK_FALSE;
+    VkPhysicalDeviceVulkan12Features features12{};
+    features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    features12.pNext = &features13;
+    features12.shaderOutputViewportIndex = has_viewports;
+    features12.shaderOutputLayer = capabilities.layer_output ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
     barycentric.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
     barycentric.fragmentShaderBarycentric = VK_TRUE;
@@ -111,7 +115,7 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     depth_clip.depthClipEnable = VK_TRUE;
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    features.pNext = &features13;
+    features.pNext = &features12;
     std::vector<const char*> extensions;
     const auto enable = [&](const char* extension, auto& structure) {
         structure.pNext = features.pNext;
@@ -130,14 +134,13 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     if (capabilities.barycentrics) {
         enable(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
     }
+    features.features.multiViewport = has_viewports;
     features.features.independentBlend = VK_TRUE;
     features.features.sampleRateShading = capabilities.has_sample_shading ? VK_TRUE : VK_FALSE;
     features.features.depthClamp = capabilities.depth_clamp ? VK_TRUE : VK_FALSE;
     features.features.depthBiasClamp = capabilities.depth_bias_clamp ? VK_TRUE : VK_FALSE;
     features.features.geometryShader = capabilities.info.has_primitive_id ? VK_TRUE : VK_FALSE;
 
-    VkPhysicalDeviceVulkan12Features features12{};
-    enable_vertex_outputs(capabilities, features, features12);
     ClipFeatures clip;
     enable_clip_features(capabilities.clip, features, extensions, clip);
     DepthBiasControlFeatures bias_control;

@@ -125,33 +125,27 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferU
     return buffer;
 }
 
-Result<void> Buffer::flush() const {
-    if (!coherent_) {
-        VkMappedMemoryRange range{};
-        range.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE;
-        range.memory = memory_.get();
-        range.size = VK_WHOLE_SIZE;
-        const VkResult result = device_->vk().vkFlushMappedMemoryRanges(device_->get(), 1, &range);
-        if (result != VK_SUCCESS) {
-            return fail(call_failure(Stage::memory, result, "vkFlushMappedMemoryRanges"));
-        }
+Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges call, Stage stage,
+                                 std::string_view name) const {
+    if (coherent_) {
+        return {};
     }
-    return {};
+    VkMappedMemoryRange range{};
+    range.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE;
+    range.memory = memory_.get();
+    range.size = VK_WHOLE_SIZE;
+    const VkResult result = call(device_->get(), 1, &range);
+    return result == VK_SUCCESS ? Result<void>() : fail(call_failure(stage, result, name));
+}
+
+Result<void> Buffer::flush() const {
+    return synchronize(device_->vk().vkFlushMappedMemoryRanges, Stage::memory,
+                       "vkFlushMappedMemoryRanges");
 }
 
 Result<void> Buffer::invalidate() const {
-    if (!coherent_) {
-        VkMappedMemoryRange range{};
-        range.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE;
-        range.memory = memory_.get();
-        range.size = VK_WHOLE_SIZE;
-        const VkResult result =
-            device_->vk().vkInvalidateMappedMemoryRanges(device_->get(), 1, &range);
-        if (result != VK_SUCCESS) {
-            return fail(call_failure(Stage::readback, result, "vkInvalidateMappedMemoryRanges"));
-        }
-    }
-    return {};
+    return synchronize(device_->vk().vkInvalidateMappedMemoryRanges, Stage::readback,
+                       "vkInvalidateMappedMemoryRanges");
 }
 
 Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {

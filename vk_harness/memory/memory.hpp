@@ -29,6 +29,10 @@ class Buffer {
     Result<void> invalidate() const;
 
   private:
+    // Flushes or invalidates all of the memory by `call`, unless it is coherent.
+    Result<void> synchronize(PFN_vkFlushMappedMemoryRanges call, Stage stage,
+                             std::string_view name) const;
+
     const Device* device_ = nullptr;
     Handle<VkDeviceMemory> memory_;  // freed after the buffer
     Handle<VkBuffer> buffer_;

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <string_view>
+
 #include "capture/capture.hpp"
 #include "cases/format/color_format.hpp"
 #include "vk_harness/device/format.hpp"
@@ -14,20 +17,20 @@ namespace vk_harness {
 
 namespace {
 
-VkResolveModeFlagBits to_vulkan(cases::Resolve mode) {
-    switch (mode) {
-        case cases::Resolve::none:
-            break;
-        case cases::Resolve::sample_zero:
-            return VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
-        case cases::Resolve::average:
-            return VK_RESOLVE_MODE_AVERAGE_BIT;
-        case cases::Resolve::min:
-            return VK_RESOLVE_MODE_MIN_BIT;
-        case cases::Resolve::max:
-            return VK_RESOLVE_MODE_MAX_BIT;
-    }
-    return VK_RESOLVE_MODE_NONE;
+struct ResolveMode {
+    VkResolveModeFlagBits bit;
+    std::string_view name;
+};
+
+// By cases::Resolve.
+constexpr std::array<ResolveMode, 5> kModes = {{{VK_RESOLVE_MODE_NONE, "NONE"},
+                                                {VK_RESOLVE_MODE_SAMPLE_ZERO_BIT, "SAMPLE_ZERO"},
+                                                {VK_RESOLVE_MODE_AVERAGE_BIT, "AVERAGE"},
+                                                {VK_RESOLVE_MODE_MIN_BIT, "MIN"},
+                                                {VK_RESOLVE_MODE_MAX_BIT, "MAX"}}};
+
+const ResolveMode& mode_of(cases::Resolve mode) {
+    return kModes.at(static_cast<size_t>(mode));
 }
 
 }  // namespace
@@ -67,13 +70,9 @@ std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     properties.pNext = &resolve;
     vkGetPhysicalDeviceProperties2(c.physical, &properties);
-    const auto mode = static_cast<VkResolveModeFlags>(to_vulkan(t.depth_resolve));
-    if ((resolve.supportedDepthResolveModes & mode) == 0) {
-        return (fmt::format("the device does not resolve depth by {}",
-                            mode == VK_RESOLVE_MODE_AVERAGE_BIT ? "AVERAGE"
-                            : mode == VK_RESOLVE_MODE_MIN_BIT   ? "MIN"
-                            : mode == VK_RESOLVE_MODE_MAX_BIT   ? "MAX"
-                                                                : "SAMPLE_ZERO"));
+    const ResolveMode& mode = mode_of(t.depth_resolve);
+    if ((resolve.supportedDepthResolveModes & static_cast<VkResolveModeFlags>(mode.bit)) == 0) {
+        return fmt::format("the device does not resolve depth by {}", mode.name);
     }
     // A stencil beside it is not resolved: one of the two modes is NONE.
     if (t.has_stencil && resolve.independentResolveNone != VK_TRUE) {
@@ -86,7 +85,7 @@ std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
 
 void resolve_into(VkImageView view, VkImageLayout layout, cases::Resolve mode,
                   VkRenderingAttachmentInfo& from) {
-    from.resolveMode = to_vulkan(mode);
+    from.resolveMode = mode_of(mode).bit;
     from.resolveImageView = view;
     from.resolveImageLayout = layout;
 }
