@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/expectation/reason_table.hpp"
@@ -93,7 +94,7 @@ std::optional<Cause> cause_of_stray_writer(
     if (std::optional<Cause> cause = cause_of_suppressed(writers, cases::Profile::vulkan)) {
         return cause;
     }
-    return Cause{"cover.outside", told(writers.triangles.front())};
+    return Cause{cases::rule::cover_outside, told(writers.triangles.front())};
 }
 
 // A hit too many of a triangle that must fail the depth test, or one too few of a triangle that
@@ -113,9 +114,10 @@ std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExpla
     if (it == s.triangles.rend() || !is_tested) {
         return std::nullopt;
     }
-    const std::string_view rule = it->depth_reason == ref::DepthReason::same    ? "depth.repeat"
-                                  : it->depth_reason == ref::DepthReason::apart ? "depth.distinct"
-                                                                                : "depth.compare";
+    const std::string_view rule =
+        it->depth_reason == ref::DepthReason::same    ? cases::rule::depth_repeat
+        : it->depth_reason == ref::DepthReason::apart ? cases::rule::depth_distinct
+                                                      : cases::rule::depth_compare;
     return Cause{rule, fmt::format("{} {}", name_of(*it), it->depth_text)};
 }
 
@@ -134,14 +136,14 @@ Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
             return e.why() == ref::ReasonKind::top_left_out || e.why() == ref::ReasonKind::no_area;
         });
         return t ? cause_of(*t, level)
-                 : Cause{"snap.nearest",
+                 : Cause{cases::rule::snap_nearest,
                          "no vertex position within the rounding of Direct3D covers the sample"};
     }
     if (const std::optional<Cause> cause = cause_of_suppressed(s, level)) {
         return *cause;
     }
     const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must_not);
-    return {"cover.outside",
+    return {cases::rule::cover_outside,
             t ? told(*t) : std::string("no triangle is within two pixels of the sample")};
 }
 
@@ -157,16 +159,16 @@ Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint
     if (level == cases::Profile::direct3d) {
         const ref::TriangleExplanation* t = first_tie(s, is_missing);
         t = t ? t : covering;
-        return t ? cause_of(*t, level)
-               : !s.sets.empty()
-                   ? Cause{ref::rule_of(s.sets[0].set.why, level), s.sets[0].sentence}
-                   : Cause{"snap.nearest", "the vertices' nearest subpixel positions decide"};
+        return t                 ? cause_of(*t, level)
+               : !s.sets.empty() ? Cause{ref::rule_of(s.sets[0].set.why, level), s.sets[0].sentence}
+                                 : Cause{cases::rule::snap_nearest,
+                                         "the vertices' nearest subpixel positions decide"};
     }
     if (total >= must && total <= may) {
         // Each triangle alone would allow it: what is broken is the number that some share.
-        return s.sets.empty()
-                   ? Cause{"cover.shared-edge", fmt::format("{} triangles meet here", may)}
-                   : Cause{ref::rule_of(s.sets[0].set.why, level), s.sets[0].sentence};
+        return s.sets.empty() ? Cause{cases::rule::cover_shared_edge,
+                                      fmt::format("{} triangles meet here", may)}
+                              : Cause{ref::rule_of(s.sets[0].set.why, level), s.sets[0].sentence};
     }
     if (total < must) {
         return cause_of(*covering, level);
@@ -178,10 +180,10 @@ Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint
     if (may == 1) {
         const auto* const t = first_that(
             s, [](const auto& e) { return e.decision.coverage != ref::Coverage::must_not; });
-        return {"cover.outside",
+        return {cases::rule::cover_outside,
                 fmt::format("{} alone may cover the sample, and only once", name_of(*t))};
     }
-    return {"cover.outside",
+    return {cases::rule::cover_outside,
             may == 0 ? std::string("no triangle near the sample may cover it")
                      : fmt::format("{} triangles may cover the sample, each only once", may)};
 }
@@ -270,7 +272,7 @@ void Attribution::attribute_writer(Finding& finding,
         finding.rule = ref::rule_of(tie->why(), finding.level);
         finding.why = told(*tie);
     } else {
-        finding.rule = is_direct3d ? "snap.nearest" : "cover.outside";
+        finding.rule = is_direct3d ? cases::rule::snap_nearest : cases::rule::cover_outside;
         finding.why = "where the vertices snap decides which triangle covers the sample";
     }
     like_writer_.insert_or_assign(finding.level, finding);
@@ -312,7 +314,7 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
             finding.why = told(*tie);
             return;
         }
-        finding.rule = "face.area-sign";
+        finding.rule = cases::rule::face_area_sign;
         finding.quantity = "facing";
         const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
         finding.why =

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cases/format/color_format.hpp"
+#include "cases/model/rule_ids.hpp"
 #include "ref/blit/blit.hpp"
 
 namespace diff {
@@ -92,9 +93,10 @@ class BlitComparison {
         finding.kind = !inside    ? FindingKind::extra
                        : is_clear ? FindingKind::missing
                                   : FindingKind::value;
-        finding.rule = !inside                                           ? "blit.outside"
-                       : case_.blit->filter == cases::BlitFilter::linear ? "blit.linear"
-                                                                         : "blit.nearest";
+        finding.rule = !inside ? cases::rule::blit_outside
+                       : case_.blit->filter == cases::BlitFilter::linear
+                           ? cases::rule::blit_linear
+                           : cases::rule::blit_nearest;
         finding.quantity = finding.kind == FindingKind::value ? "texel" : "";
         finding.expected = show(reference_.nominal(x, y), case_.target.color->format);
         finding.got = show(got, case_.target.color->format);

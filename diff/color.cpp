@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "cases/model/rule_ids.hpp"
+
 namespace diff {
 
 using Kind = ref::ColorVerdict::Kind;
@@ -50,7 +52,7 @@ std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
         !reference(expectation_.profile)
              .explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
         Finding finding = finding_at(FindingKind::value, case_.target, id);
-        finding.rule = "depth.linear";
+        finding.rule = cases::rule::depth_linear;
         finding.quantity = "depth";
         finding.level = loosest_wrong([&](ref::ColorReference& at) {
             return !at.explains_depth(index, id, capture_.depth[index], case_.target.depth_clear);
@@ -95,7 +97,7 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
             break;
         case Kind::order:
             finding.kind = FindingKind::order;
-            finding.rule = "order.primitive";
+            finding.rule = cases::rule::order_primitive;
             finding.why = "the fragments were blended in another order than they were drawn";
             break;
         default:

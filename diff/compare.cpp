@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cases/model/rule_ids.hpp"
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
 #include "diff/contradiction.hpp"
@@ -133,7 +134,7 @@ class Comparison {
                 return;
             case capture::SampleState::inconsistent: {
                 Finding finding = finding_at(FindingKind::value, case_.target, id);
-                finding.rule = "write.consistent";
+                finding.rule = cases::rule::write_consistent;
                 finding.level = cases::Profile::vulkan;
                 finding.quantity = "attachments";
                 finding.expected = "all attachments written by the same fragments";

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "cases/model/rule_ids.hpp"
+
 namespace diff {
 
 ref::FragmentValues values_at(const capture::CaptureView& capture, size_t index) {
@@ -87,7 +89,7 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
         return std::nullopt;
     }
     Finding finding = finding_at(FindingKind::value, case_.target, id);
-    finding.rule = "depth.write";
+    finding.rule = cases::rule::depth_write;
     finding.level = cases::Profile::vulkan;
     finding.quantity = "depth";
     finding.expected = expected.depth_may_be_clear ? "the clear value" : "";
@@ -123,13 +125,13 @@ bool LastFragment::is_provoking(const capture::Writer& writer) const {
 const char* LastFragment::provoking_rule(uint32_t draw) const {
     const bool is_last =
         draw < case_.draws.size() && case_.draws[draw].provoking == cases::ProvokingVertex::last;
-    return is_last ? "provoking.last" : "provoking.first";
+    return is_last ? cases::rule::provoking_last : cases::rule::provoking_first;
 }
 
 Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& writer,
                                      const ref::SampleExpectation& expected) {
     Finding finding = finding_at(FindingKind::order, case_.target, id);
-    finding.rule = "order.primitive";
+    finding.rule = cases::rule::order_primitive;
     finding.why = "another triangle than the last one that may cover the sample wrote it";
     std::string allowed;
     for (uint32_t k = 0; k < std::min(expected.writers_count, 4U); ++k) {
@@ -144,7 +146,8 @@ Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& 
             finding.why = "the right triangle, but its flat inputs come from another vertex";
         }
     }
-    if (!capture_.has_primitive && finding.rule == "order.primitive" && !is_provoking(writer)) {
+    if (!capture_.has_primitive && finding.rule == cases::rule::order_primitive &&
+        !is_provoking(writer)) {
         finding.rule = provoking_rule(writer.draw);
         finding.why = "no triangle of that draw has this provoking vertex";
     }
@@ -152,7 +155,7 @@ Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& 
         allowed += fmt::format(", or {} others", expected.writers_count - 4);
     }
     finding.expected = allowed;
-    if (finding.rule == "order.primitive") {
+    if (finding.rule == cases::rule::order_primitive) {
         attribution_.attribute_writer(finding,
                                       [&](const cases::Triangle& t) { return wrote(writer, t); });
     } else {

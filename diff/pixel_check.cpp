@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/value/fragment/quantities.hpp"
 #include "ref/value/places.hpp"
@@ -102,7 +103,7 @@ std::optional<Finding> check_invocations(const cases::Draw& draw,
         return std::nullopt;
     }
     Finding finding = finding_of(capture.target, pixel, f.samples.front(), *f.triangle);
-    finding.rule = "sample.shading";
+    finding.rule = cases::rule::sample_shading;
     finding.quantity = "invocations";
     finding.expected = fmt::format("at least {} places of FragCoord.xy in the pixel", least);
     finding.got = fmt::format("{}", places.size());
@@ -129,7 +130,7 @@ std::optional<Finding> check_masks(const cases::Draw& draw, const capture::Captu
             continue;
         }
         Finding finding = finding_of(capture.target, pixel, s, *f.triangle);
-        finding.rule = "sample.mask-in";
+        finding.rule = cases::rule::sample_mask_in;
         finding.quantity = fmt::format("attribute {}.x", attribute);
         finding.expected = fmt::format("{:#b} as at sample {}{}", other, before,
                                        is_one ? "" : ", or no sample of it");

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "cases/format/color_format.hpp"
+#include "cases/model/rule_ids.hpp"
 #include "ref/color/component.hpp"
 
 namespace diff {
@@ -107,7 +108,7 @@ std::optional<Finding> judge_number(const std::vector<double>& samples, double g
             return std::nullopt;
         }
         const Range range = range_of(samples, kind, *level);
-        finding.rule = "resolve.average";
+        finding.rule = cases::rule::resolve_average;
         finding.level = *level;
         finding.expected = fmt::format("{:.9g} .. {:.9g}", range.min, range.max);
         finding.why =
@@ -118,7 +119,7 @@ std::optional<Finding> judge_number(const std::vector<double>& samples, double g
     if (std::equal_to<>()(got, expected)) {
         return std::nullopt;
     }
-    finding.rule = "resolve.select";
+    finding.rule = cases::rule::resolve_select;
     finding.level = Profile::vulkan;
     finding.expected = fmt::format("{:.9g}", expected);
     finding.why = fmt::format("the samples of the pixel, read singly, are {}", to_text(samples));
@@ -252,7 +253,7 @@ class Judge {
         }
         Finding finding;
         finding.kind = FindingKind::value;
-        finding.rule = "stencil.count";
+        finding.rule = cases::rule::stencil_count;
         finding.level = Profile::vulkan;
         finding.sample = sample;
         finding.expected = fmt::format("{}", expected);

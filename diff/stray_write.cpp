@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cases/model/rule_ids.hpp"
+
 namespace diff {
 
 void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite> writes,
@@ -15,7 +17,7 @@ void add_stray_writes(const cases::Case& c, std::span<const capture::StrayWrite>
             FindingKind::value, t,
             w.is_before ? cases::SampleId{0, 0, 0, 0}
                         : cases::SampleId{t.width - 1, t.height - 1, t.samples - 1, t.layers - 1});
-        finding.rule = "write.outside";
+        finding.rule = cases::rule::write_outside;
         finding.level = cases::Profile::vulkan;
         finding.quantity = fmt::format("memory {} {}", side, w.attachment);
         finding.expected = fmt::format("{:#010x}", w.expected);

@@ -22,6 +22,8 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -77,6 +79,24 @@ template <class T>
 inline constexpr bool is_array = false;
 template <class T, size_t N>
 inline constexpr bool is_array<std::array<T, N>> = true;
+
+// Gives `to` the fields of `from` that have the same name and type.
+template <class From, class To>
+void copy_like_fields(const From& from, To& to) {
+    To::fields(
+        [&](const Field& own, auto& member) {
+            From::fields(
+                [&](const Field& other, const auto& value) {
+                    if constexpr (std::is_same_v<decltype(member), std::remove_cvref_t<decltype(value)>&>) {
+                        if (std::string_view(own.name) == other.name) {
+                            member = value;
+                        }
+                    }
+                },
+                from);
+        },
+        to);
+}
 
 // Calls change(text) for every text that a value holds, however deep.
 template <class T, class Change>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "cases/model/rule_ids.hpp"
 #include "cases/model/words.hpp"
 
 namespace cases {
@@ -15,18 +16,18 @@ namespace {
 std::string_view rule_of(RelationKind kind) {
     switch (kind) {
         case RelationKind::same_twice:
-            return "repeat.same";
+            return rule::repeat_same;
         case RelationKind::scissor_tiles:
-            return "repeat.scissor";
+            return rule::repeat_scissor;
         case RelationKind::other_clears:
-            return "repeat.clears";
+            return rule::repeat_clears;
         case RelationKind::write_masks:
-            return "repeat.write-masks";
+            return rule::repeat_write_masks;
         case RelationKind::fewer_attributes:
         case RelationKind::more_attributes:
             break;
     }
-    return "repeat.attachments";
+    return rule::repeat_attachments;
 }
 
 // Depth writes of the case decide nothing else, so they may be left out; and depth is cleared as

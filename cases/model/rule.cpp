@@ -5,348 +5,334 @@
 #include <algorithm>
 #include <array>
 
+#include "cases/model/rule_ids.hpp"
+
 namespace cases {
 
 namespace {
 
 constexpr std::array kRules = {
-    Rule{"cover.inside", Profile::vulkan, "A sample strictly inside a triangle is covered",
+    Rule{rule::cover_inside, Profile::vulkan, "A sample strictly inside a triangle is covered",
          "Whatever positions the device may use for the vertices, the sample is inside: it must be "
          "hit.",
          "primsrast-polygons-basic", "3.4.2", "ref/coverage/coverage.hpp"},
-    Rule{"cover.outside", Profile::vulkan,
+    Rule{rule::cover_outside, Profile::vulkan,
          "A triangle covers no sample strictly outside it, and none twice",
          "It must not hit a sample outside the convex hull of the positions that the device may "
          "use for its vertices, nor any sample more than once.",
          "primsrast-polygons-basic", "3.4.2", "ref/coverage/coverage.hpp"},
-    Rule{"cover.shared-edge", Profile::vulkan,
+    Rule{rule::cover_shared_edge, Profile::vulkan,
          "A sample on a shared edge belongs to exactly one triangle",
          "If two triangles lie on either side of a common edge with identical end points, a sample "
-         "on that edge "
-         "is covered by exactly one of them. Which one is free in Vulkan.",
+         "on that edge is covered by exactly one of them. Which one is free in Vulkan.",
          "primsrast-polygons-basic", "3.4.2", "ref/expectation/narrowing.cpp"},
-    Rule{"cover.shared-vertex", Profile::practice,
+    Rule{rule::cover_shared_vertex, Profile::practice,
          "A sample on a shared vertex belongs to exactly one triangle",
          "The Vulkan text speaks of pairs of triangles and contradicts itself where more than two "
-         "meet in the "
-         "sample; the intention, and every known device, is exactly one hit.",
+         "meet in the sample; the intention, and every known device, is exactly one hit.",
          "primsrast-polygons-basic", "3.4.2", "ref/expectation/narrowing.cpp"},
-    Rule{"cover.clipped-edge", Profile::practice, "A shared edge stays closed after clipping",
+    Rule{rule::cover_clipped_edge, Profile::practice, "A shared edge stays closed after clipping",
          "The Vulkan text does not promise that two clipped triangles stay watertight along their "
-         "shared edge; "
-         "every known clipper does.",
+         "shared edge; every known clipper does.",
          "vertexpostproc-clipping", "15.4", "ref/expectation/narrowing.cpp"},
-    Rule{"cover.degenerate", Profile::direct3d, "A triangle without area covers nothing",
+    Rule{rule::cover_degenerate, Profile::direct3d, "A triangle without area covers nothing",
          "No sample is strictly inside. Vulkan leaves the samples on its edges free; with the "
-         "top-left rule "
-         "none is hit.",
+         "top-left rule none is hit.",
          "primsrast-polygons-basic", "3.4.2", "ref/coverage/coverage.hpp"},
-    Rule{"snap.nearest", Profile::direct3d, "Vertices snap to the nearest subpixel position",
+    Rule{rule::snap_nearest, Profile::direct3d, "Vertices snap to the nearest subpixel position",
          "Direct3D rounds to nearest within 0.6 of a unit; Vulkan names no rounding, practice is "
          "floor or ceil.",
          "limits-subPixelPrecisionBits", "3.2.4.1", "ref/position/position.hpp"},
-    Rule{"tie.top-left", Profile::direct3d,
+    Rule{rule::tie_top_left, Profile::direct3d,
          "A sample on an edge belongs to the top or left edge's triangle",
          "A top edge is exactly horizontal and above the others, a left edge is not horizontal and "
-         "on the left "
-         "side. Vulkan does not demand this rule.",
+         "on the left side. Vulkan does not demand this rule.",
          "primsrast-polygons-basic", "3.4.2", "ref/coverage/coverage.hpp"},
-    Rule{"face.area-sign", Profile::vulkan, "Facing follows the sign of the area",
+    Rule{rule::face_area_sign, Profile::vulkan, "Facing follows the sign of the area",
          "a = -1/2 sum(x_i y_i+1 - x_i+1 y_i) in framebuffer coordinates; positive is "
-         "counter-clockwise. "
-         "Zero area is back facing. Free where the sign depends on snapping.",
+         "counter-clockwise. Zero area is back facing. Free where the sign depends on snapping.",
          "primsrast-polygons-basic", "15.11.1", "ref/coverage/facing.cpp"},
-    Rule{"face.cull", Profile::vulkan, "A culled triangle draws nothing",
+    Rule{rule::face_cull, Profile::vulkan, "A culled triangle draws nothing",
          "Culling by facing happens before fragments are produced.", "primsrast-polygons-basic",
          "15.11", "ref/coverage/setup.cpp"},
-    Rule{
-        "discard.rasterizer", Profile::vulkan, "With rasterizer discard a draw leaves no trace",
-        "Its primitives are discarded before rasterization: no sample, no depth, no stencil and no "
-        "colour changes, and the draws before and after it are drawn as ever.",
-        "primsrast-discard", "", "ref/coverage/setup.cpp"},
-    Rule{"clip.volume", Profile::vulkan, "Nothing is drawn outside the clip volume",
+    Rule{rule::discard_rasterizer, Profile::vulkan,
+         "With rasterizer discard a draw leaves no trace",
+         "Its primitives are discarded before rasterization: no sample, no depth, no stencil and "
+         "no colour changes, and the draws before and after it are drawn as ever.",
+         "primsrast-discard", "", "ref/coverage/setup.cpp"},
+    Rule{rule::clip_volume, Profile::vulkan, "Nothing is drawn outside the clip volume",
          "-w <= x <= w, -w <= y <= w, 0 <= z <= w; what lies behind the eye does not show.",
          "vertexpostproc-clipping", "15.4", "ref/position/clip.hpp"},
-    Rule{"clip.viewport", Profile::vulkan, "Nothing is drawn outside the viewport",
+    Rule{rule::clip_viewport, Profile::vulkan, "Nothing is drawn outside the viewport",
          "Polygons are clipped to the view volume, so no sample outside the viewport's rectangle "
          "is covered.",
          "vertexpostproc-clipping", "15.6", "ref/position/clip.hpp"},
-    Rule{"layer.select", Profile::vulkan,
+    Rule{rule::layer_select, Profile::vulkan,
          "A triangle is drawn to the layer it names, and to no other",
          "gl_Layer of its vertices chooses the layer of every attachment; without it the first "
          "layer is drawn to. Coverage, depth test and colours are those of that layer alone.",
          "interfaces-builtin-variables", "", "ref/expectation/expectation.cpp"},
-    Rule{"clip.depth", Profile::vulkan, "The depth planes clip as the state says",
+    Rule{rule::clip_depth, Profile::vulkan, "The depth planes clip as the state says",
          "z_m <= z <= w with z_m = 0, or -w with negativeOneToOne; with depth clipping disabled "
          "neither plane cuts, and the borders of the viewport still keep w from being negative.",
          "vertexpostproc-clipping", "15.4", "ref/position/clip.hpp"},
-    Rule{"clip.distance", Profile::vulkan, "Nothing is drawn where a clip distance is negative",
+    Rule{rule::clip_distance, Profile::vulkan, "Nothing is drawn where a clip distance is negative",
          "The half-space is c_k(P) >= 0 with the distances of the vertices interpolated in "
-         "perspective. "
-         "Along the plane, within the precision of that arithmetic, both answers are right.",
+         "perspective. Along the plane, within the precision of that arithmetic, both answers are "
+         "right.",
          "vertexpostproc-clipping-shader-outputs", "15.4.1", "ref/coverage/distance_cut.cpp"},
-    Rule{"clip.complement", Profile::vulkan,
+    Rule{rule::clip_complement, Profile::vulkan,
          "A clip distance and its negative share out a triangle",
          "Drawn with d and again with -d, otherwise alike, a triangle that the plane cuts has each "
          "of its samples hit exactly once along the cut, samples on the plane included.",
          "vertexpostproc-clipping", "", "ref/expectation/narrowing.cpp"},
-    Rule{
-        "cull.distance", Profile::vulkan,
-        "A triangle whose cull distances are all negative is not drawn",
-        "It is discarded if one of the cull distances is negative at all three vertices, and drawn "
-        "whole otherwise.",
-        "vertexpostproc-clipping", "15.4.2", "ref/coverage/setup.cpp"},
-    Rule{"number.undefined", Profile::vulkan, "A bad number spoils its own triangle only",
+    Rule{rule::cull_distance, Profile::vulkan,
+         "A triangle whose cull distances are all negative is not drawn",
+         "It is discarded if one of the cull distances is negative at all three vertices, and "
+         "drawn whole otherwise.",
+         "vertexpostproc-clipping", "15.4.2", "ref/coverage/setup.cpp"},
+    Rule{rule::number_undefined, Profile::vulkan, "A bad number spoils its own triangle only",
          "NaN and infinity make the result of their own triangle undefined inside scissor and "
          "framebuffer, and so do positions beyond 2^32 (beyond FLT_MAX/16 from practice on); all "
          "other triangles are drawn as ever and nothing is terminated. Denormals and zeros of "
          "either sign are ordinary numbers, but a denormal w may be taken for zero.",
          "fundamentals-floating-point", "15.4", "ref/position/position.hpp"},
-    Rule{"scissor.half-open", Profile::vulkan, "The scissor rectangle is half-open",
+    Rule{rule::scissor_half_open, Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",
          "fragops-scissor", "15.14", "ref/coverage/setup.cpp"},
-    Rule{"sample.locations", Profile::vulkan, "Samples lie exactly at their locations",
+    Rule{rule::sample_locations, Profile::vulkan, "Samples lie exactly at their locations",
          "The standard locations, or those that the pipeline asks for, in the order of their "
          "indices; they are points, never areas, and are not snapped.",
          "primsrast-multisampling", "19.2.4.1", "cases/model/sample.hpp"},
-    Rule{"sample.mask", Profile::vulkan, "The sample mask removes samples",
+    Rule{rule::sample_mask, Profile::vulkan, "The sample mask removes samples",
          "Bit s of pSampleMask, and bit s of what the shader writes to gl_SampleMask, let sample s "
          "be written: coverage is their AND.",
          "fragops-samplemask", "17.17", "cases/model/sample.hpp"},
-    Rule{"sample.mask-in", Profile::vulkan, "gl_SampleMaskIn holds the samples of the invocation",
+    Rule{rule::sample_mask_in, Profile::vulkan,
+         "gl_SampleMaskIn holds the samples of the invocation",
          "Without sample shading the covered samples after the sample mask; with it a subset that "
          "holds the sample itself, which is that sample alone where every sample has an invocation "
          "(profile practice).",
          "interfaces-builtin-variables", "", "ref/value/sample_values.hpp"},
-    Rule{"sample.id", Profile::vulkan, "gl_SampleID and gl_SamplePosition name the sample",
+    Rule{rule::sample_id, Profile::vulkan, "gl_SampleID and gl_SamplePosition name the sample",
          "They turn on an invocation a sample; the number is that of a sample, the position its "
          "location. That it is the sample written is profile practice.",
          "interfaces-builtin-variables", "", "ref/value/sample_values.hpp"},
-    Rule{"sample.shading", Profile::vulkan, "Sample shading runs the shader for enough samples",
+    Rule{rule::sample_shading, Profile::vulkan, "Sample shading runs the shader for enough samples",
          "At least max(ceil(minSampleShading x samples), 1) invocations a fragment; more are "
          "allowed.",
          "primsrast-sampleshading", "", "diff/pixel_check.cpp"},
-    Rule{
-        "interp.centroid", Profile::vulkan, "centroid inputs are evaluated inside the primitive",
-        "Somewhere in the pixel and in the triangle; one place for all centroid inputs of a "
-        "fragment, within the binary32 budget, from profile practice on; the centre if all samples "
-        "are covered, else the first covered sample, at direct3d.",
-        "shaders-interpolation-decorations", "3.5.5", "ref/value/places.hpp"},
-    Rule{"interp.sample", Profile::vulkan, "sample inputs are evaluated at the sample",
+    Rule{rule::interp_centroid, Profile::vulkan,
+         "centroid inputs are evaluated inside the primitive",
+         "Somewhere in the pixel and in the triangle; one place for all centroid inputs of a "
+         "fragment, within the binary32 budget, from profile practice on; the centre if all "
+         "samples are covered, else the first covered sample, at direct3d.",
+         "shaders-interpolation-decorations", "3.5.5", "ref/value/places.hpp"},
+    Rule{rule::interp_sample, Profile::vulkan, "sample inputs are evaluated at the sample",
          "Exactly at the location of the sample that is written; within the binary32 budget from "
          "profile practice on.",
          "shaders-interpolation-decorations", "16.4", "ref/value/places.hpp"},
-    Rule{"fragcoord.sample", Profile::vulkan, "FragCoord.xy is a sample of the invocation",
+    Rule{rule::fragcoord_sample, Profile::vulkan, "FragCoord.xy is a sample of the invocation",
          "With sample shading one of its samples, exactly; the sample itself where every sample "
          "has an invocation (practice).",
          "interfaces-builtin-variables-fragcoord", "", "ref/value/sample_values.hpp"},
-    Rule{"order.primitive", Profile::vulkan, "Primitives write in drawing order",
+    Rule{rule::order_primitive, Profile::vulkan, "Primitives write in drawing order",
          "Of the triangles that hit a sample, the last one drawn is the one that stays.",
          "primsrast-order", "", "ref/expectation/expectation.hpp"},
-    Rule{"provoking.first", Profile::vulkan, "Flat values come from the first vertex",
+    Rule{rule::provoking_first, Profile::vulkan, "Flat values come from the first vertex",
          "The provoking vertex is 3i in a list, i in a strip, i+1 in a fan; values are copied "
          "before clipping.",
          "drawing-primitive-topologies", "8.14", "cases/model/triangle.hpp"},
-    Rule{"provoking.last", Profile::vulkan,
+    Rule{rule::provoking_last, Profile::vulkan,
          "Flat values come from the last vertex, if the state says so",
          "VK_EXT_provoking_vertex: 3i+2 in a list, i+2 in a strip and in a fan. The order of the "
          "vertices, and with it facing, stays.",
          "drawing-primitive-topologies", "", "cases/model/triangle.hpp"},
-    Rule{"interp.linear", Profile::vulkan, "noperspective values are linear in framebuffer space",
+    Rule{rule::interp_linear, Profile::vulkan,
+         "noperspective values are linear in framebuffer space",
          "a f_a + b f_b + c f_c with barycentric coordinates at the sample, each operation to 1 "
-         "part "
-         "in 10^5; within the binary32 budget of docs/precision.md from profile practice on.",
+         "part in 10^5; within the binary32 budget of docs/precision.md from profile practice on.",
          "primsrast-polygon-barycentrics", "15.16", "ref/value/value.hpp"},
-    Rule{"interp.perspective", Profile::vulkan, "smooth values are perspective-correct",
+    Rule{rule::interp_perspective, Profile::vulkan, "smooth values are perspective-correct",
          "(sum a_i f_i/w_i) / (sum a_i/w_i), each operation to 1 part in 10^5; within the binary32 "
          "budget of docs/precision.md from profile practice on.",
          "primsrast-polygon-barycentrics", "15.16", "ref/value/value.hpp"},
-    Rule{"interp.hull", Profile::vulkan, "A value stays inside the vertex values' range",
+    Rule{rule::interp_hull, Profile::vulkan, "A value stays inside the vertex values' range",
          "NaN, or a value outside the hull of the vertex values by more than the budget, is wrong "
-         "under every "
-         "profile.",
+         "under every profile.",
          "primsrast-polygon-barycentrics", "", "ref/value/value.hpp"},
-    Rule{"interp.flat", Profile::vulkan, "flat values arrive bit for bit",
+    Rule{rule::interp_flat, Profile::vulkan, "flat values arrive bit for bit",
          "Finite normal numbers of the provoking vertex, unchanged; a denormal may be flushed to "
          "zero, zero may lose its sign, NaN and infinity need not arrive.",
          "vertexpostproc-flatshading", "15.16", "ref/value/value.hpp"},
-    Rule{"fragcoord.xy", Profile::vulkan, "FragCoord.xy is the pixel centre",
+    Rule{rule::fragcoord_xy, Profile::vulkan, "FragCoord.xy is the pixel centre",
          "Exactly (i + 1/2, j + 1/2) without sample shading.",
          "interfaces-builtin-variables-fragcoord", "", "ref/value/sample_values.cpp"},
-    Rule{"fragcoord.w", Profile::vulkan, "FragCoord.w is the interpolated 1/w",
+    Rule{rule::fragcoord_w, Profile::vulkan, "FragCoord.w is the interpolated 1/w",
          "Linear in framebuffer space; within the binary32 budget from profile practice on.",
          "interfaces-builtin-variables-fragcoord", "", "ref/value/value.hpp"},
-    Rule{"store.unorm", Profile::vulkan, "A colour is stored as one of the two nearest codes",
+    Rule{rule::store_unorm, Profile::vulkan, "A colour is stored as one of the two nearest codes",
          "r = f (2^b - 1) of the clamped value; a whole r is stored as it is, otherwise one of its "
-         "two "
-         "neighbours. Direct3D allows 0.6 of a unit.",
+         "two neighbours. Direct3D allows 0.6 of a unit.",
          "fundamentals-fpfixedconv", "3.2.3.6", "ref/color/component.hpp"},
-    Rule{"store.srgb", Profile::vulkan, "An sRGB target stores one of the two nearest codes",
+    Rule{rule::store_srgb, Profile::vulkan, "An sRGB target stores one of the two nearest codes",
          "The linear value is encoded by the sRGB transfer function and stored as a neighbouring "
          "code.",
          "fundamentals-fpfixedconv", "3.2.3.6", "ref/color/component.hpp"},
-    Rule{"store.half", Profile::vulkan, "A half holds one of the two neighbours of a value",
+    Rule{rule::store_half, Profile::vulkan, "A half holds one of the two neighbours of a value",
          "The rounding direction is not defined; what a half can represent is kept.",
          "fundamentals-fp-conversion", "3.2.2", "ref/color/component.hpp"},
-    Rule{"store.float", Profile::vulkan, "A binary32 target holds what the shader wrote",
+    Rule{rule::store_float, Profile::vulkan, "A binary32 target holds what the shader wrote",
          "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2",
          "ref/color/component.hpp"},
-    Rule{"store.integer", Profile::vulkan, "An integer target holds what the shader wrote",
+    Rule{rule::store_integer, Profile::vulkan, "An integer target holds what the shader wrote",
          "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2",
          "ref/color/component.hpp"},
-    Rule{"blend.equation", Profile::vulkan, "Blending follows its equation",
+    Rule{rule::blend_equation, Profile::vulkan, "Blending follows its equation",
          "As if in floating point, with a precision no lower than the destination's: every "
-         "intermediate "
-         "may be rounded to a neighbour in the destination's format. Fixed-point targets clamp "
-         "source, "
-         "factors and result. What is representable throughout is exact.",
+         "intermediate may be rounded to a neighbour in the destination's format. Fixed-point "
+         "targets clamp source, factors and result. What is representable throughout is exact.",
          "framebuffer-blending", "17.5", "ref/color/blend.hpp"},
-    Rule{"blend.write-mask", Profile::vulkan, "A masked component keeps its value",
+    Rule{rule::blend_write_mask, Profile::vulkan, "A masked component keeps its value",
          "Components whose bit is not in the write mask are left as they were.",
          "framebuffer-color-write-mask", "17.5", "ref/color/blend.hpp"},
-    Rule{"write.consistent", Profile::vulkan, "A fragment writes all its attachments, or none",
+    Rule{rule::write_consistent, Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
-         "blending of "
-         "exactly representable values is exact.",
+         "blending of exactly representable values is exact.",
          "invariance", "", "capture/capture.cpp"},
-    Rule{"write.outside", Profile::vulkan, "Nothing is written beside an attachment's memory",
+    Rule{rule::write_outside, Profile::vulkan, "Nothing is written beside an attachment's memory",
          "Drawing, clearing, resolving and blitting write to the attachments alone: buffers in the "
          "same memory, directly before and after each of them, keep every word. What lies between "
          "the picture and the end of an attachment's own memory is the driver's.",
          "resources-association", "", "vk_harness/memory/guard.cpp"},
-    Rule{"depth.linear", Profile::vulkan, "Depth is linear in framebuffer space",
+    Rule{rule::depth_linear, Profile::vulkan, "Depth is linear in framebuffer space",
          "z_f is interpolated linearly at the sample; on a D32 target and for FragCoord.z within "
-         "the "
-         "binary32 budget from profile practice on.",
+         "the binary32 budget from profile practice on.",
          "primsrast-polygon-barycentrics", "15.10", "ref/value/value.hpp"},
-    Rule{"repeat.same", Profile::vulkan, "The same commands draw the same bits",
+    Rule{rule::repeat_same, Profile::vulkan, "The same commands draw the same bits",
          "Same draws, same state, same device: every sample of every attachment has the same bits, "
          "in the same submission and in another. Nothing is left free (shaders have no side "
          "effects).",
          "invariance", "", "diff/consistency.cpp"},
-    Rule{"repeat.scissor", Profile::vulkan, "Scissors change no fragment",
+    Rule{rule::repeat_scissor, Profile::vulkan, "Scissors change no fragment",
          "A target drawn tile by tile, each draw repeated under the scissor of each tile, has the "
          "same bits as drawn at once, samples that are left free included (Rule 2, Corollary 1).",
          "invariance", "15.14", "diff/consistency.cpp"},
-    Rule{"repeat.clears", Profile::vulkan, "Clear values change no fragment",
+    Rule{rule::repeat_clears, Profile::vulkan, "Clear values change no fragment",
          "Attachments cleared to other values receive the same fragments with the same bits (Rule "
          "2, Corollary 1).",
          "invariance", "", "diff/consistency.cpp"},
-    Rule{"repeat.write-masks", Profile::vulkan, "Write masks change no fragment",
+    Rule{rule::repeat_write_masks, Profile::vulkan, "Write masks change no fragment",
          "Attachments that are not masked have the same bits, those that are keep their clear "
          "value (Rule 2, Corollary 1).",
          "invariance", "", "diff/consistency.cpp"},
-    Rule{"repeat.attachments", Profile::practice,
+    Rule{rule::repeat_attachments, Profile::practice,
          "More or fewer attachments change no fragment, and copies are alike",
          "The same primitives with more or fewer attributes, so with more or fewer colour "
          "attachments, cover the same samples with the same depth, and a copied attribute has the "
          "bits of its original (Corollary 2). The shader is another one, so Vulkan does not demand "
          "it in so many words; every known device does it.",
          "invariance", "", "diff/consistency.cpp"},
-    Rule{"depth.store", Profile::vulkan, "Fixed-point depth is stored as either neighbour",
+    Rule{rule::depth_store, Profile::vulkan, "Fixed-point depth is stored as either neighbour",
          "z (2^n - 1) rounds down or up; a whole number of steps is stored as it is. Direct3D "
-         "rounds "
-         "within 0.6 of a step.",
+         "rounds within 0.6 of a step.",
          "fundamentals-fpfixedconv", "3.2.3.6", "ref/value/accept/judge_candidates.cpp"},
-    Rule{"depth.bias", Profile::vulkan, "Depth bias is m slope + r constant, clamped",
+    Rule{rule::depth_bias, Profile::vulkan, "Depth bias is m slope + r constant, clamped",
          "m lies between the larger gradient and their Euclidean norm (Direct3D: the larger). r is "
          "2^(e-23) with binary32 depth, e the exponent of the primitive's largest z, clipped or "
-         "not; "
-         "at most 2 2^-n with n bits of fixed point, 2^-n with depthBiasExact, 1 with the "
-         "representation float. The clamp is exact. FragCoord.z may have the "
-         "bias or not.",
+         "not; at most 2 2^-n with n bits of fixed point, 2^-n with depthBiasExact, 1 with the "
+         "representation float. The clamp is exact. FragCoord.z may have the bias or not.",
          "primsrast-depthbias-computation", "15.10", "ref/value/fragment/depth_path.hpp"},
-    Rule{"depth.distinct", Profile::vulkan, "Planes that are r apart stay distinct",
+    Rule{rule::depth_distinct, Profile::vulkan, "Planes that are r apart stay distinct",
          "Polygons with the same vertices, biased apart by one r (fixed point: two, as r may be a "
          "little less than a step), never compare equal or the wrong way round.",
          "primsrast-depthbias-computation", "", "ref/depth/outcome.hpp"},
-    Rule{"depth.clamp", Profile::vulkan, "Depth clamp limits depth to the viewport's range",
+    Rule{rule::depth_clamp, Profile::vulkan, "Depth clamp limits depth to the viewport's range",
          "With depthClampEnable z is clamped to [min, max] of the viewport's depths, whichever is "
          "the smaller, after the bias; near and far planes clip nothing.",
          "fragops-depth", "17.10", "ref/value/fragment/depth_path.hpp"},
-    Rule{"depth.compare", Profile::vulkan, "A fragment is drawn if its depth compares as asked",
+    Rule{rule::depth_compare, Profile::vulkan, "A fragment is drawn if its depth compares as asked",
          "Exact where the ranges that binary32 may compute are apart or both are one number. "
-         "Nothing "
-         "says that fixed-point depth is rounded before it is compared: outcomes within a step are "
-         "free.",
+         "Nothing says that fixed-point depth is rounded before it is compared: outcomes within a "
+         "step are free.",
          "fragops-depth-comparison", "17.11", "ref/depth/outcome.hpp"},
-    Rule{
-        "depth.repeat", Profile::vulkan, "The same triangle has the same depth again",
-        "Drawn twice by the same state with binary32 depth, it is equal to itself in every sample: "
-        "LESS_OR_EQUAL passes, LESS fails, wherever it is covered.",
-        "invariance", "", "ref/depth/outcome.hpp"},
-    Rule{"depth.write", Profile::vulkan, "Depth is written where the test passes and writes are on",
+    Rule{rule::depth_repeat, Profile::vulkan, "The same triangle has the same depth again",
+         "Drawn twice by the same state with binary32 depth, it is equal to itself in every "
+         "sample: LESS_OR_EQUAL passes, LESS fails, wherever it is covered.",
+         "invariance", "", "ref/depth/outcome.hpp"},
+    Rule{rule::depth_write, Profile::vulkan,
+         "Depth is written where the test passes and writes are on",
          "A fragment that fails, or whose draw does not write depth, leaves the older depth.",
          "fragops-depth-write", "17.12", "ref/depth/outcome.hpp"},
-    Rule{"interp.at-offset", Profile::vulkan, "interpolateAtOffset evaluates at centre + offset",
+    Rule{rule::interp_at_offset, Profile::vulkan,
+         "interpolateAtOffset evaluates at centre + offset",
          "The offset may be rounded to subPixelInterpolationOffsetBits fraction bits, in either "
          "direction; multiples of 1/16 need no rounding. Within the binary32 budget from profile "
          "practice on.",
          "limits-subPixelInterpolationOffsetBits", "16.5", "ref/value/accept/probe.hpp"},
-    Rule{"interp.at-sample", Profile::vulkan, "interpolateAtSample evaluates at that sample",
+    Rule{rule::interp_at_sample, Profile::vulkan, "interpolateAtSample evaluates at that sample",
          "At the location of the given sample, whatever the qualifier of the input; at the centre "
          "with one sample a pixel. Within the binary32 budget from profile practice on.",
          "shaders-interpolation-decorations", "16.5", "ref/value/accept/probe.hpp"},
-    Rule{"interp.at-centroid", Profile::vulkan,
+    Rule{rule::interp_at_centroid, Profile::vulkan,
          "interpolateAtCentroid evaluates where a centroid input is",
          "A point of the pixel and of the primitive; at the centre with one sample a pixel. Within "
          "the binary32 budget from profile practice on.",
          "shaders-interpolation-decorations", "16.5", "ref/value/places.hpp"},
-    Rule{"derivative.fine", Profile::vulkan,
+    Rule{rule::derivative_fine, Profile::vulkan,
          "A fine derivative is the difference inside the pixel's own row or column",
          "P(x+1) - P(x) or P(x) - P(x-1), as the pixel lies in its quad, which may begin at any "
          "pixel; one quad explains all derivatives of a fragment. Within the binary32 budgets of "
          "both values from profile practice on.",
          "shaders-derivative-operations", "22.5", "ref/value/accept/probe.hpp"},
-    Rule{"derivative.coarse", Profile::vulkan,
+    Rule{rule::derivative_coarse, Profile::vulkan,
          "A coarse derivative is a difference inside the pixel's quad",
          "Any row (dFdx) or column (dFdy) of the quad; within the binary32 budgets of both values "
          "from profile practice on.",
          "shaders-derivative-operations", "22.5", "ref/value/accept/probe.hpp"},
-    Rule{"derivative.plain", Profile::vulkan,
+    Rule{rule::derivative_plain, Profile::vulkan,
          "dFdx and dFdy are both coarse or both fine derivatives",
          "Which of the two is free, but it \"must\" be chosen consistently between x and y. Within "
          "the binary32 budgets of both values from profile practice on.",
          "shaders-derivative-operations", "22.5", "ref/value/accept/probe.hpp"},
-    Rule{"lod.query", Profile::vulkan, "A level of detail follows from the quad's differences",
+    Rule{rule::lod_query, Profile::vulkan, "A level of detail follows from the quad's differences",
          "log2 rho with max(m) <= rho <= sqrt(2) sum(m), to mipmapPrecisionBits bits, of the "
          "differences of any row and column of the quad; those within the binary32 budget from "
          "profile practice on.",
          "textures-lod-and-scale-factor", "7.18", "ref/value/accept/probe.hpp"},
-    Rule{"stencil.count", Profile::vulkan, "The stencil counts as the fragments do",
+    Rule{rule::stencil_count, Profile::vulkan, "The stencil counts as the fragments do",
          "Where stencil and depth test pass, front faces add one and back faces subtract one, "
          "modulo 256: (front - back) mod 256 of the hit counter, and 0 where nothing hit.",
          "fragops-stencil", "17.12", "diff/resolve.hpp"},
-    Rule{"resolve.select", Profile::vulkan, "Resolving by selection takes a sample as it is",
+    Rule{rule::resolve_select, Profile::vulkan, "Resolving by selection takes a sample as it is",
          "SAMPLE_ZERO, MIN and MAX leave one of the pixel's samples, bit for bit.",
          "renderpass-resolve-operations", "", "diff/resolve.hpp"},
-    Rule{"resolve.average", Profile::vulkan, "Resolving by average stays among the samples",
+    Rule{rule::resolve_average, Profile::vulkan, "Resolving by average stays among the samples",
          "Between the least and the greatest sample of the pixel; from profile practice on the "
          "mean, within one step of the format.",
          "renderpass-resolve-operations", "", "diff/resolve.hpp"},
-    Rule{"barycentric.value", Profile::vulkan, "Barycentric built-ins interpolate the unit vectors",
+    Rule{rule::barycentric_value, Profile::vulkan,
+         "Barycentric built-ins interpolate the unit vectors",
          "With perspective or, BaryCoordNoPersp, linearly; within the binary32 budget from profile "
          "practice on.",
          "primsrast-barycentric", "", "ref/value/value.hpp"},
-    Rule{"barycentric.order", Profile::vulkan, "Barycentric vertex order follows the topology",
+    Rule{rule::barycentric_order, Profile::vulkan, "Barycentric vertex order follows the topology",
          "The triangle's vertices turned so that the provoking vertex is the first (or the last, "
          "with the last vertex convention), as the tables for lists, strips and fans say.",
          "primsrast-barycentric", "", "ref/value/fragment/quantities.cpp"},
-    Rule{
-        "blit.nearest", Profile::vulkan, "A blit copies the texel whose area holds u",
-        "u = (i + 1/2 - d0) (s1 - s0) / (d1 - d0) + s0, likewise v. At 1:1, mirrored and scaled up "
-        "by a whole number exactly one texel qualifies; where u is on a border within the derived "
-        "error of the coordinate, either side. Same format: bit for bit from practice on; else "
-        "either neighbouring code.",
-        "copies-imagescaling", "", "ref/blit/blit.hpp"},
-    Rule{"blit.linear", Profile::vulkan, "A filtered blit weighs the four nearest texels",
+    Rule{rule::blit_nearest, Profile::vulkan, "A blit copies the texel whose area holds u",
+         "u = (i + 1/2 - d0) (s1 - s0) / (d1 - d0) + s0, likewise v. At 1:1, mirrored and scaled "
+         "up by a whole number exactly one texel qualifies; where u is on a border within the "
+         "derived error of the coordinate, either side. Same format: bit for bit from practice on; "
+         "else either neighbouring code.",
+         "copies-imagescaling", "", "ref/blit/blit.hpp"},
+    Rule{rule::blit_linear, Profile::vulkan, "A filtered blit weighs the four nearest texels",
          "Weights of the fractions of u - 1/2 and v - 1/2 within 1/16, a step of the 4 "
          "subTexelPrecisionBits that every device has (a device that has more is not held to "
          "them); the edge clamped at the image or at the region, the filter at the source's "
-         "precision or "
-         "better.",
+         "precision or better.",
          "copies-imagescaling", "", "ref/blit/blit.hpp"},
-    Rule{"blit.outside", Profile::vulkan, "A blit leaves everything outside its region alone",
+    Rule{rule::blit_outside, Profile::vulkan, "A blit leaves everything outside its region alone",
          "Texels outside the destination region keep their bits.", "copies-imagescaling", "",
          "ref/blit/blit.hpp"},
 };

@@ -241,22 +241,12 @@ std::vector<std::pair<std::string, std::string>> recorded_environment() {
 
 report::Device to_report(const vk_harness::DeviceInfo& device) {
     report::Device d;
-    d.name = device.name;
-    d.driver_name = device.driver_name;
-    d.driver_info = device.driver_info;
-    d.uuid = device.uuid;
+    cases::copy_like_fields(device, d);
     d.type = device.device_type;
     // VK_API_VERSION_*: variant 31..29, major 28..22, minor 21..12, patch 11..0
     d.api_version = std::to_string((device.api_version >> 22) & 0x7fU) + "." +
                     std::to_string((device.api_version >> 12) & 0x3ffU) + "." +
                     std::to_string(device.api_version & 0xfffU);
-    d.vendor_id = device.vendor_id;
-    d.device_id = device.device_id;
-    d.driver_version = device.driver_version;
-    d.driver_id = device.driver_id;
-    d.subpixel_bits = device.subpixel_bits;
-    d.viewport_subpixel_bits = device.viewport_subpixel_bits;
-    d.has_primitive_id = device.has_primitive_id;
     return d;
 }
 

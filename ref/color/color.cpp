@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "cases/model/rule_ids.hpp"
+
 namespace ref {
 
 namespace {
@@ -23,17 +25,17 @@ color::Source point_source(const glm::vec4& value) {
 std::string_view store_rule(cases::ComponentKind kind) {
     switch (kind) {
         case cases::ComponentKind::unorm:
-            return "store.unorm";
+            return cases::rule::store_unorm;
         case cases::ComponentKind::srgb:
-            return "store.srgb";
+            return cases::rule::store_srgb;
         case cases::ComponentKind::half:
-            return "store.half";
+            return cases::rule::store_half;
         case cases::ComponentKind::binary32:
-            return "store.float";
+            return cases::rule::store_float;
         case cases::ComponentKind::uint:
             break;
     }
-    return "store.integer";
+    return cases::rule::store_integer;
 }
 
 }  // namespace
@@ -218,9 +220,9 @@ std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmaske
                                     [&](uint32_t t) { return output_of(t).blend.has_value(); });
     const bool masks = std::any_of(sequence.begin(), sequence.end(),
                                    [&](uint32_t t) { return output_of(t).write_mask != 0xf; });
-    return std::string(masks && is_as_unmasked ? "blend.write-mask"
-                       : blends                ? "blend.equation"
-                       : masks                 ? "blend.write-mask"
+    return std::string(masks && is_as_unmasked ? cases::rule::blend_write_mask
+                       : blends                ? cases::rule::blend_equation
+                       : masks                 ? cases::rule::blend_write_mask
                                : store_rule(cases::component_of(unit_.format, 0).kind));
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cases/model/rule_ids.hpp"
 #include "ref/position/clip.hpp"
 
 namespace ref {
@@ -22,63 +23,66 @@ struct Row {
 
 // In the order of ReasonKind.
 constexpr std::array kRows = {
-    Row{ReasonKind::top_left_in, "tie.top-left", "tie.top-left",
+    Row{ReasonKind::top_left_in, cases::rule::tie_top_left, cases::rule::tie_top_left,
         "{ties}: covered under the top-left rule"},
-    Row{ReasonKind::passes_cull_distance, "cull.distance", "snap.nearest",
+    Row{ReasonKind::passes_cull_distance, cases::rule::cull_distance, cases::rule::snap_nearest,
         "{inside}, and no cull distance is negative at all vertices"},
-    Row{ReasonKind::passes_clip_distance, "clip.distance", "snap.nearest",
+    Row{ReasonKind::passes_clip_distance, cases::rule::clip_distance, cases::rule::snap_nearest,
         "{inside}, and no clip distance is negative"},
-    Row{ReasonKind::inside, "cover.inside", "snap.nearest", "{inside}"},
-    Row{ReasonKind::other_layer, "layer.select", "layer.select", "the draw goes to layer {layer}"},
-    Row{ReasonKind::masked, "sample.mask", "sample.mask",
+    Row{ReasonKind::inside, cases::rule::cover_inside, cases::rule::snap_nearest, "{inside}"},
+    Row{ReasonKind::other_layer, cases::rule::layer_select, cases::rule::layer_select,
+        "the draw goes to layer {layer}"},
+    Row{ReasonKind::masked, cases::rule::sample_mask, cases::rule::sample_mask,
         "the sample mask {mask:#x} of the draw leaves sample {sample} out"},
-    Row{ReasonKind::scissor, "scissor.half-open", "scissor.half-open",
+    Row{ReasonKind::scissor, cases::rule::scissor_half_open, cases::rule::scissor_half_open,
         "the sample lies outside the scissor rectangle, {scissor}"},
-    Row{ReasonKind::viewport, "clip.viewport", "clip.viewport",
+    Row{ReasonKind::viewport, cases::rule::clip_viewport, cases::rule::clip_viewport,
         "the sample lies outside the viewport, {viewport}"},
-    Row{ReasonKind::discarded, "discard.rasterizer", "discard.rasterizer",
+    Row{ReasonKind::discarded, cases::rule::discard_rasterizer, cases::rule::discard_rasterizer,
         "the draw has rasterizer discard"},
-    Row{ReasonKind::outside, "cover.outside", "snap.nearest", "{edge}: outside that edge"},
-    Row{ReasonKind::outside_hull, "cover.outside", "snap.nearest",
+    Row{ReasonKind::outside, cases::rule::cover_outside, cases::rule::snap_nearest,
+        "{edge}: outside that edge"},
+    Row{ReasonKind::outside_hull, cases::rule::cover_outside, cases::rule::snap_nearest,
         "outside all that the vertices can span, wherever they are snapped"},
-    Row{ReasonKind::no_area, "cover.degenerate", "cover.degenerate",
+    Row{ReasonKind::no_area, cases::rule::cover_degenerate, cases::rule::cover_degenerate,
         "the triangle has no area after snapping"},
-    Row{ReasonKind::top_left_out, "tie.top-left", "tie.top-left",
+    Row{ReasonKind::top_left_out, cases::rule::tie_top_left, cases::rule::tie_top_left,
         "{ties}: not covered under the top-left rule"},
-    Row{ReasonKind::culled, "face.cull", "face.cull", "the triangle is culled: it faces {facing}"},
-    Row{ReasonKind::cull_distance, "cull.distance", "cull.distance",
+    Row{ReasonKind::culled, cases::rule::face_cull, cases::rule::face_cull,
+        "the triangle is culled: it faces {facing}"},
+    Row{ReasonKind::cull_distance, cases::rule::cull_distance, cases::rule::cull_distance,
         "cull distance {number} is negative at all three vertices"},
-    Row{ReasonKind::clip_distance, "clip.distance", "clip.distance",
+    Row{ReasonKind::clip_distance, cases::rule::clip_distance, cases::rule::clip_distance,
         "clip distance {number} is negative at the sample"},
-    Row{ReasonKind::clip_plane, "clip.volume", "clip.volume",
+    Row{ReasonKind::clip_plane, cases::rule::clip_volume, cases::rule::clip_volume,
         "clipped away by the plane {plane} of the view volume"},
-    Row{ReasonKind::undefined, "number.undefined", "number.undefined",
+    Row{ReasonKind::undefined, cases::rule::number_undefined, cases::rule::number_undefined,
         "a vertex has a NaN, an infinity or a number beyond the guaranteed range: the triangle may "
         "cover any sample or none"},
-    Row{ReasonKind::unbounded, "number.undefined", "number.undefined",
+    Row{ReasonKind::unbounded, cases::rule::number_undefined, cases::rule::number_undefined,
         "a vertex lies behind the eye or beyond 2^32 pixels, and nothing bounds where the corners "
         "of the clipped polygon may lie"},
-    Row{ReasonKind::near_distance, "clip.distance", "clip.distance",
+    Row{ReasonKind::near_distance, cases::rule::clip_distance, cases::rule::clip_distance,
         "inside the triangle, but clip distance {number} is 0 within its error at the sample"},
-    Row{ReasonKind::open_facing, "face.area-sign", "face.area-sign",
+    Row{ReasonKind::open_facing, cases::rule::face_area_sign, cases::rule::face_area_sign,
         "which way the triangle faces depends on where its vertices are snapped ({boxes}), and one "
         "of its faces is culled"},
-    Row{ReasonKind::viewport_border, "clip.viewport", "clip.viewport",
+    Row{ReasonKind::viewport_border, cases::rule::clip_viewport, cases::rule::clip_viewport,
         "the sample lies within a pixel of a border of the viewport that is no whole number, "
         "{viewport}"},
-    Row{ReasonKind::on_edge, "tie.top-left", "tie.top-left",
+    Row{ReasonKind::on_edge, cases::rule::tie_top_left, cases::rule::tie_top_left,
         "{ties}: whether it is covered only the top-left rule of profile direct3d says"},
-    Row{ReasonKind::vertex_boxes, "cover.inside", "snap.nearest",
+    Row{ReasonKind::vertex_boxes, cases::rule::cover_inside, cases::rule::snap_nearest,
         "inside for some positions of the vertices only: {boxes}"},
-    Row{ReasonKind::complement, "clip.complement", "clip.complement",
+    Row{ReasonKind::complement, cases::rule::clip_complement, cases::rule::clip_complement,
         "{number} of {triangles} covers the sample: a clip distance and its negative are 0 here "
         "within their error"},
-    Row{ReasonKind::clipped_edge, "cover.clipped-edge", "snap.nearest",
+    Row{ReasonKind::clipped_edge, cases::rule::cover_clipped_edge, cases::rule::snap_nearest,
         "{number} of {triangles} covers the sample: they meet here along edges they share, "
         "clipped"},
-    Row{ReasonKind::shared_vertex, "cover.shared-vertex", "snap.nearest",
+    Row{ReasonKind::shared_vertex, cases::rule::cover_shared_vertex, cases::rule::snap_nearest,
         "{number} of {triangles} covers the sample: they meet here in a vertex they share"},
-    Row{ReasonKind::shared_edge, "cover.shared-edge", "snap.nearest",
+    Row{ReasonKind::shared_edge, cases::rule::cover_shared_edge, cases::rule::snap_nearest,
         "{number} of {triangles} covers the sample: they meet here along edges they share with "
         "identical end points"},
 };

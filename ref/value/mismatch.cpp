@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cases/model/rule_ids.hpp"
 #include "ref/value/describe.hpp"
 #include "ref/value/reference.hpp"
 
@@ -33,12 +34,13 @@ std::string_view depth_rule(const value::Primitive& primitive, double z) {
     const auto near = static_cast<double>(v.min_depth);
     const auto far = static_cast<double>(v.max_depth);
     if (depth.clamp && (z < std::min(near, far) || z > std::max(near, far))) {
-        return "depth.clamp";
+        return cases::rule::depth_clamp;
     }
     if (depth.bias) {
-        return "depth.bias";
+        return cases::rule::depth_bias;
     }
-    return primitive.depth_format == cases::DepthFormat::d32_float ? "depth.linear" : "depth.store";
+    return primitive.depth_format == cases::DepthFormat::d32_float ? cases::rule::depth_linear
+                                                                   : cases::rule::depth_store;
 }
 
 }  // namespace
@@ -72,12 +74,13 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
     }
     ValueMismatch m;
     m.quantity = q.id;
-    m.rule = "interp.flat";
+    m.rule = cases::rule::interp_flat;
     m.level = Profile::vulkan;
     for (const uint32_t v : primitive.triangle.vertex) {
         if (v != primitive.triangle.provoking && bits(values[v][component]) == bits(got)) {
-            m.rule = primitive.draw->provoking == cases::ProvokingVertex::first ? "provoking.first"
-                                                                                : "provoking.last";
+            m.rule = primitive.draw->provoking == cases::ProvokingVertex::first
+                         ? cases::rule::provoking_first
+                         : cases::rule::provoking_last;
         }
     }
     m.expected =
@@ -166,9 +169,9 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
             out.mismatches.push_back(std::move(m));
             continue;
         }
-        if (q.rule == "barycentric.value" &&
+        if (q.rule == cases::rule::barycentric_value &&
             value::is_other_vertex(basis, q, all, place, profile, static_cast<double>(got))) {
-            m.rule = "barycentric.order";
+            m.rule = cases::rule::barycentric_order;
         }
         if (basis.orientation != 0) {
             const auto v = value::exact_value(basis, q, place, profile);
@@ -195,9 +198,9 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
         const bool is_moved =
             (q.id.is_depth() || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
-        if (q.rule != "barycentric.value" &&
+        if (q.rule != cases::rule::barycentric_value &&
             (!std::isfinite(got) || (!is_moved && (g < low || g > high)))) {
-            m.rule = "interp.hull";
+            m.rule = cases::rule::interp_hull;
         }
         out.mismatches.push_back(std::move(m));
     }

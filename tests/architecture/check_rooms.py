@@ -134,7 +134,7 @@ FIELDS = re.compile(r"static void fields\(auto&& \w+, auto&\.\.\. \w+\) \{(.*?)\
 STRUCT = re.compile(r"^(?:struct|class) (\w+)", re.M)
 PLANES = "capture/capture.hpp"
 LEAST_FIELDS = 8  # smaller structures are used field by field everywhere
-MOST_SHARE = 0.75  # of the fields, within as many lines as a list of them would take
+MOST_SHARE = 0.9  # of the entries, within two lines an entry
 
 
 def lists_of(root, table):
@@ -143,22 +143,33 @@ def lists_of(root, table):
         for path in sources(root, room):
             text = path.read_text(errors="replace")
             for match in FIELDS.finditer(text):
-                names = re.findall(r'visit\("(\w+)"', match.group(1))
+                names = re.findall(r'visit\("(\w+)"|visit\(Field\("(\w+)"|visit\(\{"(\w+)"', match.group(1))
+                names = [a or b or c for a, b, c in names]
                 owners = STRUCT.findall(text[: match.start()])
                 if len(names) >= LEAST_FIELDS and owners:
-                    yield owners[-1], str(path.relative_to(root)), names
+                    yield f"the fields of {owners[-1]}", str(path.relative_to(root)), names
     if (root / PLANES).is_file():
         names = re.findall(r'\badd\("(\w+)"', (root / PLANES).read_text())
         if len(names) >= LEAST_FIELDS - 2:
             yield "the planes of a capture", PLANES, names
 
 
-def second_lists(root, table):
-    """Nothing but a list's owner names most of its entries, one after the other.
+def is_listed(line, names, is_plane):
+    """Which entries a line lists: a plane that is named, a field that is copied or sent under its own name."""
+    if line.lstrip().startswith("visit("):
+        return  # the list of another structure
+    for name in names:
+        if is_plane:
+            found = re.search(rf"(?:\.|->){name}\b(?!\()", line)
+        else:
+            member = rf"(?:\.|->){name}\b(?!\()"
+            found = re.search(rf'{member} = .*{member}|"{name}", [^"]*{member}', line)
+        if found:
+            yield name
 
-    Loaders and what uses a structure's fields one by one spread them over functions; a copy of the list has them
-    close together. So the names are looked for in windows of three lines an entry, as members or in quotes.
-    """
+
+def second_lists(root, table):
+    """Nothing but a list's owner has most of its entries, one after the other."""
     texts = {
         path.relative_to(root): code_of(path)
         for room in table.rooms
@@ -166,14 +177,13 @@ def second_lists(root, table):
         if path.suffix != ".js"
     }
     for what, owner, names in lists_of(root, table):
-        word = re.compile(r'(?:\.|->|")(' + "|".join(names) + r")\b(?!\()")
-        reach = 3 * len(names)
+        is_plane = owner == PLANES
         for path, lines in texts.items():
-            if str(path) == owner or str(path.parent) == "cases/load":
+            if str(path) == owner:
                 continue
-            hits = [(n, m) for n, line in enumerate(lines, 1) for m in word.findall(line.split("//")[0])]
+            hits = [(n, m) for n, line in enumerate(lines, 1) for m in is_listed(line.split("//")[0], names, is_plane)]
             for k, (begin, _) in enumerate(hits):
-                seen = {m for n, m in hits[k:] if n < begin + reach}
+                seen = {m for n, m in hits[k:] if n < begin + 2 * len(names)}
                 if len(seen) >= MOST_SHARE * len(names):
                     yield f"{path}:{begin}: error: this lists {what} a second time; walk the list of {owner}"
                     break
@@ -217,6 +227,17 @@ PLANTED = {
             + "}\n",
         ),
         ["lists the planes of a capture a second time"],
+    ),
+    "a second list of fields": (
+        lambda root: plant(
+            root,
+            "run/judge.cpp",
+            "void copy(A& a, const A& b) {\n"
+            + "".join(f"    a.{n} = b.{n};\n" for _, owner, names in lists_of(root, Table(root))
+                      if owner == "cases/model/case.hpp" and "topology" in names for n in names)
+            + "}\n",
+        ),
+        ["lists the fields of Draw a second time"],
     ),
     "a folder that two rows claim": (
         lambda root: plant(root, "docs/design.md", "| `diff/` | twice | `verdict.hpp` | `ref` |\n"),

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cases/model/rule_ids.hpp"
 #include "ref/number/fixed_point.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
@@ -89,15 +90,15 @@ bool set_sample_source(cases::Source source, Quantity& q) {
     switch (source) {
         case cases::Source::sample_mask_in:
             q.kind = Kind::sample_mask;
-            q.rule = "sample.mask-in";
+            q.rule = cases::rule::sample_mask_in;
             return true;
         case cases::Source::sample_id:
             q.kind = Kind::sample_id;
-            q.rule = "sample.id";
+            q.rule = cases::rule::sample_id;
             return true;
         case cases::Source::sample_position:
             q.kind = Kind::sample_position;
-            q.rule = "sample.id";
+            q.rule = cases::rule::sample_id;
             return true;
         case cases::Source::vertex:
         case cases::Source::barycentric:
@@ -116,31 +117,31 @@ void set_probe(const cases::Attribute& attribute, bool multisampled, Quantity& q
         case cases::Probe::at_centroid:
             q.at_sample = false;
             q.at_centroid = multisampled;
-            q.rule = "interp.at-centroid";
+            q.rule = cases::rule::interp_at_centroid;
             return;
         case cases::Probe::at_sample:
-            q.rule = "interp.at-sample";
+            q.rule = cases::rule::interp_at_sample;
             break;
         case cases::Probe::at_offset:
-            q.rule = "interp.at-offset";
+            q.rule = cases::rule::interp_at_offset;
             break;
         case cases::Probe::dx:
         case cases::Probe::dy:
         case cases::Probe::width:
-            q.rule = "derivative.plain";
+            q.rule = cases::rule::derivative_plain;
             break;
         case cases::Probe::dx_fine:
         case cases::Probe::dy_fine:
         case cases::Probe::width_fine:
-            q.rule = "derivative.fine";
+            q.rule = cases::rule::derivative_fine;
             break;
         case cases::Probe::dx_coarse:
         case cases::Probe::dy_coarse:
         case cases::Probe::width_coarse:
-            q.rule = "derivative.coarse";
+            q.rule = cases::rule::derivative_coarse;
             break;
         case cases::Probe::lod:
-            q.rule = "lod.query";
+            q.rule = cases::rule::lod_query;
             break;
     }
     q.is_perspective = q.kind == Kind::perspective;
@@ -152,13 +153,17 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
     // With one sample in the centre the sample is where everything is evaluated.
     const bool multisampled = target.samples > 1 || !target.sample_locations.empty();
     const bool is_shaded = shading_rate(draw, target.samples) != ShadingRate::fragment;
-    const std::string_view xy = is_shaded ? "fragcoord.sample" : "fragcoord.xy";
+    const std::string_view xy =
+        is_shaded ? cases::rule::fragcoord_sample : cases::rule::fragcoord_xy;
     std::vector<Quantity> all;
     all.push_back({Kind::pixel_centre, false, 0, QuantityId::of_frag_coord(0), xy});
     all.push_back({Kind::pixel_centre, false, 0, QuantityId::of_frag_coord(1), xy});
-    all.push_back({Kind::linear, false, kPlaneDepth, QuantityId::of_frag_coord(2), "depth.linear"});
-    all.push_back({Kind::linear, false, kPlaneInvW, QuantityId::of_frag_coord(3), "fragcoord.w"});
-    all.push_back({Kind::linear, multisampled, kPlaneDepth, QuantityId{}, "depth.linear"});
+    all.push_back({Kind::linear, false, kPlaneDepth, QuantityId::of_frag_coord(2),
+                   cases::rule::depth_linear});
+    all.push_back(
+        {Kind::linear, false, kPlaneInvW, QuantityId::of_frag_coord(3), cases::rule::fragcoord_w});
+    all.push_back(
+        {Kind::linear, multisampled, kPlaneDepth, QuantityId{}, cases::rule::depth_linear});
     uint32_t plane = kPlaneDepth + 1;
     for (size_t a = 0; a < draw.attributes.size(); ++a) {
         const cases::Attribute& attribute = draw.attributes[a];
@@ -172,29 +177,31 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
             switch (attribute.interpolation) {
                 case cases::Interpolation::smooth:
                     q.kind = Kind::perspective;
-                    q.rule = "interp.perspective";
+                    q.rule = cases::rule::interp_perspective;
                     q.plane = plane++;
                     break;
                 case cases::Interpolation::noperspective:
                     q.kind = Kind::linear;
-                    q.rule = "interp.linear";
+                    q.rule = cases::rule::interp_linear;
                     q.plane = plane++;
                     break;
                 case cases::Interpolation::flat:
                     q.kind = Kind::flat;
-                    q.rule = "interp.flat";
+                    q.rule = cases::rule::interp_flat;
                     break;
             }
             if (multisampled && q.kind != Kind::flat) {
                 q.at_sample = attribute.auxiliary == cases::Auxiliary::sample;
                 q.at_centroid = attribute.auxiliary == cases::Auxiliary::centroid;
-                q.rule = q.at_sample ? "interp.sample" : q.at_centroid ? "interp.centroid" : q.rule;
+                q.rule = q.at_sample     ? cases::rule::interp_sample
+                         : q.at_centroid ? cases::rule::interp_centroid
+                                         : q.rule;
             }
             if (q.kind != Kind::flat) {
                 set_probe(attribute, multisampled, q);
             }
             if (attribute.source == cases::Source::barycentric) {
-                q.rule = "barycentric.value";
+                q.rule = cases::rule::barycentric_value;
             }
             all.push_back(q);
         }
