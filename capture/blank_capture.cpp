@@ -15,9 +15,7 @@ Capture blank_capture(const cases::Case& c) {
     out.hits.assign(count, {0, 0, kHitGuard, kHitGuard});
     out.writers.assign(count, Writer{});
     out.frag_coord.assign(count, glm::vec4(kClearValue));
-    const bool is_float = c.target.depth_format == cases::DepthFormat::d32_float;
-    out.depth.assign(count, is_float ? c.target.depth_clear
-                                     : nearest_depth(c.target.depth_clear, c.target.depth_format));
+    out.depth.assign(count, nearest_depth(c.target.depth_clear, c.target.depth_format));
     for (uint32_t a = 0; a < out.attribute_count; ++a) {
         out.attributes.at(a).assign(count, glm::vec4(kClearValue));
     }

@@ -38,33 +38,6 @@ inline constexpr float kOtherClearDepth = 0.625F;
 inline constexpr uint32_t kOtherClearId = 0xffffffedU;
 inline constexpr float kOtherHitGuard = 2 * kHitGuard;
 
-// UNORM depth in a capture is the binary32 nearest to code / (2^n - 1). Below 2^24 these are all
-// different, and code = depth * (2^n - 1) rounded to nearest: the error of the quotient is at most
-// 2^-25, which times 2^24 - 1 is less than a half.
-constexpr double depth_steps(cases::DepthFormat format) {
-    return format == cases::DepthFormat::d24_unorm   ? 16777215.0
-           : format == cases::DepthFormat::d16_unorm ? 65535.0
-                                                     : 0.0;
-}
-inline float depth_of_code(uint32_t code, cases::DepthFormat format) {
-    return static_cast<float>(code / depth_steps(format));
-}
-// The depth of the format that is nearest to z in [0, 1].
-inline float nearest_depth(float z, cases::DepthFormat format) {
-    return depth_of_code(static_cast<uint32_t>(static_cast<double>(z) * depth_steps(format) + 0.5),
-                         format);
-}
-// A depth that a shader read: converting a code to binary32 is off by a few parts in 2^24, far less
-// than half a step of D16. Anything that is no code stays what it is.
-inline float nearest_depth_code(float read, cases::DepthFormat format) {
-    const double scaled = static_cast<double>(read) * depth_steps(format);
-    if (!(scaled >= 0 && scaled <= depth_steps(format))) {
-        return read;
-    }
-    const auto code = static_cast<uint32_t>(scaled + 0.5);
-    return std::abs(scaled - code) < 0.25 ? depth_of_code(code, format) : read;
-}
-
 // The last fragment's origin.
 struct Writer {
     uint32_t draw = kClearId;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Some planes of a case, as another program delivered them.
+// The planes of a case that another program delivered, which need not be all.
 #pragma once
 
 #include <array>

@@ -32,7 +32,7 @@ class Attribution {
     // sample where the device counted `front` and `back` hits.
     void attribute_hits(Finding& finding, uint32_t front, uint32_t back);
 
-    // As attribute_hits, level alone: cheap enough for every wrong sample of a broken device.
+    // Fills the level alone, which is cheap enough for every wrong sample of a broken device.
     void level_hits(Finding& finding, uint32_t front, uint32_t back);
 
     // Finds the loosest profile at which no triangle for which `wrote` holds may have written a
@@ -42,13 +42,13 @@ class Attribution {
     void attribute_writer(Finding& finding,
                           const std::function<bool(const cases::Triangle&)>& wrote);
 
-    // The expectation of the case at a profile not stricter than the asked one.
+    // The expectation of the case at a profile that is not stricter than the asked one.
     const ref::Expectation& at(cases::Profile profile);
 
   private:
     size_t index_of(const Finding& finding) const;
     ref::Explainer& explainer(cases::Profile level);
-    // Rule and why, from the story of the sample.
+    // Fills rule and why from the story of the sample.
     void explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total);
 
     // Explaining a sample costs as much as judging thousands, and more with each triangle of the
@@ -68,7 +68,7 @@ class Attribution {
     std::map<cases::Profile, Finding> like_writer_;  // wrong writers, by level
 };
 
-// "1", "0 or 1", "1 to 3"; with facing when both faces play a part: "1 front, 0 back".
+// Writes "1", "0 or 1" or "1 to 3", and "1 front, 0 back" if both faces play a part.
 std::string to_text(const ref::HitBounds& bounds);
 
 }  // namespace diff

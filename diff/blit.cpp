@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "ref/blit/blit.hpp"
 
 namespace diff {
@@ -24,8 +24,7 @@ std::string show(const TexelCodes& codes, cases::ColorFormat format) {
         if (component.bits == 0) {
             continue;
         }
-        const bool is_float = component.kind == cases::ComponentKind::half ||
-                              component.kind == cases::ComponentKind::binary32;
+        const bool is_float = is_floating(component.kind);
         text += text.empty() ? "codes (" : ", ";
         text += is_float ? fmt::format("{:#x}", codes[k]) : fmt::format("{}", codes[k]);
     }

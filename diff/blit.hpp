@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A blitted image against the reference, texel by texel.
+// Compares a blitted image with the reference, texel by texel.
 #pragma once
 
 #include "diff/verdict.hpp"

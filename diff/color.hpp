@@ -32,7 +32,7 @@ class ColorComparison {
     std::optional<Finding> judge(size_t index, cases::SampleId id, std::optional<uint32_t> writer);
 
     // How often a sample was hit, as far as its colour tells: 0 if it holds what it was cleared to.
-    // For pictures of targets without instruments.
+    // Pictures of targets without instruments show it.
     uint8_t hits_for_pictures(size_t index);
 
   private:

@@ -289,9 +289,7 @@ void join(Verdict& to, const Verdict& from) {
 capture::Delivered cleared(const cases::Case& c, const capture::Delivered& planes) {
     capture::Delivered out = planes;
     std::fill(out.depth.begin(), out.depth.end(),
-              c.target.depth_format == cases::DepthFormat::d32_float
-                  ? c.target.depth_clear
-                  : capture::nearest_depth(c.target.depth_clear, c.target.depth_format));
+              cases::nearest_depth(c.target.depth_clear, c.target.depth_format));
     std::fill(out.frag_coord.begin(), out.frag_coord.end(), glm::vec4(capture::kClearValue));
     for (auto& attribute : out.attributes) {
         std::fill(attribute.begin(), attribute.end(), glm::vec4(capture::kClearValue));

@@ -18,10 +18,10 @@ namespace diff {
 // Whether any draw has something to agree on.
 bool has_pixel_rules(const cases::Case& c);
 
-// Findings of a pixel (of a layer) that no sample shows alone; each names the sample that shows it
-// first. Source: Vulkan specification, "Sample Shading" (at least ceil(minSampleShading x samples)
-// invocations a fragment; FragCoord.xy is a sample of its invocation) and "Built-In Variables"
-// (SampleMask: each covered sample is set in exactly one invocation).
+// Finds what is wrong with a pixel though no sample shows it alone; a finding names the sample that
+// shows it first. Source: Vulkan specification, "Sample Shading" (at least ceil(minSampleShading x
+// samples) invocations a fragment; FragCoord.xy is a sample of its invocation) and "Built-In
+// Variables" (SampleMask: each covered sample is set in exactly one invocation).
 std::vector<Finding> check_pixel(const cases::Case& c, const ref::Expectation& expectation,
                                  const capture::CaptureView& capture, cases::SampleId pixel);
 

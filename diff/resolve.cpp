@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 #include <optional>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
+#include "ref/color/component.hpp"
 
 namespace diff {
 
@@ -19,21 +19,15 @@ namespace {
 using cases::ComponentKind;
 using cases::Profile;
 using cases::Resolve;
+using ref::color::Component;
 
 constexpr double kHalfStep = 0x1p-10;  // of binary16, relative; 2^-24 below 2^-14
 constexpr double kHalfSmallest = 0x1p-24;
 constexpr double kFloatStep = 0x1p-23;
 
-// A stored code as a number: UNORM and integers by their code, halves and floats by their value.
-double number_of(ComponentKind kind, uint32_t code) {
-    switch (kind) {
-        case ComponentKind::half:
-            return glm::unpackHalf1x16(static_cast<uint16_t>(code));
-        case ComponentKind::binary32:
-            return std::bit_cast<float>(code);
-        default:
-            return code;
-    }
+// What samples are averaged as: UNORM and integers by their code, floating point by its value.
+double number_of(const Component& component, uint32_t code) {
+    return is_floating(component.kind()) ? component.number(code) : code;
 }
 
 struct Range {
@@ -56,7 +50,7 @@ Range range_of(const std::vector<double>& samples, ComponentKind kind, Profile p
         sum += sample;
     }
     const double mean = sum / n;
-    if (kind == ComponentKind::half || kind == ComponentKind::binary32) {
+    if (is_floating(kind)) {
         const double magnitude = std::max(std::abs(*least), std::abs(*greatest));
         const double storing =
             kind == ComponentKind::half ? std::max(magnitude * kHalfStep, kHalfSmallest) : 0;
@@ -135,16 +129,21 @@ capture::ColorCodes average_codes(std::span<const capture::ColorCodes> samples,
                                   cases::ColorFormat format) {
     capture::ColorCodes out{};
     for (uint32_t k = 0; k < out.size(); ++k) {
-        const ComponentKind kind = cases::component_of(format, k).kind;
+        const Component component(cases::component_of(format, k));
         double sum = 0;
         for (const capture::ColorCodes& sample : samples) {
-            sum += number_of(kind, sample.at(k));
+            sum += number_of(component, sample.at(k));
         }
         const double mean = sum / static_cast<double>(samples.size());
-        out.at(k) = kind == ComponentKind::half ? glm::packHalf1x16(static_cast<float>(mean))
-                    : kind == ComponentKind::binary32
-                        ? std::bit_cast<uint32_t>(static_cast<float>(mean))
-                        : static_cast<uint32_t>(mean + 0.5);
+        if (!std::isfinite(mean)) {  // no number: neither is the first sample that makes it so
+            const auto at = std::find_if(samples.begin(), samples.end(), [&](const auto& sample) {
+                return !std::isfinite(number_of(component, sample.at(k)));
+            });
+            out.at(k) = at->at(k);
+            continue;
+        }
+        out.at(k) = is_floating(component.kind()) ? component.code_of(mpq_class(mean))
+                                                  : static_cast<uint32_t>(mean + 0.5);
     }
     return out;
 }
@@ -197,7 +196,7 @@ class Judge {
             }
             const auto depths = capture_.depth.subspan(first, target_.samples);
             // UNORM depth is compared by codes: floats of codes are no multiples of each other.
-            const double steps = capture::depth_steps(target_.depth_format);
+            const double steps = cases::depth_steps(target_.depth_format);
             const auto scaled = [steps](float z) {
                 return steps > 0 ? std::round(static_cast<double>(z) * steps)
                                  : static_cast<double>(z);
@@ -215,16 +214,17 @@ class Judge {
     }
 
     void judge_color(size_t pixel, uint32_t component, uint32_t code) {
-        const auto [kind, bits] = cases::component_of(target_.color->format, component);
-        if (bits == 0) {
+        const Component stored(cases::component_of(target_.color->format, component));
+        if (!stored.exists()) {
             return;
         }
         std::vector<double> samples;
         for (const capture::ColorCodes& codes :
              capture_.color.subspan(pixel * target_.samples, target_.samples)) {
-            samples.push_back(number_of(kind, codes.at(component)));
+            samples.push_back(number_of(stored, codes.at(component)));
         }
-        report(judge_number(samples, number_of(kind, code), target_.color_resolve, kind, profile_),
+        report(judge_number(samples, number_of(stored, code), target_.color_resolve, stored.kind(),
+                            profile_),
                pixel, fmt::format("resolved color.{}", "rgba"[component]));
     }
 
@@ -312,10 +312,10 @@ void add_dependent_planes(capture::Capture& capture) {
             sum += sample;
         }
         const double mean = sum / target.samples;
-        const double steps = capture::depth_steps(target.depth_format);
+        const double steps = cases::depth_steps(target.depth_format);
         const auto average = steps > 0
-                                 ? capture::depth_of_code(static_cast<uint32_t>(mean * steps + 0.5),
-                                                          target.depth_format)
+                                 ? cases::depth_of_code(static_cast<uint32_t>(mean * steps + 0.5),
+                                                        target.depth_format)
                                  : static_cast<float>(mean);
         capture.resolved_depth[pixel] =
             target.depth_resolve == Resolve::average

@@ -3,13 +3,12 @@
 #include "run/picture.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 #include <optional>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "ref/blit/blit.hpp"
+#include "ref/color/component.hpp"
 #include "ref/number/fixed_point.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/position/position.hpp"
@@ -37,21 +36,12 @@ uint32_t window_begin(uint32_t lo, uint32_t hi, uint32_t size) {
 
 // What a screen shows of a stored component: [0, 1] as 0..255, whole numbers up to 255 as they are.
 uint8_t shown(uint32_t code, cases::ComponentFormat format) {
-    double value = 0;
-    switch (format.kind) {
-        case cases::ComponentKind::unorm:
-        case cases::ComponentKind::srgb:
-            value = code / (std::exp2(format.bits) - 1);
-            break;
-        case cases::ComponentKind::half:
-            value = static_cast<double>(glm::unpackHalf1x16(static_cast<uint16_t>(code)));
-            break;
-        case cases::ComponentKind::binary32:
-            value = static_cast<double>(std::bit_cast<float>(code));
-            break;
-        case cases::ComponentKind::uint:
-            return static_cast<uint8_t>(std::min(code, 255U));
+    if (format.kind == cases::ComponentKind::uint) {
+        return static_cast<uint8_t>(std::min(code, 255U));
     }
+    // A screen takes sRGB as it is stored.
+    const bool is_srgb = format.kind == cases::ComponentKind::srgb;
+    const double value = is_srgb ? code / 255.0 : ref::color::Component(format).number(code);
     return static_cast<uint8_t>(std::lround(255 * (value > 0 ? std::min(value, 1.0) : 0.0)));
 }
 

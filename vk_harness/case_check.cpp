@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "vk_harness/commands/blit.hpp"
 #include "vk_harness/commands/viewports.hpp"
 #include "vk_harness/device/format.hpp"
@@ -63,15 +63,14 @@ std::optional<Rejection> check_depth_format(const Capabilities& c, const cases::
     if (t.depth_format == cases::DepthFormat::d32_float) {
         return std::nullopt;
     }
-    const char* name =
-        t.depth_format == cases::DepthFormat::d24_unorm ? "X8_D24_UNORM_PACK32" : "D16_UNORM";
+    const std::string_view name = row_of(t.depth_format).vulkan_name;
     const VkSampleCountFlags counts = c.depth_sample_counts.at(static_cast<size_t>(t.depth_format));
     if (counts == 0) {
         return unsupported(fmt::format("the device cannot draw to and read back format {}", name));
     }
     if (t.samples > 1 && t.depth_format == cases::DepthFormat::d24_unorm) {
         // A shader reads binary32; the conversion may be off by a step of 2^-24.
-        return unsupported("single samples of X8_D24_UNORM_PACK32 cannot be read exactly");
+        return unsupported(fmt::format("single samples of {} cannot be read exactly", name));
     }
     if ((counts & t.samples) == 0) {
         return unsupported(fmt::format("the device does not draw {} samples a pixel with format {}",

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "vk_harness/case_check.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "capture/capture.hpp"
 #include "capture/exchange/plane_files.hpp"
-#include "cases/load/blit.hpp"
+#include "cases/model/blit_source.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 #include "cases/model/words.hpp"

@@ -14,7 +14,7 @@
 #include "capture/capture.hpp"
 #include "capture/exchange/plane_numbers.hpp"
 #include "cases/base/printable.hpp"
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
 #include "cases/model/selector.hpp"
@@ -261,9 +261,7 @@ class Reader {
         if (spec.name == "depth") {
             for (size_t k = 0; k < at_.count(); ++k) {
                 const auto z = static_cast<float>(from.at(at_.in_file(k), 0));
-                to.depth.push_back(case_.target.depth_format == cases::DepthFormat::d32_float
-                                       ? z
-                                       : nearest_depth_code(z, case_.target.depth_format));
+                to.depth.push_back(nearest_depth_code(z, case_.target.depth_format));
             }
             return {};
         }

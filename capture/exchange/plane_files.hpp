@@ -40,9 +40,9 @@ struct PlaneSpec {
 // The planes that a renderer may deliver of a case.
 std::vector<PlaneSpec> planes_of(const cases::Case& c);
 
-// The folder of a case below the folder of captures, and with ".json" its file in an export: the
-// id, ':' as '@', other characters than letters, digits and "._-+=,()^/" as %XX, '/' only in the
-// part before the matrix. Different ids have different folders.
+// The folder of a case below the folder of captures, and with ".json" its file in an export. It is
+// the id with '@' for ':' and %XX for characters but letters, digits and "._-+=,()^/"; '/' stays
+// only in the part before the matrix. Different ids have different folders.
 std::string folder_of(const std::string& id);
 
 // A word in the folder of a case that says why it was not drawn; its first line is the reason.
@@ -52,8 +52,8 @@ struct ReadPlanes {
     Delivered planes;         // empty: nothing was delivered
     std::string unsupported;  // the reason in kUnsupportedFile
 };
-// What lies in the folder. Errors, one sentence each: a file that is no plane of the case, two
-// files of a plane, another size, what its kind does not allow.
+// Reads what lies in the folder. Each of these is an error of one sentence: a file that is no plane
+// of the case, two files of a plane, another size, what its kind does not allow.
 cases::Expected<ReadPlanes> read_planes(const std::filesystem::path& folder, const cases::Case& c);
 
 }  // namespace capture

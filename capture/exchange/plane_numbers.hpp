@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The numbers of one plane file: raw ones (.u8, .u32, .f32, little endian, nothing else in the
-// file), or an image (.png, .tif, .exr) through the image module.
+// Reads the numbers of one plane file. It is raw (.u8, .u32, .f32, little endian, with nothing else
+// in it) or an image (.png, .tif, .exr), which the image module reads.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace capture {
 
 struct PlaneSpec;
 
-// Exact: every u32 and binary32 is a binary64.
+// The numbers are exact, because every u32 and binary32 is a binary64.
 struct PlaneNumbers {
     size_t channels = 0;
     std::vector<double> numbers;  // [entry * channels + channel], in the order of the file

@@ -18,12 +18,12 @@ struct Image {
     uint32_t width = 0, height = 0;
     std::vector<std::string> channels;  // names, in order
     std::vector<float> pixels;          // [(j * width + i) * channels + c]
-    // As the file has it; whole numbers stand in `pixels` divided by the largest one.
+    // The file's own format; whole numbers stand in `pixels` divided by the largest one.
     uint32_t bits = 32;
     bool is_float = true;
 };
-// Format by extension: .exr (binary32), .png (8 bits, values 0..1), .tif. Errors: module missing,
-// unknown format, unwritable path.
+// Writes the format that the extension names: .exr (binary32), .png (8 bits, values 0..1) or .tif.
+// It is an error if the module is missing, the format unknown or the path cannot be written.
 cases::Expected<void> write_image(const std::filesystem::path& file, const Image& image);
 // Reads such a file; floats keep their bits, but a NaN may lose its payload. Colours are not
 // multiplied by alpha.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// UTF-8 of untrusted bytes (The Unicode Standard, table 3-7: no overlong forms, no surrogates).
+// Reads UTF-8 of untrusted bytes (The Unicode Standard, table 3-7: no overlong forms, surrogates).
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct CodePoint {
     size_t length = 1;   // bytes
     bool valid = false;  // else value is the byte
 };
-// The code point at `at`; at < bytes.size().
+// The code point at `at`, which must be less than bytes.size().
 CodePoint code_point_at(std::string_view bytes, size_t at);
 
 bool is_utf8(std::string_view bytes);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Delaunay triangulation of lattice points in a rectangle, exact.
+// Makes exact Delaunay triangulations of lattice points in a rectangle.
 #pragma once
 
 #include <array>
@@ -30,11 +30,11 @@ class Triangulation {
   public:
     Triangulation(int64_t width, int64_t height);
 
-    // A point of the rectangle that is not yet there.
+    // Inserts a point of the rectangle that is not yet there.
     void insert(const LatticePoint& p);
 
     const std::vector<LatticePoint>& points() const { return points_; }
-    // Three a triangle, counter-clockwise on screen.
+    // Three indices a triangle, which is counter-clockwise on screen.
     std::vector<uint32_t> indices() const;
 
   private:

@@ -28,11 +28,11 @@ struct Generated {
 std::optional<Generated> generate(LeafContext& context, const TomlValue& table,
                                   const Target& target);
 
-// Uniform integers; the same on every machine.
+// Draws uniform integers, which are the same on every machine.
 class Random {
   public:
     explicit Random(uint64_t seed) : engine_(seed) {}
-    // In [low, high], high - low < 2^63; by rejection of the highest draws, so exactly uniform.
+    // One of [low, high]; high - low < 2^63. It rejects the highest draws, so it is uniform.
     int64_t between(int64_t low, int64_t high) {
         const uint64_t range = static_cast<uint64_t>(high) - static_cast<uint64_t>(low) + 1;
         const uint64_t limit = UINT64_MAX - UINT64_MAX % range;

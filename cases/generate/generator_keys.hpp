@@ -20,8 +20,8 @@ struct ExactPoint {
     mpq_class x, y;  // pixels
 };
 
-// Typed access to the keys of one generator. Missing keys take their default or are an error; after
-// any mistake good() is false.
+// Reads the keys of one generator by type. A key that is missing takes its default or is an error;
+// after any mistake good() is false.
 class GeneratorKeys {
   public:
     GeneratorKeys(LeafContext& context, const TomlValue& table, const Target& target)
@@ -44,12 +44,12 @@ class GeneratorKeys {
     // The denominator of positions; 0 if they are not rounded.
     int64_t grid() { return integer("grid", 0, 65536, 256); }
     uint64_t seed() { return static_cast<uint64_t>(integer("seed", 0, INT64_MAX, 1)); }
-    // The rectangle from..to; the whole target if not given. Empty ones are an error.
+    // The rectangle from..to, which is the whole target if not given. An empty one is an error.
     struct Rectangle {
         ExactPoint from, to;
     };
     Rectangle rectangle();
-    // w = [lo, hi] in multiples of 1/256; nothing if not given.
+    // What w = [lo, hi] says, in multiples of 1/256; nothing if it is not given.
     struct WRange {
         int64_t low = 256, high = 256;  // 1/256
     };
@@ -76,7 +76,7 @@ void draw_w(std::vector<ExactVertex>& vertices, const std::optional<GeneratorKey
 // Exchanges triangles at random and turns each to start at a random vertex.
 void shuffle_triangles(std::vector<uint32_t>& indices, Random& random);
 
-// The generators, by kind. Nothing after a mistake.
+// The generators, one a kind. They return nothing after a mistake.
 std::optional<Generated> generate_grid(GeneratorKeys& keys);
 std::optional<Generated> generate_fan(GeneratorKeys& keys);
 std::optional<Generated> generate_strip(GeneratorKeys& keys);

@@ -30,7 +30,7 @@ struct ExactVertex {
     const mpq_class& z() const { return xyzw[2].value; }
     const mpq_class& w() const { return xyzw[3].value; }
 };
-// z = 1/2, w = 1.
+// The vertex (x, y) with z = 1/2 and w = 1.
 ExactVertex exact_vertex(mpq_class x, mpq_class y);
 
 // The array `vertices` of a draw. Numbers in ndc and clip space must be binary32.
@@ -47,9 +47,9 @@ struct PixelPosition {
 std::optional<PixelPosition> pixel_position(const ExactVertex& vertex, Space space,
                                             const Viewport& viewport);
 
-// What reaches the device. pixels: x_c = ((x_f - o_x) / (p_x / 2)) * w, z_c = z * w with w rounded
-// first; ndc: x_c = x * w; each rounded once to nearest binary32. A conversion that rounds adds one
-// sentence that starts with `name` to `notes`. A result too large for binary32 is an error.
+// What reaches the device. In pixels x_c = ((x_f - o_x) / (p_x / 2)) * w, z_c = z * w with w
+// rounded first; in ndc x_c = x * w. Each is rounded once to nearest. A conversion that rounds adds
+// a sentence that starts with `name` to `notes`; a result too large for binary32 is an error.
 std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
                                               const std::vector<ExactVertex>& vertices, Space space,
                                               const Viewport& viewport, const SourceLocation& where,

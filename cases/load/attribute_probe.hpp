@@ -12,16 +12,16 @@
 
 namespace cases {
 
-// Of what every device has (Vulkan, "Required Limits": minInterpolationOffset -0.5,
-// maxInterpolationOffset 0.5 - 1 ULP, at 4 bits), and of a texture's side.
+// What every device has of offsets (Vulkan, "Required Limits": minInterpolationOffset -0.5,
+// maxInterpolationOffset 0.5 - 1 ULP, at 4 bits), and the largest side of a texture.
 inline constexpr float kMinProbeOffset = -0.5F, kMaxProbeOffset = 0.4375F;
 inline constexpr int64_t kMaxTextureSide = 4096;
 
-// Reads source, whose components it sets if they do not come from vertices. False after a mistake.
+// Reads `source`, and sets its components if they do not come from vertices; false on a mistake.
 bool read_source(LeafContext& context, const TomlValue& table, Attribute& attribute);
 
-// Reads the other keys; interpolation, source and values are there already. `samples`: of the
-// target. False after a mistake.
+// Reads the other keys; interpolation, source and values have been read before. `samples` is the
+// target's number of samples. Returns false after a mistake.
 bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
                 Attribute& attribute);
 

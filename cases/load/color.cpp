@@ -55,7 +55,8 @@ std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value
             return std::nullopt;
         }
         // binary32 holds whole numbers up to 2^24.
-        const float largest = format == ColorFormat::rgba8_uint ? 255.0F : 0x1p24F;
+        const uint32_t bits = component_of(format, 0).bits;
+        const float largest = bits < 24 ? static_cast<float>((1U << bits) - 1) : 0x1p24F;
         if (is_integer(format) &&
             (!(*number >= 0.0F) || *number > largest || std::floor(*number) < *number)) {
             context.error(where, fmt::format("{} is not a whole number from 0 to {}, as the format "
@@ -172,41 +173,6 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
 }
 
 }  // namespace
-
-std::string_view name_of(ColorFormat format) {
-    return word_of(format);
-}
-
-ComponentFormat component_of(ColorFormat format, uint32_t k) {
-    switch (format) {
-        case ColorFormat::rgba8_unorm:
-        case ColorFormat::bgra8_unorm:
-            return {ComponentKind::unorm, 8};
-        case ColorFormat::rgba8_srgb:  // alpha is linear
-            return {k == 3 ? ComponentKind::unorm : ComponentKind::srgb, 8};
-        case ColorFormat::rgb10a2_unorm:
-            return {ComponentKind::unorm, k == 3 ? 2U : 10U};
-        case ColorFormat::r5g6b5_unorm:
-            return {ComponentKind::unorm, k == 3 ? 0U : k == 1 ? 6U : 5U};
-        case ColorFormat::rgba16_unorm:
-            return {ComponentKind::unorm, 16};
-        case ColorFormat::rgba16_float:
-            return {ComponentKind::half, 16};
-        case ColorFormat::rgba32_float:
-            return {ComponentKind::binary32, 32};
-        case ColorFormat::r32_float:
-            return {ComponentKind::binary32, k == 0 ? 32U : 0U};
-        case ColorFormat::r32_uint:
-            return {ComponentKind::uint, k == 0 ? 32U : 0U};
-        case ColorFormat::rgba8_uint:
-            break;
-    }
-    return {ComponentKind::uint, 8};
-}
-
-bool is_integer(ColorFormat format) {
-    return component_of(format, 0).kind == ComponentKind::uint;
-}
 
 std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlValue& value) {
     if (!context.table(value, "color")) {

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "cases/load/blit.hpp"
 #include "cases/load/color.hpp"
+#include "cases/load/parts.hpp"
+#include "cases/model/blit_source.hpp"
 
 namespace cases {
 

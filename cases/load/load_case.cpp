@@ -7,12 +7,9 @@
 #include <algorithm>
 #include <set>
 
-#include "cases/load/blit.hpp"
-#include "cases/load/load_draw.hpp"
-#include "cases/load/load_relations.hpp"
-#include "cases/load/load_target.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/load/matrix.hpp"
+#include "cases/load/parts.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
 #include "cases/toml/field_reader.hpp"

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/load/load_clip.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,8 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+
+#include "cases/load/parts.hpp"
 
 namespace cases {
 

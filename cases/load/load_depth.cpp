@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/load/load_depth.hpp"
+#include "cases/load/parts.hpp"
 
 namespace cases {
 

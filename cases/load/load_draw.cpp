@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/load/load_draw.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,9 +12,7 @@
 #include "cases/generate/vertices.hpp"
 #include "cases/load/attributes.hpp"
 #include "cases/load/color.hpp"
-#include "cases/load/load_clip.hpp"
-#include "cases/load/load_depth.hpp"
-#include "cases/load/load_target.hpp"
+#include "cases/load/parts.hpp"
 #include "cases/load/transform.hpp"
 
 namespace cases {

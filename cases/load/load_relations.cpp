@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/load/load_relations.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "cases/load/parts.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/words.hpp"
 

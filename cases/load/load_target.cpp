@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/load/load_target.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 #include <string_view>
 
 #include "cases/load/color.hpp"
-#include "cases/load/load_depth.hpp"
+#include "cases/load/parts.hpp"
 
 namespace cases {
 

@@ -27,7 +27,7 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
                                          const std::string& id_base,
                                          Contents contents = Contents::all);
 
-// As load_text, from disk. The id is the path below `suite_root` without ".toml"; a file outside
+// Does the same with a file. The id is the path below `suite_root` without ".toml"; a file outside
 // the root has its stem as id.
 ExpectedAll<std::vector<Case>> load_file(const std::filesystem::path& file,
                                          const std::filesystem::path& suite_root);
@@ -36,7 +36,7 @@ struct Suite {
     std::vector<Case> cases;  // sorted by file path, leaves in file order
     Errors errors;            // of all files; ids are unique over the suite
 };
-// Every *.toml below root (except dotfiles). A missing or empty root is an error.
+// Loads every *.toml below root but dotfiles. A missing or empty root is an error.
 Suite load_suite(const std::filesystem::path& root, Contents contents = Contents::all);
 
 }  // namespace cases

@@ -27,11 +27,11 @@ struct Matrix {
     // (covering.hpp) or those that the file names. Never empty.
     std::vector<size_t> leaves;
 
-    // The number of combinations; 1 without axes.
+    // The number of combinations, which is 1 without axes.
     size_t size() const;
     // Which value of each axis a combination takes; the first key is the slowest.
     std::vector<size_t> choice(size_t combination) const;
-    // "key=value,..."; empty without axes.
+    // The combination as ids show it, "key=value,..."; empty without axes.
     std::string text(size_t combination) const;
 };
 

@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "cases/base/error.hpp"
+#include "cases/format/color_format.hpp"
+#include "cases/format/depth_format.hpp"
 #include "cases/model/relation.hpp"
 
 namespace cases {
@@ -38,7 +40,6 @@ enum class CompareOp : uint8_t {  // numbered as VkCompareOp
     greater_or_equal,
     always
 };
-enum class DepthFormat : uint8_t { d32_float, d24_unorm, d16_unorm };
 
 // Where an attribute comes from.
 enum class Source : uint8_t {
@@ -185,20 +186,6 @@ struct ColorOutput {
     uint8_t write_mask = 0xf;  // bit 0: red ... bit 3: alpha
     friend bool operator==(const ColorOutput&, const ColorOutput&) = default;
 };
-enum class ColorFormat : uint8_t {
-    rgba8_unorm,
-    bgra8_unorm,
-    rgba8_srgb,
-    rgb10a2_unorm,
-    r5g6b5_unorm,
-    rgba16_unorm,
-    rgba16_float,
-    rgba32_float,
-    r32_float,
-    r32_uint,
-    rgba8_uint
-};
-inline constexpr ColorFormat kLastColorFormat = ColorFormat::rgba8_uint;
 // One more colour attachment, judged by its stored bits.
 struct ColorTarget {
     ColorFormat format = ColorFormat::rgba8_unorm;
@@ -254,7 +241,7 @@ struct Target {
 };
 
 // vkCmdBlitImage instead of draws. The destination is the colour target, Target::color, cleared
-// first; the source is an image of its own, filled with a pattern (cases/load/blit.hpp).
+// first; the source is an image of its own, filled with a pattern (blit_source.hpp).
 enum class BlitFilter : uint8_t { nearest, linear };
 enum class BlitPattern : uint8_t {
     unique,  // every texel has other bits

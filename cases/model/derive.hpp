@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The other renderings that the relations of a case speak of.
+// Derives the other renderings that the relations of a case speak of.
 #pragma once
 
 #include <string>

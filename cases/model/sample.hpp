@@ -13,7 +13,7 @@
 
 namespace cases {
 
-// A sample of a target: of pixel (x, y) of a layer.
+// Names a sample of a target by its pixel (x, y) in a layer.
 struct SampleId {
     uint32_t x = 0, y = 0, sample = 0, layer = 0;
     friend bool operator==(const SampleId&, const SampleId&) = default;
@@ -44,9 +44,9 @@ std::span<const std::array<uint8_t, 2>> sample_locations(const Target& target);
 // of word 0). The shader's mask is the same for every fragment here, so that it is one more AND.
 bool is_in_mask(const Multisample& state, uint32_t s);
 
-// "pixel (3, 4)", of a target with several layers "layer 1, pixel (3, 4)".
+// Names it "pixel (3, 4)", in a target of several layers "layer 1, pixel (3, 4)".
 std::string pixel_text(const Target& target, const SampleId& id);
-// As pixel_text, of a target with several samples "pixel (3, 4), sample 2".
+// The same, in a target of several samples with the sample: "pixel (3, 4), sample 2".
 std::string sample_text(const Target& target, const SampleId& id);
 
 }  // namespace cases

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What Vulkan and Direct3D 11 say about drawing triangles, statement by statement, with the freedom
-// they leave, and which rules (rule.hpp) hold a device to it. The table of docs/rules.md.
+// they leave, and which rules (rule.hpp) hold a device to it. docs/rules.md shows the table.
 #pragma once
 
 #include <array>

@@ -16,6 +16,18 @@ namespace cases {
 template <size_t N>
 using WordList = std::array<std::string_view, N>;
 
+namespace detail {
+// Of a table of formats.
+template <class Row, size_t N>
+constexpr WordList<N> words_in(const std::array<Row, N>& rows) {
+    WordList<N> words;
+    for (size_t k = 0; k < N; ++k) {
+        words[k] = rows[k].word;
+    }
+    return words;
+}
+}  // namespace detail
+
 // Of every enumeration below; nothing of others.
 template <class Enum>
 inline constexpr WordList<0> kWords = {};
@@ -37,7 +49,7 @@ inline constexpr WordList<8> kWords<CompareOp> = {
     "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
     "always"};
 template <>
-inline constexpr WordList<3> kWords<DepthFormat> = {"d32-float", "d24-unorm", "d16-unorm"};
+inline constexpr auto kWords<DepthFormat> = detail::words_in(kDepthFormats);
 template <>
 inline constexpr WordList<3> kWords<DepthBiasRepresentation> = {"format", "force-unorm", "float"};
 template <>
@@ -68,9 +80,7 @@ template <>
 inline constexpr WordList<5> kWords<BlendOp> = {"add", "subtract", "reverse-subtract", "min",
                                                 "max"};
 template <>
-inline constexpr WordList<11> kWords<ColorFormat> = {
-    "rgba8-unorm",  "bgra8-unorm",  "rgba8-srgb", "rgb10a2-unorm", "r5g6b5-unorm", "rgba16-unorm",
-    "rgba16-float", "rgba32-float", "r32-float",  "r32-uint",      "rgba8-uint"};
+inline constexpr auto kWords<ColorFormat> = detail::words_in(kColorFormats);
 template <>
 inline constexpr WordList<5> kWords<Resolve> = {"none", "sample-zero", "average", "min", "max"};
 template <>
@@ -98,9 +108,9 @@ static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(DepthBiasRepresentation::floating) &&
               detail::ends_with(Source::sample_position) && detail::ends_with(Probe::lod) &&
               detail::ends_with(BlendFactor::src_alpha_saturate) &&
-              detail::ends_with(BlendOp::max) && detail::ends_with(kLastColorFormat) &&
-              detail::ends_with(Resolve::max) && detail::ends_with(BlitFilter::linear) &&
-              detail::ends_with(BlitPattern::ramp) && detail::ends_with(kLastRelationKind));
+              detail::ends_with(BlendOp::max) && detail::ends_with(Resolve::max) &&
+              detail::ends_with(BlitFilter::linear) && detail::ends_with(BlitPattern::ramp) &&
+              detail::ends_with(kLastRelationKind));
 
 // The word of a value. LeafContext::enumerator() goes the other way.
 template <class Enum>

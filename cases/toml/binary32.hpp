@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact rationals and binary32 (IEEE 754 single precision).
+// Converts between exact rationals and binary32 (IEEE 754 single precision).
 #pragma once
 
 #include <gmpxx.h>
@@ -23,8 +23,8 @@ struct Number {
 
 // The binary32 with these bits.
 Number number_of_bits(uint32_t bits);
-// What no expression can write: "nan", "-nan", "inf", "-inf" and "bits(0x7fc00001)" with eight
-// hexadecimal digits. Nothing for any other text.
+// Reads what no expression can write: "nan", "-nan", "inf", "-inf" and "bits(0x7fc00001)" with
+// eight hexadecimal digits. Returns nothing for any other text.
 std::optional<Number> read_special_number(std::string_view text);
 
 struct Rounded {
@@ -34,7 +34,7 @@ struct Rounded {
 
 // The nearest binary32, ties to even, subnormals included; correct for every rational.
 Rounded round_to_binary32(const mpq_class& q);
-// As above, for q != 0, by rationals alone: what round_to_binary32 takes where 128 bits are too
+// Does the same for q != 0 by rationals alone. round_to_binary32 uses it where 128 bits are too
 // few.
 Rounded round_wide(const mpq_class& q);
 // As round_to_binary32, with the sign of a zero kept.

@@ -45,7 +45,7 @@ class LeafContext {
     std::optional<Number> number(const TomlValue& value, const std::string& what);
     std::optional<Number> number(const TomlValue& value, const std::string& what,
                                  const Names& names);
-    // As number(), and what no rational is: nan and inf (as words or TOML floats), "bits(0x...)".
+    // Reads numbers and what no rational is: nan, inf (as words or TOML floats), "bits(0x...)".
     std::optional<Number> any_binary32(const TomlValue& value, const std::string& what);
     // An integer in [low, high].
     std::optional<int64_t> integer(const TomlValue& value, const std::string& what, int64_t low,
@@ -82,7 +82,7 @@ class LeafContext {
     Errors errors_;
 };
 
-// "a, b or c", each in quotes.
+// Lists words as "a, b or c", each in quotes.
 std::string alternatives(std::span<const std::string_view> words);
 
 }  // namespace cases

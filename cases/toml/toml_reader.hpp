@@ -41,7 +41,7 @@ struct TomlEntry {
     TomlValue value;
 };
 
-// "a string", "an array", ...
+// Names the kind of a value: "a string", "an array", ...
 std::string describe(const TomlValue& value);
 
 inline constexpr size_t kMaxFileSize = size_t{4} << 20U;  // bytes

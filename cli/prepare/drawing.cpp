@@ -10,11 +10,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/blit/blit.hpp"
-#include "ref/color/texel.hpp"
+#include "ref/color/component.hpp"
 #include "report/record/run.hpp"
 #include "run/worker/backend.hpp"
 
@@ -143,15 +143,6 @@ capture::Image drawing_picture(const cases::Case& c, const capture::Capture& cap
     return image;
 }
 
-// The middle of what a stored code stands for; NaN and infinity of floats as they are.
-double number_of(uint32_t code, const cases::ComponentFormat& format) {
-    if (format.bits == 0 || !ref::is_number(code, format)) {
-        return format.bits == 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
-    }
-    const ref::RationalInterval interval = ref::number_of(code, format);
-    return mpq_class((interval.lo + interval.hi) / 2).get_d();
-}
-
 }  // namespace
 
 OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) {
@@ -184,7 +175,9 @@ Drawing blit_picture(const cases::Case& c, cases::Profile profile) {
             const cases::TexelCodes codes = reference.nominal(x, y);
             for (uint32_t k = 0; k < 4; ++k) {
                 const cases::ComponentFormat component = cases::component_of(format, k);
-                const double v = number_of(codes.at(k), component);
+                const double v = component.bits == 0
+                                     ? 0.0
+                                     : ref::color::Component(component).number(codes.at(k));
                 out.values.pixels.push_back(static_cast<float>(v));
                 if (k < 3) {
                     const double largest = std::ldexp(1.0, static_cast<int>(component.bits)) - 1;

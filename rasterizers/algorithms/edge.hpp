@@ -41,7 +41,7 @@ constexpr SubpixelPoint sample_of(int64_t i, int64_t j, const SubpixelPoint& off
     return {i * kPixel + offset.x, j * kPixel + offset.y};
 }
 
-// With the vertices exchanged, if need be, so that the area is positive; nothing if it is zero.
+// Exchanges vertices, if need be, so that the area is positive; nothing if it is zero.
 inline std::optional<Corners> clockwise(Corners t) {
     const int64_t area = edge_function(t[0], t[1], t[2]);
     if (area == 0) {

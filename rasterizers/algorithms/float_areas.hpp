@@ -23,7 +23,7 @@ struct FloatAreas {
     std::array<float, 3> part{};  // square pixels
     float whole = 0;              // positive for a clockwise triangle
 };
-// Of a clockwise triangle; all coordinates at most kMaxFloatCoordinate.
+// The triangle is clockwise, and all coordinates are at most kMaxFloatCoordinate.
 FloatAreas float_areas_at(const Corners& clockwise, const SubpixelPoint& p);
 
 // l_i = fl(part / whole), then as the functions of the same names. With d_i >= |l^_i - l_i|,

@@ -16,6 +16,8 @@ using cases::ComponentFormat;
 using cases::ComponentKind;
 using cases::Profile;
 using cases::TexelCodes;
+using color::Component;
+using color::Interval;
 
 namespace {
 
@@ -37,12 +39,12 @@ mpq_class rational(const BlitCoordinate& u) {
     return v;
 }
 
-RationalInterval widen(const RationalInterval& v, const mpq_class& by) {
-    return {v.lo - by, v.hi + by};
+Interval widen(const Interval& v, const mpq_class& by) {
+    return {v.low - by, v.high + by};
 }
 
-mpq_class magnitude(const RationalInterval& v) {
-    return std::max(mpq_class(abs(v.lo)), mpq_class(abs(v.hi)));
+mpq_class magnitude(const Interval& v) {
+    return std::max(mpq_class(abs(v.low)), mpq_class(abs(v.high)));
 }
 
 }  // namespace
@@ -76,8 +78,8 @@ BlitReference::BlitReference(const cases::Case& c)
         for (const TexelCodes& codes : texels_) {
             std::array<double, 4> numbers{};
             for (uint32_t k = 0; k < 4; ++k) {
-                const ComponentFormat component = cases::component_of(blit_.source_format, k);
-                numbers[k] = component.bits == 0 ? 0 : number_of(codes[k], component).lo.get_d();
+                const Component component(cases::component_of(blit_.source_format, k));
+                numbers[k] = component.exists() ? component.number(codes[k]) : 0;
             }
             numbers_.push_back(numbers);
         }
@@ -88,11 +90,10 @@ BlitReference::BlitReference(const cases::Case& c)
         rows_[static_cast<size_t>(profile)] = spans_of(down_, height_, error_of(down_, profile));
     }
     for (uint32_t k = 0; k < 4; ++k) {
-        const ComponentFormat component = cases::component_of(format_, k);
-        if (component.bits != 0) {
-            clear_[k] = nearest_code(
-                mpq_class(static_cast<double>(c.target.color->clear[static_cast<int>(k)])),
-                component);
+        const Component component(cases::component_of(format_, k));
+        if (component.exists()) {
+            clear_[k] = component.code_of(
+                mpq_class(static_cast<double>(c.target.color->clear[static_cast<int>(k)])));
         }
     }
 }
@@ -124,7 +125,7 @@ mpq_class BlitReference::error_of(const Axis& axis, Profile profile) const {
 
 // Where the device may read: the coordinates u - error .. u + error of both axes.
 struct BlitReference::FilterWindow {
-    RationalInterval across, down;
+    Interval across, down;
 };
 
 BlitReference::FilterWindow BlitReference::window(uint32_t x, uint32_t y, Profile profile) const {
@@ -132,7 +133,7 @@ BlitReference::FilterWindow BlitReference::window(uint32_t x, uint32_t y, Profil
         const mpq_class u =
             rational(blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
         const mpq_class error = error_of(axis, profile);
-        return RationalInterval{u - error, u + error};
+        return Interval{u - error, u + error};
     };
     return {around(across_, x), around(down_, y)};
 }
@@ -166,13 +167,12 @@ bool BlitReference::converts(const TexelCodes& source, const TexelCodes& got,
             continue;
         }
         // Components that the source lacks are 0, alpha 1.
-        const RationalInterval number = from.bits == 0
-                                            ? RationalInterval{k == 3 ? 1 : 0, k == 3 ? 1 : 0}
-                                            : number_of(source[k], from);
+        const Interval number = from.bits == 0 ? Interval{k == 3 ? 1 : 0, k == 3 ? 1 : 0}
+                                               : Component(from).read(source[k]);
         const mpq_class slack = from.bits == 0 || to.kind == ComponentKind::uint
                                     ? mpq_class(0)
                                     : mpq_class(4 * unit_of(profile) * magnitude(number));
-        if (!may_store(got[k], widen(number, slack), to)) {
+        if (!Component(to).may_convert(widen(number, slack), got[k])) {
             return false;
         }
     }
@@ -220,15 +220,15 @@ bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got,
     FilterWindow w = window(x, y, profile);
     const mpq_class step(1, 1U << kSubTexelBits);
     const mpq_class half(1, 2);
-    const auto columns = corners_of(w.across.lo - half - step, w.across.hi - half + step);
-    const auto rows = corners_of(w.down.lo - half - step, w.down.hi - half + step);
+    const auto columns = corners_of(w.across.low - half - step, w.across.high - half + step);
+    const auto rows = corners_of(w.down.low - half - step, w.down.high - half + step);
     for (uint32_t k = 0; k < 4; ++k) {
         const ComponentFormat to = cases::component_of(format_, k);
         const ComponentFormat from = cases::component_of(blit_.source_format, k);
         if (to.bits == 0) {
             continue;
         }
-        RationalInterval number{k == 3 ? 1 : 0, k == 3 ? 1 : 0};
+        Interval number{k == 3 ? 1 : 0, k == 3 ? 1 : 0};
         if (from.bits != 0) {
             bool first = true;
             mpq_class largest;
@@ -244,21 +244,21 @@ bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got,
                         const mpq_class weight =
                             ((corner & 1) != 0 ? alpha : mpq_class(1 - alpha)) *
                             ((corner & 2) != 0 ? beta : mpq_class(1 - beta));
-                        const RationalInterval v = number_of(
-                            texel(i + (corner & 1), j + (corner >> 1), by_region)[k], from);
-                        lo += weight * v.lo;
-                        hi += weight * v.hi;
+                        const Interval v = Component(from).read(
+                            texel(i + (corner & 1), j + (corner >> 1), by_region)[k]);
+                        lo += weight * v.low;
+                        hi += weight * v.high;
                         largest = std::max(largest, magnitude(v));
                     }
-                    number.lo = first ? lo : std::min(number.lo, lo);
-                    number.hi = first ? hi : std::max(number.hi, hi);
+                    number.low = first ? lo : std::min(number.low, lo);
+                    number.high = first ? hi : std::max(number.high, hi);
                     first = false;
                 }
             }
             // 20 units of the filter and 4 of the conversions, as for nearest.
-            number = widen(number, 2 * code_step(from) + 24 * unit_of(profile) * largest);
+            number = widen(number, 2 * Component(from).step() + 24 * unit_of(profile) * largest);
         }
-        if (!may_store(got[k], number, to)) {
+        if (!Component(to).may_convert(number, got[k])) {
             return false;
         }
     }
@@ -327,13 +327,13 @@ TexelCodes BlitReference::nominal(uint32_t x, uint32_t y) const {
             for (int corner = 0; corner < (linear ? 4 : 1); ++corner) {
                 const mpq_class alpha = linear ? mpq_class(column - i) : mpq_class(0);
                 const mpq_class beta = linear ? mpq_class(row - j) : mpq_class(0);
-                const RationalInterval v =
-                    number_of(texel(i + (corner & 1), j + (corner >> 1), false)[k], from);
+                mpq_class v;
+                Component(from).value_of(texel(i + (corner & 1), j + (corner >> 1), false)[k], v);
                 number += ((corner & 1) != 0 ? alpha : mpq_class(1 - alpha)) *
-                          ((corner & 2) != 0 ? beta : mpq_class(1 - beta)) * (v.lo + v.hi) / 2;
+                          ((corner & 2) != 0 ? beta : mpq_class(1 - beta)) * v;
             }
         }
-        codes[k] = nearest_code(number, to);
+        codes[k] = Component(to).code_of(number);
     }
     return codes;
 }

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "cases/load/blit.hpp"
+#include "cases/model/blit_source.hpp"
 #include "cases/model/profile.hpp"
-#include "ref/color/texel.hpp"
+#include "ref/color/component.hpp"
 
 namespace ref {
 

@@ -13,6 +13,7 @@ namespace ref {
 using cases::ComponentFormat;
 using cases::ComponentKind;
 using cases::TexelCodes;
+using color::Component;
 
 double BlitReference::number_at(int64_t x, int64_t y, uint32_t k) const {
     const auto clamped = [](int64_t i, uint32_t size) {
@@ -52,7 +53,7 @@ bool BlitReference::surely_linear(uint32_t x, uint32_t y, const TexelCodes& got)
             continue;
         }
         if (from.bits == 0 || from.kind == ComponentKind::srgb || to.kind == ComponentKind::srgb ||
-            !is_number(got[k], to)) {
+            !std::isfinite(Component(to).number(got[k]))) {
             return false;
         }
         double lo = 0;
@@ -77,8 +78,8 @@ bool BlitReference::surely_linear(uint32_t x, uint32_t y, const TexelCodes& got)
                 hi = first ? v : std::max(hi, v);
             }
         }
-        const double number = number_of(got[k], to).lo.get_d();
-        const double slack = 2 * code_step(from).get_d() - largest * 0x1p-34;
+        const double number = Component(to).number(got[k]);
+        const double slack = 2 * Component(from).step().get_d() - largest * 0x1p-34;
         if (number < lo - slack || number > hi + slack) {
             return false;
         }

@@ -162,14 +162,7 @@ std::array<uint32_t, 4> Unit::codes_of(const Color& color) const {
 bool Unit::allows(const Color& color, const std::array<uint32_t, 4>& codes) const {
     for (uint32_t k = 0; k < 4; ++k) {
         const Component component(cases::component_of(format, k));
-        if (!component.exists()) {
-            continue;
-        }
-        if (component.is_overflow(codes[k], color[k])) {
-            continue;
-        }
-        mpq_class value;
-        if (!component.value_of(codes[k], value) || value < color[k].low || value > color[k].high) {
+        if (component.exists() && !component.allows(codes[k], color[k])) {
             return false;
         }
     }
@@ -196,11 +189,11 @@ std::string Unit::text_of(const std::array<uint32_t, 4>& codes) const {
             continue;
         }
         out += fmt::format("{}{} ", out.empty() ? "" : ", ", "rgba"[k]);
-        mpq_class value;
-        if (c.kind != ComponentKind::half && c.kind != ComponentKind::binary32) {
+        const double value = Component(c).number(codes[k]);
+        if (!is_floating(c.kind)) {
             out += std::to_string(codes[k]);
-        } else if (Component(c).value_of(codes[k], value)) {
-            out += fmt::format("{:.9g} (0x{:0{}x})", value.get_d(), codes[k], c.bits / 4);
+        } else if (std::isfinite(value)) {
+            out += fmt::format("{:.9g} (0x{:0{}x})", value, codes[k], c.bits / 4);
         } else {
             out += fmt::format("no number (0x{:0{}x})", codes[k], c.bits / 4);
         }

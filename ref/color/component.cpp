@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <vector>
 
 #include "ref/number/integer.hpp"
@@ -90,10 +91,13 @@ mpq_class round_to(const Floating& format, const mpq_class& x, bool upwards) {
     return (upwards ? mpq_class(ceil_of(count)) : mpq_class(floor_of(count))) * step;
 }
 
-// The Khronos Data Format Specification, "sRGB transfer functions": code / 255 to linear.
-double linear_of(uint32_t code) {
-    const double c = code / 255.0;
+// The Khronos Data Format Specification, "sRGB transfer functions", of codes and parts of them.
+double linear_of(double code) {
+    const double c = code / 255;
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+double code_of_linear(double l) {
+    return 255 * (l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055);
 }
 
 const std::vector<mpq_class>& srgb_values() {
@@ -229,48 +233,68 @@ bool Component::value_of(uint32_t code, mpq_class& value) const {
     return is_number;
 }
 
-bool Component::is_overflow(uint32_t code, const Interval& v) const {
-    const bool is_half = format_.kind == ComponentKind::half;
-    if (!is_half && format_.kind != ComponentKind::binary32) {
-        return false;
+bool Component::allows(uint32_t code, const Interval& stored) const {
+    mpq_class value;
+    if (value_of(code, value)) {
+        return value >= stored.low && value <= stored.high;
     }
+    const bool is_half = format_.kind == ComponentKind::half;
     const mpq_class& largest = largest_of(is_half ? kHalf : kBinary32);
-    return code == (is_half ? 0x7c00U : 0x7f800000U)   ? v.high > largest
-           : code == (is_half ? 0xfc00U : 0xff800000U) ? v.low < -largest
+    return code == (is_half ? 0x7c00U : 0x7f800000U)   ? stored.high > largest
+           : code == (is_half ? 0xfc00U : 0xff800000U) ? stored.low < -largest
                                                        : false;
+}
+
+bool Component::may_convert(const Interval& v, uint32_t code) const {
+    if (format_.kind == ComponentKind::uint) {
+        const mpq_class largest(units());
+        return allows(code, {std::min(v.low, largest), std::min(v.high, largest)});
+    }
+    return allows(code, stored(v, cases::Profile::vulkan, /*is_blended=*/false));
+}
+
+Interval Component::read(uint32_t code) const {
+    if (format_.kind == ComponentKind::srgb) {
+        constexpr double kOutwards = 0x1p-40;
+        return {mpq_class(std::max(0.0, linear_of(std::max(0.0, code - 0.5)) - kOutwards)),
+                mpq_class(std::min(1.0, linear_of(std::min(255.0, code + 0.5)) + kOutwards))};
+    }
+    mpq_class value;
+    value_of(code, value);
+    return point(value);
 }
 
 uint32_t Component::code_of(const mpq_class& value) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
-            return static_cast<uint32_t>(floor_of(value * units() + mpq_class(1, 2)).get_ui());
         case ComponentKind::srgb: {
-            const auto& values = srgb_values();
-            const auto at = std::lower_bound(values.begin(), values.end(), value);
-            return static_cast<uint32_t>(std::min<std::ptrdiff_t>(at - values.begin(), 255));
+            const mpq_class v = clamped(point(value)).low;
+            const mpq_class code = format_.kind == ComponentKind::unorm
+                                       ? mpq_class(v * units())
+                                       : mpq_class(code_of_linear(v.get_d()));
+            return static_cast<uint32_t>(floor_of(mpq_class(code + mpq_class(1, 2))).get_ui());
         }
-        case ComponentKind::half: {
-            const mpq_class grid = down(value);
-            const mpq_class size = abs(grid);
-            const uint32_t sign = grid < 0 ? 0x8000U : 0U;
-            if (size < power_of_two(kHalf.least)) {
-                return sign | static_cast<uint32_t>(mpz_class(size / power_of_two(-24)).get_ui());
-            }
-            const mpq_class step = spacing(kHalf, size);
-            uint32_t exponent = 1;
-            while (power_of_two(kHalf.least - kHalf.fraction + static_cast<long>(exponent) - 1) <
-                   step) {
-                ++exponent;
-            }
-            const auto whole = static_cast<uint32_t>(mpz_class(size / step).get_ui());
-            return sign | exponent << 10 | (whole & 0x3ffU);
+        case ComponentKind::half:
+        case ComponentKind::binary32: {
+            const bool is_half = format_.kind == ComponentKind::half;
+            const mpq_class& largest = largest_of(is_half ? kHalf : kBinary32);
+            const mpq_class v = std::clamp(value, mpq_class(-largest), largest);
+            const Interval neighbours = either(point(v));
+            const bool is_up = neighbours.high - v <= v - neighbours.low;
+            // A number of the format: the conversions are exact.
+            const auto nearest =
+                static_cast<float>((is_up ? neighbours.high : neighbours.low).get_d());
+            return is_half ? glm::packHalf1x16(nearest) : std::bit_cast<uint32_t>(nearest);
         }
-        case ComponentKind::binary32:  // of the grid: exact
-            return std::bit_cast<uint32_t>(static_cast<float>(down(value).get_d()));
         case ComponentKind::uint:
             break;
     }
-    return static_cast<uint32_t>(floor_of(value).get_ui());
+    const mpq_class whole = std::min(value, mpq_class(units()));
+    return static_cast<uint32_t>(floor_of(mpq_class(whole + mpq_class(1, 2))).get_ui());
+}
+
+mpq_class Component::step() const {
+    return is_fixed_point() ? quotient(1, units()) : mpq_class(0);
 }
 
 std::string Component::text_of(const Interval& v) const {
@@ -283,9 +307,12 @@ std::string Component::text_of(const Interval& v) const {
                 return std::to_string(std::lower_bound(values.begin(), values.end(), x) -
                                       values.begin());
             }
-            default:
-                return fmt::format("{:.9g}", x.get_d());
+            case ComponentKind::half:
+            case ComponentKind::binary32:
+            case ComponentKind::uint:
+                break;
         }
+        return fmt::format("{:.9g}", x.get_d());
     };
     const std::string low = text(v.low);
     const std::string high = text(v.high);

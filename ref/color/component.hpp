@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "cases/model/profile.hpp"
 
 namespace ref::color {
@@ -56,14 +56,30 @@ class Component {
     // alone, nothing where only rationals tell (component_filter.cpp).
     std::optional<bool> may_store(double low, double high, uint32_t code,
                                   cases::Profile profile) const;
+    // Whether a code means a value of an interval that stored() returned. An infinity does if its
+    // end lies beyond the largest finite number.
+    bool allows(uint32_t code, const Interval& stored) const;
+    // Whether a transfer (a blit) may leave the code of some value of v: either neighbour, as
+    // Vulkan has it (Direct3D's 0.6 of a unit is a rule of its shaders' stores; it has no blit).
+    // Integers beyond the largest become that one.
+    bool may_convert(const Interval& v, uint32_t code) const;
+
     // The value that a stored code means; nothing if the code is no number (NaN, infinity).
     // sRGB: rounded to binary64, see kSrgbError.
     bool value_of(uint32_t code, mpq_class& value) const;
-    // The code is an infinity and a value of v may be stored as one: its size is larger than the
-    // largest finite number's.
-    bool is_overflow(uint32_t code, const Interval& v) const;
-    // The code of a value of the format's grid; the nearest one of other values.
+    // The same in binary64 (component_filter.cpp): exact for integers and floating point, NaN and
+    // infinity as they are; UNORM rounded once; sRGB the number that value_of() has.
+    double number(uint32_t code) const;
+    // What a device may read where the code (of a number) is stored: its value. An sRGB code may be
+    // decoded as far off as half a code more or less would be: Direct3D 3.2.3 allows 0.5 of a code
+    // on the sRGB side and Vulkan names no bound. Both ends are moved outwards by 2^-40, far more
+    // than binary64 loses. (Blending needs no such room: its unit rounds what it reads to either
+    // neighbour, which is more.)
+    Interval read(uint32_t code) const;
+    // The code nearest to a value, of two the upper; of values beyond the format's its end.
     uint32_t code_of(const mpq_class& value) const;
+    // The unit of the last place at 1: 1 / (2^bits - 1) of UNORM and sRGB, 0 of others.
+    mpq_class step() const;
     // A range of codes as text: "127", "127 or 128", "0x3f800000 (1)".
     std::string text_of(const Interval& v) const;
 

@@ -46,6 +46,24 @@ bool is_stored(double low, double high, double below, double above) {
 
 }  // namespace
 
+double Component::number(uint32_t code) const {
+    switch (format_.kind) {
+        case ComponentKind::unorm:
+            return code / (std::ldexp(1.0, static_cast<int>(format_.bits)) - 1);
+        case ComponentKind::half:
+            return half_of(code);
+        case ComponentKind::binary32:
+            return static_cast<double>(std::bit_cast<float>(code));
+        case ComponentKind::uint:
+            return code;
+        case ComponentKind::srgb:
+            break;
+    }
+    mpq_class value;  // its table
+    value_of(code, value);
+    return value.get_d();
+}
+
 std::optional<bool> Component::may_store(double low, double high, uint32_t code,
                                          cases::Profile profile) const {
     switch (format_.kind) {

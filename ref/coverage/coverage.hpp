@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Three-valued coverage of one triangle, twice: ref::exact (rationals, the oracle) and ref::fast
-// (64/128-bit fixed point). Same signature, same answers; property tests hold them together.
+// Three-valued coverage of one triangle is computed twice, by ref::exact (rationals, the oracle)
+// and by ref::fast (64/128-bit fixed point). Property tests hold them to the same answers.
 //
 // Sign and ties: y points down. The edge function is E_ab(p) = (b-a) x (p-a) = (b_x-a_x)(p_y-a_y) -
 // (b_y-a_y)(p_x-a_x) (Pineda 1988; Giesen, "The barycentric conspiracy"). Vertices are taken in the

@@ -15,7 +15,7 @@
 
 namespace ref {
 
-// Signs of the area that some choice of positions has.
+// Which signs the area can have, over all choices of positions.
 struct AreaSigns {
     bool negative = false, zero = false, positive = false;
     AreaSigns& operator|=(const AreaSigns& other) {
@@ -28,11 +28,11 @@ struct AreaSigns {
     int only() const { return negative || zero ? (positive || zero ? 0 : -1) : (positive ? 1 : 0); }
 };
 
-// Signs over all positions in the boxes of a polygon. Exact for three boxes (the area is
-// multi-affine, so its extremes lie at corners); for more it may name a sign too many.
+// The signs over all positions in the boxes of a polygon. The answer is exact for three boxes (the
+// area is multi-affine, so its extremes lie at corners); of more it may name a sign too many.
 AreaSigns area_signs(std::span<const Box> boxes);
 
-// Signs over all triangles of grid points, one from each box; exact.
+// The signs over all triangles that have one grid point of each box as corner. This is exact.
 AreaSigns snapped_area_signs(std::span<const Box> boxes, int64_t grid_step);
 
 // What may be drawn as front or back face, with zero area counting as back.

@@ -51,7 +51,7 @@ struct DistanceCut {
     uint8_t distance = kNothing;  // its number; nothing: of no distance in particular
 };
 
-// The boxes of an outline, in one piece. Nearly every outline is a triangle, and there may be
+// Holds the boxes of an outline in one piece. Nearly every outline is a triangle, and there may be
 // hundreds of thousands: the first three are kept in place, all of them elsewhere once there are
 // more.
 class BoxList {
@@ -96,7 +96,7 @@ struct Outline {
     // from the rest.
     uint32_t must_count = 0;
     BoxList must_boxes;
-    // Of the edge from box i to the next.
+    // The test of the edge from box i to the next.
     std::array<EdgeTest, kMaxClippedVertices> must_test{};
     std::array<int8_t, kMaxClippedVertices> tie_side{};  // top_left: sign of E for the other boxes
     std::vector<DistanceCut> cuts;
@@ -202,7 +202,7 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
 // A position in the middle of a box, on no grid.
 FixedPoint middle_of(const Box& box);
 
-// The grid points of a box in mode snapped.
+// The grid points that a box in mode snapped contains.
 std::vector<FixedPoint> grid_points(const Box& box, int64_t step);
 
 }  // namespace ref

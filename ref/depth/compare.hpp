@@ -23,7 +23,7 @@ struct DepthRange {
     T low{}, high{};
 };
 
-// Nothing where the number's own error leaves it open.
+// The floor of a number; nothing where the number's own error leaves it open.
 inline std::optional<double> floor_of(const Ball& a) {
     const double low = std::floor(a.v - a.e);
     return low < std::floor(a.v + a.e) ? std::nullopt : std::optional(low);
@@ -34,7 +34,7 @@ inline std::optional<double> floor_of(const mpq_class& a) {
     return r.get_d();
 }
 
-// Each value itself or either neighbour among the codes.
+// The range of what may stand for values of z: each itself, or either neighbour among the codes.
 template <class T>
 std::optional<DepthRange<T>> with_neighbours(const Range<T>& z, double steps) {
     if (steps <= 0) {

@@ -91,7 +91,7 @@ struct DepthTest::Impl {
           profile(the_profile),
           exact_only(exact),
           loaded(the_triangles.size()),
-          steps(value::steps_of(the_case.target.depth_format)) {
+          steps(cases::depth_steps(the_case.target.depth_format)) {
         depth.kind = value::Kind::linear;
         depth.at_sample = true;
         depth.plane = value::kPlaneDepth;

@@ -45,9 +45,9 @@ struct DepthCandidate {
     uint32_t triangle = 0;
     bool is_sure = false;    // it covers the sample
     bool is_absent = false;  // it does not
-    // Number of a set of triangles of which at most one covers the sample, or -1.
+    // The number of a set that it belongs to, of which at most one covers the sample; -1 if none.
     int one_of = -1;
-    bool is_one_sure = false;  // exactly one
+    bool is_one_sure = false;  // exactly one of the set does
 };
 
 struct DepthResolution {
@@ -59,7 +59,7 @@ struct DepthResolution {
 
 class DepthTest {
   public:
-    // `exact_only`: rationals alone, for the oracle.
+    // With `exact_only` it computes by rationals alone, for the oracle.
     DepthTest(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
               const Limits& limits, cases::Profile profile, bool exact_only);
     ~DepthTest();
@@ -69,7 +69,7 @@ class DepthTest {
     // last fragment's depth is stored.
     static bool is_needed(const cases::Case& c);
 
-    // Candidates in drawing order.
+    // Resolves the depth test of candidates, which stand in drawing order.
     DepthResolution resolve(const FixedPoint& p, std::span<const DepthCandidate> candidates);
 
     // The range of depths of a triangle at a sample, for people: "0.25 to 0.25000006".

@@ -26,8 +26,8 @@ struct Complement {
     bool fills = false;             // one distance: the two make up the triangle
 };
 
-// For each triangle; empty if no two draws of the case are complementary. Only triangles that a
-// plane cuts have a partner: one of its distances is negative at a vertex and positive at another.
+// The partner of each triangle; empty if no two draws are complementary. Only triangles that a
+// plane cuts have one: one of its distances is negative at a vertex and positive at another.
 std::vector<Complement> complements_of(const cases::Case& c,
                                        const std::vector<cases::Triangle>& triangles);
 

@@ -65,12 +65,12 @@ struct Expectation {
     uint64_t either_samples = 0;  // samples where more than one answer is allowed
 };
 
-// The expectation of a case. Errors: none; a case that the loader accepted always has one.
+// Computes the expectation of a case. A case that the loader accepted always has one.
 // Source: docs/design.md "The reference"; Vulkan specification, "Basic Polygon Rasterization".
 Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile);  // fast
 
 namespace exact {
-// The oracle: same result from rationals alone, slow and obvious.
+// The oracle computes the same from rationals alone, slowly and in the obvious way.
 Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile);
 }  // namespace exact
 

@@ -107,7 +107,7 @@ class Narrowing {
         bool is_complement = false;
         std::vector<uint32_t> decided = {};  // triangles that belong to it and are decided alone
     };
-    // One edge of a member whose band contains the sample.
+    // An edge of a member; its band contains the sample.
     struct Side {
         uint64_t edge = 0;  // both vertex numbers, smaller one first
         bool is_forward = false;
@@ -123,7 +123,7 @@ class Narrowing {
     DepthResolution resolve_depth(const FixedPoint& p, std::span<const Hit> hits,
                                   const std::vector<Fixed>& sets);
     FixedSet told_set(const FixedPoint& p, std::span<const Hit> hits, const Fixed& set) const;
-    // Takes away what fails the depth test.
+    // Takes the fragments away that fail the depth test.
     void apply_depth(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets,
                      std::vector<Coverage>& coverage, std::vector<uint32_t>& depth_writers,
                      SampleExpectation& out, JudgeReasons* reasons);
@@ -132,16 +132,16 @@ class Narrowing {
         uint32_t triangle = 0;
     };
 
-    // Of the triangles that may cover p; sets of them alone.
+    // The fixed sets that consist of triangles which may, but need not, cover p.
     std::vector<Fixed> fixed_sets(const FixedPoint& p, std::span<const Hit> hits);
-    // As fixed_sets, for the open ones among `hits` that are in none of its sets: with triangles
-    // that are decided. Appends to `sets`.
+    // Appends to `sets` those of the open hits that no set of fixed_sets has. They contain
+    // triangles that are decided by themselves, too.
     void add_decided_sets(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets);
-    // Sets closed under partnership among the hits that take part.
+    // The sets of hits that are closed under partnership, among those that take part.
     std::vector<Fixed> closed_sets(const FixedPoint& p, std::span<const Hit> hits,
                                    const std::vector<bool>& takes_part);
-    // The triangles with an edge between two vertices, of those that may touch a sample at all (the
-    // others have no band that contains one).
+    // The triangles that have this edge, given by its two vertices. Triangles that touch no sample
+    // are left out, since no sample lies in the band of their edges.
     std::span<const EdgeOwner> triangles_at(uint64_t edge);
     uint64_t edge_number(const cases::Triangle& triangle, uint32_t edge);
     // Adds the edges of a hit near p; false if p lies where no rule fixes anything.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which vertices of a case are the same to a device: what makes an edge one that triangles share.
+// Tells which vertices of a case are the same to a device, and so which edges triangles share.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ class VertexNumbers {
     // Keeps a reference to the case.
     explicit VertexNumbers(const cases::Case& c);
 
-    // Equal for two vertices exactly if their draws have one layer, viewport and count of clip
-    // distances, and position and clip distances are bitwise equal; at least 1. Counted up as the
-    // vertices are asked for.
+    // The number of a vertex, at least 1. Two vertices have the same one exactly if their draws
+    // have one layer, viewport and count of clip distances, and position and clip distances are
+    // bitwise equal. Numbers are given out as vertices are asked for.
     uint32_t of(uint32_t draw, uint32_t vertex);
 
   private:
-    // A vertex with its number; number 0: nothing.
+    // A vertex with its number; a slot whose number is 0 is free.
     struct Slot {
         uint32_t hash = 0, number = 0;
         uint32_t draw = 0, vertex = 0;

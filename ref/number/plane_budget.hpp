@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The planes of one basis and the binary32 budget around them. Written once for exact and for
-// filtered numbers (ball.hpp). The derivation stands in docs/precision.md.
+// The planes of one basis and the binary32 budget around them. They are written once for exact and
+// for filtered numbers (ball.hpp). The derivation stands in docs/precision.md.
 //
 // Homogeneous set-up: with X_i = x_f,i w_i and Y_i = y_f,i w_i the functions beta_i = b_i / w_i are
 // the rows of the inverse of the matrix with columns (X_i, Y_i, w_i), valid for w_i <= 0 too
@@ -22,11 +22,11 @@
 
 namespace ref {
 
-// Accepted error in units of the budget. Measured maxima of every driver stand in
-// docs/precision.md.
-inline constexpr int kBudgetFactor = 2;  // K of practice and direct3d
+// K: so many budgets of error are accepted at practice and direct3d. docs/precision.md has the
+// largest error measured on every driver.
+inline constexpr int kBudgetFactor = 2;
 
-// Budgets that are proven to hold to first order for the evaluations of docs/precision.md.
+// So many budgets are proven, to first order, to hold the evaluations of docs/precision.md.
 inline constexpr int kProvenFactor = 8;
 
 // K of a profile. At vulkan an operation may be wrong by about 1 part in 10^5
@@ -38,7 +38,7 @@ inline mpq_class exact_budget_factor(cases::Profile profile) {
     return profile == cases::Profile::vulkan ? mpq_class(kProvenFactor * kUnits) / kParts
                                              : mpq_class(kBudgetFactor);
 }
-// Rounded, for texts.
+// The same rounded, for texts.
 inline double budget_factor(cases::Profile profile) {
     return exact_budget_factor(profile).get_d();
 }
@@ -48,7 +48,7 @@ inline double budget_factor(cases::Profile profile) {
 namespace ref::value {
 
 inline constexpr double kUnitRoundoff = 0x1p-24;  // u of binary32
-// Absolute error of results that a device flushes to zero below 2^-126, a few per coordinate.
+// The absolute error that arises where a device flushes results below 2^-126 to zero, a few times.
 inline constexpr double kUnderflow = 0x1p-123;
 // One rounding at profile vulkan: "about 1 part in 10^5".
 inline constexpr double kVulkanRoundoff = 1e-5;
@@ -61,7 +61,7 @@ struct Point {
 template <class T>
 using Triple = std::array<T, 3>;
 
-// Vertices as the basis has them.
+// The three vertices, at the positions that the basis takes.
 template <class T>
 struct Vertices {
     Triple<T> hx, hy, w;           // X_i, Y_i, w_i
@@ -69,7 +69,7 @@ struct Vertices {
     Triple<T> ex, ey;              // bounds on the rounding of the device's x_f and y_f, pixels
 };
 
-// What one plane interpolates.
+// The values that one plane interpolates.
 template <class T>
 struct PlaneInput {
     Triple<T> h;   // g_i w_i

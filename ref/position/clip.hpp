@@ -66,7 +66,7 @@ struct ClipInput {
     ClipInput(const cases::Draw& draw, const std::array<uint32_t, 3>& vertex);
 };
 
-// The edge of the triangle (0: v0 v1, 1: v1 v2, 2: v2 v0), or kFirstClipEdge + plane.
+// Names an edge of the triangle (0: v0 v1, 1: v1 v2, 2: v2 v0), or a plane by kFirstClipEdge + it.
 using EdgeLabel = uint8_t;
 inline constexpr EdgeLabel kFirstClipEdge = 3;
 

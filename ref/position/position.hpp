@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a vertex's clip-space quadruple to the positions that a device may use for it.
+// Derives the positions that a device may use for a vertex from its clip-space quadruple.
 #pragma once
 
 #include <gmpxx.h>
@@ -17,8 +17,8 @@
 
 namespace ref {
 
-// Exact framebuffer position of a vertex with w != 0 and finite components. Source: Vulkan
-// specification, "Controlling the Viewport" (x_f = p_x/2 x_d + o_x, ...).
+// The exact framebuffer position of a vertex, which needs w != 0 and finite components. Source:
+// Vulkan specification, "Controlling the Viewport" (x_f = p_x/2 x_d + o_x, ...).
 struct IdealPosition {
     mpq_class x, y;   // pixels
     mpq_class z;      // z_f = p_z z_d + o_z
@@ -39,7 +39,7 @@ bool is_representable(const glm::vec4& clip, cases::Profile profile);
 // False if the vertex is no longer one of which the profile can ask something: Vulkan guarantees a
 // largest magnitude of 2^32 only ("Floating-Point Computation": "at least 2^32"), so at profile
 // vulkan 1/w, x/w, y/w and z/w must stay within it. A vertex with w = 0 has no quotients and is
-// left to clipping. Other profiles have the range of binary32. Finite components.
+// left to clipping. Other profiles have the range of binary32. Components must be finite.
 bool is_in_guaranteed_range(const glm::vec4& clip, cases::Profile profile);
 
 // Bound on |computed - ideal| of x_f and y_f in pixels for a binary32 evaluation of divide and
@@ -70,12 +70,12 @@ struct Box {
 //             has at least one grid point more on either side: nothing says which way a computed
 //             value just beside it is snapped. So samples on or within a unit of an edge that no
 //             triangle shares are open.
-// Nothing if a coordinate's magnitude exceeds 2^32 pixels, or the vertex is beyond the range that
-// the profile guarantees (is_in_guaranteed_range).
+// There is none if a coordinate's magnitude exceeds 2^32 pixels, or the vertex is beyond the range
+// that the profile guarantees (is_in_guaranteed_range).
 std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& viewport,
                                 const Limits& limits, cases::Profile profile);
 
-// The ideal position rounded to the nearest subpixel grid point, ties to even. Nothing beyond 2^32.
+// The ideal position rounded to the nearest subpixel grid point, ties to even; none beyond 2^32.
 std::optional<FixedPoint> snap_nearest(const glm::vec4& clip, const cases::Viewport& viewport,
                                        const Limits& limits);
 

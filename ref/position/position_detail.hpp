@@ -21,8 +21,8 @@ mpq_class rounding_bound(const mpq_class& t, const mpq_class& o, const mpq_class
                          const mpq_class& u);
 
 // The box of a position whose ideal is (x,y) pixels and whose computed value is off by at most
-// `error` before it is snapped (position_box, ref/position/position.hpp). Nothing beyond 2^32
-// pixels.
+// `error` before it is snapped (position_box, ref/position/position.hpp). There is none beyond
+// 2^32 pixels.
 std::optional<Box> box_around(const mpq_class& x, const mpq_class& y, const TransformError& error,
                               const cases::Viewport& viewport, const Limits& limits,
                               cases::Profile profile);

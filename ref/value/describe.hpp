@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the reference expects, as numbers and words for reports. No verdict rests on it.
+// Tells what the reference expects, as numbers and words for reports. No verdict rests on it.
 #pragma once
 
 #include <optional>

@@ -49,7 +49,7 @@ double value::nominal_depth(const Primitive& primitive, const Basis<mpq_class>& 
     const auto path = value::make_depth_path<mpq_class>(primitive, profile);
     double out = z + value::nominal_bias(path, basis);
     out = std::clamp(out, path.viewport.low, path.viewport.high);
-    const double steps = value::steps_of(path.format);
+    const double steps = cases::depth_steps(path.format);
     return steps > 0 ? std::nearbyint(out * steps) / steps : out;
 }
 

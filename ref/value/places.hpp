@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where in its pixel a fragment's inputs may be evaluated.
+// This says where in its pixel a fragment's inputs may be evaluated.
 //
 // Vulkan specification, "Interpolation Decorations": "an implementation-defined position within the
 // fragment area"; Centroid: one that must "also fall within the bounds of the primitive"; Sample:
@@ -31,7 +31,7 @@ struct Fragment {
     std::vector<Point<mpq_class>> region;  // likewise: pixel and primitive
 };
 
-// The alternatives, the likeliest first.
+// The alternatives that the profile allows; the likeliest stands first.
 template <class T>
 std::vector<Evaluation<T>> evaluations(const Fragment& fragment, cases::Profile profile);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values of a fragment that are one of a few exact numbers: FragCoord.xy, gl_SampleMaskIn,
+// Some values of a fragment are one of a few exact numbers: FragCoord.xy, gl_SampleMaskIn,
 // gl_SampleID and gl_SamplePosition.
 //
 // Vulkan specification, "Built-In Variables". FragCoord.xy: "the location of the center of the
@@ -27,8 +27,8 @@ bool is_sample_kind(Kind kind);
 bool may_be(const Fragment& fragment, const Quantity& quantity, const FragmentValues& device,
             cases::Profile profile);
 
-// The likeliest number; what is allowed besides, as "or 1.375, 1.875", empty if nothing is; and
-// all of it in words.
+// The likeliest number; what is allowed besides it, as "or 1.375, 1.875", empty if nothing is;
+// and all that is allowed in words.
 float nominal_number(const Fragment& fragment, const Quantity& quantity);
 std::string also_allowed(const Fragment& fragment, const Quantity& quantity,
                          cases::Profile profile);

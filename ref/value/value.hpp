@@ -88,7 +88,7 @@ struct ValueSelection {
 // others, if the last one does not write depth.
 enum class FragmentPart : uint8_t { all, all_but_depth, depth };
 
-// Judges the fragments of one case; set-up once a triangle, lazily. Not thread-safe.
+// Judges the fragments of one case. It sets a triangle up when first asked; it is not thread-safe.
 class ValueReference {
   public:
     ValueReference(const cases::Case& c, const Limits& limits, cases::Profile profile);
@@ -98,15 +98,15 @@ class ValueReference {
     // From now on only these values are judged; one basis has to explain those together.
     void judge_only(const ValueSelection& selection);
 
-    // From now on a mismatch has its quantity and ratio only; its level is the asked profile. What
-    // a wholly broken device has thousands of, beyond those that a report tells.
+    // From now on a mismatch has its quantity and ratio only; its level is the asked profile. This
+    // suffices for what a report does not tell: a broken device has thousands of mismatches.
     void judge_briefly();
 
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
     FragmentVerdict judge(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                           FragmentPart part = FragmentPart::all);
 
-    // The oracle: the same question answered by rationals alone, without any filter. Slow.
+    // The oracle answers the same question by rationals alone, without any filter. It is slow.
     FragmentVerdict judge_exact(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                                 FragmentPart part = FragmentPart::all);
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "capture/checksum.hpp"
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "report/record/run.hpp"
 #include "run/process/frame.hpp"
 #include "run/process/shared_memory.hpp"

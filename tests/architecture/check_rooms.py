@@ -44,6 +44,7 @@ class Table:
             folder = cells[0].strip("`/")
             if folder in self.rows:
                 self.twice.append(folder)
+                continue
             may = [m.rstrip("/") for m in re.findall(r"`([\w/]+)`", cells[3])]
             self.rows[folder] = (cells[2].strip("`"), may)
         self.rooms = {folder.split("/")[0] for folder in self.rows}

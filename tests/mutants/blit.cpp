@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "cases/load/blit.hpp"
+#include "cases/model/blit_source.hpp"
 #include "mutants/store.hpp"
 
 namespace mutants {

@@ -96,6 +96,11 @@ FormatLayout layout_of(ColorFormat format) {
             return all(Number::unorm, 16);
         case ColorFormat::rgba16_float:
             return all(Number::half, 16);
+        case ColorFormat::rg16_float: {
+            FormatLayout out = all(Number::half, 16);
+            out.channels[2].bits = out.channels[3].bits = 0;
+            return out;
+        }
         case ColorFormat::rgba32_float:
             return all(Number::binary32, 32);
         case ColorFormat::r32_float:

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "cases/load/blit.hpp"
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
+#include "cases/model/blit_source.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/attachments.hpp"
 
@@ -20,23 +20,6 @@ bool has_features(const Capabilities& c, cases::ColorFormat format, VkFormatFeat
     VkFormatProperties properties{};
     vkGetPhysicalDeviceFormatProperties(c.physical, to_vulkan(format), &properties);
     return (properties.optimalTilingFeatures & needed) == needed;
-}
-
-// Where component k lies in a texel, from bit 0 up [Vulkan specification, "Format Definition"].
-uint32_t first_bit(cases::ColorFormat format, uint32_t k) {
-    if (format == cases::ColorFormat::r5g6b5_unorm) {
-        constexpr std::array<uint32_t, 4> kFirst = {11, 5, 0, 0};
-        return kFirst[k];
-    }
-    if (format == cases::ColorFormat::bgra8_unorm) {
-        constexpr std::array<uint32_t, 4> kFirst = {16, 8, 0, 24};
-        return kFirst[k];
-    }
-    uint32_t bits = 0;
-    for (uint32_t before = 0; before < k; ++before) {
-        bits += cases::component_of(format, before).bits;
-    }
-    return bits;
 }
 
 VkImageMemoryBarrier2 change(VkImage image, VkImageLayout from, VkImageLayout to) {
@@ -109,22 +92,11 @@ std::optional<Rejection> check_blit(const Capabilities& capabilities, const case
 }
 
 std::vector<std::byte> encode_texels(cases::ColorFormat format,
-                                     const std::vector<std::array<uint32_t, 4>>& texels) {
-    uint32_t bits = 0;
-    for (uint32_t k = 0; k < 4; ++k) {
-        bits += cases::component_of(format, k).bits;
-    }
-    const size_t size = bits / 8;
+                                     const std::vector<cases::TexelCodes>& texels) {
+    const size_t size = bytes_of(format);
     std::vector<std::byte> bytes(texels.size() * size);
     for (size_t n = 0; n < texels.size(); ++n) {
-        std::array<uint32_t, 4> words{};
-        for (uint32_t k = 0; k < 4; ++k) {
-            if (cases::component_of(format, k).bits != 0) {
-                const uint32_t first = first_bit(format, k);
-                words[first / 32] |= texels[n][k] << first % 32;
-            }
-        }
-        std::memcpy(bytes.data() + n * size, words.data(), size);
+        encode_texel(format, texels[n], bytes.data() + n * size);
     }
     return bytes;
 }

@@ -18,7 +18,7 @@ std::optional<Rejection> check_blit(const Capabilities& capabilities, const case
 
 // The bytes of texels with these codes, one after the other, as VkFormat lays them out.
 std::vector<std::byte> encode_texels(cases::ColorFormat format,
-                                     const std::vector<std::array<uint32_t, 4>>& texels);
+                                     const std::vector<cases::TexelCodes>& texels);
 
 // Images of one case's blit; they must live until the commands have run.
 class BlitImages {

@@ -52,15 +52,7 @@ inline constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat kDepthStencilFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
 constexpr VkFormat depth_format(cases::DepthFormat format) {
-    switch (format) {
-        case cases::DepthFormat::d24_unorm:
-            return VK_FORMAT_X8_D24_UNORM_PACK32;
-        case cases::DepthFormat::d16_unorm:
-            return VK_FORMAT_D16_UNORM;
-        case cases::DepthFormat::d32_float:
-            break;
-    }
-    return kDepthFormat;
+    return static_cast<VkFormat>(cases::row_of(format).vulkan);
 }
 // The format of attachments that hold two numbers a sample, if the device has it.
 inline constexpr VkFormat kTwoNumbers = VK_FORMAT_R32G32_SFLOAT;

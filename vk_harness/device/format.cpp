@@ -2,49 +2,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vk_harness/device/format.hpp"
 
+#include <algorithm>
+
 namespace vk_harness {
 
-VkFormat to_vulkan(cases::ColorFormat format) {
-    switch (format) {
-        case cases::ColorFormat::rgba8_unorm:
-            return VK_FORMAT_R8G8B8A8_UNORM;
-        case cases::ColorFormat::bgra8_unorm:
-            return VK_FORMAT_B8G8R8A8_UNORM;
-        case cases::ColorFormat::rgba8_srgb:
-            return VK_FORMAT_R8G8B8A8_SRGB;
-        case cases::ColorFormat::rgb10a2_unorm:
-            return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
-        case cases::ColorFormat::r5g6b5_unorm:
-            return VK_FORMAT_R5G6B5_UNORM_PACK16;
-        case cases::ColorFormat::rgba16_unorm:
-            return VK_FORMAT_R16G16B16A16_UNORM;
-        case cases::ColorFormat::rgba16_float:
-            return VK_FORMAT_R16G16B16A16_SFLOAT;
-        case cases::ColorFormat::rgba32_float:
-            return VK_FORMAT_R32G32B32A32_SFLOAT;
-        case cases::ColorFormat::r32_float:
-            return VK_FORMAT_R32_SFLOAT;
-        case cases::ColorFormat::r32_uint:
-            return VK_FORMAT_R32_UINT;
-        case cases::ColorFormat::rgba8_uint:
-            break;
-    }
-    return VK_FORMAT_R8G8B8A8_UINT;
-}
+namespace {
 
-VkFormat bits_format(VkFormat format) {
-    switch (format) {
-        case VK_FORMAT_R5G6B5_UNORM_PACK16:
+constexpr VkFormat unsigned_of(uint32_t bytes) {
+    switch (bytes) {
+        case 1:
+            return VK_FORMAT_R8_UINT;
+        case 2:
             return VK_FORMAT_R16_UINT;
-        case VK_FORMAT_R16G16B16A16_UNORM:
-        case VK_FORMAT_R16G16B16A16_SFLOAT:
-        case kTwoNumbers:
+        case 4:
+            return VK_FORMAT_R32_UINT;
+        case 8:
             return VK_FORMAT_R32G32_UINT;
-        case VK_FORMAT_R32G32B32A32_SFLOAT:
+        case 16:
             return VK_FORMAT_R32G32B32A32_UINT;
         default:
-            return VK_FORMAT_R32_UINT;
+            return VK_FORMAT_UNDEFINED;
     }
+}
+static_assert(std::all_of(cases::kColorFormats.begin(), cases::kColorFormats.end(),
+                          [](const auto& row) {
+                              return unsigned_of(bytes_of(row.format)) != VK_FORMAT_UNDEFINED;
+                          }));
+
+}  // namespace
+
+VkFormat bits_format(VkFormat format) {
+    const auto row =
+        std::find_if(cases::kColorFormats.begin(), cases::kColorFormats.end(),
+                     [format](const auto& r) { return to_vulkan(r.format) == format; });
+    // kTwoNumbers alone is attached and need not be a format of cases.
+    return unsigned_of(row == cases::kColorFormats.end() ? 8 : bytes_of(row->format));
 }
 
 }  // namespace vk_harness

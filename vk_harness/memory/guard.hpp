@@ -17,7 +17,7 @@ namespace vk_harness {
 // in targets as small as most of the suite, within a row of it. A submission reads back two guards
 // of each of its images, some hundred in all.
 inline constexpr VkDeviceSize kGuardBytes = 1024;
-// Neither a clear value nor capture::kPoison.
+// This word is neither a clear value nor capture::kPoison.
 inline constexpr uint32_t kGuardWord = 0xed9eca5eU;
 
 // Byte offsets of both guards and of the image between them, and the bytes of it all.

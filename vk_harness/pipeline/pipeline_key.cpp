@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "capture/capture.hpp"
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/readback.hpp"
 #include "vk_harness/target/shader_interface.hpp"
@@ -27,25 +27,11 @@ VkClearValue clear_all(float value) {
     return clear_color(value, value, value, value);
 }
 
-uint32_t texel_bytes(cases::ColorFormat format) {
-    switch (format) {
-        case cases::ColorFormat::r5g6b5_unorm:
-            return 2;
-        case cases::ColorFormat::rgba16_unorm:
-        case cases::ColorFormat::rgba16_float:
-            return 8;
-        case cases::ColorFormat::rgba32_float:
-            return 16;
-        default:
-            return 4;
-    }
-}
-
 Attachment color_attachment(const cases::ColorTarget& target) {
     Attachment out;
     out.role = Role::color;
     out.format = to_vulkan(target.format);
-    out.texel_bytes = texel_bytes(target.format);
+    out.texel_bytes = bytes_of(target.format);
     out.sample_bytes = std::max(out.texel_bytes, 4U);
     if (is_integer(target.format)) {
         for (int k = 0; k < 4; ++k) {
@@ -117,10 +103,9 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
         VkClearValue clear{};
         clear.depthStencil = {
             c.variation.other_depth_clear ? capture::kOtherClearDepth : c.target.depth_clear, 0};
-        const uint32_t texel = c.target.depth_format == cases::DepthFormat::d16_unorm ? 2 : 4;
         const VkFormat format =
             c.target.has_stencil ? kDepthStencilFormat : depth_format(c.target.depth_format);
-        out.push_back({Role::depth, format, clear, texel, 4});
+        out.push_back({Role::depth, format, clear, row_of(c.target.depth_format).bytes, 4});
         if (c.target.has_stencil) {
             out.push_back({Role::stencil, format, clear, 1, 4});
         }

@@ -26,9 +26,9 @@ void decode_depth(const cases::Target& target, std::span<const std::byte> from, 
     }
     if (target.samples > 1) {
         std::transform(words, words + count, to, [&](uint32_t word) {
-            return word == capture::kPoison ? poison_float
-                                            : capture::nearest_depth_code(
-                                                  std::bit_cast<float>(word), target.depth_format);
+            return word == capture::kPoison
+                       ? poison_float
+                       : cases::nearest_depth_code(std::bit_cast<float>(word), target.depth_format);
         });
         return;
     }
@@ -36,7 +36,7 @@ void decode_depth(const cases::Target& target, std::span<const std::byte> from, 
         std::transform(words, words + count, to, [&](uint32_t word) {
             return word == capture::kPoison
                        ? poison_float
-                       : capture::depth_of_code(word & 0xffffffU, cases::DepthFormat::d24_unorm);
+                       : cases::depth_of_code(word & 0xffffffU, cases::DepthFormat::d24_unorm);
         });
         return;
     }
@@ -45,8 +45,7 @@ void decode_depth(const cases::Target& target, std::span<const std::byte> from, 
     const bool is_copied = !std::all_of(words, words + (count + 1) / 2,
                                         [](uint32_t word) { return word == capture::kPoison; });
     std::transform(halves, halves + count, to, [&](uint16_t code) {
-        return is_copied ? capture::depth_of_code(code, cases::DepthFormat::d16_unorm)
-                         : poison_float;
+        return is_copied ? cases::depth_of_code(code, cases::DepthFormat::d16_unorm) : poison_float;
     });
 }
 
@@ -242,37 +241,10 @@ std::pair<uint32_t, uint32_t> decode_packed_id(uint32_t bits, uint32_t draws) {
 
 capture::ColorCodes decode_texel(cases::ColorFormat format, const std::byte* texel,
                                  uint32_t bytes) {
-    std::array<uint32_t, 4> words{};
-    std::memcpy(words.data(), texel, bytes);
-    constexpr std::array<uint32_t, 4> kPoisonWords = {capture::kPoison, capture::kPoison,
-                                                      capture::kPoison, capture::kPoison};
-    if (std::memcmp(words.data(), kPoisonWords.data(), bytes) == 0) {
-        return kPoisonWords;
-    }
-    const auto bits = [&words](uint32_t first, uint32_t count) {
-        return words[first / 32] >> (first % 32) & ((1U << count) - 1);
-    };
-    switch (format) {  // Vulkan specification, "Format Definition": packed formats from bit 0 up
-        case cases::ColorFormat::rgba8_unorm:
-        case cases::ColorFormat::rgba8_srgb:
-        case cases::ColorFormat::rgba8_uint:
-            return {bits(0, 8), bits(8, 8), bits(16, 8), bits(24, 8)};
-        case cases::ColorFormat::bgra8_unorm:
-            return {bits(16, 8), bits(8, 8), bits(0, 8), bits(24, 8)};
-        case cases::ColorFormat::rgb10a2_unorm:
-            return {bits(0, 10), bits(10, 10), bits(20, 10), bits(30, 2)};
-        case cases::ColorFormat::r5g6b5_unorm:
-            return {bits(11, 5), bits(5, 6), bits(0, 5), 0};
-        case cases::ColorFormat::rgba16_unorm:
-        case cases::ColorFormat::rgba16_float:
-            return {bits(0, 16), bits(16, 16), bits(32, 16), bits(48, 16)};
-        case cases::ColorFormat::rgba32_float:
-            return words;
-        case cases::ColorFormat::r32_float:
-        case cases::ColorFormat::r32_uint:
-            break;
-    }
-    return {words[0], 0, 0, 0};
+    constexpr capture::ColorCodes kPoisonWords = {capture::kPoison, capture::kPoison,
+                                                  capture::kPoison, capture::kPoison};
+    return std::memcmp(texel, kPoisonWords.data(), bytes) == 0 ? kPoisonWords
+                                                               : cases::decode_texel(format, texel);
 }
 
 namespace {

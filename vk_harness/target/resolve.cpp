@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "capture/capture.hpp"
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/memory/memory.hpp"
 #include "vk_harness/target/attachments.hpp"

@@ -12,14 +12,14 @@
 
 namespace ref::fast {
 
-// E_ab(p) >= 0 or, strictly, E_ab(p) > 0: over the integers E - 1 >= 0.
+// The half plane E_ab(p) >= 0 or, if it is strict, E_ab(p) > 0, which over integers is E - 1 >= 0.
 inline HalfPlane right_of(const FixedPoint& a, const FixedPoint& b, bool is_strict) {
     return {Int128{a.y} - b.y, Int128{b.x} - a.x,
             static_cast<Int128>(a.x) * b.y - static_cast<Int128>(a.y) * b.x - (is_strict ? 1 : 0)};
 }
 
-// What a triangle setup says, as sets: must is the intersection of all `must` half planes (empty
-// without has_must), may the union of the `may` sets, each of them inside its bounds.
+// What a triangle setup says, as sets. What must be covered is the intersection of all `must` half
+// planes (nothing without has_must); what may be is the union of `may`, each inside its bounds.
 struct ConvexSet {
     std::vector<HalfPlane> planes;
     Box bounds;
@@ -37,7 +37,7 @@ std::vector<FixedPoint> convex_hull(std::vector<FixedPoint> points);
 // The closed convex hull of the boxes.
 ConvexSet hull_set(std::span<const Box> boxes);
 
-// Of one outline without its cuts.
+// The sets of one outline as if nothing cut it.
 CoverageSets coverage_set(const Outline& outline, int64_t grid_step);
 
 CoverageSets coverage_sets(const TriangleSetup& setup);

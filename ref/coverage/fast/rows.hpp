@@ -15,7 +15,7 @@
 
 namespace ref::fast {
 
-// Columns [low, high] of a row.
+// The columns low to high of a row, both included.
 struct Columns {
     int64_t low = 0, high = -1;
     bool is_empty() const { return low > high; }
@@ -34,7 +34,7 @@ inline int64_t ceil_pixel(int64_t units) {
     return -((-units) >> kFixedBits);
 }
 
-// A half plane along the rows of one sample number: value at column 0, steps per row and column.
+// A half plane as the rows of one sample number meet it: its value at column 0, and its steps.
 template <class T>
 struct RowPlane {
     T value = 0, row_step = 0, column_step = 0;

@@ -24,11 +24,11 @@ namespace ref::fast {
 // Whether the set-up may be scanned so.
 bool is_plain_snapped(const TriangleSetup& setup);
 
-// As scan, for such a set-up.
+// Does what scan does, for such a set-up.
 void scan_snapped(const TriangleSetup& setup, uint32_t triangle, const cases::Target& target,
                   std::vector<Span>& out);
 
-// As scan for every set-up, from the sets of half planes: what scan_snapped is tested against.
+// Does what scan does, for every set-up, by half planes. scan_snapped is tested against it.
 void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Target& target,
                   std::vector<Span>& out);
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which numbers the candidates of a set accept, quantity by quantity, at one evaluation, and what
-// of it holds at the next one, too. Part of judge_candidates.cpp and judge_separately.cpp.
+// Finds which numbers the candidates of a set accept, quantity by quantity, at one evaluation, and
+// what of it holds at the next one, too. judge_candidates.cpp and judge_separately.cpp use it.
 #pragma once
 
 #include <algorithm>

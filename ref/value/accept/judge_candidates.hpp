@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything a device may have set its planes up from, under one profile, and whether one of these
-// candidates explains a fragment.
+// Collects what a device may have set its planes up from under one profile, and judges whether one
+// of these candidates explains a fragment.
 #pragma once
 
 #include <optional>
@@ -16,15 +16,15 @@
 
 namespace ref::value {
 
-// One way to explain a fragment. Several bases: the device may be anywhere between them.
+// One way to explain a fragment. If it has several bases, the device may be anywhere between them.
 template <class T>
 struct Candidate {
     ref::BasisKind name = ref::BasisKind::unsnapped;
     std::vector<Basis<T>> bases;
-    // Some of the positions have no area or another orientation: the values in between are bounded
-    // by the vertex values only.
+    // Some of the positions make no area or another orientation, so that only the vertex values
+    // bound the values in between.
     bool is_unbounded = false;
-    // A clipped piece: explains only points at most this far (pixels) outside of its triangle.
+    // It is a clipped piece, which explains points inside its triangle or within `margin` of it.
     bool is_piece = false;
 };
 
@@ -45,11 +45,11 @@ template <class T>
 CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quantity> quantities,
                                 const Limits& limits, cases::Profile profile);
 
-// Where the values may be evaluated: anywhere in the hull of the points.
+// Where the values may be evaluated, which is anywhere in the hull of the points.
 template <class T>
 struct Evaluation {
     std::vector<Point<T>> attributes;  // without decoration
-    // FragCoord.z and w: the specification does not say where. None: as `attributes`.
+    // FragCoord.z and w, of which the specification does not say where. If empty, `attributes`.
     std::vector<Point<T>> frag_coord;
     Point<T> sample;  // depth, and inputs decorated with Sample
     std::vector<Point<T>> centroid;
@@ -80,8 +80,8 @@ struct CandidateVerdict {
     std::vector<double> ratios;   // of the failing ones
 };
 
-// `place`: what interpolateAt*, derivatives and levels of detail depend on (probe.hpp).
-// `only`: judges these quantities (indices) and no others, unless it is empty.
+// Interpolation functions, derivatives and levels of detail depend on `place` (probe.hpp).
+// Unless `only` is empty, it judges the quantities with these indices and no others.
 template <class T>
 CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Quantity> quantities,
                                   bool is_projectable,

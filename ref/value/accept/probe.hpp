@@ -21,7 +21,7 @@
 
 namespace ref::value {
 
-// The fragment that is asked, and what its device promises.
+// The fragment that is asked about, and what its device promises.
 struct ProbePlace {
     cases::SampleId id;
     const cases::Target* target = nullptr;
@@ -39,14 +39,14 @@ struct Quad {
 // All arrangements, the likeliest (even alignment, fine) first.
 std::array<Quad, 8> quads_of(cases::SampleId id);
 
-// Points of framebuffer space, multiples of 2^-8 or finer below 2^15: exact in binary64. Several:
-// anywhere in their hull.
+// Points of framebuffer space, which are multiples of 2^-8 or finer below 2^15 and so exact in
+// binary64. Several of them mean anywhere in their hull.
 using Spots = std::vector<std::array<double, 2>>;
 
-// Where interpolateAtOffset and interpolateAtSample may evaluate: alternatives.
+// The alternatives of where interpolateAtOffset and interpolateAtSample may evaluate.
 std::vector<Spots> probe_spots(const Quantity& q, const ProbePlace& place);
 
-// One difference of two values: `plus` at pixel (x, y) + plus, `minus` likewise.
+// The value at pixel (x, y) + `plus` less the value at (x, y) + `minus`.
 struct Difference {
     std::array<int, 2> plus{}, minus{};
 };
@@ -86,9 +86,9 @@ void judge_probes(const CandidateSet<T>& set, std::span<const Candidate<T>> cand
                   const Evaluation<T>& where, const ProbePlace& place, const FragmentValues& device,
                   std::span<const size_t> only, CandidateVerdict& verdict);
 
-// The number that the reference expects first: even quads, the upper row or left column if coarse,
-// no rounding of offsets; for a level of detail the Euclidean one. `inv_w`, `plane`: of the basis.
-// Nothing where the denominator vanishes.
+// The number that the reference thinks likeliest: it takes even quads, the upper row or left column
+// if coarse, offsets without rounding, and the Euclidean level of detail. There is none where the
+// denominator vanishes.
 struct ProbeValue {
     double nearest = 0;
     double budget = 0;

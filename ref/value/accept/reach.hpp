@@ -19,7 +19,7 @@ inline bool is_numeric(const Quantity& q) {
     return q.kind == Kind::linear || q.kind == Kind::perspective;
 }
 
-// One value against one candidate at one evaluation.
+// How well one candidate explains one value at one evaluation.
 struct Fit {
     Answer answer = Answer::no;
     double ratio = std::numeric_limits<double>::infinity();  // rounded
@@ -193,7 +193,7 @@ Store store_of(const CandidateSet<T>& set, const Quantity& q) {
     if (is_depth(q)) {
         store.may_clamp = true;
         store.must_clamp = set.depth.is_clamped;
-        store.steps = steps_of(set.depth.format);
+        store.steps = cases::depth_steps(set.depth.format);
         // Direct3D 11.3, 3.2.3.6: within 0.6 of a step; max norm is what that profile has, too.
         store.rounding = set.depth.is_max_norm ? 0.6 : 1;
     } else if (is_frag_coord_z(q)) {
@@ -215,7 +215,7 @@ Answer may_store(const Range<T>& range, double device, const Store& store) {
                                                            : Answer::unknown;
     }
     const double code = std::round(device * store.steps);
-    // depth_of_code() of capture/capture.hpp is within 2^-25 of the code's value.
+    // depth_of_code() of cases/format/depth_format.hpp is within 2^-25 of the code's value.
     if (std::fabs(device * store.steps - code) > 0.5) {
         return Answer::no;
     }
@@ -281,7 +281,7 @@ inline bool is_judged(const Quantity& q, size_t index, std::span<const size_t> o
            (only.empty() || std::find(only.begin(), only.end(), index) != only.end());
 }
 
-// Evaluated at the sample and nowhere else. Both are exact in binary64.
+// Whether the points are the sample and nothing else. Both are exact in binary64.
 template <class T>
 bool is_same(const std::vector<Point<T>>& points, const Point<T>& sample) {
     const auto same = [](const T& a, const T& b) {
@@ -290,7 +290,7 @@ bool is_same(const std::vector<Point<T>>& points, const Point<T>& sample) {
     return points.size() == 1 && same(points[0].x, sample.x) && same(points[0].y, sample.y);
 }
 
-// The budget of a value between several sites: each term as large as at any of them.
+// Gives several sites one budget for values between them: each term is the largest of any site.
 template <class T>
 void spread_budgets(const Plane<T>& inv_w, const T& factor, std::vector<Site<T>>& sites) {
     if (sites.size() < 2) {

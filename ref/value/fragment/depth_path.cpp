@@ -149,18 +149,6 @@ Range<T> times(float f, const Range<T>& r) {
 
 }  // namespace
 
-double steps_of(cases::DepthFormat format) {
-    switch (format) {
-        case cases::DepthFormat::d24_unorm:
-            return 16777215.0;
-        case cases::DepthFormat::d16_unorm:
-            return 65535.0;
-        case cases::DepthFormat::d32_float:
-            break;
-    }
-    return 0;
-}
-
 template <class T>
 DepthPath<T> make_depth_path(const Primitive& primitive, cases::Profile profile) {
     DepthPath<T> path;

@@ -43,18 +43,15 @@ struct DepthPath {
     }
 };
 
-// 2^n - 1, exact; 0 for D32, which has no steps.
-double steps_of(cases::DepthFormat format);
-
 template <class T>
 DepthPath<T> make_depth_path(const Primitive& primitive, cases::Profile profile);
 
-// All biases that a device may add whose planes are set up from `basis`, rounding included;
-// `factor` is K. {0, 0} without bias.
+// All biases that a device may add whose planes are set up from `basis`, rounding included; {0, 0}
+// if the draw has no bias. `factor` is K.
 template <class T>
 Range<T> bias_of(const DepthPath<T>& path, const Basis<T>& basis, const T& factor);
 
-// A range of depths after depthClampEnable.
+// What depthClampEnable makes of a range of depths.
 template <class T>
 Range<T> clamped(const Range<T>& z, const Range<double>& viewport) {
     const T low(viewport.low);
@@ -62,8 +59,8 @@ Range<T> clamped(const Range<T>& z, const Range<double>& viewport) {
     return {smaller(larger(z.low, low), high), smaller(larger(z.high, low), high)};
 }
 
-// The bias that most devices add: m = max(|zx|, |zy|), r one step of 2^-n or 2^(e-23). For
-// pictures.
+// The bias that most devices add, for pictures: m = max(|zx|, |zy|), and r is one step of 2^-n or
+// 2^(e-23).
 double nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>& basis);
 
 }  // namespace ref::value

@@ -20,7 +20,7 @@ struct FragmentValues {
     std::array<glm::vec4, cases::kMaxAttributes> attributes{};
 };
 
-// From what the device may have set up its planes.
+// What the device may have set its planes up from.
 enum class BasisKind : uint8_t { unsnapped, snapped, clipped_piece };
 
 // Which number of a fragment: a component of an attribute or of FragCoord, or the depth.

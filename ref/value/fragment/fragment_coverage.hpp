@@ -20,7 +20,7 @@
 
 namespace ref {
 
-// Bit s: sample s; before any sample mask. Scissor and viewport are included.
+// Bit s stands for sample s. Scissor and viewport have been applied, sample masks have not.
 struct PixelCoverage {
     uint32_t must = 0, may = 0;
     // False: the triangle is clipped, and devices may make several fragments of its pieces.

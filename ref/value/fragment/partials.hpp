@@ -32,8 +32,8 @@ struct Partials {
     mpq_class total;   // eq. 10
 };
 
-// At the point (x, y), with the pixel spacing S. Exact. Nothing where the denominator is zero: for
-// a triangle without area, or on the horizon.
+// Computes them exactly at the point (x, y), with the pixel spacing S. There are none where the
+// denominator is zero: for a triangle without area, or on the horizon.
 std::optional<Partials> partials_at(const std::array<PartialVertex, 3>& vertices,
                                     const mpq_class& x, const mpq_class& y,
                                     const mpq_class& spacing);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Of which values of a triangle anything is promised (docs/precision.md, "Bases").
+// Says of which values of a triangle anything is promised (docs/precision.md, "Bases").
 #pragma once
 
 #include <span>

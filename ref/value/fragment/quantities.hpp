@@ -36,7 +36,7 @@ enum class Kind : uint8_t {
     probe,  // made of an input by a function (probe.hpp)
 };
 
-// One scalar of a fragment.
+// A scalar of a fragment, and how it is judged.
 struct Quantity {
     Kind kind = Kind::linear;
     bool at_sample = false;  // evaluated at the sample; otherwise where the fragment's inputs are
@@ -61,7 +61,7 @@ struct WorstError {
     }
 };
 
-// Whether a plane of its own belongs to it, and whether that plane's value is a quotient by 1/w.
+// Whether a quantity has a plane of its own, and whether that plane's value is divided by 1/w.
 inline bool has_plane(const Quantity& q) {
     return q.kind == Kind::linear || q.kind == Kind::perspective || q.kind == Kind::probe;
 }
@@ -72,7 +72,7 @@ inline bool is_quotient(const Quantity& q) {
 // All quantities of a draw, in the order in which mismatches are told.
 std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target);
 
-// One triangle, everything that is exact in binary32 or cheap to have.
+// What is known of one triangle exactly in binary32, or is cheap to have.
 struct Primitive {
     const cases::Draw* draw = nullptr;
     cases::Triangle triangle;
@@ -87,20 +87,20 @@ Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle);
 // Vertex values g_i of a plane that come straight from the case (attributes); not for 1/w and z.
 Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, uint32_t component);
 
-// Vertices with their ideal positions. `ex`, `ey` bound the device's rounding of them.
+// The vertices at their ideal positions. `ex` and `ey` bound the device's rounding of them.
 template <class T>
 Vertices<T> ideal_vertices(const Primitive& primitive);
-// Vertices moved to given positions, S47.16; exact, so ex = ey = 0.
+// The vertices moved to given positions, S47.16, which are exact, so ex = ey = 0.
 template <class T>
 Vertices<T> moved_vertices(const Primitive& primitive, const std::array<FixedPoint, 3>& at);
 
-// Homogeneous values of all planes.
+// The homogeneous vertex values h_i of all planes.
 template <class T>
 std::vector<PlaneInput<T>> plane_inputs(const Primitive& primitive,
                                         std::span<const Quantity> quantities);
 
 // The nearest grid points of the three vertices; nothing if one has w = 0 or is farther than 2^32
-// pixels. Also for w < 0, where the projected position is snapped.
+// pixels. A vertex with w < 0 has one, too: its projected position is snapped.
 std::optional<std::array<FixedPoint, 3>> snapped_positions(const Primitive& primitive,
                                                            const Limits& limits);
 

@@ -140,7 +140,7 @@ TEST_F(PlaneFiles, UnormDepthIsACode) {
     write("depth.f32",
           std::string(reinterpret_cast<const char*>(&near_code), 4) + std::string(4, '\0'));
     EXPECT_EQ(capture::read_planes(folder_, c)->planes.depth[0],
-              capture::depth_of_code(1000, cases::DepthFormat::d16_unorm));
+              cases::depth_of_code(1000, cases::DepthFormat::d16_unorm));
 }
 
 TEST_F(PlaneFiles, AnEmptyFolderHoldsNothing) {

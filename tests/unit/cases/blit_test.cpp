@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The table [blit], what a source holds, and clipping at the destination.
-#include "cases/load/blit.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
 #include "cases/load/loader.hpp"
+#include "cases/model/blit_source.hpp"
 
 namespace cases {
 namespace {

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The keys of colour: what they mean, and every sentence about a mistake, word for word.
-#include "cases/load/color.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "cases/format/color_format.hpp"
 #include "cases/load/loader.hpp"
 
 namespace cases {
@@ -56,12 +55,12 @@ TEST(Color, IsRead) {
 }
 
 TEST(Color, MistakesAreNamed) {
-    EXPECT_EQ(
-        error_of(file("clear = [0,0,0,0]", kValue)),
-        "f:6:1: error: [target.color] has no format; write \"rgba8-unorm\", "
-        "\"bgra8-unorm\", \"rgba8-srgb\", \"rgb10a2-unorm\", \"r5g6b5-unorm\", "
-        "\"rgba16-unorm\", \"rgba16-float\", \"rgba32-float\", \"r32-float\", \"r32-uint\" or "
-        "\"rgba8-uint\"");
+    EXPECT_EQ(error_of(file("clear = [0,0,0,0]", kValue)),
+              "f:6:1: error: [target.color] has no format; write \"rgba8-unorm\", "
+              "\"bgra8-unorm\", \"rgba8-srgb\", \"rgb10a2-unorm\", \"r5g6b5-unorm\", "
+              "\"rgba16-unorm\", \"rgba16-float\", \"rg16-float\", \"rgba32-float\", "
+              "\"r32-float\", \"r32-uint\" or "
+              "\"rgba8-uint\"");
     const auto says = [](const std::string& toml, const std::string& text) {
         const std::string error = error_of(toml);
         EXPECT_NE(error.find(": error: " + text), std::string::npos) << error;

@@ -24,9 +24,7 @@ bool is_stored_exactly(const Component& component, double low, double high, uint
                        Profile profile) {
     const Interval stored =
         component.stored({mpq_class(low), mpq_class(high)}, profile, /*is_blended=*/false);
-    mpq_class value;
-    return component.is_overflow(code, stored) ||
-           (component.value_of(code, value) && value >= stored.low && value <= stored.high);
+    return component.allows(code, stored);
 }
 
 // Up to three numbers of binary64 away, or not at all.

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cases/load/blit.hpp"
-#include "cases/load/color.hpp"
+#include "cases/format/color_format.hpp"
+#include "cases/model/blit_source.hpp"
 #include "vk_harness/target/readback.hpp"
 
 namespace vk_harness {

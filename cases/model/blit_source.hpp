@@ -1,21 +1,15 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blits: the table [blit] of a case file, what the source holds, and clipping at the destination.
+// What the source of a blit holds, and clipping at the destination.
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cases/model/case.hpp"
-#include "cases/toml/field_reader.hpp"
 
 namespace cases {
-
-// The stored code of each component of a texel, as in the colour plane of a capture.
-using TexelCodes = std::array<uint32_t, 4>;
 
 // The source image, texel (x, y) at y * source_width + x. `unique`: no two texels have the same
 // codes as long as the format has enough of them; every value is finite and representable, of
@@ -33,8 +27,5 @@ struct ClippedBlit {
 };
 ClippedBlit clip_to_destination(const Corners& source, const Corners& destination, uint32_t width,
                                 uint32_t height);
-
-// The table [blit] of a case whose target has been read: a colour target alone.
-std::optional<Blit> load_blit(LeafContext& context, const TomlValue& table, const Target& target);
 
 }  // namespace cases

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/load/blit.hpp"
+#include "cases/model/blit_source.hpp"
 
 #include <algorithm>
 #include <bit>
-
-#include "cases/load/color.hpp"
+#include <glm/gtc/packing.hpp>
 
 namespace cases {
 
@@ -23,33 +22,22 @@ uint32_t scramble(uint32_t n, uint32_t seed) {
 
 // The bits of a whole number below 2^11: exact in binary16 and binary32.
 uint32_t float_bits(uint32_t n, ComponentKind kind) {
-    const auto bits = std::bit_cast<uint32_t>(static_cast<float>(n));
-    if (kind == ComponentKind::binary32 || n == 0) {
-        return bits;
-    }
-    // Rebias the exponent from 127 to 15; the low 13 bits of the significand are 0.
-    return ((bits >> 23U) - 112U) << 10U | (bits >> 13U & 0x3ffU);
+    const auto number = static_cast<float>(n);
+    return kind == ComponentKind::half ? glm::packHalf1x16(number)
+                                       : std::bit_cast<uint32_t>(number);
 }
 
 uint32_t max_code(uint32_t bits) {
     return bits == 32 ? 0xffffffffU : (1U << bits) - 1U;
 }
 
-uint32_t total_bits(ColorFormat format) {
-    uint32_t bits = 0;
-    for (uint32_t k = 0; k < 4; ++k) {
-        bits += component_of(format, k).bits;
-    }
-    return bits;
-}
-
 // Component k of texel (x, y), number n = y * width + x.
 uint32_t unique_code(const Blit& blit, const ComponentFormat& format, uint32_t n, uint32_t k,
                      uint32_t x, uint32_t y) {
     // Formats of 16 bits: an odd factor is a bijection of 16 bits as well.
-    const bool is_short = total_bits(blit.source_format) < 32;
+    const bool is_short = bytes_of(blit.source_format) < 4;
     const uint32_t hash = is_short ? ((n + blit.seed) * 0x9e37U & 0xffffU) : scramble(n, blit.seed);
-    if (format.kind == ComponentKind::half || format.kind == ComponentKind::binary32) {
+    if (is_floating(format.kind)) {
         const bool is_alone = component_of(blit.source_format, 1).bits == 0;
         const uint32_t number = n % 2039 + 1;
         const std::array<uint32_t, 4> numbers = {is_alone ? number : x + 1, y + 1, number,
@@ -66,8 +54,7 @@ uint32_t unique_code(const Blit& blit, const ComponentFormat& format, uint32_t n
 
 uint32_t ramp_code(const Blit& blit, const ComponentFormat& format, uint32_t k, uint32_t x,
                    uint32_t y) {
-    const bool is_float =
-        format.kind == ComponentKind::half || format.kind == ComponentKind::binary32;
+    const bool is_float = is_floating(format.kind);
     const uint32_t top = is_float ? 1920U : max_code(format.bits);
     const uint32_t sides = blit.source_width + blit.source_height;
     const uint32_t step = std::max(1U, top / (2 * sides));

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The parts of a case file, each read by the source file of its name. Mistakes go to the context; what
+// is returned means nothing then.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/load/attributes.hpp"
+#include "cases/model/case.hpp"
+#include "cases/toml/field_reader.hpp"
+#include "cases/toml/toml_reader.hpp"
+
+namespace cases {
+
+// Mistakes end up in the context; the target then has no width.
+Target load_target(LeafContext& context, const TomlValue& table);
+
+// sample_mask, shader_mask and min_sample_shading of a [[draw]].
+Multisample load_multisample(LeafContext& context, const TomlValue& draw);
+
+// Reads `depth` and `depth_clear` of [target]; mistakes go to the context.
+void read_depth_target(LeafContext& context, const TomlValue& table, Target& target);
+
+// Reads the table `depth` of a draw.
+DepthState read_depth_state(LeafContext& context, const TomlValue& value);
+
+// One [[draw]] table. `number` counts from 1 and stands in notes. Mistakes go to the context; the
+// result is then meaningless.
+Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t number,
+               std::vector<std::string>& notes);
+
+// Magnitudes of distances other than zero: far from underflow and overflow of what a device
+// computes with them.
+inline constexpr float kMinDistance = 0x1p-60F;
+inline constexpr float kMaxDistance = 0x1p60F;
+
+// The distances of every vertex, in the order of `source.vertices`, whose clip-space positions are
+// `positions`. `draw` is the table of the draw. Mistakes go to the context.
+ClipDistances read_distances(LeafContext& context, const TomlValue& draw,
+                             const AttributeSource& source,
+                             const std::vector<glm::vec4>& positions);
+
+// The table [blit] of a case whose target has been read: a colour target alone.
+std::optional<Blit> load_blit(LeafContext& context, const TomlValue& table, const Target& target);
+
+// Reads the relations of a case whose target and draws have been read.
+std::vector<Relation> load_relations(LeafContext& context, const TomlValue& value, const Case& c);
+
+}  // namespace cases
