@@ -87,7 +87,8 @@ void copy_like_fields(const From& from, To& to) {
         [&](const Field& own, auto& member) {
             From::fields(
                 [&](const Field& other, const auto& value) {
-                    if constexpr (std::is_same_v<decltype(member), std::remove_cvref_t<decltype(value)>&>) {
+                    if constexpr (std::is_same_v<decltype(member),
+                                                 std::remove_cvref_t<decltype(value)>&>) {
                         if (std::string_view(own.name) == other.name) {
                             member = value;
                         }

@@ -121,15 +121,31 @@ bool is_separating(const FixedPoint& a, const FixedPoint& b, std::span<const Box
            });
 }
 
-// The edges of an outline in mode boxes that keep p out of the hull of the boxes.
+// The edges of an outline in mode boxes that keep p out of the hull of the boxes, and those that p
+// is outside of wherever their ends may lie.
 void add_outside_edges(const Outline& o, const FixedPoint& p, Reasons& out) {
+    std::vector<FixedPoint> middles;
+    for (const Box& b : o.vertices()) {
+        middles.push_back(middle_of(b));
+    }
+    const int sign = area_sign(middles);
     for (uint32_t i = 0; i < o.count; ++i) {
+        bool is_separated = false;
+        bool is_outside = sign != 0;
         for (const FixedPoint& a : corners(o.boxes[i])) {
             for (const FixedPoint& b : corners(o.boxes[(i + 1) % o.count])) {
-                if (is_separating(a, b, o.vertices(), p)) {
-                    add_reason(out, outside_of(o.edge.at(i)));
-                }
+                is_outside = is_outside && sign * sign_of(edge_function(a, b, p)) < 0;
+                is_separated = is_separated || is_separating(a, b, o.vertices(), p);
             }
+        }
+        if (is_separated || is_outside) {
+            add_reason(out, outside_of(o.edge.at(i)));
+        }
+    }
+    // Beside a corner's box: the edges of the ideal polygon.
+    for (uint32_t i = 0; out.empty() && i < o.count; ++i) {
+        if (sign * sign_of(edge_function(middles[i], middles[(i + 1) % o.count], p)) < 0) {
+            out.push_back(outside_of(o.edge.at(i)));
         }
     }
 }
@@ -184,7 +200,6 @@ void name_must(const TriangleSetup& setup, const Outline& o, const FixedPoint& p
 
 // Of an outline that does not cover p whatever its cuts say.
 void name_outside(const TriangleSetup& setup, const Outline& o, const FixedPoint& p, Reasons& out) {
-    const size_t before = out.size();
     if (o.mode == OutlineMode::snapped) {
         const Candidates c = candidates_at(setup, o, p);
         for (uint32_t i = 0; c.has_area && i < o.count; ++i) {
@@ -198,7 +213,11 @@ void name_outside(const TriangleSetup& setup, const Outline& o, const FixedPoint
             add_reason(out, {ReasonKind::no_area});
         }
     } else if (o.mode == OutlineMode::boxes) {
-        add_outside_edges(o, p, out);
+        Reasons edges;
+        add_outside_edges(o, p, edges);
+        for (const Reason& edge : edges) {
+            add_reason(out, edge);
+        }
         const bool is_in_hull = exact::is_in_hull(o.vertices(), p);
         for (const Tie& tie : ties_of(o, p)) {
             if (is_in_hull && tie.side == 0 && !tie.owns) {
@@ -208,9 +227,20 @@ void name_outside(const TriangleSetup& setup, const Outline& o, const FixedPoint
             }
         }
     }
-    if (out.size() == before && o.mode != OutlineMode::empty) {
+    if (out.empty() && o.mode != OutlineMode::empty) {
         add_reason(out, {ReasonKind::outside_hull});
     }
+}
+
+// Whether p is on the edge between two boxes, or at an end of it, wherever these may be.
+bool is_exactly_on(const Box& from, const Box& to, const FixedPoint& p) {
+    bool is_on = true;
+    for (const FixedPoint& a : corners(from)) {
+        for (const FixedPoint& b : corners(to)) {
+            is_on = is_on && edge_function(a, b, p) == 0;
+        }
+    }
+    return is_on;
 }
 
 void name_open(const Outline& o, const FixedPoint& p, Reasons& out) {
@@ -219,7 +249,7 @@ void name_open(const Outline& o, const FixedPoint& p, Reasons& out) {
         for (uint32_t i = 0; i < o.count; ++i) {
             const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
             if (exact::is_in_hull(ends, p)) {
-                const bool is_fixed = ends[0].is_point() && ends[1].is_point();
+                const bool is_fixed = is_exactly_on(ends[0], ends[1], p);
                 add_reason(out, open_at(o.edge.at(i),
                                         is_fixed ? ReasonKind::on_edge : ReasonKind::vertex_boxes));
             }

@@ -71,7 +71,7 @@ constexpr std::array kRows = {
         "the sample lies within a pixel of a border of the viewport that is no whole number, "
         "{viewport}"},
     Row{ReasonKind::on_edge, cases::rule::tie_top_left, cases::rule::tie_top_left,
-        "{ties}: whether it is covered only the top-left rule of profile direct3d says"},
+        "{ties}: only the top-left rule, between fixed points at profile direct3d, would decide"},
     Row{ReasonKind::vertex_boxes, cases::rule::cover_inside, cases::rule::snap_nearest,
         "inside for some positions of the vertices only: {boxes}"},
     Row{ReasonKind::complement, cases::rule::clip_complement, cases::rule::clip_complement,
@@ -209,8 +209,8 @@ std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases
     const cases::Draw& draw = c.draws[t.triangle.draw];
     const cases::Rect& r = draw.scissor;
     const cases::Viewport& v = draw.viewport;
-    const auto [left, right] = std::minmax(v.x, v.x + v.width);
-    const auto [top, bottom] = std::minmax(v.y, v.y + v.height);
+    const auto [left, right] = std::minmax({v.x, v.x + v.width});
+    const auto [top, bottom] = std::minmax({v.y, v.y + v.height});
     const size_t plane = std::min<size_t>(reason.which, std::size(kPlanes) - 1);
     return fmt::format(
         fmt::runtime(row_of(reason.kind).sentence), fmt::arg("ties", ties_text(t, reason.which)),
