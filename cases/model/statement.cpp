@@ -288,6 +288,9 @@ constexpr Statement kStatements[] = {
     {92, "when depth is written", exact, exact,
      "Where the test passes and writes are on; else the older depth stays.",
      {"depth.write"}, ""},
+    {93, "rasterizer discard", exact, not_spoken,
+     "A draw with it leaves no trace in any attachment; the draws around it are as ever.",
+     {"discard.rasterizer"}, ""},
     // clang-format on
 };
 
