@@ -224,6 +224,9 @@ void take_away(Scene& s, Reason reason, int orientation) {
             replace(s, false, orientation);
             set_distances(draw.distances.clip, kNothing, 1);
             return;
+        case ReasonKind::discarded:
+            draw.rasterizer_discard = false;
+            return;
         case ReasonKind::culled:
         case ReasonKind::open_facing:
             draw.cull = cases::CullMode::none;
