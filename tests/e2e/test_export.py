@@ -146,7 +146,7 @@ class Render(Captures):
         self.write_case("fam/clipped", TIES.replace("[[draw]]", '[[draw]]\ncull_distance = [{ values = [1, 1, 1, 1, 1, 1] }]'))
         done = self.edgecase("render", "fam/clipped", "--renderer", "tiles", "-o", "x.png", check=2)
         self.assertEqual(done.stderr, "edgecase: 'tiles' cannot draw the case: the algorithms have no depth state, clip distances, "
-                         "sample masks, layers and provoking vertices\n")
+                         "sample masks, layers, provoking vertices and rasterizer discard\n")
         self.assertIn("did you mean 'tiles'?",
                       self.edgecase("render", CASE, "--renderer", "tile", "-o", "x.png", check=2).stderr)
 

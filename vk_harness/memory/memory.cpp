@@ -125,7 +125,7 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferU
     return buffer;
 }
 
-Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges call, Stage stage,
+Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
                                  std::string_view name) const {
     if (coherent_) {
         return {};
@@ -134,17 +134,17 @@ Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges call, Stage stage
     range.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE;
     range.memory = memory_.get();
     range.size = VK_WHOLE_SIZE;
-    const VkResult result = call(device_->get(), 1, &range);
+    const VkResult result = (device_->vk().*call)(device_->get(), 1, &range);
     return result == VK_SUCCESS ? Result<void>() : fail(call_failure(stage, result, name));
 }
 
 Result<void> Buffer::flush() const {
-    return synchronize(device_->vk().vkFlushMappedMemoryRanges, Stage::memory,
+    return synchronize(&VolkDeviceTable::vkFlushMappedMemoryRanges, Stage::memory,
                        "vkFlushMappedMemoryRanges");
 }
 
 Result<void> Buffer::invalidate() const {
-    return synchronize(device_->vk().vkInvalidateMappedMemoryRanges, Stage::readback,
+    return synchronize(&VolkDeviceTable::vkInvalidateMappedMemoryRanges, Stage::readback,
                        "vkInvalidateMappedMemoryRanges");
 }
 

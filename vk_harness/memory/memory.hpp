@@ -30,7 +30,7 @@ class Buffer {
 
   private:
     // Flushes or invalidates all of the memory by `call`, unless it is coherent.
-    Result<void> synchronize(PFN_vkFlushMappedMemoryRanges call, Stage stage,
+    Result<void> synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::*call, Stage stage,
                              std::string_view name) const;
 
     const Device* device_ = nullptr;
