@@ -154,34 +154,32 @@ def lists_of(root, table):
             yield "the planes of a capture", PLANES, names
 
 
-def is_listed(line, names, is_plane):
-    """Which entries a line lists: a plane that is named, a field that is copied or sent under its own name."""
-    if line.lstrip().startswith("visit("):
-        return  # the list of another structure
-    for name in names:
-        if is_plane:
-            found = re.search(rf"(?:\.|->){name}\b(?!\()", line)
-        else:
-            member = rf"(?:\.|->){name}\b(?!\()"
-            found = re.search(rf'{member} = .*{member}|"{name}", [^"]*{member}', line)
-        if found:
-            yield name
+def entries_of(names, is_plane):
+    """What finds a listed entry in a line: a plane that is named, a field copied or sent under its own name."""
+    name = "(" + "|".join(names) + r")\b(?!\()"
+    if is_plane:
+        return [re.compile(rf"(?:\.|->){name}")]
+    return [re.compile(rf"(?:\.|->){name} = .*(?:\.|->)\1\b"), re.compile(rf'"{name}", [^"]*(?:\.|->)\1\b')]
 
 
 def second_lists(root, table):
     """Nothing but a list's owner has most of its entries, one after the other."""
     texts = {
-        path.relative_to(root): code_of(path)
+        path.relative_to(root): [
+            (number, line.split("//")[0])
+            for number, line in enumerate(code_of(path), 1)
+            if not line.lstrip().startswith(("visit(", "//"))  # `fields` of another structure, comments
+        ]
         for room in table.rooms
         for path in sources(root, room)
         if path.suffix != ".js"
     }
     for what, owner, names in lists_of(root, table):
-        is_plane = owner == PLANES
+        entries = entries_of(names, owner == PLANES)
         for path, lines in texts.items():
             if str(path) == owner:
                 continue
-            hits = [(n, m) for n, line in enumerate(lines, 1) for m in is_listed(line.split("//")[0], names, is_plane)]
+            hits = [(n, m) for n, line in lines for entry in entries for m in entry.findall(line)]
             for k, (begin, _) in enumerate(hits):
                 seen = {m for n, m in hits[k:] if n < begin + 2 * len(names)}
                 if len(seen) >= MOST_SHARE * len(names):
