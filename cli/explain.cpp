@@ -12,7 +12,7 @@
 #include "ref/blit/blit.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
-#include "ref/expectation/reason_table.hpp"
+#include "ref/reason/reason.hpp"
 #include "report/text/wrap.hpp"
 
 namespace cli {
@@ -195,7 +195,7 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
                     cases::pixel_text(c.target, sample), sample.sample, ref::to_text(s.position.x),
                     ref::to_text(s.position.y), to_string(profile), limits.subpixel_bits);
     if (s.of_all) {
-        text += fmt::format("    {}\n", ref::sentence_of_all(*s.of_all));
+        text += fmt::format("    {}\n", ref::text_of_all(*s.of_all));
     }
     // The interesting ones first: those that may cover the sample, then the near misses.
     std::vector<const ref::TriangleExplanation*> order;

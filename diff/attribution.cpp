@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "cases/model/rule_ids.hpp"
 #include "cases/model/sample.hpp"
 #include "ref/expectation/explain.hpp"
-#include "ref/expectation/reason_table.hpp"
+#include "ref/reason/reason.hpp"
 
 namespace diff {
 
@@ -69,6 +68,18 @@ Cause cause_of(const ref::TriangleExplanation& t, cases::Profile level) {
     return {ref::rule_of(t.why(), level), told(t)};
 }
 
+Cause cause_of(const ref::SetExplanation& s, cases::Profile level) {
+    return {ref::rule_of(s.set.why, level), s.sentence};
+}
+
+// A reason of the sample as a whole: `triangle` and `number` are those that its sentence names.
+Cause cause_of(ref::ReasonKind why, cases::Profile level, const std::string& triangle = "",
+               uint32_t number = 0) {
+    return {ref::rule_of(why, level),
+            fmt::format(fmt::runtime(ref::text_of(why)), fmt::arg("triangle", triangle),
+                        fmt::arg("number", number))};
+}
+
 // A triangle that would cover the sample but for the state of its draw, or for planes and
 // distances: why it must not. A draw to another layer comes last: any other cause says more.
 std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s, cases::Profile level) {
@@ -94,7 +105,7 @@ std::optional<Cause> cause_of_stray_writer(
     if (std::optional<Cause> cause = cause_of_suppressed(writers, cases::Profile::vulkan)) {
         return cause;
     }
-    return Cause{cases::rule::cover_outside, told(writers.triangles.front())};
+    return cause_of(writers.triangles.front(), cases::Profile::vulkan);
 }
 
 // A hit too many of a triangle that must fail the depth test, or one too few of a triangle that
@@ -114,11 +125,8 @@ std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExpla
     if (it == s.triangles.rend() || !is_tested) {
         return std::nullopt;
     }
-    const std::string_view rule =
-        it->depth_reason == ref::DepthReason::same    ? cases::rule::depth_repeat
-        : it->depth_reason == ref::DepthReason::apart ? cases::rule::depth_distinct
-                                                      : cases::rule::depth_compare;
-    return Cause{rule, fmt::format("{} {}", name_of(*it), it->depth_text)};
+    return Cause{ref::rule_of(it->depth_reason, cases::Profile::vulkan),
+                 fmt::format("{} {}", name_of(*it), it->depth_text)};
 }
 
 // Too many hits at a sample that no triangle may cover.
@@ -129,22 +137,19 @@ Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
         if (t && *s.of_all != ref::ReasonKind::other_layer) {
             return cause_of(*t, level);
         }
-        return {ref::rule_of(*s.of_all, level), std::string(ref::sentence_of_all(*s.of_all))};
+        return {ref::rule_of(*s.of_all, level), std::string(ref::text_of_all(*s.of_all))};
     }
     if (level == cases::Profile::direct3d) {
         const auto* const t = first_that(s, [](const auto& e) {
             return e.why() == ref::ReasonKind::top_left_out || e.why() == ref::ReasonKind::no_area;
         });
-        return t ? cause_of(*t, level)
-                 : Cause{cases::rule::snap_nearest,
-                         "no vertex position within the rounding of Direct3D covers the sample"};
+        return t ? cause_of(*t, level) : cause_of(ref::ReasonKind::nearest_positions, level);
     }
     if (const std::optional<Cause> cause = cause_of_suppressed(s, level)) {
         return *cause;
     }
     const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must_not);
-    return {cases::rule::cover_outside,
-            t ? told(*t) : std::string("no triangle is within two pixels of the sample")};
+    return t ? cause_of(*t, level) : cause_of(ref::ReasonKind::none_near, level);
 }
 
 // Too few hits, or too many where some hits are allowed.
@@ -160,15 +165,14 @@ Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint
         const ref::TriangleExplanation* t = first_tie(s, is_missing);
         t = t ? t : covering;
         return t                 ? cause_of(*t, level)
-               : !s.sets.empty() ? Cause{ref::rule_of(s.sets[0].set.why, level), s.sets[0].sentence}
-                                 : Cause{cases::rule::snap_nearest,
-                                         "the vertices' nearest subpixel positions decide"};
+               : !s.sets.empty() ? cause_of(s.sets[0], level)
+                                 : cause_of(ref::ReasonKind::nearest_positions, level);
     }
     if (total >= must && total <= may) {
-        // Each triangle alone would allow it: what is broken is the number that some share.
-        return s.sets.empty() ? Cause{cases::rule::cover_shared_edge,
-                                      fmt::format("{} triangles meet here", may)}
-                              : Cause{ref::rule_of(s.sets[0].set.why, level), s.sets[0].sentence};
+        // Each triangle alone would allow it: what is broken is the number that some share, or the
+        // faces that they show.
+        return s.sets.empty() ? cause_of(ref::ReasonKind::area_sign, level)
+                              : cause_of(s.sets[0], level);
     }
     if (total < must) {
         return cause_of(*covering, level);
@@ -180,12 +184,10 @@ Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint
     if (may == 1) {
         const auto* const t = first_that(
             s, [](const auto& e) { return e.decision.coverage != ref::Coverage::must_not; });
-        return {cases::rule::cover_outside,
-                fmt::format("{} alone may cover the sample, and only once", name_of(*t))};
+        return cause_of(ref::ReasonKind::once_alone, level, name_of(*t));
     }
-    return {cases::rule::cover_outside,
-            may == 0 ? std::string("no triangle near the sample may cover it")
-                     : fmt::format("{} triangles may cover the sample, each only once", may)};
+    return cause_of(may == 0 ? ref::ReasonKind::none_may : ref::ReasonKind::once_each, level, "",
+                    may);
 }
 
 }  // namespace
@@ -272,8 +274,9 @@ void Attribution::attribute_writer(Finding& finding,
         finding.rule = ref::rule_of(tie->why(), finding.level);
         finding.why = told(*tie);
     } else {
-        finding.rule = is_direct3d ? cases::rule::snap_nearest : cases::rule::cover_outside;
-        finding.why = "where the vertices snap decides which triangle covers the sample";
+        const Cause cause = cause_of(ref::ReasonKind::snapped_owner, finding.level);
+        finding.rule = cause.rule;
+        finding.why = cause.why;
     }
     like_writer_.insert_or_assign(finding.level, finding);
 }
@@ -314,12 +317,11 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
             finding.why = told(*tie);
             return;
         }
-        finding.rule = cases::rule::face_area_sign;
-        finding.quantity = "facing";
+        const Cause cause = cause_of(ref::ReasonKind::area_sign, finding.level);
         const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
-        finding.why =
-            t ? fmt::format("{}: the sign of its area decides which face shows", name_of(*t))
-              : std::string("the sign of the area decides which face shows");
+        finding.rule = cause.rule;
+        finding.quantity = "facing";
+        finding.why = t ? fmt::format("{}: {}", name_of(*t), cause.why) : cause.why;
         return;
     }
     if (const std::optional<Cause> depth = cause_of_depth(case_, s, total < asked.total_min)) {

@@ -73,10 +73,8 @@ Finding LastFragment::value_finding(cases::SampleId id, ref::ValueMismatch misma
     finding.expected = std::move(mismatch.expected);
     finding.got = std::move(mismatch.got);
     finding.ratio = mismatch.ratio;
-    finding.why = fmt::format(
-        "triangle {} of draw {}: no set-up from snapped or unsnapped vertices explains the "
-        "fragment",
-        expectation_.triangles[t].primitive, expectation_.triangles[t].draw);
+    finding.why = fmt::format("triangle {} of draw {}: {}", expectation_.triangles[t].primitive,
+                              expectation_.triangles[t].draw, ref::text_of(mismatch.reason));
     return finding;
 }
 

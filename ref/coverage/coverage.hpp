@@ -19,11 +19,19 @@
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
 #include "cases/model/triangle.hpp"
-#include "ref/coverage/reason.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
+#include "ref/reason/reason.hpp"
 
 namespace ref {
+
+enum class Coverage : uint8_t { must_not, either, must };
+
+// What is said of one triangle at one sample.
+struct Decision {
+    Coverage coverage = Coverage::must_not;
+    Reasons reasons;
+};
 
 // Which way a triangle faces for every position the device may use, or that it depends on them.
 enum class Facing : uint8_t { front, back, depends };

@@ -4,8 +4,8 @@
 // The reasons of a sample that exact::decide has decided: which edges, planes and distances it was.
 #pragma once
 
-#include "ref/coverage/reason.hpp"
 #include "ref/coverage/setup.hpp"
+#include "ref/reason/reason.hpp"
 
 namespace ref {
 

@@ -256,7 +256,7 @@ struct DepthTest::Impl {
         return span && !span->is_free;
     }
 
-    DepthOutcome outcome(int stored, uint32_t fragment, const FixedPoint& p, DepthReason& reason) {
+    DepthOutcome outcome(int stored, uint32_t fragment, const FixedPoint& p, ReasonKind& reason) {
         const CompareOp op = draw_of(fragment).depth.compare;
         if (op == CompareOp::always || op == CompareOp::never) {
             return op == CompareOp::always ? DepthOutcome::passes : DepthOutcome::fails;
@@ -281,11 +281,11 @@ struct DepthTest::Impl {
             if (!has_depth(first, p)) {
                 return DepthOutcome::open;
             }
-            reason = DepthReason::same;
+            reason = ReasonKind::depth_same;
             return compare_sign(op, 0);
         }
         if (r.sign != 0 && is_inside(first, p) && is_inside(fragment, p)) {
-            reason = DepthReason::apart;
+            reason = ReasonKind::depth_apart;
             return compare_sign(op, r.sign);
         }
         return DepthOutcome::open;
@@ -311,7 +311,7 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
     for (size_t m = 0; m < candidates.size(); ++m) {
         const DepthCandidate& now = candidates[m];
         out.outcomes.push_back(DepthOutcome::fails);
-        out.reasons.push_back(DepthReason::ranges);
+        out.reasons.push_back(ReasonKind::depth_ranges);
         if (now.is_absent) {
             continue;
         }
@@ -349,6 +349,9 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
         outcome = passes && !fails   ? DepthOutcome::passes
                   : fails && !passes ? DepthOutcome::fails
                                      : DepthOutcome::open;
+        if (outcome == DepthOutcome::open) {
+            out.reasons.back() = ReasonKind::depth_ranges;  // one relation does not settle it
+        }
         if (outcome == DepthOutcome::fails || !impl_->draw_of(now.triangle).depth.write) {
             continue;
         }

@@ -32,13 +32,11 @@
 #include "cases/model/triangle.hpp"
 #include "ref/number/fixed_point.hpp"
 #include "ref/position/limits.hpp"
+#include "ref/reason/reason.hpp"
 
 namespace ref {
 
 enum class DepthOutcome : uint8_t { fails, open, passes };
-
-// What settled an outcome: the ranges of depth, or how two triangles are related.
-enum class DepthReason : uint8_t { ranges, same, apart };
 
 // A triangle that may cover the sample.
 struct DepthCandidate {
@@ -52,9 +50,11 @@ struct DepthCandidate {
 
 struct DepthResolution {
     std::vector<DepthOutcome> outcomes;  // of each candidate
-    std::vector<DepthReason> reasons;    // why; of the last stored depth that is not by ranges
-    std::vector<uint32_t> stored;        // candidates whose depth may be the last one stored
-    bool may_be_clear = false;           // or no fragment's
+    // Why: depth_ranges, or how two triangles are related, by the last stored depth of which one
+    // is.
+    std::vector<ReasonKind> reasons;
+    std::vector<uint32_t> stored;  // candidates whose depth may be the last one stored
+    bool may_be_clear = false;     // or no fragment's
 };
 
 class DepthTest {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "ref/coverage/exact.hpp"
-#include "ref/expectation/reason_table.hpp"
+#include "ref/expectation/reason_text.hpp"
 #include "ref/expectation/scan_all.hpp"
 #include "ref/position/clip.hpp"
 
@@ -60,24 +60,6 @@ bool is_near(const cases::Draw& draw, const cases::Triangle& t, FixedPoint p) {
     const double px = static_cast<double>(p.x) / static_cast<double>(kFixedOne);
     const double py = static_cast<double>(p.y) / static_cast<double>(kFixedOne);
     return px >= x0 - 2 && px <= x1 + 2 && py >= y0 - 2 && py <= y1 + 2;
-}
-
-constexpr std::string_view kCompareNames[] = {
-    "NEVER", "LESS", "EQUAL", "LESS_OR_EQUAL", "GREATER", "NOT_EQUAL", "GREATER_OR_EQUAL",
-    "ALWAYS"};
-
-std::string depth_text(DepthOutcome outcome, DepthReason reason, std::string_view op,
-                       const std::string& range) {
-    const std::string_view verdict = outcome == DepthOutcome::passes  ? "passes"
-                                     : outcome == DepthOutcome::fails ? "fails"
-                                                                      : "may pass or fail";
-    const std::string_view because =
-        reason == DepthReason::same ? ": the same triangle was drawn before by the same state, so "
-                                      "the depths are equal"
-        : reason == DepthReason::apart
-            ? ": the same triangle was drawn before, biased apart by whole units of r"
-            : "";
-    return fmt::format("{} the depth test {}, {}{}", verdict, op, range, because);
 }
 
 // Takes a triangle away that the state of its draw keeps from the sample.
@@ -267,8 +249,7 @@ SampleExplanation Explainer::explain(cases::SampleId sample) {
         const cases::CompareOp op = case_.draws[t.triangle.draw].depth.compare;
         t.depth = reasons.depth.outcomes[m];
         t.depth_reason = reasons.depth.reasons[m];
-        t.depth_text = depth_text(*t.depth, t.depth_reason, kCompareNames[static_cast<size_t>(op)],
-                                  depth_->range_text(t.index, p));
+        t.depth_text = sentence_of(t.depth_reason, *t.depth, op, depth_->range_text(t.index, p));
     }
     return out;
 }

@@ -50,7 +50,7 @@ struct TriangleExplanation {
     std::string sentence;                     // of the first reason
     // Of a triangle that may cover the sample, if the case tests depth.
     std::optional<DepthOutcome> depth;
-    DepthReason depth_reason = DepthReason::ranges;
+    ReasonKind depth_reason = ReasonKind::depth_ranges;
     std::string depth_text;  // one sentence
 
     ReasonKind why() const { return decision.reasons.front().kind; }

@@ -46,13 +46,8 @@ void ValueReference::Impl::judge_samples(uint32_t t, cases::SampleId id,
             if (at > profile || may_be(*f, q, device, at)) {
                 continue;
             }
-            ValueMismatch m;
-            m.quantity = q.id;
-            m.rule = q.rule;
-            m.level = at;
+            ValueMismatch m = value::mismatch_of(q, ReasonKind::value_exact, at, q.get(device));
             m.expected = allowed_text(*f, q, at);
-            m.got = bits_of(q.get(device));
-            m.ratio = std::numeric_limits<double>::infinity();
             out.mismatches.push_back(std::move(m));
             break;
         }

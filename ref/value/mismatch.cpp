@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "cases/model/rule_ids.hpp"
 #include "ref/value/describe.hpp"
@@ -27,20 +26,20 @@ using value::Quantity;
 
 namespace {
 
-// What is broken if stored depth is not what the plane leads to.
-std::string_view depth_rule(const value::Primitive& primitive, double z) {
+// Why stored depth must not be what the plane does not lead to.
+ReasonKind depth_reason(const value::Primitive& primitive, double z) {
     const cases::DepthState& depth = primitive.draw->depth;
     const cases::Viewport& v = primitive.draw->viewport;
     const auto near = static_cast<double>(v.min_depth);
     const auto far = static_cast<double>(v.max_depth);
     if (depth.clamp && (z < std::min(near, far) || z > std::max(near, far))) {
-        return cases::rule::depth_clamp;
+        return ReasonKind::value_clamped_depth;
     }
     if (depth.bias) {
-        return cases::rule::depth_bias;
+        return ReasonKind::value_biased_depth;
     }
-    return primitive.depth_format == cases::DepthFormat::d32_float ? cases::rule::depth_linear
-                                                                   : cases::rule::depth_store;
+    return primitive.depth_format == cases::DepthFormat::d32_float ? ReasonKind::value_set_up
+                                                                   : ReasonKind::value_stored_depth;
 }
 
 }  // namespace
@@ -72,21 +71,17 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
     if ((zero || std::fpclassify(want) == FP_SUBNORMAL) && got_zero) {
         return;  // denormals may be flushed, the sign of zero may be lost
     }
-    ValueMismatch m;
-    m.quantity = q.id;
-    m.rule = cases::rule::interp_flat;
-    m.level = Profile::vulkan;
+    ReasonKind reason = ReasonKind::value_flat;
     for (const uint32_t v : primitive.triangle.vertex) {
         if (v != primitive.triangle.provoking && bits(values[v][component]) == bits(got)) {
-            m.rule = primitive.draw->provoking == cases::ProvokingVertex::first
-                         ? cases::rule::provoking_first
-                         : cases::rule::provoking_last;
+            reason = primitive.draw->provoking == cases::ProvokingVertex::first
+                         ? ReasonKind::value_of_not_first
+                         : ReasonKind::value_of_not_last;
         }
     }
+    ValueMismatch m = value::mismatch_of(q, reason, Profile::vulkan, got);
     m.expected =
         bits_of(want) + " of the provoking vertex " + std::to_string(primitive.triangle.provoking);
-    m.got = bits_of(got);
-    m.ratio = std::numeric_limits<double>::infinity();
     out.mismatches.push_back(std::move(m));
 }
 
@@ -157,40 +152,26 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
         const size_t index = verdict.failing[k];
         const Quantity& q = all[index];
         const float got = q.get(device);
-        ValueMismatch m;
-        m.quantity = q.id;
-        m.rule = q.rule;
-        m.level = levels[k];
-        m.got = bits_of(got);
-        m.ratio = verdict.ratios[k];
+        ReasonKind reason = ReasonKind::value_set_up;
+        std::string expected;
         double reach = 0;
         if (q.kind == Kind::probe) {
-            m.expected = value::probe_text(basis, q, probe_place(t, id, profile));
-            out.mismatches.push_back(std::move(m));
-            continue;
-        }
-        if (q.rule == cases::rule::barycentric_value &&
-            value::is_other_vertex(basis, q, all, place, profile, static_cast<double>(got))) {
-            m.rule = cases::rule::barycentric_order;
-        }
-        if (basis.orientation != 0) {
+            expected = value::probe_text(basis, q, probe_place(t, id, profile));
+        } else if (basis.orientation != 0) {
             const auto v = value::exact_value(basis, q, place, profile);
             if (v.exists == Answer::yes) {
-                m.expected = fmt::format("{} within {:.4g} x {:.3g}",
-                                         value::number_text(v.value.get_d(), v.value),
-                                         budget_factor(profile), v.budget.get_d());
+                expected = fmt::format("{} within {:.4g} x {:.3g}",
+                                       value::number_text(v.value.get_d(), v.value),
+                                       budget_factor(profile), v.budget.get_d());
                 reach = v.reach.get_d();
                 if (q.id.is_depth() && !is_plain_depth(primitive)) {
-                    m.rule = depth_rule(primitive, v.value.get_d());
-                    m.expected =
+                    reason = depth_reason(primitive, v.value.get_d());
+                    expected =
                         fmt::format("{:.9g} or near it (plane {:.9g} within {:.4g} x {:.3g})",
                                     nominal_depth(primitive, basis, v.value.get_d(), profile),
                                     v.value.get_d(), budget_factor(profile), v.budget.get_d());
                 }
             }
-        }
-        if (m.expected.empty()) {
-            m.expected = "a value between the vertex values";
         }
         const value::Range<Ball>& hull = set.hulls[index];
         const double g = static_cast<double>(got);
@@ -198,10 +179,17 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
         const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
         const bool is_moved =
             (q.id.is_depth() || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
-        if (q.rule != cases::rule::barycentric_value &&
-            (!std::isfinite(got) || (!is_moved && (g < low || g > high)))) {
-            m.rule = cases::rule::interp_hull;
+        if (q.rule == cases::rule::barycentric_value) {
+            if (value::is_other_vertex(basis, q, all, place, profile, g)) {
+                reason = ReasonKind::value_other_weight;
+            }
+        } else if (q.kind != Kind::probe &&
+                   (!std::isfinite(got) || (!is_moved && (g < low || g > high)))) {
+            reason = ReasonKind::value_hull;
         }
+        ValueMismatch m = value::mismatch_of(q, reason, levels[k], got);
+        m.expected = expected.empty() ? "a value between the vertex values" : expected;
+        m.ratio = verdict.ratios[k];
         out.mismatches.push_back(std::move(m));
     }
 }

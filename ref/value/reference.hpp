@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -78,6 +79,20 @@ inline std::string bits_of(float f) {
 inline bool is_plain_depth(const Primitive& primitive) {
     const cases::DepthState& depth = primitive.draw->depth;
     return primitive.depth_format == cases::DepthFormat::d32_float && !depth.bias && !depth.clamp;
+}
+
+// What is wrong with a quantity, but for what was expected: `got` and why it must not be that.
+inline ValueMismatch mismatch_of(const Quantity& q, ReasonKind reason, cases::Profile level,
+                                 float got) {
+    ValueMismatch m;
+    m.quantity = q.id;
+    m.reason = reason;
+    m.level = level;
+    m.rule = rule_of(reason, level);
+    m.rule = m.rule.empty() ? q.rule : m.rule;
+    m.got = bits_of(got);
+    m.ratio = std::numeric_limits<double>::infinity();
+    return m;
 }
 
 // The depth that a device most likely stores, from the exact one of its plane.

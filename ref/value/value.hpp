@@ -29,6 +29,7 @@
 #include "ref/number/fixed_point.hpp"
 #include "ref/number/plane_budget.hpp"
 #include "ref/position/limits.hpp"
+#include "ref/reason/reason.hpp"
 #include "ref/value/fragment/fragment.hpp"
 
 namespace ref {
@@ -36,7 +37,8 @@ namespace ref {
 // One value that no basis explains.
 struct ValueMismatch {
     QuantityId quantity;
-    std::string rule;                                 // rule id
+    ReasonKind reason = ReasonKind::value_set_up;
+    std::string rule;                                 // the reason's, or else the quantity's
     cases::Profile level = cases::Profile::practice;  // loosest profile at which it is wrong
     std::string expected;                             // exact value, budget, as text
     std::string got;                                  // value and bits

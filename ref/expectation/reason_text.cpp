@@ -1,107 +1,23 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ref/expectation/reason_table.hpp"
+#include "ref/expectation/reason_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
-#include "cases/model/rule_ids.hpp"
 #include "ref/position/clip.hpp"
 
 namespace ref {
 
 namespace {
 
-struct Row {
-    ReasonKind kind;
-    std::string_view rule;
-    std::string_view direct3d;  // rule of what only profile direct3d demands
-    std::string_view sentence;  // names in braces: sentence_of() has them
-};
-
-// In the order of ReasonKind.
-constexpr std::array kRows = {
-    Row{ReasonKind::top_left_in, cases::rule::tie_top_left, cases::rule::tie_top_left,
-        "{ties}: covered under the top-left rule"},
-    Row{ReasonKind::passes_cull_distance, cases::rule::cull_distance, cases::rule::snap_nearest,
-        "{inside}, and no cull distance is negative at all vertices"},
-    Row{ReasonKind::passes_clip_distance, cases::rule::clip_distance, cases::rule::snap_nearest,
-        "{inside}, and no clip distance is negative"},
-    Row{ReasonKind::inside, cases::rule::cover_inside, cases::rule::snap_nearest, "{inside}"},
-    Row{ReasonKind::other_layer, cases::rule::layer_select, cases::rule::layer_select,
-        "the draw goes to layer {layer}"},
-    Row{ReasonKind::masked, cases::rule::sample_mask, cases::rule::sample_mask,
-        "the sample mask {mask:#x} of the draw leaves sample {sample} out"},
-    Row{ReasonKind::scissor, cases::rule::scissor_half_open, cases::rule::scissor_half_open,
-        "the sample lies outside the scissor rectangle, {scissor}"},
-    Row{ReasonKind::viewport, cases::rule::clip_viewport, cases::rule::clip_viewport,
-        "the sample lies outside the viewport, {viewport}"},
-    Row{ReasonKind::discarded, cases::rule::discard_rasterizer, cases::rule::discard_rasterizer,
-        "the draw has rasterizer discard"},
-    Row{ReasonKind::outside, cases::rule::cover_outside, cases::rule::snap_nearest,
-        "{edge}: outside that edge"},
-    Row{ReasonKind::outside_hull, cases::rule::cover_outside, cases::rule::snap_nearest,
-        "outside all that the vertices can span, wherever they are snapped"},
-    Row{ReasonKind::no_area, cases::rule::cover_degenerate, cases::rule::cover_degenerate,
-        "the triangle has no area after snapping"},
-    Row{ReasonKind::top_left_out, cases::rule::tie_top_left, cases::rule::tie_top_left,
-        "{ties}: not covered under the top-left rule"},
-    Row{ReasonKind::culled, cases::rule::face_cull, cases::rule::face_cull,
-        "the triangle is culled: it faces {facing}"},
-    Row{ReasonKind::cull_distance, cases::rule::cull_distance, cases::rule::cull_distance,
-        "cull distance {number} is negative at all three vertices"},
-    Row{ReasonKind::clip_distance, cases::rule::clip_distance, cases::rule::clip_distance,
-        "clip distance {number} is negative at the sample"},
-    Row{ReasonKind::clip_plane, cases::rule::clip_volume, cases::rule::clip_volume,
-        "clipped away by the plane {plane} of the view volume"},
-    Row{ReasonKind::undefined, cases::rule::number_undefined, cases::rule::number_undefined,
-        "a vertex has a NaN, an infinity or a number beyond the guaranteed range: the triangle may "
-        "cover any sample or none"},
-    Row{ReasonKind::unbounded, cases::rule::number_undefined, cases::rule::number_undefined,
-        "a vertex lies behind the eye or beyond 2^32 pixels, and nothing bounds where the corners "
-        "of the clipped polygon may lie"},
-    Row{ReasonKind::near_distance, cases::rule::clip_distance, cases::rule::clip_distance,
-        "inside the triangle, but clip distance {number} is 0 within its error at the sample"},
-    Row{ReasonKind::open_facing, cases::rule::face_area_sign, cases::rule::face_area_sign,
-        "which way the triangle faces depends on where its vertices are snapped ({boxes}), and one "
-        "of its faces is culled"},
-    Row{ReasonKind::viewport_border, cases::rule::clip_viewport, cases::rule::clip_viewport,
-        "the sample lies within a pixel of a border of the viewport that is no whole number, "
-        "{viewport}"},
-    Row{ReasonKind::on_edge, cases::rule::tie_top_left, cases::rule::tie_top_left,
-        "{ties}: only the top-left rule, between fixed points at profile direct3d, would decide"},
-    Row{ReasonKind::vertex_boxes, cases::rule::cover_inside, cases::rule::snap_nearest,
-        "inside for some positions of the vertices only: {boxes}"},
-    Row{ReasonKind::complement, cases::rule::clip_complement, cases::rule::clip_complement,
-        "{number} of {triangles} covers the sample: a clip distance and its negative are 0 here "
-        "within their error"},
-    Row{ReasonKind::clipped_edge, cases::rule::cover_clipped_edge, cases::rule::snap_nearest,
-        "{number} of {triangles} covers the sample: they meet here along edges they share, "
-        "clipped"},
-    Row{ReasonKind::shared_vertex, cases::rule::cover_shared_vertex, cases::rule::snap_nearest,
-        "{number} of {triangles} covers the sample: they meet here in a vertex they share"},
-    Row{ReasonKind::shared_edge, cases::rule::cover_shared_edge, cases::rule::snap_nearest,
-        "{number} of {triangles} covers the sample: they meet here along edges they share with "
-        "identical end points"},
-};
-static_assert(kRows.size() == static_cast<size_t>(kLastReason) + 1);
-static_assert([] {
-    for (size_t k = 0; k < kRows.size(); ++k) {
-        if (kRows[k].kind != static_cast<ReasonKind>(k)) {
-            return false;
-        }
-    }
-    return true;
-}());
-
 constexpr std::string_view kPlanes[] = {"x = -w", "x = w", "y = -w", "y = w",
                                         "z = 0",  "z = w", "z = -w"};
 
-const Row& row_of(ReasonKind kind) {
-    return kRows.at(static_cast<size_t>(kind));
-}
+constexpr std::string_view kCompareNames[] = {
+    "NEVER", "LESS", "EQUAL", "LESS_OR_EQUAL", "GREATER", "NOT_EQUAL", "GREATER_OR_EQUAL",
+    "ALWAYS"};
 
 std::string span_text(int64_t low, int64_t high) {
     return low == high ? to_text(low) : fmt::format("{} to {}", to_text(low), to_text(high));
@@ -199,11 +115,6 @@ std::string triangles_text(const std::vector<uint32_t>& members,
 
 }  // namespace
 
-std::string_view rule_of(ReasonKind kind, cases::Profile level) {
-    const Row& row = row_of(kind);
-    return level == cases::Profile::direct3d ? row.direct3d : row.rule;
-}
-
 std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases::Case& c,
                         cases::SampleId sample) {
     const cases::Draw& draw = c.draws[t.triangle.draw];
@@ -213,7 +124,7 @@ std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases
     const auto [top, bottom] = std::minmax({v.y, v.y + v.height});
     const size_t plane = std::min<size_t>(reason.which, std::size(kPlanes) - 1);
     return fmt::format(
-        fmt::runtime(row_of(reason.kind).sentence), fmt::arg("ties", ties_text(t, reason.which)),
+        fmt::runtime(text_of(reason.kind)), fmt::arg("ties", ties_text(t, reason.which)),
         fmt::arg("inside", inside_text(t)), fmt::arg("layer", draw.layer),
         fmt::arg("mask",
                  draw.multisample.sample_mask & draw.multisample.shader_mask.value_or(0xffffffffU)),
@@ -230,14 +141,18 @@ std::string sentence_of(const FixedSet& set, const std::vector<cases::Triangle>&
     const std::string number = set.count == set.least ? fmt::format("exactly {}", set.count)
                                : set.least == 0       ? fmt::format("at most {}", set.count)
                                                 : fmt::format("{} to {}", set.least, set.count);
-    return fmt::format(fmt::runtime(row_of(set.why).sentence), fmt::arg("number", number),
+    return fmt::format(fmt::runtime(text_of(set.why)), fmt::arg("number", number),
                        fmt::arg("triangles", triangles_text(set.triangles, triangles)));
 }
 
-std::string_view sentence_of_all(ReasonKind kind) {
-    return kind == ReasonKind::other_layer ? "no draw goes to this layer"
-           : kind == ReasonKind::scissor   ? "the sample lies outside every scissor rectangle"
-                                           : "the sample lies outside every viewport";
+std::string sentence_of(ReasonKind depth_reason, DepthOutcome outcome, cases::CompareOp compare,
+                        const std::string& depths) {
+    const std::string_view told = outcome == DepthOutcome::passes  ? "passes"
+                                  : outcome == DepthOutcome::fails ? "fails"
+                                                                   : "may pass or fail";
+    return fmt::format(fmt::runtime(text_of(depth_reason)), fmt::arg("outcome", told),
+                       fmt::arg("compare", kCompareNames[static_cast<size_t>(compare)]),
+                       fmt::arg("depths", depths));
 }
 
 }  // namespace ref

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/reason/reason.hpp"
+
+#include <array>
+
+#include "cases/model/rule_ids.hpp"
+
+namespace ref {
+
+namespace {
+
+namespace rule = cases::rule;
+using enum ReasonKind;
+
+struct Row {
+    ReasonKind kind;
+    std::string_view rule;
+    std::string_view text;
+    std::string_view direct3d = {};  // the rule of what only profile direct3d demands, if another
+    std::string_view text_of_all = {};
+};
+
+// In the order of ReasonKind.
+constexpr std::array kRows = {
+    Row{top_left_in, rule::tie_top_left, "{ties}: covered under the top-left rule"},
+    Row{passes_cull_distance, rule::cull_distance,
+        "{inside}, and no cull distance is negative at all vertices", rule::snap_nearest},
+    Row{passes_clip_distance, rule::clip_distance, "{inside}, and no clip distance is negative",
+        rule::snap_nearest},
+    Row{inside, rule::cover_inside, "{inside}", rule::snap_nearest},
+    Row{other_layer, rule::layer_select, "the draw goes to layer {layer}", {}, "no draw goes to this layer"},
+    Row{masked, rule::sample_mask, "the sample mask {mask:#x} of the draw leaves sample {sample} out"},
+    Row{scissor, rule::scissor_half_open, "the sample lies outside the scissor rectangle, {scissor}", {},
+        "the sample lies outside every scissor rectangle"},
+    Row{viewport, rule::clip_viewport, "the sample lies outside the viewport, {viewport}", {},
+        "the sample lies outside every viewport"},
+    Row{discarded, rule::discard_rasterizer, "the draw has rasterizer discard"},
+    Row{outside, rule::cover_outside, "{edge}: outside that edge", rule::snap_nearest},
+    Row{outside_hull, rule::cover_outside,
+        "outside all that the vertices can span, wherever they are snapped", rule::snap_nearest},
+    Row{no_area, rule::cover_degenerate, "the triangle has no area after snapping"},
+    Row{top_left_out, rule::tie_top_left, "{ties}: not covered under the top-left rule"},
+    Row{culled, rule::face_cull, "the triangle is culled: it faces {facing}"},
+    Row{cull_distance, rule::cull_distance,
+        "cull distance {number} is negative at all three vertices"},
+    Row{clip_distance, rule::clip_distance,
+        "clip distance {number} is negative at the sample"},
+    Row{clip_plane, rule::clip_volume, "clipped away by the plane {plane} of the view volume"},
+    Row{undefined, rule::number_undefined,
+        "a vertex has a NaN, an infinity or a number beyond the guaranteed range: the triangle may "
+        "cover any sample or none"},
+    Row{unbounded, rule::number_undefined,
+        "a vertex lies behind the eye or beyond 2^32 pixels, and nothing bounds where the corners "
+        "of the clipped polygon may lie"},
+    Row{near_distance, rule::clip_distance,
+        "inside the triangle, but clip distance {number} is 0 within its error at the sample"},
+    Row{open_facing, rule::face_area_sign,
+        "which way the triangle faces depends on where its vertices are snapped ({boxes}), and one "
+        "of its faces is culled"},
+    Row{viewport_border, rule::clip_viewport,
+        "the sample lies within a pixel of a border of the viewport that is no whole number, "
+        "{viewport}"},
+    Row{on_edge, rule::tie_top_left,
+        "{ties}: only the top-left rule, between fixed points at profile direct3d, would decide"},
+    Row{vertex_boxes, rule::cover_inside, "inside for some positions of the vertices only: {boxes}",
+        rule::snap_nearest},
+    Row{complement, rule::clip_complement,
+        "{number} of {triangles} covers the sample: a clip distance and its negative are 0 here "
+        "within their error"},
+    Row{clipped_edge, rule::cover_clipped_edge,
+        "{number} of {triangles} covers the sample: they meet here along edges they share, clipped",
+        rule::snap_nearest},
+    Row{shared_vertex, rule::cover_shared_vertex,
+        "{number} of {triangles} covers the sample: they meet here in a vertex they share",
+        rule::snap_nearest},
+    Row{shared_edge, rule::cover_shared_edge,
+        "{number} of {triangles} covers the sample: they meet here along edges they share with "
+        "identical end points",
+        rule::snap_nearest},
+    Row{nearest_positions, rule::snap_nearest,
+        "no vertex position within the rounding of Direct3D explains this number"},
+    Row{snapped_owner, rule::cover_outside,
+        "where the vertices snap decides which triangle covers the sample", rule::snap_nearest},
+    Row{none_near, rule::cover_outside, "no triangle is within two pixels of the sample"},
+    Row{none_may, rule::cover_outside, "no triangle near the sample may cover it"},
+    Row{once_alone, rule::cover_outside, "{triangle} alone may cover the sample, and only once"},
+    Row{once_each, rule::cover_outside, "{number} triangles may cover the sample, each only once"},
+    Row{area_sign, rule::face_area_sign, "the sign of its area decides which face shows"},
+    Row{depth_ranges, rule::depth_compare, "{outcome} the depth test {compare}, {depths}"},
+    Row{depth_same, rule::depth_repeat,
+        "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before by the "
+        "same state, so the depths are equal"},
+    Row{depth_apart, rule::depth_distinct,
+        "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before, biased "
+        "apart by whole units of r"},
+    Row{value_set_up, {},
+        "no set-up from snapped or unsnapped vertices explains the fragment"},
+    Row{value_hull, rule::interp_hull,
+        "the value lies outside all that the vertices' values span"},
+    Row{value_flat, rule::interp_flat, "a flat input has the bits of the provoking vertex"},
+    Row{value_of_not_first, rule::provoking_first,
+        "the flat input is that of another vertex than the first, which is the provoking one"},
+    Row{value_of_not_last, rule::provoking_last,
+        "the flat input is that of another vertex than the last, which is the provoking one"},
+    Row{value_other_weight, rule::barycentric_order, "this is the barycentric of another vertex"},
+    Row{value_exact, {}, "the sample and its pixel leave these exact numbers only"},
+    Row{value_clamped_depth, rule::depth_clamp,
+        "the depth of its plane is outside the viewport's range, to which it is clamped"},
+    Row{value_biased_depth, rule::depth_bias,
+        "no set-up explains the depth, biased as the draw asks for"},
+    Row{value_stored_depth, rule::depth_store,
+        "no set-up explains the depth, rounded to the steps of its format"},
+};
+static_assert(kRows.size() == static_cast<size_t>(kLastReason) + 1);
+static_assert([] {
+    for (size_t k = 0; k < kRows.size(); ++k) {
+        if (kRows[k].kind != static_cast<ReasonKind>(k)) {
+            return false;
+        }
+    }
+    return true;
+}());
+
+const Row& row_of(ReasonKind kind) {
+    return kRows.at(static_cast<size_t>(kind));
+}
+
+}  // namespace
+
+std::string_view rule_of(ReasonKind kind, cases::Profile level) {
+    const Row& row = row_of(kind);
+    const bool is_direct3d = level == cases::Profile::direct3d && !row.direct3d.empty();
+    return is_direct3d ? row.direct3d : row.rule;
+}
+
+std::string_view text_of(ReasonKind kind) {
+    return row_of(kind).text;
+}
+
+std::string_view text_of_all(ReasonKind kind) {
+    return row_of(kind).text_of_all;
+}
+
+}  // namespace ref
