@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What any renderer produced for a case, sample by sample, float bits as they are. A sample's index
-// is (j * width + i) * samples + s.
+// is cases::index_of.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@
 #include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
-#include "cli/explain.hpp"
+#include "cli/explain_text.hpp"
 #include "cli/prepare/suite.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "report/record/run.hpp"

@@ -40,7 +40,9 @@ struct Finding {
     std::string quantity;  // value findings: "attribute 0.x", "depth", ...; else ""
     std::string expected;
     std::string got;
-    std::string why;                     // one sentence with the exact arithmetic
+    // One sentence: the reason (ref/reason/reason.cpp), or what was found; "as at pixel ..." where
+    // many are alike.
+    std::string why;
     double ratio = 0;                    // value findings: error in budgets
     std::optional<uint32_t> layer = {};  // of a target with several layers
     static void fields(auto&& visit, auto&... f) {

@@ -5,7 +5,7 @@
 //
 // Cases are first rendered in batches. When a batch dies, its cases without a result are rendered
 // one by one in fresh workers, so that only the culprit is charged, confirmed alone; if none of
-// them dies alone, the first of the batch is charged as a flake, because the death must not be
+// them dies alone, the first of them is charged as a flake, because the death must not be
 // lost. Unexpected failures are rendered again alone; different bits make a flake.
 //
 // Each worker has a lane of cases that follow each other in the suite: neighbours share pipelines,
@@ -69,9 +69,8 @@ class Schedule {
 
     uint32_t attempts(size_t k) const { return states_[k].attempts; }
 
-    // Called with the final status of each case. Returns the reason of a death that no case of its
-    // batch repeated alone, to be charged to `k` as a flake; k's record must be held back while
-    // is_held(k).
+    // Called with the final status of each case; k's record must be held back while is_held(k).
+    // release() then says which case a death that no case repeated alone is charged to, as a flake.
     void settled(size_t k, report::Status status);
     bool is_held(size_t k) const;
     // Records that are no longer held, in the order of settling, with the reason to charge, if any.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The parts of a case file, each read by the source file of its name. Mistakes go to the context;
-// what is returned means nothing then.
+// The parts of a case file: load_*.cpp and attributes.cpp read them. A mistake goes to the context,
+// and what is returned then means nothing.
 #pragma once
 
 #include <glm/vec4.hpp>

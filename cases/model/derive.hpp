@@ -33,7 +33,7 @@ uint32_t attributes_of(const Case& c);
 // The word of a relation in a case file.
 std::string_view to_string(RelationKind kind);
 
-// Tiles of a scissor-tiles relation, for any draw.
+// Counts the tiles of a scissor-tiles relation; every draw has as many.
 uint64_t tile_count(const Target& target, const Relation& relation);
 
 }  // namespace cases

@@ -15,12 +15,12 @@ constexpr std::array kRules = {
     Rule{rule::cover_inside, Profile::vulkan, "A sample strictly inside a triangle is covered",
          "Whatever positions the device may use for the vertices, the sample is inside: it must be "
          "hit.",
-         "primsrast-polygons-basic", "3.4.2", "ref/coverage/coverage.hpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
     Rule{rule::cover_outside, Profile::vulkan,
          "A triangle covers no sample strictly outside it, and none twice",
          "It must not hit a sample outside the convex hull of the positions that the device may "
          "use for its vertices, nor any sample more than once.",
-         "primsrast-polygons-basic", "3.4.2", "ref/coverage/coverage.hpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
     Rule{rule::cover_shared_edge, Profile::vulkan,
          "A sample on a shared edge belongs to exactly one triangle",
          "If two triangles lie on either side of a common edge with identical end points, a sample "
@@ -38,7 +38,7 @@ constexpr std::array kRules = {
     Rule{rule::cover_degenerate, Profile::direct3d, "A triangle without area covers nothing",
          "No sample is strictly inside. Vulkan leaves the samples on its edges free; with the "
          "top-left rule none is hit.",
-         "primsrast-polygons-basic", "3.4.2", "ref/coverage/coverage.hpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
     Rule{rule::snap_nearest, Profile::direct3d, "Vertices snap to the nearest subpixel position",
          "Direct3D rounds to nearest within 0.6 of a unit; Vulkan names no rounding, practice is "
          "floor or ceil.",
@@ -47,7 +47,7 @@ constexpr std::array kRules = {
          "A sample on an edge belongs to the top or left edge's triangle",
          "A top edge is exactly horizontal and above the others, a left edge is not horizontal and "
          "on the left side. Vulkan does not demand this rule.",
-         "primsrast-polygons-basic", "3.4.2", "ref/coverage/coverage.hpp"},
+         "primsrast-polygons-basic", "3.4.2", "ref/coverage/exact.cpp"},
     Rule{rule::face_area_sign, Profile::vulkan, "Facing follows the sign of the area",
          "a = -1/2 sum(x_i y_i+1 - x_i+1 y_i) in framebuffer coordinates; positive is "
          "counter-clockwise. Zero area is back facing. Free where the sign depends on snapping.",
@@ -66,7 +66,7 @@ constexpr std::array kRules = {
     Rule{rule::clip_viewport, Profile::vulkan, "Nothing is drawn outside the viewport",
          "Polygons are clipped to the view volume, so no sample outside the viewport's rectangle "
          "is covered.",
-         "vertexpostproc-clipping", "15.6", "ref/position/clip.hpp"},
+         "vertexpostproc-clipping", "15.6", "ref/coverage/window.cpp"},
     Rule{rule::layer_select, Profile::vulkan,
          "A triangle is drawn to the layer it names, and to no other",
          "gl_Layer of its vertices chooses the layer of every attachment; without it the first "
@@ -99,7 +99,7 @@ constexpr std::array kRules = {
          "fundamentals-floating-point", "15.4", "ref/position/position.hpp"},
     Rule{rule::scissor_half_open, Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",
-         "fragops-scissor", "15.14", "ref/coverage/setup.cpp"},
+         "fragops-scissor", "15.14", "ref/coverage/window.cpp"},
     Rule{rule::sample_locations, Profile::vulkan, "Samples lie exactly at their locations",
          "The standard locations, or those that the pipeline asks for, in the order of their "
          "indices; they are points, never areas, and are not snapped.",
@@ -107,7 +107,7 @@ constexpr std::array kRules = {
     Rule{rule::sample_mask, Profile::vulkan, "The sample mask removes samples",
          "Bit s of pSampleMask, and bit s of what the shader writes to gl_SampleMask, let sample s "
          "be written: coverage is their AND.",
-         "fragops-samplemask", "17.17", "cases/model/sample.hpp"},
+         "fragops-samplemask", "17.17", "cases/model/sample.cpp"},
     Rule{rule::sample_mask_in, Profile::vulkan,
          "gl_SampleMaskIn holds the samples of the invocation",
          "Without sample shading the covered samples after the sample mask; with it a subset that "
@@ -138,7 +138,7 @@ constexpr std::array kRules = {
          "interfaces-builtin-variables-fragcoord", "", "ref/value/sample_values.hpp"},
     Rule{rule::order_primitive, Profile::vulkan, "Primitives write in drawing order",
          "Of the triangles that hit a sample, the last one drawn is the one that stays.",
-         "primsrast-order", "", "ref/expectation/expectation.hpp"},
+         "primsrast-order", "", "ref/expectation/narrowing.cpp"},
     Rule{rule::provoking_first, Profile::vulkan, "Flat values come from the first vertex",
          "The provoking vertex is 3i in a list, i in a strip, i+1 in a fan; values are copied "
          "before clipping.",

@@ -44,7 +44,8 @@ std::span<const std::array<uint8_t, 2>> sample_locations(const Target& target);
 // of word 0). The shader's mask is the same for every fragment here, so that it is one more AND.
 bool is_in_mask(const Multisample& state, uint32_t s);
 
-// Names it "pixel (3, 4)", in a target of several layers "layer 1, pixel (3, 4)".
+// Names the pixel of a sample: "pixel (3, 4)", in a target of several layers "layer 1, pixel (3,
+// 4)".
 std::string pixel_text(const Target& target, const SampleId& id);
 // The same, in a target of several samples with the sample: "pixel (3, 4), sample 2".
 std::string sample_text(const Target& target, const SampleId& id);

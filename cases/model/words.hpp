@@ -18,7 +18,7 @@ template <size_t N>
 using WordList = std::array<std::string_view, N>;
 
 namespace detail {
-// Of a table of formats.
+// Takes the words from a table of formats.
 template <class Row, size_t N>
 constexpr WordList<N> words_in(const std::array<Row, N>& rows) {
     WordList<N> words;
@@ -29,7 +29,7 @@ constexpr WordList<N> words_in(const std::array<Row, N>& rows) {
 }
 }  // namespace detail
 
-// Of every enumeration below; nothing of others.
+// Holds the words of an enumeration; it is empty for those without a table below.
 template <class Enum>
 inline constexpr WordList<0> kWords = {};
 

@@ -23,18 +23,18 @@ namespace ref::color {
 
 using Color = std::array<Interval, 4>;  // red, green, blue, alpha
 
-// The target's colour after one fragment. Integer formats: no blending.
+// Computes the target's colour after one fragment; integer formats are not blended.
 struct Unit {
     cases::ColorFormat format;
     cases::Profile profile;
     // `source`: what the shader wrote; `before`: what the target held.
     Color write(const cases::ColorOutput& output, const Color& source, const Color& before) const;
-    // After a clear.
+    // Is the target's colour after a clear.
     Color cleared(const cases::ColorTarget& target) const;
     // Codes in the middle of what is allowed.
     std::array<uint32_t, 4> codes_of(const Color& color) const;
     bool allows(const Color& color, const std::array<uint32_t, 4>& codes) const;
-    // "r 127 or 128, g 0, b 0, a 255"
+    // "r 127 to 128, g 0, b 0, a 255"
     std::string text_of(const Color& color) const;
     std::string text_of(const std::array<uint32_t, 4>& codes) const;
 };

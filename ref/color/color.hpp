@@ -54,7 +54,7 @@ class ColorReference {
     // `index`: of the sample. `witness`: nothing if the target has no instruments.
     ColorVerdict judge(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
                        const std::optional<ColorWitness>& witness);
-    // As judge, the kinds ok and open alone: is there an allowed set of fragments that explains it?
+    // As judge, but says only whether an allowed set of fragments explains the codes.
     bool explains(size_t index, cases::SampleId id, const std::array<uint32_t, 4>& codes,
                   const std::optional<ColorWitness>& witness);
     // Codes that are allowed: of the first allowed set of fragments; of the clear colour if there

@@ -80,7 +80,7 @@ class Component {
     uint32_t code_of(const mpq_class& value) const;
     // The unit of the last place at 1: 1 / (2^bits - 1) of UNORM and sRGB, 0 of others.
     mpq_class step() const;
-    // A range of codes as text: "127", "127 or 128", "0x3f800000 (1)".
+    // A range of codes as text: "127", "127 to 128", "0x3f800000 (1)".
     std::string text_of(const Interval& v) const;
 
   private:

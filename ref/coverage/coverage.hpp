@@ -7,9 +7,8 @@
 // Sign and ties: y points down. The edge function is E_ab(p) = (b-a) x (p-a) = (b_x-a_x)(p_y-a_y) -
 // (b_y-a_y)(p_x-a_x) (Pineda 1988; Giesen, "The barycentric conspiracy"). Vertices are taken in the
 // order that makes the area positive (clockwise on screen), so inside means E > 0 for all three
-// edges. A sample on an edge is `either`; only profile direct3d decides it, by the top-left rule:
-// an edge a->b of a positive triangle is a top edge if b_y = a_y and b_x > a_x, a left edge if b_y
-// < a_y.
+// edges. A sample on an edge between two points is `either`; only profile direct3d decides it, by
+// the top-left rule (is_top_left, ref/number/edge_function.hpp).
 #pragma once
 
 #include <cstdint>
@@ -27,20 +26,20 @@ namespace ref {
 
 enum class Coverage : uint8_t { must_not, either, must };
 
-// What is said of one triangle at one sample.
+// Says what was decided of one triangle at one sample, and why.
 struct Decision {
     Coverage coverage = Coverage::must_not;
     Reasons reasons;
 };
 
-// Which way a triangle faces for every position the device may use, or that it depends on them.
+// Says which way a triangle faces for every position that the device may use, or that this depends
+// on them.
 enum class Facing : uint8_t { front, back, depends };
 
-// Everything about a triangle that does not depend on the sample: boxes, clipped polygon, facing.
-// Opaque to others; setup.hpp has the definition.
+// Holds everything about a triangle that does not depend on the sample; setup.hpp defines it.
 struct TriangleSetup;
 
-// The answer alone, without its reasons.
+// Is the answer for one triangle and one sample, without its reasons.
 struct Classification {
     Coverage coverage = Coverage::must_not;
     bool on_edge = false;  // the sample lies exactly on an edge of a point-box triangle (a tie)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clip distances that a device tests at each sample instead of cutting the polygon by them.
+// Handles clip distances that a device tests at each sample instead of cutting the polygon by them.
 #pragma once
 
 #include <array>

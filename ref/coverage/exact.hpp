@@ -12,10 +12,11 @@
 
 namespace ref::exact {
 
-// Coverage of one sample.
+// Classifies one sample.
 Classification classify(const TriangleSetup& setup, const FixedPoint& p);
 
-// The same with its reasons, if they are to be told; `setup` is then one that is told, too.
+// Does the same and, if `is_told`, names the reasons; `setup` must then have been set up to be
+// told.
 Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told);
 
 // What one outline says of a sample, without its cuts and whatever the window.
@@ -28,11 +29,11 @@ bool is_on_segment(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p
 // on one side.
 bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p);
 
-// As fast::winding, by its definition: the sum of the signs of the triangles (first vertex, edge)
-// that cover p under the top-left rule.
+// Computes what fast::winding computes, by its definition: the sum of the signs of the triangles
+// (first vertex, edge) that cover p under the top-left rule.
 int winding(std::span<const FixedPoint> polygon, const FixedPoint& p);
 
-// Whether the triangle covers p under the top-left rule; vertices in either order.
+// True if the triangle, whose vertices may stand in either order, covers p under the top-left rule.
 bool covers(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c, const FixedPoint& p);
 
 // True if the outline covers p but for its cuts, whatever positions the device uses.

@@ -28,14 +28,14 @@ struct AreaSigns {
     int only() const { return negative || zero ? (positive || zero ? 0 : -1) : (positive ? 1 : 0); }
 };
 
-// The signs over all positions in the boxes of a polygon. The answer is exact for three boxes (the
-// area is multi-affine, so its extremes lie at corners); of more it may name a sign too many.
+// Finds the signs over all positions in the boxes of a polygon. The answer is exact for three boxes
+// (the area is multi-affine, so its extremes lie at corners); of more it may name a sign too many.
 AreaSigns area_signs(std::span<const Box> boxes);
 
 // The signs over all triangles that have one grid point of each box as corner. This is exact.
 AreaSigns snapped_area_signs(std::span<const Box> boxes, int64_t grid_step);
 
-// What may be drawn as front or back face, with zero area counting as back.
+// Says what may be drawn as front or back face; zero area counts as back.
 bool can_face_front(const AreaSigns& signs, cases::FrontFace front_face);
 bool can_face_back(const AreaSigns& signs, cases::FrontFace front_face);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reasons of a sample that exact::decide has decided: which edges, planes and distances it was.
+// Names the reasons of a sample that exact::decide has decided: edges, planes and distances.
 #pragma once
 
 #include "ref/coverage/setup.hpp"
@@ -14,7 +14,7 @@ namespace ref {
 void name_reasons(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p,
                   Coverage own, Decision& out);
 
-// Adds those of the set-up and its window, and puts all in the order in which they are told.
+// Adds the reasons of the set-up and its window, and puts all in the order in which they are told.
 void name_setup_reasons(const TriangleSetup& setup, const FixedPoint& p, Decision& out);
 
 }  // namespace ref

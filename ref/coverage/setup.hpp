@@ -199,7 +199,7 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
                      cases::Profile profile, VertexBoxes& boxes, const Window& window,
                      bool is_told = false);
 
-// A position in the middle of a box, on no grid.
+// Computes a position in the middle of a box, which need not lie on a grid.
 FixedPoint middle_of(const Box& box);
 
 // The grid points that a box in mode snapped contains.

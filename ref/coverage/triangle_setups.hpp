@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The set-ups of a case's triangles. Most triangles of a mesh at scale lie between the samples:
-// they are never set up, and what is asked for is kept, unless it is forgotten.
+// they are never set up. What was set up is kept, until forget_last() gives it up.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Three-valued comparison of depths that are known as ranges (Vulkan specification, "Depth Test"),
-// in Balls or rationals. Part of depth_test.cpp.
+// in Balls or rationals; outcome.cpp uses it.
 #pragma once
 
 #include <cmath>
@@ -49,7 +49,7 @@ std::optional<DepthRange<T>> with_neighbours(const Range<T>& z, double steps) {
                          larger(T(T(-*minus_high) / T(steps)), z.high)};
 }
 
-// Three-valued, or nothing if T cannot tell.
+// An outcome is three-valued, or nothing if T cannot tell.
 using Outcome = std::optional<DepthOutcome>;
 
 inline Outcome outcome_of(Answer always, Answer never) {

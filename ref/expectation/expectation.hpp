@@ -17,8 +17,9 @@
 
 namespace ref {
 
-// Allowed hits at one sample. All of: front in [front_min, front_max], back in [back_min,
-// back_max], front - back in [signed_min, signed_max], front + back in [total_min, total_max].
+// Says which hits are allowed at one sample. All of these hold: front in [front_min, front_max],
+// back in [back_min, back_max], front - back in [signed_min, signed_max], front + back in
+// [total_min, total_max].
 struct HitBounds {
     uint32_t front_min = 0, front_max = 0;
     uint32_t back_min = 0, back_max = 0;
@@ -42,7 +43,7 @@ struct SampleExpectation {
     friend bool operator==(const SampleExpectation&, const SampleExpectation&) = default;
 };
 
-// A triangle that must or may cover a sample.
+// Is a triangle that must or may cover a sample.
 struct PossibleHit {
     uint32_t triangle = 0;
     bool is_certain = false;

@@ -55,9 +55,10 @@ struct TriangleExplanation {
 
     ReasonKind why() const { return decision.reasons.front().kind; }
     bool has(ReasonKind kind) const;
-    // That the sample lies on an edge decides.
+    // True if an edge on which the sample lies decides.
     bool is_tie() const;
-    // It would cover the sample but for the state of its draw, or for planes and distances.
+    // True if the triangle would cover the sample but for the state of its draw, a plane or a
+    // distance.
     bool is_suppressed() const;
 };
 

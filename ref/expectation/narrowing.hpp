@@ -49,7 +49,7 @@ struct FixedSet {
     uint32_t count = 0, least = 0;    // how many of them cover the sample: at most and at least
 };
 
-// What judge() rests on, for those who tell it.
+// Holds what judge() rests on, for those who tell it.
 struct JudgeReasons {
     std::vector<FixedSet> sets;
     DepthResolution depth;  // of each hit; empty if the case tests no depth

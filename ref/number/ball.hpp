@@ -60,7 +60,7 @@ inline Ball operator/(const Ball& a, const Ball& b) {
 inline Ball magnitude(const Ball& a) {
     return {std::fabs(a.v), a.e};
 }
-// The larger of the midpoints is within the larger of the bounds of the larger value.
+// The larger of the midpoints is off the larger exact value by at most the larger bound.
 inline Ball larger(const Ball& a, const Ball& b) {
     return {a.v < b.v ? b.v : a.v, a.e < b.e ? b.e : a.e};
 }

@@ -16,20 +16,21 @@ __extension__ typedef __int128 Int128;
 inline constexpr int kPositionBits = 50;
 static_assert(2 * (kPositionBits + 1) + 1 < 127, "a cross product of differences fits Int128");
 
-// (b-a) x (p-a): positive if p lies to the right of a->b on screen (y down).
+// Computes (b-a) x (p-a), which is positive if p lies to the right of a->b on screen (y down).
 inline Int128 edge_function(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
     return static_cast<Int128>(b.x - a.x) * (p.y - a.y) -
            static_cast<Int128>(b.y - a.y) * (p.x - a.x);
 }
 
-// Inside where a x + b y + c >= 0. With positions below 2^50: |a|, |b| < 2^51, |c| < 2^102.
+// A point is inside where a x + b y + c >= 0. With positions below 2^50: |a|, |b| < 2^51, |c| <
+// 2^102.
 struct HalfPlane {
     Int128 a = 0, b = 0, c = 0;
     Int128 at(const FixedPoint& p) const { return a * p.x + b * p.y + c; }
     friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
 };
 
-// Whether the edge a->b of a triangle with positive area owns the samples on it (top-left rule).
+// True if the edge a->b of a triangle with positive area owns the samples on it (top-left rule).
 inline bool is_top_left(const FixedPoint& a, const FixedPoint& b) {
     return b.y < a.y || (b.y == a.y && b.x > a.x);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whole numbers beside a rational one.
+// Rounds rationals to whole numbers.
 #pragma once
 
 #include <gmpxx.h>

@@ -22,7 +22,7 @@
 
 namespace ref {
 
-// K: so many budgets of error are accepted at practice and direct3d. docs/precision.md has the
+// K is how many budgets of error are accepted at practice and direct3d. docs/precision.md has the
 // largest error measured on every driver.
 inline constexpr int kBudgetFactor = 2;
 
@@ -38,7 +38,7 @@ inline mpq_class exact_budget_factor(cases::Profile profile) {
     return profile == cases::Profile::vulkan ? mpq_class(kProvenFactor * kUnits) / kParts
                                              : mpq_class(kBudgetFactor);
 }
-// The same rounded, for texts.
+// Is the same, rounded, for texts.
 inline double budget_factor(cases::Profile profile) {
     return exact_budget_factor(profile).get_d();
 }

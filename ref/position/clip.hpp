@@ -48,7 +48,7 @@ struct ClipVolume {
 
     std::span<const ClipPlane> all() const { return {planes.data(), count}; }
     std::span<const ClipPlane> view() const { return {planes.data(), view_count}; }
-    // Without the borders: what a device with a guard band cuts by.
+    // Are the planes without the borders, by which a device with a guard band cuts.
     std::span<const ClipPlane> without_borders() const { return all().subspan(4); }
     std::span<const ClipPlane> depth() const { return view().subspan(4); }
     bool has_user_planes() const { return count > view_count; }
@@ -90,7 +90,7 @@ struct ClippedVertex {
 // True if all components are finite and the vertex lies in the closed view volume.
 bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes = kViewVolume);
 
-// The same of vertex i, with clip distances.
+// Says the same of vertex i, with clip distances.
 bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> planes);
 
 // True if all three vertices lie strictly outside one and the same plane of the view volume (not a

@@ -59,10 +59,9 @@ struct Box {
 };
 
 // The box of positions that a device may use for a vertex under a profile (docs/design.md,
-// "Positions"; shared words in docs/rules.md, snap.nearest):
-//   direct3d  hull of the subpixel grid points within 0.6 units (plus the transform error) of the
-//   ideal
-//             position;
+// "Positions"; docs/rules.md, snap.nearest):
+//   direct3d  hull of the subpixel grid points within 0.6 subpixels (plus the transform error) of
+//             the ideal position;
 //   practice  floor..ceil of the ideal position (widened by the transform error) on the subpixel
 //             grid;
 //   vulkan    the same, widened before it is snapped by what operations accurate to 1e-5 may be

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What position.cpp and clip.cpp share.
+// Here stands what position.cpp, clip.cpp and ref/coverage/setup.cpp share.
 #pragma once
 
 #include <gmpxx.h>

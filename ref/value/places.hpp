@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// This says where in its pixel a fragment's inputs may be evaluated.
+// Says where in its pixel a fragment's inputs may be evaluated.
 //
 // Vulkan specification, "Interpolation Decorations": "an implementation-defined position within the
 // fragment area"; Centroid: one that must "also fall within the bounds of the primitive"; Sample:

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // journal.jsonl: one JSON object a line, each written by one write(2), so that a crash, a hang or a
-// power cut loses at most the case in flight. Records: "run" (header and the selected ids),
+// power cut loses at most the batches in flight. Records: "run" (header and the selected ids),
 // "device", "begin" (a case is handed to a worker), "end" (a CaseRecord), "stop" (how the run
 // ended).
 #pragma once

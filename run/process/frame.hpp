@@ -17,10 +17,10 @@ enum class FrameType : uint32_t {
     configure = 1,  // parent -> worker: which renderer and device
     render,         // parent -> worker: a batch of cases
     list_devices,   // parent -> worker: every device, for doctor
-    hello,          // worker -> parent: the device is ready
+    hello,          // parent -> worker: open the device; worker -> parent: it is ready
     no_device,      // worker -> parent: it is not, and why
     devices,        // worker -> parent: answer to list_devices
-    step,           // worker -> parent: the stage that begins now
+    step,           // worker -> parent: the stage that begins now, as text
     result,         // worker -> parent: one case of the batch
     batch_done,     // worker -> parent: every result of the batch has been sent
 };

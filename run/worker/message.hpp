@@ -79,7 +79,8 @@ struct CaseResult {
         visit("bits", r.bits...);
     }
 };
-// Of what the worker found itself: the same bytes for the same findings.
+// The findings of the worker itself as bytes, for the checksum by which two renderings are
+// compared; they are not sent.
 std::string encode_findings(const CaseResult& result);
 std::string encode_result(const CaseResult& result);
 std::optional<CaseResult> decode_result(std::string_view bytes);

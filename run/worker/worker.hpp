@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The hidden command "worker": the only process that loads a driver. It reads frames from
+// The hidden command "worker": the only process of a run that loads a driver. It reads frames from
 // kRequestFd and answers on kResultFd until the parent closes the request pipe.
 #pragma once
 

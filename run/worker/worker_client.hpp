@@ -29,7 +29,7 @@ struct Death {
     std::string step;    // the last stage that it announced
     std::string output;  // what it printed since the batch began, head and tail, any bytes
 };
-// One sentence: "the worker was killed by SIGSEGV during submit".
+// One sentence: "the worker was killed by SIGSEGV during 'submit'".
 std::string describe(const Death& death);
 
 struct BatchDone {};

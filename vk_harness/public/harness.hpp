@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Headless Vulkan 1.3: draws cases on a real driver and reads every sample back. Used only in
-// worker processes; nothing else in the program loads the Vulkan loader (through volk, at run
-// time).
+// child processes (workers, and the bare drawing of `bench`); nothing else in the program loads the
+// Vulkan loader (through volk, at run time).
 #pragma once
 
 #include <functional>

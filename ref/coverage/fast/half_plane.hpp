@@ -18,8 +18,9 @@ inline HalfPlane right_of(const FixedPoint& a, const FixedPoint& b, bool is_stri
             static_cast<Int128>(a.x) * b.y - static_cast<Int128>(a.y) * b.x - (is_strict ? 1 : 0)};
 }
 
-// What a triangle setup says, as sets. What must be covered is the intersection of all `must` half
-// planes (nothing without has_must); what may be is the union of `may`, each inside its bounds.
+// Says as sets what a triangle set-up says. What must be covered is the intersection of all `must`
+// half planes (nothing without has_must); what may be is the union of `may`, each inside its
+// bounds.
 struct ConvexSet {
     std::vector<HalfPlane> planes;
     Box bounds;
@@ -37,7 +38,7 @@ std::vector<FixedPoint> convex_hull(std::vector<FixedPoint> points);
 // The closed convex hull of the boxes.
 ConvexSet hull_set(std::span<const Box> boxes);
 
-// The sets of one outline as if nothing cut it.
+// Makes the sets of one outline as if nothing cut it.
 CoverageSets coverage_set(const Outline& outline, int64_t grid_step);
 
 CoverageSets coverage_sets(const TriangleSetup& setup);

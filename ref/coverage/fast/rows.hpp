@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rows of samples and the half planes that cut them.
+// Rows of samples are cut by half planes here.
 #pragma once
 
 #include <algorithm>
@@ -73,8 +73,8 @@ inline int64_t last_at(int64_t high, int64_t offset) {
 // The rows and columns of pixels in a window whose sample of this number may, and must, be touched.
 Grid grid_of(const Window& w, uint32_t sample, const cases::Target& target);
 
-// Appends one row: `may` minus `must` is either. The may intervals may overlap; must lies inside
-// them.
+// Appends one row: what is in `may` but not in `must` is either. The may intervals may overlap;
+// must lies inside them.
 void emit_row(std::span<Columns> may, const Columns& must, const Span& where,
               std::vector<Span>& out);
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first of three stages of every decision: plain binary64, accepts only what is proven to be
-// within K budgets, and answers in a few nanoseconds. What it does not accept is decided with
-// Balls, and what those cannot decide in rationals.
+// This is the first of three stages of every decision: it uses plain binary64, accepts only what is
+// proven to be within K budgets, and answers in a few nanoseconds. What it does not accept is
+// decided with Balls, and what those cannot decide in rationals.
 #pragma once
 
 #include <span>

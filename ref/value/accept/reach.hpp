@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which numbers one candidate accepts for a quantity: the hull of the values at its sites, widened
-// by the budgets of binary32, then bias, clamp and store of a depth. Part of judge_candidates.cpp.
+// Computes which numbers one candidate accepts for a quantity: the hull of the values at its sites,
+// widened by the budgets of binary32, then bias, clamp and store of a depth. candidate_reach.hpp
+// builds on it.
 #pragma once
 
 #include <algorithm>

@@ -37,7 +37,7 @@ std::vector<value::Point<mpq_class>> pixel_region(const TriangleSetup& setup, ui
 std::vector<value::Point<mpq_class>> cut(const std::vector<value::Point<mpq_class>>& polygon,
                                          const value::Form<mpq_class>& inside);
 
-// Set-up once a triangle, lazily; the last pixel asked for is kept.
+// Sets each triangle up once, when first asked, and keeps the last pixel.
 class FragmentCoverage {
   public:
     FragmentCoverage(const cases::Case& c, const Limits& limits, cases::Profile profile,

@@ -16,7 +16,7 @@ struct Promise {
     bool is_guaranteed = true;  // false: beyond the magnitudes that Vulkan guarantees
 };
 
-// By quantity. Finite positions.
+// Says it of each quantity; the positions must be finite.
 std::vector<Promise> promises_of(const Primitive& primitive, std::span<const Quantity> quantities);
 
 }  // namespace ref::value

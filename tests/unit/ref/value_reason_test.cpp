@@ -119,7 +119,8 @@ class LeafValues {
         const std::vector<ExpectedValue> all = values_.expected(t, at);
         const FragmentValues right = nearest(all);
         if (!values_.judge(t, at, right).ok) {
-            return;  // a coarse derivative's or a barycentric's nearest numbers are of no one device
+            return;  // a coarse derivative's or a barycentric's nearest numbers are of no one
+                     // device
         }
         const cases::Triangle& triangle = expectation_.triangles[t];
         for (const ExpectedValue& e : all) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/explain.hpp"
+#include "cli/explain_text.hpp"
 
 #include <fmt/format.h>
 
