@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "cases/model/words.hpp"
+#include "ref/number/rational.hpp"
 
 namespace ref {
 
@@ -27,10 +28,9 @@ mpq_class unit_of(Profile profile) {
     return profile == Profile::vulkan ? mpq_class(1, 100000) : mpq_class(1, 1U << 24U);
 }
 
-int64_t floor_div(const mpq_class& v) {
-    mpz_class result;
-    mpz_fdiv_q(result.get_mpz_t(), v.get_num_mpz_t(), v.get_den_mpz_t());
-    return result.get_si();
+// Of a component that the source lacks: 0, alpha 1.
+Interval point_of_lacking(uint32_t k) {
+    return color::point(k == 3 ? 1 : 0);
 }
 
 mpq_class rational(const BlitCoordinate& u) {
@@ -57,11 +57,8 @@ BlitCoordinate blit_coordinate(int32_t i, int32_t s0, int32_t s1, int32_t d0, in
     return {numerator + s0 * denominator, denominator};
 }
 
-mpq_class coordinate_error(const mpq_class& unit, uint32_t source_size, uint32_t target_width,
-                           uint32_t target_height, uint32_t region_width, uint32_t region_height) {
-    const mpq_class extrapolation =
-        mpq_class(target_width) / region_width + mpq_class(target_height) / region_height;
-    return unit * source_size * (9 + 2 * (1 + 8 * extrapolation));
+BlitCoordinate BlitReference::Axis::at(uint32_t i) const {
+    return blit_coordinate(static_cast<int32_t>(i), s0, s1, d0, d1);
 }
 
 BlitReference::BlitReference(const cases::Case& c)
@@ -102,9 +99,8 @@ std::vector<BlitReference::TexelRange> BlitReference::spans_of(const Axis& axis,
                                                                const mpq_class& error) const {
     std::vector<TexelRange> spans;
     for (uint32_t i = 0; i < size; ++i) {
-        const mpq_class u =
-            rational(blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
-        spans.push_back({floor_div(u - error), floor_div(u + error)});
+        const mpq_class u = rational(axis.at(i));
+        spans.push_back({floor_of(u - error).get_si(), floor_of(u + error).get_si()});
     }
     return spans;
 }
@@ -119,23 +115,9 @@ bool BlitReference::is_inside(uint32_t x, uint32_t y) const {
 
 mpq_class BlitReference::error_of(const Axis& axis, Profile profile) const {
     const auto side = [](const Axis& a) { return static_cast<uint32_t>(std::abs(a.d1 - a.d0)); };
-    return coordinate_error(unit_of(profile), axis.size, width_, height_, side(across_),
-                            side(down_));
-}
-
-// Where the device may read: the coordinates u - error .. u + error of both axes.
-struct BlitReference::FilterWindow {
-    Interval across, down;
-};
-
-BlitReference::FilterWindow BlitReference::window(uint32_t x, uint32_t y, Profile profile) const {
-    const auto around = [&](const Axis& axis, uint32_t i) {
-        const mpq_class u =
-            rational(blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
-        const mpq_class error = error_of(axis, profile);
-        return Interval{u - error, u + error};
-    };
-    return {around(across_, x), around(down_, y)};
+    const mpq_class extrapolation =
+        mpq_class(width_) / side(across_) + mpq_class(height_) / side(down_);
+    return unit_of(profile) * axis.size * (9 + 2 * (1 + 8 * extrapolation));
 }
 
 const TexelCodes& BlitReference::texel(int64_t x, int64_t y, bool by_region) const {
@@ -166,9 +148,8 @@ bool BlitReference::converts(const TexelCodes& source, const TexelCodes& got,
             }
             continue;
         }
-        // Components that the source lacks are 0, alpha 1.
-        const Interval number = from.bits == 0 ? Interval{k == 3 ? 1 : 0, k == 3 ? 1 : 0}
-                                               : Component(from).read(source[k]);
+        const Interval number =
+            from.bits == 0 ? point_of_lacking(k) : Component(from).read(source[k]);
         const mpq_class slack = from.bits == 0 || to.kind == ComponentKind::uint
                                     ? mpq_class(0)
                                     : mpq_class(4 * unit_of(profile) * magnitude(number));
@@ -197,10 +178,12 @@ bool BlitReference::allows_nearest(uint32_t x, uint32_t y, const TexelCodes& got
 namespace {
 
 // The points at which a function that is linear between whole numbers takes its extremes on an
-// interval: its ends and the whole numbers inside.
-std::vector<mpq_class> corners_of(const mpq_class& lo, const mpq_class& hi) {
+// interval around x: its ends and the whole numbers inside.
+std::vector<mpq_class> corners_of(const mpq_class& x, const mpq_class& reach) {
+    const mpq_class lo = x - reach;
+    const mpq_class hi = x + reach;
     std::vector<mpq_class> points = {lo};
-    for (int64_t i = floor_div(lo) + 1; mpq_class(i) < hi; ++i) {
+    for (int64_t i = floor_of(lo).get_si() + 1; mpq_class(i) < hi; ++i) {
         points.emplace_back(i);
     }
     points.push_back(hi);
@@ -217,26 +200,27 @@ std::vector<mpq_class> corners_of(const mpq_class& lo, const mpq_class& hi) {
 // 10 units of the largest texel (three operations of 2 units each; |b - a| <= 2 max), both 20.
 bool BlitReference::allows_linear(uint32_t x, uint32_t y, const TexelCodes& got, Profile profile,
                                   bool by_region) const {
-    FilterWindow w = window(x, y, profile);
-    const mpq_class step(1, 1U << kSubTexelBits);
-    const mpq_class half(1, 2);
-    const auto columns = corners_of(w.across.low - half - step, w.across.high - half + step);
-    const auto rows = corners_of(w.down.low - half - step, w.down.high - half + step);
+    const auto corners = [&](const Axis& axis, uint32_t i) {
+        const mpq_class step(1, 1U << kSubTexelBits);
+        return corners_of(rational(axis.at(i)) - mpq_class(1, 2), error_of(axis, profile) + step);
+    };
+    const std::vector<mpq_class> columns = corners(across_, x);
+    const std::vector<mpq_class> rows = corners(down_, y);
     for (uint32_t k = 0; k < 4; ++k) {
         const ComponentFormat to = cases::component_of(format_, k);
         const ComponentFormat from = cases::component_of(blit_.source_format, k);
         if (to.bits == 0) {
             continue;
         }
-        Interval number{k == 3 ? 1 : 0, k == 3 ? 1 : 0};
+        Interval number = point_of_lacking(k);
         if (from.bits != 0) {
             bool first = true;
             mpq_class largest;
             for (const mpq_class& row : rows) {
-                const int64_t j = floor_div(row);
+                const int64_t j = floor_of(row).get_si();
                 const mpq_class beta = row - j;
                 for (const mpq_class& column : columns) {
-                    const int64_t i = floor_div(column);
+                    const int64_t i = floor_of(column).get_si();
                     const mpq_class alpha = column - i;
                     mpq_class lo;
                     mpq_class hi;
@@ -300,16 +284,12 @@ TexelCodes BlitReference::nominal(uint32_t x, uint32_t y) const {
     if (!is_inside(x, y)) {
         return clear_;
     }
-    const auto at = [](const Axis& axis, uint32_t i) {
-        return rational(
-            blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1));
-    };
     const bool linear = blit_.filter == BlitFilter::linear;
     const mpq_class shift(linear ? 1 : 0, 2);
-    const mpq_class column = at(across_, x) - shift;
-    const mpq_class row = at(down_, y) - shift;
-    const int64_t i = floor_div(column);
-    const int64_t j = floor_div(row);
+    const mpq_class column = rational(across_.at(x)) - shift;
+    const mpq_class row = rational(down_.at(y)) - shift;
+    const int64_t i = floor_of(column).get_si();
+    const int64_t j = floor_of(row).get_si();
     const TexelCodes& source = texel(i, j, false);
     if (!linear && format_ == blit_.source_format) {
         return source;
@@ -321,7 +301,7 @@ TexelCodes BlitReference::nominal(uint32_t x, uint32_t y) const {
         if (to.bits == 0) {
             continue;
         }
-        mpq_class number(k == 3 ? 1 : 0);
+        mpq_class number = point_of_lacking(k).low;
         if (from.bits != 0) {
             number = 0;
             for (int corner = 0; corner < (linear ? 4 : 1); ++corner) {
@@ -342,10 +322,8 @@ std::string BlitReference::explain(uint32_t x, uint32_t y) const {
     if (!is_inside(x, y)) {
         return "the texel lies outside the destination region, so it keeps the clear value";
     }
-    const BlitCoordinate u =
-        blit_coordinate(static_cast<int32_t>(x), across_.s0, across_.s1, across_.d0, across_.d1);
-    const BlitCoordinate v =
-        blit_coordinate(static_cast<int32_t>(y), down_.s0, down_.s1, down_.d0, down_.d1);
+    const BlitCoordinate u = across_.at(x);
+    const BlitCoordinate v = down_.at(y);
     return fmt::format("u = {}/{} = {}, v = {}/{} = {} in texels of the source, filter {}",
                        u.numerator, u.denominator, rational(u).get_d(), v.numerator, v.denominator,
                        rational(v).get_d(), cases::word_of(blit_.filter));

@@ -3,7 +3,7 @@
 //
 // What vkCmdBlitImage may leave in the destination, texel by texel. [Vulkan, copies-imagescaling]
 // The source coordinate of destination texel i is u = (i + 1/2 - d0) * (s1 - s0) / (d1 - d0) + s0,
-// exactly; what a device may add to it is derived at coordinate_error().
+// exactly; what a device may add to it is derived at BlitReference::error_of.
 #pragma once
 
 #include <gmpxx.h>
@@ -30,19 +30,6 @@ struct BlitCoordinate {
 };
 // u of a destination texel along one axis: `s0`, `s1`, `d0`, `d1` are the corners' coordinates.
 BlitCoordinate blit_coordinate(int32_t i, int32_t s0, int32_t s1, int32_t d0, int32_t d1);
-
-// By how much a device's coordinate along an axis may differ from u, in texels of the source.
-// `unit` is what one operation loses: 2^-24 in binary32, 1e-5 where only Vulkan's own bound counts.
-//
-// A device evaluates (i + 1/2 - d0) * scale + s0 directly, or draws a rectangle whose corners carry
-// s0 / W and s1 / W and multiplies by W again, or steps from texel to texel. The first loses one
-// division (2.5 ULP = 5 units), one product, one sum, each of magnitude at most W: 7 W units; two
-// more for W: 9 W. The second loses what an interpolated value may lose (docs/precision.md): with
-// |value| <= W, sum D_i <= 4 (X / D + Y / H) over the rectangle's two triangles, and K = 2:
-// 2 W (1 + 2 * 4 (X / D + Y / H)) units. Both together bound the third as well, which is the first
-// with a sum of at most X / D scales.
-mpq_class coordinate_error(const mpq_class& unit, uint32_t source_size, uint32_t target_width,
-                           uint32_t target_height, uint32_t region_width, uint32_t region_height);
 
 class BlitReference {
   public:
@@ -75,9 +62,19 @@ class BlitReference {
     struct Axis {
         int32_t s0, s1, d0, d1;
         uint32_t size;  // of the source
+        BlitCoordinate at(uint32_t i) const;
     };
-    struct FilterWindow;
 
+    // By how much a device's coordinate along an axis may differ from u, in texels of the source.
+    // One operation loses `unit`: 2^-24 in binary32, 1e-5 where only Vulkan's own bound counts.
+    //
+    // A device evaluates (i + 1/2 - d0) * scale + s0 directly, or draws a rectangle whose corners
+    // carry s0 / W and s1 / W and multiplies by W again, or steps from texel to texel. The first
+    // loses one division (2.5 ULP = 5 units), one product, one sum, each of magnitude at most W:
+    // 7 W units; two more for W: 9 W. The second loses what an interpolated value may lose
+    // (docs/precision.md): with |value| <= W, sum D_i <= 4 (X / D + Y / H) over the rectangle's two
+    // triangles, and K = 2: 2 W (1 + 2 * 4 (X / D + Y / H)) units. Both together bound the third as
+    // well, which is the first with a sum of at most X / D scales.
     mpq_class error_of(const Axis& axis, cases::Profile profile) const;
     bool allows_nearest(uint32_t x, uint32_t y, const cases::TexelCodes& got,
                         cases::Profile profile) const;
@@ -87,7 +84,6 @@ class BlitReference {
     std::vector<TexelRange> spans_of(const Axis& axis, uint32_t size, const mpq_class& error) const;
     bool converts(const cases::TexelCodes& texel, const cases::TexelCodes& got,
                   cases::Profile profile) const;
-    FilterWindow window(uint32_t x, uint32_t y, cases::Profile profile) const;
     // Component k of a texel, clamped at the image; only if the filter is linear.
     double number_at(int64_t x, int64_t y, uint32_t k) const;
     const cases::TexelCodes& texel(int64_t x, int64_t y, bool by_region) const;

@@ -30,8 +30,7 @@ double BlitReference::number_at(int64_t x, int64_t y, uint32_t k) const {
 bool BlitReference::surely_linear(uint32_t x, uint32_t y, const TexelCodes& got) const {
     constexpr double kStep = 1.0 / (1U << kSubTexelBits);
     const auto points = [](const Axis& axis, uint32_t i, std::array<double, 4>& out) {
-        const BlitCoordinate u =
-            blit_coordinate(static_cast<int32_t>(i), axis.s0, axis.s1, axis.d0, axis.d1);
+        const BlitCoordinate u = axis.at(i);
         const double at =
             static_cast<double>(u.numerator) / static_cast<double>(u.denominator) - 0.5;
         size_t count = 0;

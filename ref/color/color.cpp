@@ -22,21 +22,11 @@ color::Source point_source(const glm::vec4& value) {
     return out;
 }
 
-std::string_view store_rule(cases::ComponentKind kind) {
-    switch (kind) {
-        case cases::ComponentKind::unorm:
-            return cases::rule::store_unorm;
-        case cases::ComponentKind::srgb:
-            return cases::rule::store_srgb;
-        case cases::ComponentKind::half:
-            return cases::rule::store_half;
-        case cases::ComponentKind::binary32:
-            return cases::rule::store_float;
-        case cases::ComponentKind::uint:
-            break;
-    }
-    return cases::rule::store_integer;
-}
+// What a wrong colour breaks where nothing is blended or masked, in the order of ComponentKind.
+constexpr std::string_view kStoreRules[] = {cases::rule::store_unorm, cases::rule::store_srgb,
+                                            cases::rule::store_half, cases::rule::store_float,
+                                            cases::rule::store_integer};
+static_assert(std::size(kStoreRules) == static_cast<size_t>(cases::ComponentKind::uint) + 1);
 
 }  // namespace
 
@@ -223,7 +213,7 @@ std::string ColorReference::rule_of(const Sequence& sequence, bool is_as_unmaske
     return std::string(masks && is_as_unmasked ? cases::rule::blend_write_mask
                        : blends                ? cases::rule::blend_equation
                        : masks                 ? cases::rule::blend_write_mask
-                               : store_rule(cases::component_of(unit_.format, 0).kind));
+                               : kStoreRules[static_cast<size_t>(row_of(unit_.format).kind)]);
 }
 
 bool ColorReference::explains(size_t index, cases::SampleId id,
@@ -293,11 +283,9 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
     const auto tells = [&](const Sequence& sequence) {
         return leaves(sequence, id, nullptr, codes);
     };
+    const bool is_turned = most.size() > 1 && tells({most.rbegin(), most.rend()});
     if (witness) {
-        Sequence turned(most.rbegin(), most.rend());
-        if (most.size() > 1 && tells(turned)) {
-            verdict.kind = ColorVerdict::Kind::order;
-        }
+        verdict.kind = is_turned ? ColorVerdict::Kind::order : ColorVerdict::Kind::value;
         return verdict;
     }
     // Without instruments the colour tells what is wrong with the coverage, if anything does.
@@ -314,8 +302,7 @@ ColorVerdict ColorReference::judge(size_t index, cases::SampleId id,
         verdict.kind = ColorVerdict::Kind::missing;
         return verdict;
     }
-    Sequence turned(most.rbegin(), most.rend());
-    if (most.size() > 1 && tells(turned)) {
+    if (is_turned) {
         verdict.kind = ColorVerdict::Kind::order;
         return verdict;
     }

@@ -10,7 +10,7 @@
 #include <glm/gtc/packing.hpp>
 #include <vector>
 
-#include "ref/number/integer.hpp"
+#include "ref/number/rational.hpp"
 
 namespace ref::color {
 
@@ -39,16 +39,6 @@ mpq_class quotient(const mpz_class& a, const mpz_class& b) {
     return out;
 }
 
-mpq_class power_of_two(long exponent) {
-    mpq_class out(1);
-    if (exponent >= 0) {
-        mpq_mul_2exp(out.get_mpq_t(), out.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-    } else {
-        mpq_div_2exp(out.get_mpq_t(), out.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-    }
-    return out;
-}
-
 // A binary floating-point format: `fraction` stored bits, exponents from `least` (of the smallest
 // normal number) to `most`.
 struct Floating {
@@ -56,6 +46,10 @@ struct Floating {
 };
 constexpr Floating kHalf = {10, -14, 15};
 constexpr Floating kBinary32 = {23, -126, 127};
+
+const Floating& floating_of(ComponentKind kind) {
+    return kind == ComponentKind::half ? kHalf : kBinary32;
+}
 
 // The spacing of the format's numbers around x != 0.
 mpq_class spacing(const Floating& format, const mpq_class& x) {
@@ -154,41 +148,25 @@ bool Component::is_fixed_point() const {
     return format_.kind == ComponentKind::unorm || format_.kind == ComponentKind::srgb;
 }
 
-mpq_class Component::down(const mpq_class& x) const {
+mpq_class Component::neighbour(const mpq_class& x, bool upwards) const {
     switch (format_.kind) {
         case ComponentKind::unorm:
-            return quotient(floor_of(x, units()), units());
+            return quotient(upwards ? ceil_of(x, units()) : floor_of(x, units()), units());
         case ComponentKind::srgb: {
             // A value within kSrgbError of a code's is that code.
             const auto& values = srgb_values();
+            if (upwards) {
+                const auto at =
+                    std::lower_bound(values.begin(), values.end(), mpq_class(x - kSrgbError));
+                return at == values.end() ? x : *at;
+            }
             const auto above =
                 std::upper_bound(values.begin(), values.end(), mpq_class(x + kSrgbError));
             return above == values.begin() ? x : *(above - 1);
         }
         case ComponentKind::half:
-            return round_to(kHalf, x, false);
         case ComponentKind::binary32:
-            return round_to(kBinary32, x, false);
-        case ComponentKind::uint:
-            break;
-    }
-    return x;
-}
-
-mpq_class Component::up(const mpq_class& x) const {
-    switch (format_.kind) {
-        case ComponentKind::unorm:
-            return quotient(ceil_of(x, units()), units());
-        case ComponentKind::srgb: {
-            const auto& values = srgb_values();
-            const auto at =
-                std::lower_bound(values.begin(), values.end(), mpq_class(x - kSrgbError));
-            return at == values.end() ? x : *at;
-        }
-        case ComponentKind::half:
-            return round_to(kHalf, x, true);
-        case ComponentKind::binary32:
-            return round_to(kBinary32, x, true);
+            return round_to(floating_of(format_.kind), x, upwards);
         case ComponentKind::uint:
             break;
     }
@@ -221,10 +199,8 @@ bool Component::value_of(uint32_t code, mpq_class& value) const {
             value = srgb_values()[is_number ? code : 0];
             break;
         case ComponentKind::half:
-            value = value_of_floating(kHalf, code, is_number);
-            break;
         case ComponentKind::binary32:
-            value = value_of_floating(kBinary32, code, is_number);
+            value = value_of_floating(floating_of(format_.kind), code, is_number);
             break;
         case ComponentKind::uint:
             value = code;
@@ -239,7 +215,7 @@ bool Component::allows(uint32_t code, const Interval& stored) const {
         return value >= stored.low && value <= stored.high;
     }
     const bool is_half = format_.kind == ComponentKind::half;
-    const mpq_class& largest = largest_of(is_half ? kHalf : kBinary32);
+    const mpq_class& largest = largest_of(floating_of(format_.kind));
     return code == (is_half ? 0x7c00U : 0x7f800000U)   ? stored.high > largest
            : code == (is_half ? 0xfc00U : 0xff800000U) ? stored.low < -largest
                                                        : false;
@@ -277,7 +253,7 @@ uint32_t Component::code_of(const mpq_class& value) const {
         case ComponentKind::half:
         case ComponentKind::binary32: {
             const bool is_half = format_.kind == ComponentKind::half;
-            const mpq_class& largest = largest_of(is_half ? kHalf : kBinary32);
+            const mpq_class& largest = largest_of(floating_of(format_.kind));
             const mpq_class v = std::clamp(value, mpq_class(-largest), largest);
             const Interval neighbours = either(point(v));
             const bool is_up = neighbours.high - v <= v - neighbours.low;

@@ -44,8 +44,8 @@ class Component {
 
     // The neighbours in the format: the largest value that is <= x, the smallest that is >= x.
     // Beyond the largest finite one, that one and x itself, which stands for infinity.
-    mpq_class down(const mpq_class& x) const;
-    mpq_class up(const mpq_class& x) const;
+    mpq_class down(const mpq_class& x) const { return neighbour(x, false); }
+    mpq_class up(const mpq_class& x) const { return neighbour(x, true); }
     // Either neighbour of every value.
     Interval either(const Interval& v) const { return {down(v.low), up(v.high)}; }
 
@@ -84,6 +84,7 @@ class Component {
     std::string text_of(const Interval& v) const;
 
   private:
+    mpq_class neighbour(const mpq_class& x, bool upwards) const;
     const mpz_class& units() const;  // 2^bits - 1
     cases::ComponentFormat format_;
 };

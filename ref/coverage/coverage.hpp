@@ -39,10 +39,4 @@ enum class Facing : uint8_t { front, back, depends };
 // Holds everything about a triangle that does not depend on the sample; setup.hpp defines it.
 struct TriangleSetup;
 
-// Is the answer for one triangle and one sample, without its reasons.
-struct Classification {
-    Coverage coverage = Coverage::must_not;
-    bool on_edge = false;  // the sample lies exactly on an edge of a point-box triangle (a tie)
-};
-
 }  // namespace ref

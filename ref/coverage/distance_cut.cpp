@@ -28,6 +28,7 @@
 #include <cmath>
 
 #include "ref/number/plane_budget.hpp"
+#include "ref/number/rational.hpp"
 
 namespace ref {
 
@@ -35,20 +36,7 @@ namespace {
 
 using value::kUnderflow;
 using value::kUnitRoundoff;
-
-mpq_class exact(float f) {
-    return mpq_class(static_cast<double>(f));
-}
-
-mpq_class pixels(int64_t fixed) {
-    mpq_class q(fixed, kFixedOne);
-    q.canonicalize();
-    return q;
-}
-
-mpq_class larger_of(const mpq_class& a, const mpq_class& b) {
-    return a < b ? b : a;
-}
+using value::larger;
 
 // N or D: x px + y py + c, and the bound on what a device has instead of it, the same for every
 // sample.
@@ -66,16 +54,8 @@ struct Spread {
 };
 // How far a device's vertices are from the ideal ones, pixels.
 void spread_by(Spread& out, const mpq_class& x, const mpq_class& y, const Box& box) {
-    out.x = larger_of(out.x, larger_of(abs(x - pixels(box.x0)), abs(pixels(box.x1) - x)));
-    out.y = larger_of(out.y, larger_of(abs(y - pixels(box.y0)), abs(pixels(box.y1) - y)));
-}
-
-std::vector<FixedPoint> corners(const Box& b) {
-    std::vector<FixedPoint> out{{b.x0, b.y0}};
-    if (!b.is_point()) {
-        out.insert(out.end(), {{b.x1, b.y0}, {b.x0, b.y1}, {b.x1, b.y1}});
-    }
-    return out;
+    out.x = larger(out.x, larger(abs(x - exact_pixels(box.x0)), abs(exact_pixels(box.x1) - x)));
+    out.y = larger(out.y, larger(abs(y - exact_pixels(box.y0)), abs(exact_pixels(box.y1) - y)));
 }
 
 // The least |twice the area| of triangles with one vertex in each box, square pixels; 0 if the sign
@@ -84,9 +64,9 @@ mpq_class least_area(const std::array<std::optional<Box>, 3>& boxes) {
     Int128 low = 0;
     Int128 high = 0;
     bool is_first = true;
-    for (const FixedPoint& a : corners(*boxes[0])) {
-        for (const FixedPoint& b : corners(*boxes[1])) {
-            for (const FixedPoint& c : corners(*boxes[2])) {
+    for (const FixedPoint& a : BoxCorners(*boxes[0])) {
+        for (const FixedPoint& b : BoxCorners(*boxes[1])) {
+            for (const FixedPoint& c : BoxCorners(*boxes[2])) {
                 const Int128 area = edge_function(a, b, c);
                 low = is_first ? area : std::min(low, area);
                 high = is_first ? area : std::max(high, area);
@@ -97,16 +77,7 @@ mpq_class least_area(const std::array<std::optional<Box>, 3>& boxes) {
     if (low <= 0 && high >= 0) {
         return 0;
     }
-    // Rounded down; below 2^103, so the quotient by 2^32 fits.
-    const Int128 least = low > 0 ? low : -high;
-    const auto top = static_cast<int64_t>(least >> 52);
-    const auto rest = static_cast<int64_t>(least & ((Int128{1} << 52) - 1));
-    mpz_class units = top;
-    units = (units << 52) + rest;
-    mpq_class out(units);
-    out /= mpq_class(kFixedOne);
-    out /= mpq_class(kFixedOne);
-    return out;
+    return mpq_class(to_mpz(low > 0 ? low : -high)) / kFixedOne / kFixedOne;
 }
 
 // Vertices before the eye: g_i at ideal positions.
@@ -125,16 +96,16 @@ mpq_class projected_budget(const Projected& p, const std::array<mpq_class, 3>& g
     mpq_class largest;
     for (size_t j = 0; j < 3; ++j) {
         plain += abs(g[j]) * p.reach[j];
-        largest = larger_of(largest, abs(g[j]));
+        largest = larger(largest, abs(g[j]));
         mpq_class from_j;
         for (size_t i = 0; i < 3; ++i) {
             from_j += abs(g[i] - g[j]) * p.reach[i];
         }
-        differences = larger_of(differences, from_j);
+        differences = larger(differences, from_j);
     }
     const mpq_class u(kUnitRoundoff);
     const mpq_class all = p.reach[0] + p.reach[1] + p.reach[2] + 1;
-    return u * (2 * larger_of(plain, differences) + largest) + mpq_class(kUnderflow) * all;
+    return u * (2 * larger(plain, differences) + largest) + mpq_class(kUnderflow) * all;
 }
 
 Linear projected_plane(const Projected& p, const std::array<mpq_class, 3>& g,
@@ -165,13 +136,13 @@ bool project(const CutSource& s, const Region& region, const Spread& moved, Proj
         // Planes may be anchored at the origin or at a vertex.
         all.x0 = std::min<mpq_class>(all.x0, at.x - moved.x);
         all.y0 = std::min<mpq_class>(all.y0, at.y - moved.y);
-        all.x1 = larger_of(all.x1, at.x + moved.x);
-        all.y1 = larger_of(all.y1, at.y + moved.y);
+        all.x1 = larger(all.x1, at.x + moved.x);
+        all.y1 = larger(all.y1, at.y + moved.y);
     }
     out.area = (out.x[1] - out.x[0]) * (out.y[2] - out.y[0]) -
                (out.y[1] - out.y[0]) * (out.x[2] - out.x[0]);
-    const mpq_class extent_x = larger_of(all.x1, 0) - std::min<mpq_class>(all.x0, 0);
-    const mpq_class extent_y = larger_of(all.y1, 0) - std::min<mpq_class>(all.y0, 0);
+    const mpq_class extent_x = larger(all.x1, 0) - std::min<mpq_class>(all.x0, 0);
+    const mpq_class extent_y = larger(all.y1, 0) - std::min<mpq_class>(all.y0, 0);
     const mpq_class least = std::min<mpq_class>(least_area(s.vertex), abs(out.area));
     if (least <= 0) {
         return false;
@@ -189,9 +160,9 @@ bool project(const CutSource& s, const Region& region, const Spread& moved, Proj
 value::Vertices<mpq_class> at_positions(const CutSource& s, const std::array<FixedPoint, 3>& at) {
     value::Vertices<mpq_class> v;
     for (size_t i = 0; i < 3; ++i) {
-        v.w[i] = exact(s.triangle.clip[i].w);
-        v.hx[i] = pixels(at[i].x) * v.w[i];
-        v.hy[i] = pixels(at[i].y) * v.w[i];
+        v.w[i] = rational(s.triangle.clip[i].w);
+        v.hx[i] = exact_pixels(at[i].x) * v.w[i];
+        v.hy[i] = exact_pixels(at[i].y) * v.w[i];
         v.finite[i] = true;
     }
     return v;
@@ -199,13 +170,13 @@ value::Vertices<mpq_class> at_positions(const CutSource& s, const std::array<Fix
 
 value::Vertices<mpq_class> at_ideal(const CutSource& s) {
     value::Vertices<mpq_class> v;
-    const mpq_class half_x = exact(s.viewport.width) / 2;
-    const mpq_class half_y = exact(s.viewport.height) / 2;
+    const mpq_class half_x = rational(s.viewport.width) / 2;
+    const mpq_class half_y = rational(s.viewport.height) / 2;
     for (size_t i = 0; i < 3; ++i) {
         const glm::vec4& p = s.triangle.clip[i];
-        v.w[i] = exact(p.w);
-        v.hx[i] = half_x * exact(p.x) + (exact(s.viewport.x) + half_x) * v.w[i];
-        v.hy[i] = half_y * exact(p.y) + (exact(s.viewport.y) + half_y) * v.w[i];
+        v.w[i] = rational(p.w);
+        v.hx[i] = half_x * rational(p.x) + (rational(s.viewport.x) + half_x) * v.w[i];
+        v.hy[i] = half_y * rational(p.y) + (rational(s.viewport.y) + half_y) * v.w[i];
         v.finite[i] = p.w > 0 || p.w < 0;
     }
     return v;
@@ -219,7 +190,7 @@ mpq_class spread_of(const value::Basis<mpq_class>& basis, std::span<const Clippe
         for (const auto& b : basis.bary) {
             sum += abs(b.at({v.position.x, v.position.y}));
         }
-        out = larger_of(out, sum);
+        out = larger(out, sum);
     }
     return out;
 }
@@ -227,9 +198,9 @@ mpq_class spread_of(const value::Basis<mpq_class>& basis, std::span<const Clippe
 mpq_class basis_budget(const value::Basis<mpq_class>& basis, const value::Plane<mpq_class>& plane,
                        const Region& region, const mpq_class& spread) {
     const mpq_class extent_x =
-        larger_of(basis.high_x, region.x1) - std::min<mpq_class>(basis.low_x, region.x0);
+        larger(basis.high_x, region.x1) - std::min<mpq_class>(basis.low_x, region.x0);
     const mpq_class extent_y =
-        larger_of(basis.high_y, region.y1) - std::min<mpq_class>(basis.low_y, region.y0);
+        larger(basis.high_y, region.y1) - std::min<mpq_class>(basis.low_y, region.y0);
     return plane.budget(extent_x, extent_y, spread);
 }
 
@@ -240,7 +211,8 @@ std::vector<Linear> homogeneous_planes(const CutSource& s, std::span<const Clipp
     for (size_t i = 0; i < 3; ++i) {
         inputs.back().h[i] = 1;
         for (uint32_t k = 0; k < s.triangle.distance_count; ++k) {
-            inputs[k].h[i] = exact(s.triangle.distance[i][static_cast<glm::vec4::length_type>(k)]);
+            inputs[k].h[i] =
+                rational(s.triangle.distance[i][static_cast<glm::vec4::length_type>(k)]);
         }
     }
     const auto ideal = make_basis(at_ideal(s), inputs, kBudgetFactor);
@@ -259,9 +231,9 @@ std::vector<Linear> homogeneous_planes(const CutSource& s, std::span<const Clipp
     if (!s.vertex[0] || !s.vertex[1] || !s.vertex[2]) {
         return out;  // no device has positions for all of them to set planes up from
     }
-    for (const FixedPoint& a : corners(*s.vertex[0])) {
-        for (const FixedPoint& b : corners(*s.vertex[1])) {
-            for (const FixedPoint& c : corners(*s.vertex[2])) {
+    for (const FixedPoint& a : BoxCorners(*s.vertex[0])) {
+        for (const FixedPoint& b : BoxCorners(*s.vertex[1])) {
+            for (const FixedPoint& c : BoxCorners(*s.vertex[2])) {
                 const auto basis = make_basis(at_positions(s, {a, b, c}), inputs, kBudgetFactor);
                 if (basis.orientation != ideal.orientation) {
                     return {};
@@ -272,12 +244,11 @@ std::vector<Linear> homogeneous_planes(const CutSource& s, std::span<const Clipp
                     mpq_class worst;
                     for (const mpq_class& x : {region.x0, region.x1}) {
                         for (const mpq_class& y : {region.y0, region.y1}) {
-                            worst =
-                                larger_of(worst, abs((form.x - out[k].x) * x +
-                                                     (form.y - out[k].y) * y + form.c - out[k].c));
+                            worst = larger(worst, abs((form.x - out[k].x) * x +
+                                                      (form.y - out[k].y) * y + form.c - out[k].c));
                         }
                     }
-                    out[k].error = larger_of(
+                    out[k].error = larger(
                         out[k].error,
                         worst + factor * basis_budget(basis, basis.planes[k], region, spread));
                 }
@@ -302,7 +273,7 @@ std::vector<Linear> planes_of(const CutSource& s, std::span<const ClippedVertex>
         for (uint32_t k = 0; k < n; ++k) {
             std::array<mpq_class, 3> g;
             for (size_t i = 0; i < 3; ++i) {
-                g[i] = exact(s.triangle.distance[i][static_cast<glm::vec4::length_type>(k)]) *
+                g[i] = rational(s.triangle.distance[i][static_cast<glm::vec4::length_type>(k)]) *
                        p.inv_w[i];
             }
             out.push_back(projected_plane(p, g, factor));
@@ -317,17 +288,11 @@ std::vector<Linear> planes_of(const CutSource& s, std::span<const ClippedVertex>
     for (uint32_t k = 0; k < n && k < out.size(); ++k) {
         mpq_class of_corner;
         for (const ClippedVertex& v : polygon) {
-            of_corner = larger_of(of_corner, v.ratio_error[k]);
+            of_corner = larger(of_corner, v.ratio_error[k]);
         }
         out[k].error += of_corner;
     }
     return out;
-}
-
-mpz_class floor_of(const mpq_class& q) {
-    mpz_class r;
-    mpz_fdiv_q(r.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-    return r;
 }
 
 Int128 to_int128(const mpz_class& v) {
@@ -343,7 +308,7 @@ Int128 to_int128(const mpz_class& v) {
 // rounding of the coefficients: 1/2 of a unit of 2^-49 of the larger slope, times the coordinate.
 DistanceCut to_cut(const Linear& plane, const Window& window) {
     // value 2^16 = x X + y Y + c 2^16 with X, Y in S47.16.
-    const mpq_class steepest = larger_of(abs(plane.x), abs(plane.y));
+    const mpq_class steepest = larger(abs(plane.x), abs(plane.y));
     DistanceCut out;
     const auto sign_plane = [](bool is_in) { return HalfPlane{0, 0, is_in ? 1 : -1}; };
     if (steepest == 0) {
@@ -352,15 +317,9 @@ DistanceCut to_cut(const Linear& plane, const Window& window) {
         return out;
     }
     // scale steepest to [2^48, 2^49)
-    mpq_class scale = 1;
     const auto bits = static_cast<int64_t>(mpz_sizeinbase(steepest.get_num_mpz_t(), 2)) -
                       static_cast<int64_t>(mpz_sizeinbase(steepest.get_den_mpz_t(), 2));
-    const int64_t shift = 47 - bits;
-    if (shift >= 0) {
-        mpq_mul_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(shift));
-    } else {
-        mpq_div_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(-shift));
-    }
+    const mpq_class scale = power_of_two(47 - bits);
     const mpz_class a = floor_of(plane.x * scale);
     const mpz_class b = floor_of(plane.y * scale);
     const auto far = [](int64_t low, int64_t high) {
@@ -383,7 +342,7 @@ DistanceCut to_cut(const Linear& plane, const Window& window) {
 
 bool is_passed_by_all(const DistanceCut& cut, std::span<const Box> boxes) {
     return std::all_of(boxes.begin(), boxes.end(), [&](const Box& box) {
-        const std::vector<FixedPoint> points = corners(box);
+        const BoxCorners points(box);
         return std::all_of(points.begin(), points.end(),
                            [&](const FixedPoint& p) { return cut.must.at(p) >= 0; });
     });

@@ -144,14 +144,6 @@ Coverage by_boxes(const Outline& o, const FixedPoint& p) {
     return is_inside_all(o, p, 1) || is_inside_all(o, p, -1) ? Coverage::must : Coverage::either;
 }
 
-mpz_class to_mpz(Int128 v) {
-    const bool is_negative = v < 0;
-    const Int128 size = is_negative ? -v : v;
-    mpz_class out = static_cast<int64_t>(size >> 62);
-    out = (out << 62) + static_cast<int64_t>(size & ((Int128{1} << 62) - 1));
-    return is_negative ? mpz_class(-out) : out;
-}
-
 bool is_inside(const HalfPlane& h, const FixedPoint& p) {
     return to_mpz(h.a) * p.x + to_mpz(h.b) * p.y + to_mpz(h.c) >= 0;
 }
@@ -170,10 +162,6 @@ Coverage after_cuts(Coverage c, const Outline& o, const FixedPoint& p) {
 }
 
 }  // namespace
-
-bool is_on_segment(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
-    return edge(a, b, p) == 0 && dot(between(p, a), between(p, b)) <= 0;
-}
 
 bool covers(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c, const FixedPoint& p) {
     const int area = sgn(edge(a, b, c));
@@ -245,8 +233,8 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told) {
     if (setup.kind == TriangleSetup::Kind::anywhere) {
         out.coverage = Coverage::either;
     } else {
-        size_t count = 0;
-        const auto outlines = setup.outlines(count);
+        const OutlineList outlines = setup.outlines();
+        const size_t count = outlines.size();
         std::array<Coverage, 4> each{};
         for (size_t k = 0; k < count; ++k) {
             each[k] = after_cuts(coverage_of(setup, *outlines[k], p), *outlines[k], p);
@@ -274,24 +262,8 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told) {
     return out;
 }
 
-Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
-    Classification out;
-    out.coverage = decide(setup, p, false).coverage;
-    if (setup.kind != TriangleSetup::Kind::outlines || !setup.window.may_touch(p)) {
-        return out;
-    }
-    size_t count = 0;
-    const auto outlines = setup.outlines(count);
-    for (size_t k = 0; k < count; ++k) {
-        const Outline& o = *outlines[k];
-        for (uint32_t i = 0; i < o.count; ++i) {
-            const Box& a = o.boxes[i];
-            const Box& b = o.boxes[(i + 1) % o.count];
-            out.on_edge = out.on_edge || (a.is_point() && b.is_point() &&
-                                          is_on_segment({a.x0, a.y0}, {b.x0, b.y0}, p));
-        }
-    }
-    return out;
+Coverage classify(const TriangleSetup& setup, const FixedPoint& p) {
+    return decide(setup, p, false).coverage;
 }
 
 }  // namespace ref::exact

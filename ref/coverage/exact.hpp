@@ -13,7 +13,7 @@
 namespace ref::exact {
 
 // Classifies one sample.
-Classification classify(const TriangleSetup& setup, const FixedPoint& p);
+Coverage classify(const TriangleSetup& setup, const FixedPoint& p);
 
 // Does the same and, if `is_told`, names the reasons; `setup` must then have been set up to be
 // told.
@@ -21,9 +21,6 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told);
 
 // What one outline says of a sample, without its cuts and whatever the window.
 Coverage coverage_of(const TriangleSetup& setup, const Outline& outline, const FixedPoint& p);
-
-// True if p lies on the closed segment.
-bool is_on_segment(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p);
 
 // True if p lies in the closed convex hull of the boxes: no line through p has all corners strictly
 // on one side.

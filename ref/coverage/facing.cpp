@@ -3,20 +3,11 @@
 #include "ref/coverage/facing.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "ref/coverage/setup.hpp"
 #include "ref/number/edge_function.hpp"
 
 namespace ref {
-
-namespace {
-
-std::array<FixedPoint, 4> corners(const Box& b) {
-    return {FixedPoint{b.x0, b.y0}, {b.x1, b.y0}, {b.x0, b.y1}, {b.x1, b.y1}};
-}
-
-}  // namespace
 
 AreaSigns area_signs(std::span<const Box> boxes) {
     AreaSigns signs;
@@ -31,9 +22,9 @@ AreaSigns area_signs(std::span<const Box> boxes) {
         bool is_first = true;
         Int128 fan_low = 0;
         Int128 fan_high = 0;
-        for (const FixedPoint& a : corners(boxes[0])) {
-            for (const FixedPoint& b : corners(boxes[i])) {
-                for (const FixedPoint& c : corners(boxes[i + 1])) {
+        for (const FixedPoint& a : BoxCorners(boxes[0])) {
+            for (const FixedPoint& b : BoxCorners(boxes[i])) {
+                for (const FixedPoint& c : BoxCorners(boxes[i + 1])) {
                     const Int128 area = edge_function(a, b, c);
                     fan_low = is_first ? area : std::min(fan_low, area);
                     fan_high = is_first ? area : std::max(fan_high, area);

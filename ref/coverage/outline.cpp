@@ -16,10 +16,6 @@ bool overlap(const Box& a, const Box& b) {
     return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
 }
 
-Box hull_of(const Box& a, const Box& b) {
-    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
 // Why edges may be tested as `parallel`. Two cut vertices may lie so close that the short edge
 // between them may point nearly anywhere, and hardly any sample is inside for every choice of its
 // ends. That is more than has to hold. Let sample p pass the tests of all edges. However the
@@ -53,8 +49,7 @@ void test_tie(Outline& o, size_t i) {
     bool has_positive = false;
     bool has_negative = false;
     for (const Box& c : o.vertices()) {
-        for (const FixedPoint& q :
-             {FixedPoint{c.x0, c.y0}, {c.x1, c.y0}, {c.x0, c.y1}, {c.x1, c.y1}}) {
+        for (const FixedPoint& q : BoxCorners(c)) {
             const Int128 e = edge_function({a.x0, a.y0}, {b.x0, b.y0}, q);
             has_positive = has_positive || e > 0;
             has_negative = has_negative || e < 0;

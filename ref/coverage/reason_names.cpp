@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 
 #include "ref/coverage/exact.hpp"
@@ -13,22 +12,6 @@
 namespace ref {
 
 namespace {
-
-int sign_of(Int128 v) {
-    return v > 0 ? 1 : (v < 0 ? -1 : 0);
-}
-
-std::array<FixedPoint, 4> corners(const Box& b) {
-    return {FixedPoint{b.x0, b.y0}, {b.x1, b.y0}, {b.x0, b.y1}, {b.x1, b.y1}};
-}
-
-int area_sign(std::span<const FixedPoint> polygon) {
-    Int128 area = 0;
-    for (size_t i = 1; i + 1 < polygon.size(); ++i) {
-        area += edge_function(polygon[0], polygon[i], polygon[i + 1]);
-    }
-    return sign_of(area);
-}
 
 // Which plane an edge of an outline lies on, if it is none of the triangle's.
 std::optional<Reason> plane_of(EdgeLabel label) {
@@ -50,28 +33,6 @@ Reason open_at(EdgeLabel label, ReasonKind kind) {
                : Reason{kind, label};
 }
 
-// Every polygon of an outline in mode snapped, with the sign of its area.
-void for_each_candidate(
-    const TriangleSetup& setup, const Outline& o,
-    const std::function<void(std::span<const FixedPoint> polygon, int sign)>& body) {
-    if (o.count != 3) {
-        std::vector<FixedPoint> polygon;
-        for (const Box& b : o.vertices()) {
-            polygon.push_back({b.x0, b.y0});
-        }
-        body(polygon, area_sign(polygon));
-        return;
-    }
-    for (const FixedPoint& a : grid_points(o.boxes[0], setup.grid_step)) {
-        for (const FixedPoint& b : grid_points(o.boxes[1], setup.grid_step)) {
-            for (const FixedPoint& c : grid_points(o.boxes[2], setup.grid_step)) {
-                const std::array polygon{a, b, c};
-                body(polygon, area_sign(polygon));
-            }
-        }
-    }
-}
-
 // What the candidates' edges say of p.
 struct Candidates {
     bool has_area = false;
@@ -83,7 +44,8 @@ struct Candidates {
 Candidates candidates_at(const TriangleSetup& setup, const Outline& o, const FixedPoint& p) {
     Candidates out;
     out.is_outside.fill(true);
-    for_each_candidate(setup, o, [&](std::span<const FixedPoint> polygon, int sign) {
+    for_each_candidate(o, setup.grid_step, [&](std::span<const FixedPoint> polygon) {
+        const int sign = area_sign(polygon);
         if (sign == 0) {
             return;
         }
@@ -114,7 +76,7 @@ bool is_separating(const FixedPoint& a, const FixedPoint& b, std::span<const Box
                    const FixedPoint& p) {
     const int beyond = sign_of(edge_function(a, b, p));
     return beyond != 0 && std::all_of(boxes.begin(), boxes.end(), [&](const Box& box) {
-               const auto points = corners(box);
+               const BoxCorners points(box);
                return std::all_of(points.begin(), points.end(), [&](const FixedPoint& q) {
                    return sign_of(edge_function(a, b, q)) != beyond;
                });
@@ -132,8 +94,8 @@ void add_outside_edges(const Outline& o, const FixedPoint& p, Reasons& out) {
     for (uint32_t i = 0; i < o.count; ++i) {
         bool is_separated = false;
         bool is_outside = sign != 0;
-        for (const FixedPoint& a : corners(o.boxes[i])) {
-            for (const FixedPoint& b : corners(o.boxes[(i + 1) % o.count])) {
+        for (const FixedPoint& a : BoxCorners(o.boxes[i])) {
+            for (const FixedPoint& b : BoxCorners(o.boxes[(i + 1) % o.count])) {
                 is_outside = is_outside && sign * sign_of(edge_function(a, b, p)) < 0;
                 is_separated = is_separated || is_separating(a, b, o.vertices(), p);
             }
@@ -235,8 +197,8 @@ void name_outside(const TriangleSetup& setup, const Outline& o, const FixedPoint
 // Whether p is on the edge between two boxes, or at an end of it, wherever these may be.
 bool is_exactly_on(const Box& from, const Box& to, const FixedPoint& p) {
     bool is_on = true;
-    for (const FixedPoint& a : corners(from)) {
-        for (const FixedPoint& b : corners(to)) {
+    for (const FixedPoint& a : BoxCorners(from)) {
+        for (const FixedPoint& b : BoxCorners(to)) {
             is_on = is_on && edge_function(a, b, p) == 0;
         }
     }

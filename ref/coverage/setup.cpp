@@ -9,15 +9,12 @@
 #include "ref/coverage/facing.hpp"
 #include "ref/coverage/outline.hpp"
 #include "ref/number/edge_function.hpp"
+#include "ref/number/rational.hpp"
 #include "ref/position/position_detail.hpp"
 
 namespace ref {
 
 namespace {
-
-mpq_class exact(float f) {
-    return mpq_class(static_cast<double>(f));
-}
 
 struct Source {
     const cases::Draw& draw;
@@ -41,8 +38,8 @@ bool is_in_guaranteed_range(const ClippedVertex& v, cases::Profile profile) {
 bool is_axis_aligned(const std::array<glm::vec4, 3>& clip, EdgeLabel edge) {
     const glm::vec4& a = clip[edge];
     const glm::vec4& b = clip[(edge + 1U) % 3U];
-    return exact(a.x) * exact(b.w) == exact(b.x) * exact(a.w) ||
-           exact(a.y) * exact(b.w) == exact(b.y) * exact(a.w);
+    return rational(a.x) * rational(b.w) == rational(b.x) * rational(a.w) ||
+           rational(a.y) * rational(b.w) == rational(b.y) * rational(a.w);
 }
 
 // Whether a cut vertex lies where an edge of the triangle, or a depth plane's, meets the border of
@@ -93,9 +90,7 @@ bool outline_of(const std::vector<ClippedVertex>& polygon, const Source& s, Outl
 // The outline cut by `planes`, which holds no border of the viewport or all of them.
 bool outline_by(const Source& s, std::span<const ClipPlane> planes, Outline& out) {
     out.count = 0;
-    const std::array<size_t, 3> all{0, 1, 2};
-    if (std::all_of(all.begin(), all.end(),
-                    [&](size_t i) { return is_inside(s.input, i, planes); })) {
+    if (is_inside(s.input, planes)) {
         for (uint32_t i = 0; i < 3; ++i) {
             const std::optional<Box>& box = s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
             if (!box) {
@@ -137,9 +132,7 @@ constexpr DistanceCut kOpenCut = {{0, 0, 1}, {0, 0, -1}};
 // Adds the outlines of a device that tests the distances; false if some vertex has no box.
 bool add_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
     std::array<std::span<const ClipPlane>, 2> volumes{s.volume.depth(), s.volume.view()};
-    const std::array<size_t, 3> all{0, 1, 2};
-    const bool leaves_view = !std::all_of(
-        all.begin(), all.end(), [&](size_t i) { return is_inside(s.input, i, s.volume.view()); });
+    const bool leaves_view = !is_inside(s.input, s.volume.view());
     bool is_defined = true;
     for (const bool is_view : {false, true}) {
         if (is_view ? !leaves_view : !t.has_outline) {
@@ -154,9 +147,7 @@ bool add_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
         if (!is_bounded) {
             o.cuts = {kOpenCut};
         }
-        const bool is_cut = std::any_of(all.begin(), all.end(), [&](size_t i) {
-            return !is_inside(s.input, i, s.volume.all().subspan(s.volume.view_count));
-        });
+        const bool is_cut = !is_inside(s.input, s.volume.all().subspan(s.volume.view_count));
         if (o.cuts.empty() && !is_cut) {
             continue;  // the same as the outline that is cut by the distances
         }
@@ -254,9 +245,7 @@ void set_up_outlines(const Source& s, bool is_told, TriangleSetup& t) {
     const cases::Profile profile = s.profile;
     AreaSigns signs;
     t.kind = TriangleSetup::Kind::outlines;
-    const std::array<size_t, 3> all{0, 1, 2};
-    t.is_clipped = !std::all_of(all.begin(), all.end(),
-                                [&](size_t i) { return is_inside(s.input, i, s.volume.all()); });
+    t.is_clipped = !is_inside(s.input, s.volume.all());
     t.has_outline = outline_by(s, s.volume.without_borders(), t.unclipped);
     if (t.has_outline) {
         choose_mode(t.unclipped, t.grid_step, profile);
@@ -271,10 +260,7 @@ void set_up_outlines(const Source& s, bool is_told, TriangleSetup& t) {
         t.clipped = std::make_shared<Outline>();
     }
     if (t.is_clipped && is_in_range) {
-        const bool leaves_viewport = !std::all_of(all.begin(), all.end(), [&](size_t i) {
-            return is_inside(s.input, i, s.volume.all().first(4));
-        });
-        if (leaves_viewport) {
+        if (!is_inside(s.input, s.volume.all().first(4))) {  // it leaves the viewport
             is_defined = outline_by(s, s.volume.all(), *t.clipped);
         } else {
             is_defined = t.has_outline;  // the borders cut nothing: the same polygon
@@ -317,17 +303,16 @@ void set_up_outlines(const Source& s, bool is_told, TriangleSetup& t) {
 
 }  // namespace
 
-std::array<const Outline*, 4> TriangleSetup::outlines(size_t& count) const {
-    std::array<const Outline*, 4> out{};
-    count = 0;
+OutlineList TriangleSetup::outlines() const {
+    OutlineList out;
     if (has_outline) {
-        out[count++] = &unclipped;
+        out.add(&unclipped);
     }
     if (is_clipped) {
-        out[count++] = clipped.get();
+        out.add(clipped.get());
     }
     for (const Outline& o : tested) {
-        out[count++] = &o;
+        out.add(&o);
     }
     return out;
 }

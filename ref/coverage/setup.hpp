@@ -105,10 +105,18 @@ struct Outline {
     std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }
 };
 
-// A closed range of S47.16 coordinates.
-struct FixedRange {
-    int64_t low = 0, high = -1;
-    bool contains(int64_t v) const { return low <= v && v <= high; }
+// The outlines of a triangle that a device may use, one to four.
+class OutlineList {
+  public:
+    void add(const Outline* o) { list_[count_++] = o; }
+    const Outline* const* begin() const { return list_.data(); }
+    const Outline* const* end() const { return list_.data() + count_; }
+    const Outline* operator[](size_t k) const { return list_.at(k); }
+    size_t size() const { return count_; }
+
+  private:
+    std::array<const Outline*, 4> list_{};
+    size_t count_ = 0;
 };
 
 // The samples that a draw may touch at all: pixels inside scissor and framebuffer, and the
@@ -155,8 +163,7 @@ struct TriangleSetup {
     Window window;
     Reasons reasons;  // of `kind`, but for is_culled; only if set up to be told
 
-    // The outlines that a device may use, one to four.
-    std::array<const Outline*, 4> outlines(size_t& count) const;
+    OutlineList outlines() const;
 };
 
 // What is cut off by a plane of the clip volume.
@@ -204,5 +211,27 @@ FixedPoint middle_of(const Box& box);
 
 // The grid points that a box in mode snapped contains.
 std::vector<FixedPoint> grid_points(const Box& box, int64_t step);
+
+// Calls body(polygon) for every polygon that an outline in mode snapped may be.
+template <class Body>
+void for_each_candidate(const Outline& o, int64_t step, const Body& body) {
+    if (o.count != 3) {
+        std::vector<FixedPoint> polygon;
+        for (const Box& b : o.vertices()) {
+            polygon.push_back({b.x0, b.y0});
+        }
+        body(std::span<const FixedPoint>(polygon));
+        return;
+    }
+    const std::array points{grid_points(o.boxes[0], step), grid_points(o.boxes[1], step),
+                            grid_points(o.boxes[2], step)};
+    for (const FixedPoint& a : points[0]) {
+        for (const FixedPoint& b : points[1]) {
+            for (const FixedPoint& c : points[2]) {
+                body(std::span<const FixedPoint>(std::array{a, b, c}));
+            }
+        }
+    }
+}
 
 }  // namespace ref

@@ -66,9 +66,7 @@ bool TriangleSetups::may_touch_a_sample(uint32_t t) {
         if (box == nullptr) {
             return true;
         }
-        hull = k == 0 ? *box
-                      : Box{std::min(hull.x0, box->x0), std::min(hull.y0, box->y0),
-                            std::max(hull.x1, box->x1), std::max(hull.y1, box->y1)};
+        hull = k == 0 ? *box : hull_of(hull, *box);
     }
     return std::any_of(samples_.begin(), samples_.end(), [&](const FixedPoint& s) {
         return has_sample(hull.x0, hull.x1, s.x) && has_sample(hull.y0, hull.y1, s.y);

@@ -3,55 +3,44 @@
 //
 // The samples that a draw may touch at all.
 #include <algorithm>
-#include <cmath>
 
 #include "ref/coverage/setup.hpp"
+#include "ref/number/rational.hpp"
+#include "ref/position/position_detail.hpp"
 
 namespace ref {
 
 namespace {
 
-mpq_class exact(float f) {
-    return mpq_class(static_cast<double>(f));
-}
-
-mpz_class floor_units(const mpq_class& pixels) {
-    const mpq_class units = pixels * kFixedOne;
-    mpz_class r;
-    mpz_fdiv_q(r.get_mpz_t(), units.get_num_mpz_t(), units.get_den_mpz_t());
-    return r;
-}
-
-mpz_class ceil_units(const mpq_class& pixels) {
-    return -floor_units(-pixels);
-}
-
-int64_t saturate(const mpz_class& v) {
+// In S47.16 units, as far as positions go.
+int64_t saturated(const mpz_class& units) {
     constexpr int64_t kFar = int64_t{1} << kPositionBits;
-    return v > kFar ? kFar : (v < -kFar ? -kFar : int64_t{v.get_si()});
+    return units > kFar ? kFar : (units < -kFar ? -kFar : int64_t{units.get_si()});
 }
-
-bool is_integer(float f) {
-    return !(std::floor(f) < f);
+int64_t floor_units(const mpq_class& pixels) {
+    return saturated(floor_of(pixels * kFixedOne));
+}
+int64_t ceil_units(const mpq_class& pixels) {
+    return saturated(ceil_of(pixels * kFixedOne));
 }
 
 void axis_window(float origin, float extent, cases::Profile profile, FixedRange& zone,
                  FixedRange& core) {
-    const mpq_class end = exact(origin) + exact(extent);
-    const mpq_class low = std::min<mpq_class>(exact(origin), end);
-    const mpq_class high = std::max<mpq_class>(exact(origin), end);
+    const mpq_class end = rational(origin) + rational(extent);
+    const mpq_class low = std::min<mpq_class>(rational(origin), end);
+    const mpq_class high = std::max<mpq_class>(rational(origin), end);
     if (is_integer(origin) && is_integer(extent)) {
         // Polygon clipping: a sample on the border lies on an edge; only the top-left rule decides
         // it.
         const int64_t open = profile == cases::Profile::direct3d ? 1 : 0;
-        zone = {saturate(ceil_units(low)), saturate(floor_units(high)) - open};
+        zone = {ceil_units(low), floor_units(high) - open};
         core = zone;
         return;
     }
     // viewportSubPixelBits may be 0, and Direct3D 11.3, 15.6.1 has a zone of up to half a pixel:
     // within less than a pixel of a fractional border both answers are left open.
-    zone = {saturate(floor_units(low - 1)) + 1, saturate(ceil_units(high + 1)) - 1};
-    core = {saturate(ceil_units(low + 1)), saturate(floor_units(high - 1))};
+    zone = {floor_units(low - 1) + 1, ceil_units(high + 1) - 1};
+    core = {ceil_units(low + 1), floor_units(high - 1)};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "ref/depth/outcome.hpp"
 #include "ref/number/ball.hpp"
+#include "ref/number/rational.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 
 namespace ref::value {
@@ -29,9 +30,7 @@ inline std::optional<double> floor_of(const Ball& a) {
     return low < std::floor(a.v + a.e) ? std::nullopt : std::optional(low);
 }
 inline std::optional<double> floor_of(const mpq_class& a) {
-    mpz_class r;
-    mpz_fdiv_q(r.get_mpz_t(), a.get_num_mpz_t(), a.get_den_mpz_t());
-    return r.get_d();
+    return ref::floor_of(a).get_d();
 }
 
 // The range of what may stand for values of z: each itself, or either neighbour among the codes.
@@ -91,11 +90,7 @@ Outcome is_equal(const DepthRange<T>& a, const DepthRange<T>& b) {
         return DepthOutcome::fails;
     }
     // Points that are equal: neither side reaches beyond the other.
-    const Answer up = is_at_most(a.high, b.low);
-    const Answer down = is_at_most(b.high, a.low);
-    const Answer same = up == Answer::no || down == Answer::no     ? Answer::no
-                        : up == Answer::yes && down == Answer::yes ? Answer::yes
-                                                                   : Answer::unknown;
+    const Answer same = both(is_at_most(a.high, b.low), is_at_most(b.high, a.low));
     if (same == Answer::yes) {
         return DepthOutcome::passes;
     }

@@ -20,6 +20,7 @@ namespace {
 using cases::CompareOp;
 using value::Answer;
 using value::Ball;
+using value::both;
 using value::compare;
 using value::compare_sign;
 using value::DepthRange;
@@ -28,12 +29,6 @@ using value::Outcome;
 using value::with_neighbours;
 
 constexpr int kClear = -1;  // instead of a candidate's number
-
-template <class T>
-value::Point<T> point_of(const FixedPoint& p) {
-    return {T(static_cast<double>(p.x) / static_cast<double>(kFixedOne)),
-            T(static_cast<double>(p.y) / static_cast<double>(kFixedOne))};
-}
 
 // How two triangles are related whose vertices are the same.
 struct Relation {
@@ -142,8 +137,8 @@ struct DepthTest::Impl {
         if (!set->is_known) {
             return std::nullopt;
         }
-        const auto reach =
-            value::reach_of_depth(*set, depth, primitive.is_projectable, point_of<T>(p));
+        const value::Point<T> at_p{T(pixels(p.x)), T(pixels(p.y))};
+        const auto reach = value::reach_of_depth(*set, depth, primitive.is_projectable, at_p);
         if (!reach.is_known) {
             return std::nullopt;
         }
@@ -237,11 +232,7 @@ struct DepthTest::Impl {
         const cases::Viewport& v = draw_of(t).viewport;
         const auto low = static_cast<double>(std::min(v.min_depth, v.max_depth));
         const auto high = static_cast<double>(std::max(v.min_depth, v.max_depth));
-        const Answer above = is_positive(T(span->low - T(low)));
-        const Answer below = is_positive(T(T(high) - span->high));
-        return above == Answer::no || below == Answer::no     ? Answer::no
-               : above == Answer::yes && below == Answer::yes ? Answer::yes
-                                                              : Answer::unknown;
+        return both(is_positive(T(span->low - T(low))), is_positive(T(T(high) - span->high)));
     }
 
     // Whether a triangle has a depth there at all.

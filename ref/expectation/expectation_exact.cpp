@@ -35,7 +35,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                     if (draw.layer != layer || !is_in_mask(draw.multisample, s)) {
                         continue;
                     }
-                    const Coverage coverage = classify(setups[t], p).coverage;
+                    const Coverage coverage = classify(setups[t], p);
                     if (coverage != Coverage::must_not) {
                         hits.push_back({t, coverage});
                     }

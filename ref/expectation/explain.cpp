@@ -17,16 +17,10 @@ namespace ref {
 
 namespace {
 
-mpq_class pixels(int64_t fixed) {
-    mpq_class value(static_cast<long>(fixed), static_cast<long>(kFixedOne));
-    value.canonicalize();
-    return value;
-}
-
 // E_ab(p) in square pixels (coverage.hpp has sign and source).
 mpq_class edge_in_pixels(FixedPoint a, FixedPoint b, FixedPoint p) {
-    return (pixels(b.x) - pixels(a.x)) * (pixels(p.y) - pixels(a.y)) -
-           (pixels(b.y) - pixels(a.y)) * (pixels(p.x) - pixels(a.x));
+    return exact_pixels(b.x - a.x) * exact_pixels(p.y - a.y) -
+           exact_pixels(b.y - a.y) * exact_pixels(p.x - a.x);
 }
 
 // Top-left rule's names for an edge a->b of a triangle of positive area (y down, clockwise on
@@ -57,8 +51,8 @@ bool is_near(const cases::Draw& draw, const cases::Triangle& t, FixedPoint p) {
         y0 = std::min(y0, y);
         y1 = std::max(y1, y);
     }
-    const double px = static_cast<double>(p.x) / static_cast<double>(kFixedOne);
-    const double py = static_cast<double>(p.y) / static_cast<double>(kFixedOne);
+    const double px = pixels(p.x);
+    const double py = pixels(p.y);
     return px >= x0 - 2 && px <= x1 + 2 && py >= y0 - 2 && py <= y1 + 2;
 }
 
@@ -105,7 +99,7 @@ std::string to_text(const mpq_class& value) {
 }
 
 std::string to_text(int64_t fixed) {
-    return to_text(pixels(fixed));
+    return to_text(exact_pixels(fixed));
 }
 
 bool TriangleExplanation::has(ReasonKind kind) const {

@@ -76,10 +76,8 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
         return false;  // no text promises a shared edge after clipping
     }
     std::array<bool, 3> has_edge{};
-    size_t count = 0;
-    const auto outlines = setup.outlines(count);
-    for (size_t k = 0; k < count; ++k) {
-        const Outline& o = *outlines[k];
+    for (const Outline* const outline : setup.outlines()) {
+        const Outline& o = *outline;
         if (std::any_of(o.cuts.begin(), o.cuts.end(),
                         [&](const DistanceCut& cut) { return cut.must.at(p) < 0; })) {
             return false;  // a clip distance decides

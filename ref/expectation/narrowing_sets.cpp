@@ -55,10 +55,8 @@ bool Narrowing::is_inside_whole(const FixedPoint& p, const TriangleSetup& setup)
         return false;
     }
     constexpr EdgeLabel kFirstUserEdge = kFirstClipEdge + static_cast<EdgeLabel>(ClipPlane::user_0);
-    size_t count = 0;
-    const auto outlines = setup.outlines(count);
-    for (size_t k = 0; k < count; ++k) {
-        const Outline& o = *outlines[k];
+    for (const Outline* const outline : setup.outlines()) {
+        const Outline& o = *outline;
         for (uint32_t i = 0; i < o.count; ++i) {
             const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
             if (o.edge[i] < kFirstUserEdge && predicates_.is_in_hull(ends, p)) {
@@ -198,10 +196,8 @@ FixedSet Narrowing::told_set(const FixedPoint& p, std::span<const Hit> hits,
     for (const uint32_t t : out.triangles) {
         const TriangleSetup& setup = setups_[t];
         is_clipped = is_clipped || setup.is_clipped;
-        size_t count = 0;
-        const auto outlines = setup.outlines(count);
-        for (size_t k = 0; k < count; ++k) {
-            for (const Box& box : outlines[k]->vertices()) {
+        for (const Outline* const outline : setup.outlines()) {
+            for (const Box& box : outline->vertices()) {
                 is_vertex = is_vertex || predicates_.is_in_hull({&box, 1}, p);
             }
         }

@@ -80,6 +80,12 @@ inline mpq_class smaller(const mpq_class& a, const mpq_class& b) {
 
 enum class Answer : uint8_t { no, yes, unknown };
 
+inline Answer both(Answer a, Answer b) {
+    return a == Answer::no || b == Answer::no     ? Answer::no
+           : a == Answer::yes && b == Answer::yes ? Answer::yes
+                                                  : Answer::unknown;
+}
+
 // Whether a <= b.
 inline Answer is_at_most(const mpq_class& a, const mpq_class& b) {
     return a <= b ? Answer::yes : Answer::no;
@@ -116,6 +122,12 @@ template <>
 inline Ball from_exact<Ball>(const mpq_class& a) {
     const double v = a.get_d();
     return {v, sgn(a) == 0 ? 0.0 : std::fabs(v) * 0x1p-51 + ball::kTiny};
+}
+
+// Gives the value of a finite binary32 as T, exactly.
+template <class T>
+T from_float(float f) {
+    return T(static_cast<double>(f));
 }
 
 inline double nearest_double(const mpq_class& a) {

@@ -6,7 +6,10 @@
 // below 2^102 and a cross product below 2^103: always inside Int128.
 #pragma once
 
+#include <gmpxx.h>
+
 #include <cstdint>
+#include <span>
 
 #include "ref/number/fixed_point.hpp"
 
@@ -16,10 +19,29 @@ __extension__ typedef __int128 Int128;
 inline constexpr int kPositionBits = 50;
 static_assert(2 * (kPositionBits + 1) + 1 < 127, "a cross product of differences fits Int128");
 
+inline mpz_class to_mpz(Int128 v) {
+    mpz_class out(static_cast<long>(v >> 64));  // rounds down, so that the rest is positive
+    out <<= 64;
+    return out + mpz_class(static_cast<unsigned long>(v));
+}
+
 // Computes (b-a) x (p-a), which is positive if p lies to the right of a->b on screen (y down).
 inline Int128 edge_function(const FixedPoint& a, const FixedPoint& b, const FixedPoint& p) {
     return static_cast<Int128>(b.x - a.x) * (p.y - a.y) -
            static_cast<Int128>(b.y - a.y) * (p.x - a.x);
+}
+
+inline int sign_of(Int128 v) {
+    return v > 0 ? 1 : (v < 0 ? -1 : 0);
+}
+
+// Gives the sign of a polygon's area; positive if it runs clockwise on screen.
+inline int area_sign(std::span<const FixedPoint> polygon) {
+    Int128 area = 0;
+    for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+        area += edge_function(polygon[0], polygon[i], polygon[i + 1]);
+    }
+    return sign_of(area);
 }
 
 // A point is inside where a x + b y + c >= 0. With positions below 2^50: |a|, |b| < 2^51, |c| <

@@ -5,6 +5,8 @@
 // subpixel bits and every standard sample location (multiples of 1/16 pixel) is exact in it.
 #pragma once
 
+#include <gmpxx.h>
+
 #include <cstdint>
 
 #include "cases/model/sample.hpp"
@@ -18,6 +20,20 @@ struct FixedPoint {
     int64_t x = 0, y = 0;  // S47.16 pixels
     friend bool operator==(const FixedPoint&, const FixedPoint&) = default;
 };
+
+// Is a closed range of coordinates.
+struct FixedRange {
+    int64_t low = 0, high = -1;
+    bool contains(int64_t v) const { return low <= v && v <= high; }
+};
+
+// Convert a coordinate to pixels. Those here are below 2^53: binary64 holds them exactly, too.
+inline double pixels(int64_t fixed) {
+    return static_cast<double>(fixed) / static_cast<double>(kFixedOne);
+}
+inline mpq_class exact_pixels(int64_t fixed) {
+    return mpq_class(pixels(fixed));
+}
 
 // Where sample s of pixel (i,j) lies. "These locations are exact positions" (Vulkan specification,
 // "Multisampling"): they are never snapped.

@@ -31,6 +31,7 @@
 #include <limits>
 #include <utility>
 
+#include "ref/number/rational.hpp"
 #include "ref/position/position_detail.hpp"
 
 namespace ref {
@@ -38,10 +39,6 @@ namespace ref {
 namespace {
 
 constexpr size_t kX = 0, kY = 1, kZ = 2, kW = 3;
-
-mpq_class exact(float f) {
-    return mpq_class(static_cast<double>(f));
-}
 
 // Rounded up to a binary64, so that bounds stay short numbers.
 mpq_class round_up(const mpq_class& q) {
@@ -194,8 +191,7 @@ std::vector<ClipPlane> cutting_planes(const ClipInput& triangle,
                                       std::span<const ClipPlane> planes) {
     std::vector<ClipPlane> out;
     for (const ClipPlane& plane : planes) {
-        if (!is_inside(triangle, 0, {&plane, 1}) || !is_inside(triangle, 1, {&plane, 1}) ||
-            !is_inside(triangle, 2, {&plane, 1})) {
+        if (!is_inside(triangle, std::span(&plane, 1))) {
             out.push_back(plane);
         }
     }
@@ -231,8 +227,8 @@ void widen_by(std::vector<Work>& polygon, const std::vector<Work>& other) {
 }
 
 mpq_class axis_error(const Work& p, size_t c, float extent, float origin, const mpq_class& u) {
-    const mpq_class half = exact(extent) / 2;
-    const mpq_class offset = exact(origin) + half;
+    const mpq_class half = rational(extent) / 2;
+    const mpq_class offset = rational(origin) + half;
     const mpq_class normalized = p.v.clip[c] / p.v.clip[kW];
     const mpq_class divided =
         (p.error[c] + abs(normalized) * p.error[kW]) / (p.v.clip[kW] - p.error[kW]);
@@ -248,12 +244,12 @@ void project(Work& p, const cases::Viewport& viewport, const mpq_class& u) {
     }
     IdealPosition& out = v.position;
     out.inv_w = 1 / v.clip[kW];
-    const mpq_class half_x = exact(viewport.width) / 2;
-    const mpq_class half_y = exact(viewport.height) / 2;
-    out.x = half_x * v.clip[kX] * out.inv_w + exact(viewport.x) + half_x;
-    out.y = half_y * v.clip[kY] * out.inv_w + exact(viewport.y) + half_y;
-    const mpq_class range = exact(viewport.max_depth) - exact(viewport.min_depth);
-    out.z = range * v.clip[kZ] * out.inv_w + exact(viewport.min_depth);
+    const mpq_class half_x = rational(viewport.width) / 2;
+    const mpq_class half_y = rational(viewport.height) / 2;
+    out.x = half_x * v.clip[kX] * out.inv_w + rational(viewport.x) + half_x;
+    out.y = half_y * v.clip[kY] * out.inv_w + rational(viewport.y) + half_y;
+    const mpq_class range = rational(viewport.max_depth) - rational(viewport.min_depth);
+    out.z = range * v.clip[kZ] * out.inv_w + rational(viewport.min_depth);
     v.ratio_error.resize(p.distance.size());
     for (const mpq_class& d : p.distance) {
         v.ratio.emplace_back(d * out.inv_w);
@@ -341,6 +337,11 @@ bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> p
     });
 }
 
+bool is_inside(const ClipInput& triangle, std::span<const ClipPlane> planes) {
+    return is_inside(triangle, 0, planes) && is_inside(triangle, 1, planes) &&
+           is_inside(triangle, 2, planes);
+}
+
 bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,
                           std::span<const ClipPlane> planes) {
     return std::any_of(planes.begin(), planes.end(), [&](ClipPlane plane) {
@@ -359,13 +360,13 @@ std::vector<ClippedVertex> clip_triangle(const ClipInput& triangle, const cases:
     std::vector<Work> start(3);
     for (size_t i = 0; i < 3; ++i) {
         const glm::vec4& p = triangle.clip[i];
-        start[i].v.clip = {exact(p.x), exact(p.y), exact(p.z), exact(p.w)};
+        start[i].v.clip = {rational(p.x), rational(p.y), rational(p.z), rational(p.w)};
         start[i].v.weights[i] = 1;
         start[i].v.original = static_cast<int>(i);
         start[i].v.edge = static_cast<EdgeLabel>(i);
         for (uint32_t k = 0; k < triangle.distance_count; ++k) {
             start[i].distance.push_back(
-                exact(triangle.distance[i][static_cast<glm::vec4::length_type>(k)]));
+                rational(triangle.distance[i][static_cast<glm::vec4::length_type>(k)]));
         }
         start[i].distance_error.resize(triangle.distance_count);
     }

@@ -93,6 +93,9 @@ bool is_inside(const glm::vec4& clip, std::span<const ClipPlane> planes = kViewV
 // Says the same of vertex i, with clip distances.
 bool is_inside(const ClipInput& triangle, size_t i, std::span<const ClipPlane> planes);
 
+// The same of all three vertices: the planes cut nothing off.
+bool is_inside(const ClipInput& triangle, std::span<const ClipPlane> planes);
+
 // True if all three vertices lie strictly outside one and the same plane of the view volume (not a
 // clip distance's, which a device may interpolate): nothing can be visible.
 bool is_trivially_outside(const std::array<glm::vec4, 3>& triangle,

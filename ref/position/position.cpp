@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "ref/number/integer.hpp"
+#include "ref/number/rational.hpp"
 #include "ref/position/position_detail.hpp"
 #include "ref/position/position_filter.hpp"
 
@@ -30,56 +30,31 @@ namespace ref {
 
 namespace {
 
-const mpq_class& power_of_two(int exponent) {
-    static const std::vector<mpq_class> table = [] {
-        std::vector<mpq_class> t(401);
-        for (int e = -200; e <= 200; ++e) {
-            mpq_class q = 1;
-            if (e >= 0) {
-                mpq_mul_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(e));
-            } else {
-                mpq_div_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(-e));
-            }
-            t[static_cast<size_t>(e + 200)] = q;
-        }
-        return t;
-    }();
-    return table[static_cast<size_t>(exponent + 200)];
-}
-
-mpq_class exact(float f) {
-    return mpq_class(static_cast<double>(f));
-}
-
-// True for zero and for numbers that are a normal binary32.
-bool is_normal_binary32(const mpq_class& q) {
-    if (q == 0) {
-        return true;
-    }
-    const auto f = static_cast<float>(q.get_d());
-    return std::isnormal(f) && exact(f) == q;
-}
-
-// A power of two whose reciprocal is normal as well.
+// A power of two whose reciprocal is normal as well: the biased exponent is neither of the two
+// least nor of the three largest.
 bool is_power_of_two(float w) {
-    constexpr uint32_t kFractionBits = 0x007fffff;
-    return (std::bit_cast<uint32_t>(w) & kFractionBits) == 0 && std::ilogb(w) > -126 &&
-           std::ilogb(w) < 126;
+    const auto bits = std::bit_cast<uint32_t>(w);
+    const uint32_t exponent = bits >> 23U & 0xffU;
+    return (bits & 0x007fffffU) == 0 && exponent > 1 && exponent < 253;
 }
 
 struct Axis {
-    mpq_class half;    // p/2
-    mpq_class offset;  // o
+    mpq_class half;              // p/2
+    mpq_class offset;            // o
+    bool is_fractional = false;  // the viewport begins or ends inside a pixel
 };
 
+Axis axis_of(float origin, float extent) {
+    const mpq_class half = rational(extent) / 2;
+    return {half, rational(origin) + half, !is_integer(origin) || !is_integer(extent)};
+}
+
 Axis axis_x(const cases::Viewport& v) {
-    const mpq_class half = exact(v.width) / 2;
-    return {half, exact(v.x) + half};
+    return axis_of(v.x, v.width);
 }
 
 Axis axis_y(const cases::Viewport& v) {
-    const mpq_class half = exact(v.height) / 2;
-    return {half, exact(v.y) + half};
+    return axis_of(v.y, v.height);
 }
 
 // True for zero and for numbers that are a normal binary32.
@@ -96,81 +71,67 @@ bool add_exactly(double a, double b, double& sum) {
     return !(std::fabs(rest) > 0);
 }
 
+// Of a coordinate whose transform is not exact.
 mpq_class axis_error(float c, float w, const Axis& axis) {
-    const mpq_class normalized = exact(c) / exact(w);
-    const mpq_class t = normalized * axis.half;
-    const mpq_class x_f = t + axis.offset;
-    const mpq_class half(1, 2);
-    if (is_power_of_two(w) && is_normal_binary32(normalized) && is_normal_binary32(axis.half) &&
-        is_normal_binary32(t) && is_normal_binary32(axis.offset) &&
-        is_normal_binary32(axis.offset - half) && is_normal_binary32(x_f) &&
-        is_normal_binary32(x_f - half)) {
-        return 0;
-    }
-    const mpq_class& u = power_of_two(-24);
-    mpq_class error = rounding_bound(t, axis.offset, x_f, u);
-    error += power_of_two(-120) * (1 + abs(axis.half)) * (1 + abs(exact(c)));
+    const mpq_class t = rational(c) / rational(w) * axis.half;
+    mpq_class error = rounding_bound(t, axis.offset, t + axis.offset, power_of_two(-24));
+    error += power_of_two(-120) * (1 + abs(axis.half)) * (1 + abs(rational(c)));
     if (std::abs(w) > 0x1p125F) {
         error += abs(t);  // 1/w is subnormal and may be flushed to zero
     }
     return error;
 }
 
-bool is_integer(float f) {
-    return !(std::floor(f) < f);
-}
-
-// Floor and ceil of the two ends on the grid of `bits` bits, as S47.16.
-void to_fixed(const mpz_class& low, const mpz_class& high, int bits, int64_t& x0, int64_t& x1) {
-    x0 = low.get_si() * (int64_t{1} << (kFixedBits - bits));
-    x1 = high.get_si() * (int64_t{1} << (kFixedBits - bits));
-}
-
 // What profile vulkan adds to the error of a coordinate before it is snapped: the operations above
 // with about 1 part in 10^5 each (Vulkan, "Floating-Point Computation").
-mpq_class vulkan_slack(const mpq_class& ideal, const Axis& axis, bool is_fractional) {
-    mpq_class slack = rounding_bound(ideal - axis.offset, axis.offset, ideal, mpq_class(1, 100000));
-    if (is_fractional) {
-        slack += 1;  // viewportSubPixelBits may be 0: the viewport may move by less than a pixel
+mpq_class vulkan_slack(const mpq_class& ideal, const Axis& axis, cases::Profile profile) {
+    if (profile != cases::Profile::vulkan) {
+        return 0;
     }
-    return slack;
+    const mpq_class slack =
+        rounding_bound(ideal - axis.offset, axis.offset, ideal, mpq_class(1, 100000));
+    // viewportSubPixelBits may be 0: the viewport may move by less than a pixel
+    return axis.is_fractional ? mpq_class(slack + 1) : slack;
 }
 
-void axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& axis, bool is_fractional,
-              const Limits& limits, cases::Profile profile, int64_t& x0, int64_t& x1) {
+FixedRange axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& axis,
+                    const Limits& limits, cases::Profile profile) {
     const mpq_class scale = power_of_two(limits.subpixel_bits);
+    const int64_t unit = int64_t{1} << (kFixedBits - limits.subpixel_bits);
     if (profile == cases::Profile::direct3d) {
         // D3D 11.3, 3.2.4.1: 0.6 units of the last place of the result.
         const mpq_class reach = error * scale + mpq_class(3, 5);
         const mpq_class v = ideal * scale;
-        to_fixed(ceil_of(v - reach), floor_of(v + reach), limits.subpixel_bits, x0, x1);
-        return;
+        return {ceil_of(v - reach).get_si() * unit, floor_of(v + reach).get_si() * unit};
     }
-    mpq_class reach = error;
-    if (profile == cases::Profile::vulkan) {
-        reach += vulkan_slack(ideal, axis, is_fractional);
-    }
-    to_fixed(floor_of((ideal - reach) * scale), ceil_of((ideal + reach) * scale),
-             limits.subpixel_bits, x0, x1);
+    const mpq_class reach = error + vulkan_slack(ideal, axis, profile);
+    return {floor_of((ideal - reach) * scale).get_si() * unit,
+            ceil_of((ideal + reach) * scale).get_si() * unit};
 }
 
 // The same for a point of an edge that a device may cut and snap elsewhere: all positions within
 // the snapping error, off the grid too.
-void axis_crossing(const mpq_class& ideal, const mpq_class& error, const Axis& axis,
-                   bool is_fractional, const Limits& limits, cases::Profile profile, int64_t& x0,
-                   int64_t& x1) {
+FixedRange axis_crossing(const mpq_class& ideal, const mpq_class& error, const Axis& axis,
+                         const Limits& limits, cases::Profile profile) {
     const mpq_class units = profile == cases::Profile::direct3d ? mpq_class(3, 5) : mpq_class(1);
-    mpq_class reach = error + units * power_of_two(-limits.subpixel_bits);
-    if (profile == cases::Profile::vulkan) {
-        reach += vulkan_slack(ideal, axis, is_fractional);
-    }
-    x0 = floor_of((ideal - reach) * power_of_two(kFixedBits)).get_si();
-    x1 = ceil_of((ideal + reach) * power_of_two(kFixedBits)).get_si();
+    const mpq_class reach =
+        error + units * power_of_two(-limits.subpixel_bits) + vulkan_slack(ideal, axis, profile);
+    return {floor_of((ideal - reach) * kFixedOne).get_si(),
+            ceil_of((ideal + reach) * kFixedOne).get_si()};
 }
 
-bool is_in_range(const mpq_class& x, const mpq_class& y, const TransformError& error) {
-    const mpq_class& limit = power_of_two(32);
-    return abs(x) <= limit && abs(y) <= limit && error.x <= limit && error.y <= limit;
+// The box whose coordinates `range_of` gives: one of the two above.
+template <class RangeOf>
+std::optional<Box> box_by(RangeOf range_of, const mpq_class& x, const mpq_class& y,
+                          const TransformError& error, const cases::Viewport& viewport,
+                          const Limits& limits, cases::Profile profile) {
+    const mpq_class limit = power_of_two(32);
+    if (abs(x) > limit || abs(y) > limit || error.x > limit || error.y > limit) {
+        return std::nullopt;
+    }
+    const FixedRange across = range_of(x, error.x, axis_x(viewport), limits, profile);
+    const FixedRange down = range_of(y, error.y, axis_y(viewport), limits, profile);
+    return Box{across.low, down.low, across.high, down.high};
 }
 
 }  // namespace
@@ -202,15 +163,15 @@ mpq_class rounding_bound(const mpq_class& t, const mpq_class& o, const mpq_class
 }
 
 IdealPosition ideal_position(const glm::vec4& clip, const cases::Viewport& viewport) {
-    const mpq_class w = exact(clip.w);
+    const mpq_class w = rational(clip.w);
     const Axis x = axis_x(viewport);
     const Axis y = axis_y(viewport);
     IdealPosition out;
     out.inv_w = 1 / w;
-    out.x = x.half * exact(clip.x) / w + x.offset;
-    out.y = y.half * exact(clip.y) / w + y.offset;
-    const mpq_class range = exact(viewport.max_depth) - exact(viewport.min_depth);
-    out.z = range * exact(clip.z) / w + exact(viewport.min_depth);
+    out.x = x.half * rational(clip.x) / w + x.offset;
+    out.y = y.half * rational(clip.y) / w + y.offset;
+    const mpq_class range = rational(viewport.max_depth) - rational(viewport.min_depth);
+    out.z = range * rational(clip.z) / w + rational(viewport.min_depth);
     return out;
 }
 
@@ -251,31 +212,13 @@ TransformError transform_error(const glm::vec4& clip, const cases::Viewport& vie
 std::optional<Box> box_around(const mpq_class& x, const mpq_class& y, const TransformError& error,
                               const cases::Viewport& viewport, const Limits& limits,
                               cases::Profile profile) {
-    if (!is_in_range(x, y, error)) {
-        return std::nullopt;
-    }
-    Box box;
-    axis_box(x, error.x, axis_x(viewport), !is_integer(viewport.x) || !is_integer(viewport.width),
-             limits, profile, box.x0, box.x1);
-    axis_box(y, error.y, axis_y(viewport), !is_integer(viewport.y) || !is_integer(viewport.height),
-             limits, profile, box.y0, box.y1);
-    return box;
+    return box_by(axis_box, x, y, error, viewport, limits, profile);
 }
 
 std::optional<Box> box_around_crossing(const mpq_class& x, const mpq_class& y,
                                        const TransformError& error, const cases::Viewport& viewport,
                                        const Limits& limits, cases::Profile profile) {
-    if (!is_in_range(x, y, error)) {
-        return std::nullopt;
-    }
-    Box box;
-    axis_crossing(x, error.x, axis_x(viewport),
-                  !is_integer(viewport.x) || !is_integer(viewport.width), limits, profile, box.x0,
-                  box.x1);
-    axis_crossing(y, error.y, axis_y(viewport),
-                  !is_integer(viewport.y) || !is_integer(viewport.height), limits, profile, box.y0,
-                  box.y1);
-    return box;
+    return box_by(axis_crossing, x, y, error, viewport, limits, profile);
 }
 
 std::optional<Box> position_box(const glm::vec4& clip, const cases::Viewport& viewport,
@@ -307,7 +250,7 @@ std::optional<FixedPoint> snap_nearest(const glm::vec4& clip, const cases::Viewp
         return std::nullopt;
     }
     const IdealPosition ideal = ideal_position(clip, viewport);
-    const mpq_class& limit = power_of_two(32);
+    const mpq_class limit = power_of_two(32);
     if (abs(ideal.x) > limit || abs(ideal.y) > limit) {
         return std::nullopt;
     }

@@ -6,6 +6,8 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
+#include <array>
 #include <glm/vec4.hpp>
 #include <optional>
 #include <vector>
@@ -56,6 +58,32 @@ struct Box {
     int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     bool is_point() const { return x0 == x1 && y0 == y1; }
     friend bool operator==(const Box&, const Box&) = default;
+};
+
+// Gives the smallest box around two.
+inline Box hull_of(const Box& a, const Box& b) {
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+// Holds the corners of a box, each once.
+class BoxCorners {
+  public:
+    explicit BoxCorners(const Box& b) {
+        for (const int64_t x : {b.x0, b.x1}) {
+            for (const int64_t y : {b.y0, b.y1}) {
+                if (std::find(begin(), end(), FixedPoint{x, y}) == end()) {
+                    points_[count_++] = {x, y};
+                }
+            }
+        }
+    }
+    const FixedPoint* begin() const { return points_.data(); }
+    const FixedPoint* end() const { return points_.data() + count_; }
+    size_t size() const { return count_; }
+
+  private:
+    std::array<FixedPoint, 4> points_;
+    size_t count_ = 0;
 };
 
 // The box of positions that a device may use for a vertex under a profile (docs/design.md,

@@ -6,6 +6,7 @@
 
 #include <gmpxx.h>
 
+#include <cmath>
 #include <optional>
 
 #include "cases/model/case.hpp"
@@ -14,6 +15,11 @@
 #include "ref/position/position.hpp"
 
 namespace ref {
+
+// True if a viewport's origin or extent is a whole number of pixels.
+inline bool is_integer(float f) {
+    return !(std::floor(f) < f);
+}
 
 // Bound on the rounding errors from x_d to x_f = t + o with unit roundoff u; position.cpp derives
 // it.

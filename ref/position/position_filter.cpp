@@ -6,8 +6,9 @@
 // of positive terms, relative error below 16d. Both are taken four times as large.
 #include "ref/position/position_filter.hpp"
 
-#include <bit>
 #include <cmath>
+
+#include "ref/position/position.hpp"
 
 namespace ref {
 
@@ -16,34 +17,6 @@ namespace {
 constexpr double kRound = 0x1p-53;
 constexpr double kSmall = 0x1p-100;  // covers underflow of binary64 on the way
 constexpr double kFar = 0x1p30;      // pixels; beyond it the rationals decide
-
-// The number is zero or a normal binary32.
-bool is_binary32(double v) {
-    const auto f = static_cast<float>(v);
-    return !(static_cast<double>(f) < v) && !(static_cast<double>(f) > v) &&
-           (std::isnormal(f) || std::fpclassify(f) == FP_ZERO);
-}
-
-bool is_equal(double a, double b) {
-    return !(a < b) && !(a > b);
-}
-
-// The sum, if binary64 holds it exactly.
-bool exact_sum(double a, double b, double& sum) {
-    sum = a + b;
-    return is_equal(sum - a, b) && is_equal(sum - b, a);
-}
-
-// As is_power_of_two in position.cpp, for the w > 0 that come here: normal, so that the biased
-// exponent is ilogb + 127.
-bool is_power_of_two(float w) {
-    constexpr uint32_t kFractionBits = 0x007fffff;
-    constexpr int kFractionSize = 23;
-    constexpr uint32_t kBias = 127;
-    const auto bits = std::bit_cast<uint32_t>(w);
-    const uint32_t exponent = bits >> kFractionSize;
-    return (bits & kFractionBits) == 0 && exponent > kBias - 126 && exponent < kBias + 126;
-}
 
 // For |v| < 2^52, which holds for all that comes here: |x_f|, |o| < 2^30, so |t| = |c half / w| is
 // below 2^31 and, w being at most 2^60, |c half| below 2^92; with |c| <= 2^90 and |half| < 2^128
@@ -74,26 +47,20 @@ bool certain_ceil(const Known& k, int64_t& out) {
 
 }  // namespace
 
-std::optional<FilteredRange> filtered_range(float c, float w, float origin, float extent,
-                                            const Limits& limits, cases::Profile profile) {
+std::optional<FixedRange> filtered_range(float c, float w, float origin, float extent,
+                                         const Limits& limits, cases::Profile profile) {
     if (!(w >= 0x1p-60F) || !(w <= 0x1p60F) || !(std::abs(c) <= 0x1p90F)) {
         return std::nullopt;
     }
     const double half = static_cast<double>(extent) / 2;
     const double x_d = static_cast<double>(c) / static_cast<double>(w);
-    const double t = x_d * half;  // exact if x_d is a binary32: 24 + 24 bits
-    double o = 0;
-    double x_f = 0;
-    double shifted = 0;
-    const bool has_offset = exact_sum(static_cast<double>(origin), half, o);
-    const bool has_position = exact_sum(t, o, x_f);
+    const double t = x_d * half;
+    const double o = static_cast<double>(origin) + half;
+    const double x_f = t + o;
     if (!(std::abs(x_f) < kFar) || !(std::abs(o) < kFar)) {
         return std::nullopt;
     }
-    const bool is_exact =
-        is_power_of_two(w) && has_offset && has_position && is_binary32(x_d) && is_binary32(half) &&
-        is_binary32(t) && is_binary32(o) && is_binary32(x_f) && exact_sum(x_f, -0.5, shifted) &&
-        is_binary32(shifted) && exact_sum(o, -0.5, shifted) && is_binary32(shifted);
+    const bool is_exact = is_transform_exact(c, w, origin, extent);
     // position.cpp, "The binary32 error"
     constexpr double kUnit = 0x1p-24;
     double error = 0;
@@ -123,7 +90,7 @@ std::optional<FilteredRange> filtered_range(float c, float w, float origin, floa
                                       : 4 * kRound * (std::abs(x_f) * scale + reach + 1));
     const Known low{x_f * scale - reach, slack};
     const Known high{x_f * scale + reach, slack};
-    FilteredRange out;
+    FixedRange out;
     const bool is_certain = is_direct3d
                                 ? certain_ceil(low, out.low) && certain_floor(high, out.high)
                                 : certain_floor(low, out.low) && certain_ceil(high, out.high);

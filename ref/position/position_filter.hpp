@@ -7,7 +7,6 @@
 // rounded number.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "cases/model/profile.hpp"
@@ -16,13 +15,9 @@
 
 namespace ref {
 
-struct FilteredRange {
-    int64_t low = 0, high = 0;  // S47.16
-};
-
 // One coordinate of position_box: clip coordinate c, clip w > 0, and the viewport's origin and
 // extent on that axis. Nothing if binary64 cannot tell.
-std::optional<FilteredRange> filtered_range(float c, float w, float origin, float extent,
-                                            const Limits& limits, cases::Profile profile);
+std::optional<FixedRange> filtered_range(float c, float w, float origin, float extent,
+                                         const Limits& limits, cases::Profile profile);
 
 }  // namespace ref

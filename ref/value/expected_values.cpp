@@ -78,16 +78,14 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
     if (only.empty()) {
         return;
     }
-    const std::span<const Quantity> span(all);
-    const auto& balls = impl_->balls.get(t, impl_->profile, [&] {
-        return value::make_candidates<Ball>(primitive, span, impl_->limits, impl_->profile);
-    });
+    value::Asked asked{all, primitive.is_projectable};
+    asked.only = only;
+    const auto& balls = impl_->candidates<Ball>(t, impl_->profile);
     value::AcceptedRange<Ball> unknown;
     unknown.is_known = false;
     std::vector<value::AcceptedRange<Ball>> wide(only.size(), unknown);
     if (balls.is_known) {
-        wide = value::accepted_ranges(balls, span, primitive.is_projectable,
-                                      impl_->places_of_range(t, sample), only);
+        wide = value::accepted_ranges(balls, impl_->places_of_range(t, sample), asked);
     }
     for (size_t k = 0; k < only.size(); ++k) {
         ValueRange& range = out.at(component_of[k]);
@@ -95,15 +93,11 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
             range = {!wide[k].is_free, wide[k].range.low.v - wide[k].range.low.e,
                      wide[k].range.high.v + wide[k].range.high.e};
         } else {
-            const auto& rationals = impl_->rationals.get(t, impl_->profile, [&] {
-                return value::make_candidates<mpq_class>(primitive, span, impl_->limits,
-                                                         impl_->profile);
-            });
             const auto exact = value::accepted_ranges(
-                                   rationals, span, primitive.is_projectable,
+                                   impl_->candidates<mpq_class>(t, impl_->profile),
                                    value::evaluations<mpq_class>(
                                        impl_->fragment(t, sample, impl_->profile), impl_->profile),
-                                   std::span(only).subspan(k, 1))
+                                   asked.of(std::span(only).subspan(k, 1)))
                                    .front();
             range = {!exact.is_free, exact.range.low.get_d(), exact.range.high.get_d()};
         }

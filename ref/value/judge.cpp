@@ -68,9 +68,7 @@ bool ValueReference::Impl::filter(uint32_t t, cases::SampleId id, const Fragment
     const value::Loaded& triangle = load_filters(t);
     const FixedPoint fixed = sample_position(id.x, id.y, id.sample, c.target);
     const value::Point<double> centre{id.x + 0.5, id.y + 0.5};
-    const value::Point<double> sample{
-        static_cast<double>(fixed.x) / static_cast<double>(kFixedOne),
-        static_cast<double>(fixed.y) / static_cast<double>(kFixedOne)};
+    const value::Point<double> sample{pixels(fixed.x), pixels(fixed.y)};
     value::FilterPoints places{centre, sample, centre};
     if (c.target.samples > 1) {
         // The likeliest alternative; the others are left to the next stage.
@@ -120,8 +118,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
                             is_plain_depth(triangle.primitive) && filter(t, id, device, out);
     // Accepted, but above one budget: another basis may explain it better.
     if (!is_decided || out.worst_ratio > 1) {
-        const value::CandidateVerdict verdict =
-            exact_only ? wide_exact(t, id, device, profile) : wide(t, id, device, profile);
+        const value::CandidateVerdict verdict = wide(t, id, device, profile, exact_only);
         out.basis = verdict.basis;
         tell_worst(verdict.worst, out);
         if (!verdict.ok && is_brief) {

@@ -89,15 +89,12 @@ std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId
                                                      const FragmentValues& device, Profile at) {
     const std::vector<size_t> only = asked(t, at);
     if (at == Profile::vulkan && !only.empty()) {
-        const value::Primitive& primitive = load(t).primitive;
-        const std::vector<Quantity>& q = quantities_of(t);
-        const value::CandidateSet<Ball>& set = balls.get(
-            t, at, [&] { return value::make_candidates<Ball>(primitive, q, limits, at); });
+        const value::CandidateSet<Ball>& set = candidates<Ball>(t, at);
         if (set.is_known) {
-            auto failing =
-                failing_separately(set, std::span<const Quantity>(q), primitive.is_projectable,
-                                   value::evaluations<Ball>(fragment(t, id, at), at),
-                                   probe_place(t, id, at), device, only);
+            const value::ProbePlace place = probe_place(t, id, at);
+            auto failing = failing_separately(
+                set, value::evaluations<Ball>(fragment(t, id, at), at),
+                {quantities_of(t), load(t).primitive.is_projectable, &place, &device, only});
             if (failing) {
                 return std::move(*failing);
             }
@@ -146,8 +143,7 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
     const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
     const auto place = value::evaluations<mpq_class>(fragment(t, id, profile), profile).front();
     const value::Basis<mpq_class>& basis = exact_basis(t);
-    const value::CandidateSet<Ball>& set = balls.get(
-        t, profile, [&] { return value::make_candidates<Ball>(primitive, all, limits, profile); });
+    const value::CandidateSet<Ball>& set = candidates<Ball>(t, profile);
     for (size_t k = 0; k < verdict.failing.size(); ++k) {
         const size_t index = verdict.failing[k];
         const Quantity& q = all[index];

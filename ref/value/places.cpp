@@ -21,8 +21,7 @@ struct Spot {
 
 Spot spot_of(const Fragment& f, uint32_t sample) {
     const FixedPoint p = sample_position(f.id.x, f.id.y, sample, *f.target);
-    return {static_cast<double>(p.x) / static_cast<double>(kFixedOne),
-            static_cast<double>(p.y) / static_cast<double>(kFixedOne)};
+    return {pixels(p.x), pixels(p.y)};
 }
 
 void add(std::vector<Spot>& spots, const Spot& spot) {

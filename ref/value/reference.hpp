@@ -17,6 +17,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "ref/value/accept/filter.hpp"
@@ -116,8 +117,8 @@ struct ValueReference::Impl {
     std::vector<std::unique_ptr<Loaded>> loaded;    // by triangle
     std::deque<uint32_t> order;                     // of the loaded ones, oldest first
     static constexpr size_t kKeptTriangles = 16384;
-    value::CandidateCache<Ball> balls{64};
-    value::CandidateCache<mpq_class> rationals{4};
+    std::tuple<value::CandidateCache<Ball>, value::CandidateCache<mpq_class>> candidate_caches{
+        value::CandidateCache<Ball>(64), value::CandidateCache<mpq_class>(4)};
     std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)>
         coverage;  // by profile
     uint32_t text_triangle = 0;
@@ -278,51 +279,40 @@ struct ValueReference::Impl {
         return range_places;
     }
 
+    template <class T>
+    const value::CandidateSet<T>& candidates(uint32_t t, Profile at) {
+        return std::get<value::CandidateCache<T>>(candidate_caches).get(t, at, [&] {
+            return value::make_candidates<T>(load(t).primitive, quantities_of(t), limits, at);
+        });
+    }
+
+    // By Balls, and by rationals where these do not tell; `exact_only`: the oracle, by rationals
+    // alone.
     value::CandidateVerdict wide(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                 Profile at) {
+                                 Profile at, bool exact_only = false) {
         const std::vector<size_t> only = asked(t, at);
         if (only.empty()) {
             return {true, true, ref::BasisKind::unsnapped, {}, {}, {}};
         }
-        const value::Primitive& primitive = load(t).primitive;
-        const std::vector<Quantity>& q = quantities_of(t);
-        const value::CandidateSet<Ball>& set = balls.get(
-            t, at, [&] { return value::make_candidates<Ball>(primitive, q, limits, at); });
-        if (set.is_known) {
-            value::CandidateVerdict verdict =
-                judge_candidates(set, std::span<const Quantity>(q), primitive.is_projectable,
-                                 value::evaluations<Ball>(fragment(t, id, at), at),
-                                 probe_place(t, id, at), device, only);
+        const value::ProbePlace place = probe_place(t, id, at);
+        const value::Asked asked{quantities_of(t), load(t).primitive.is_projectable, &place,
+                                 &device, only};
+        const auto judge_by = [&]<class T>(const value::CandidateSet<T>& set) {
+            return judge_candidates(set, value::evaluations<T>(fragment(t, id, at, exact_only), at),
+                                    asked);
+        };
+        if (!exact_only && candidates<Ball>(t, at).is_known) {
+            value::CandidateVerdict verdict = judge_by(candidates<Ball>(t, at));
             if (verdict.is_known) {
                 return verdict;
             }
         }
-        const value::CandidateSet<mpq_class>& exact = rationals.get(
-            t, at, [&] { return value::make_candidates<mpq_class>(primitive, q, limits, at); });
-        return judge_candidates(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                                value::evaluations<mpq_class>(fragment(t, id, at), at),
-                                probe_place(t, id, at), device, only);
+        return judge_by(candidates<mpq_class>(t, at));
     }
 
     // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
     std::vector<size_t> failing_at(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                    Profile at);
-
-    // The oracle: rationals only, no filter.
-    value::CandidateVerdict wide_exact(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                       Profile at) {
-        const std::vector<size_t> only = asked(t, at);
-        if (only.empty()) {
-            return {true, true, ref::BasisKind::unsnapped, {}, {}, {}};
-        }
-        const value::Primitive& primitive = load(t).primitive;
-        const std::vector<Quantity>& q = quantities_of(t);
-        const value::CandidateSet<mpq_class>& exact = rationals.get(
-            t, at, [&] { return value::make_candidates<mpq_class>(primitive, q, limits, at); });
-        return judge_candidates(exact, std::span<const Quantity>(q), primitive.is_projectable,
-                                value::evaluations<mpq_class>(fragment(t, id, at, true), at),
-                                probe_place(t, id, at), device, only);
-    }
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
                     FragmentVerdict& out) const;

@@ -204,7 +204,7 @@ def plant(root, name, text):
 # What is planted -> the words of the complaint.
 PLANTED = {
     "an arrow back inside ref/": (
-        lambda root: plant(root, "ref/number/integer.hpp", '#include "ref/value/value.hpp"\n'),
+        lambda root: plant(root, "ref/number/rational.hpp", '#include "ref/value/value.hpp"\n'),
         ["ref/number/ must not include ref/value/value.hpp", "folders include each other"],
     ),
     "Vulkan outside vk_harness/": (

@@ -120,10 +120,8 @@ void scan_sets(const CoverageSets& sets, const Grid& g, const Span& base, std::v
 }
 
 bool is_narrow(const TriangleSetup& setup) {
-    size_t count = 0;
-    const auto outlines = setup.outlines(count);
-    for (size_t k = 0; k < count; ++k) {
-        const Outline& o = *outlines[k];
+    for (const Outline* const outline : setup.outlines()) {
+        const Outline& o = *outline;
         if (!o.cuts.empty()) {
             return false;
         }
@@ -145,21 +143,6 @@ bool contains(const ConvexSet& set, const FixedPoint& p) {
            p.y <= set.bounds.y1 &&
            std::all_of(set.planes.begin(), set.planes.end(),
                        [&](const HalfPlane& h) { return h.at(p) >= 0; });
-}
-
-bool is_on_edge(const TriangleSetup& setup, const FixedPoint& p) {
-    size_t count = 0;
-    const auto outlines = setup.outlines(count);
-    for (size_t k = 0; k < count; ++k) {
-        const auto boxes = outlines[k]->vertices();
-        for (size_t i = 0; i < boxes.size(); ++i) {
-            const Box ends[] = {boxes[i], boxes[(i + 1) % boxes.size()]};
-            if (ends[0].is_point() && ends[1].is_point() && is_in_hull(ends, p)) {
-                return true;
-            }
-        }
-    }
-    return false;
 }
 
 }  // namespace
@@ -205,26 +188,22 @@ void scan_by_sets(const TriangleSetup& setup, uint32_t triangle, const cases::Ta
     }
 }
 
-Classification classify(const TriangleSetup& setup, const FixedPoint& p) {
-    Classification out;
+Coverage classify(const TriangleSetup& setup, const FixedPoint& p) {
     if (setup.kind == TriangleSetup::Kind::nothing || !setup.window.may_touch(p)) {
-        return out;
+        return Coverage::must_not;
     }
     if (setup.kind == TriangleSetup::Kind::anywhere) {
-        out.coverage = Coverage::either;
-        return out;
+        return Coverage::either;
     }
     const CoverageSets sets = coverage_sets(setup);
-    out.on_edge = is_on_edge(setup, p);
     if (std::none_of(sets.may.begin(), sets.may.end(),
                      [&](const ConvexSet& s) { return contains(s, p); })) {
-        return out;
+        return Coverage::must_not;
     }
     const bool is_must = sets.has_must && !setup.may_be_culled && setup.window.must_touch(p) &&
                          std::all_of(sets.must.begin(), sets.must.end(),
                                      [&](const HalfPlane& h) { return h.at(p) >= 0; });
-    out.coverage = is_must ? Coverage::must : Coverage::either;
-    return out;
+    return is_must ? Coverage::must : Coverage::either;
 }
 
 bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p) {

@@ -31,7 +31,7 @@ void scan(const TriangleSetup& setup, uint32_t triangle, const cases::Target& ta
           std::vector<Span>& out);
 
 // Coverage of one sample.
-Classification classify(const TriangleSetup& setup, const FixedPoint& p);
+Coverage classify(const TriangleSetup& setup, const FixedPoint& p);
 
 // True if p lies in the closed convex hull of the boxes.
 bool is_in_hull(std::span<const Box> boxes, const FixedPoint& p);

@@ -8,21 +8,6 @@ namespace ref::fast {
 
 namespace {
 
-// The corners of a box, each once.
-std::vector<FixedPoint> corners(const Box& b) {
-    std::vector<FixedPoint> out{{b.x0, b.y0}};
-    if (b.x1 != b.x0) {
-        out.push_back({b.x1, b.y0});
-    }
-    if (b.y1 != b.y0) {
-        out.push_back({b.x0, b.y1});
-        if (b.x1 != b.x0) {
-            out.push_back({b.x1, b.y1});
-        }
-    }
-    return out;
-}
-
 Box bounds_of(std::span<const FixedPoint> points) {
     Box b{points[0].x, points[0].y, points[0].x, points[0].y};
     for (const FixedPoint& p : points) {
@@ -39,7 +24,7 @@ int corner_sign(std::span<const Box> boxes) {
         area += edge_function({boxes[0].x0, boxes[0].y0}, {boxes[i].x0, boxes[i].y0},
                               {boxes[i + 1].x0, boxes[i + 1].y0});
     }
-    return area > 0 ? 1 : (area < 0 ? -1 : 0);
+    return sign_of(area);
 }
 
 void add_once(std::vector<HalfPlane>& planes, const HalfPlane& plane) {
@@ -68,7 +53,7 @@ HalfPlane parallel_plane(const Box& from, const Box& to, int sign) {
     HalfPlane plane = right_of(a, b, true);
     Int128 farthest = 0;  // corners: how far they reach inside
     for (const Box& box : {from, to}) {
-        for (const FixedPoint& q : corners(box)) {
+        for (const FixedPoint& q : BoxCorners(box)) {
             farthest = std::max(farthest, edge_function(a, b, q));
         }
     }
@@ -80,8 +65,8 @@ void add_edge(const Box& from, const Box& to, EdgeTest test, int sign,
               std::vector<HalfPlane>& planes) {
     switch (test) {
         case EdgeTest::strict:
-            for (const FixedPoint& a : corners(from)) {
-                for (const FixedPoint& b : corners(to)) {
+            for (const FixedPoint& a : BoxCorners(from)) {
+                for (const FixedPoint& b : BoxCorners(to)) {
                     planes.push_back(sign > 0 ? right_of(a, b, true) : right_of(b, a, true));
                 }
             }
@@ -116,11 +101,8 @@ void add_boxes(const Outline& o, CoverageSets& out) {
 
 // One snapped polygon with the top-left rule.
 void add_candidate(std::span<const FixedPoint> polygon, CoverageSets& out) {
-    Int128 area = 0;
-    for (size_t i = 1; i + 1 < polygon.size(); ++i) {
-        area += edge_function(polygon[0], polygon[i], polygon[i + 1]);
-    }
-    if (area == 0) {
+    const int sign = area_sign(polygon);
+    if (sign == 0) {
         out.has_must = false;
         return;
     }
@@ -132,7 +114,7 @@ void add_candidate(std::span<const FixedPoint> polygon, CoverageSets& out) {
         if (a == b) {
             continue;
         }
-        if (area < 0) {
+        if (sign < 0) {
             std::swap(a, b);
         }
         set.planes.push_back(right_of(a, b, !is_top_left(a, b)));
@@ -141,34 +123,14 @@ void add_candidate(std::span<const FixedPoint> polygon, CoverageSets& out) {
     out.may.push_back(std::move(set));
 }
 
-void add_snapped(const Outline& o, int64_t step, CoverageSets& out) {
-    if (o.count != 3) {
-        std::vector<FixedPoint> polygon;
-        for (const Box& b : o.vertices()) {
-            polygon.push_back({b.x0, b.y0});
-        }
-        add_candidate(polygon, out);
-        return;
-    }
-    const auto first = grid_points(o.boxes[0], step);
-    const auto second = grid_points(o.boxes[1], step);
-    const auto third = grid_points(o.boxes[2], step);
-    for (const FixedPoint& a : first) {
-        for (const FixedPoint& b : second) {
-            for (const FixedPoint& c : third) {
-                add_candidate(std::array{a, b, c}, out);
-            }
-        }
-    }
-}
-
 void add_outline(const Outline& o, int64_t step, CoverageSets& out) {
     switch (o.mode) {
         case OutlineMode::empty:
             out.has_must = false;
             break;
         case OutlineMode::snapped:
-            add_snapped(o, step, out);
+            for_each_candidate(
+                o, step, [&](std::span<const FixedPoint> polygon) { add_candidate(polygon, out); });
             break;
         case OutlineMode::boxes:
             add_boxes(o, out);
@@ -207,7 +169,7 @@ ConvexSet hull_set(std::span<const Box> boxes) {
     std::vector<FixedPoint> points;
     points.reserve(boxes.size() * 4);
     for (const Box& b : boxes) {
-        const auto c = corners(b);
+        const BoxCorners c(b);
         points.insert(points.end(), c.begin(), c.end());
     }
     ConvexSet set;
@@ -229,14 +191,12 @@ CoverageSets coverage_set(const Outline& outline, int64_t grid_step) {
 
 CoverageSets coverage_sets(const TriangleSetup& setup) {
     CoverageSets out;
-    size_t count = 0;
-    const auto outlines = setup.outlines(count);
-    out.has_must = count > 0;
-    for (size_t k = 0; k < count; ++k) {
-        const Outline& o = *outlines[k];
+    const OutlineList outlines = setup.outlines();
+    out.has_must = outlines.size() > 0;
+    for (const Outline* const o : outlines) {
         const size_t first = out.may.size();
-        add_outline(o, setup.grid_step, out);
-        for (const DistanceCut& cut : o.cuts) {
+        add_outline(*o, setup.grid_step, out);
+        for (const DistanceCut& cut : o->cuts) {
             for (size_t i = first; i < out.may.size(); ++i) {
                 out.may[i].planes.push_back(cut.may);
             }

@@ -8,7 +8,6 @@ namespace ref::fast {
 
 Grid grid_of(const Window& w, uint32_t sample, const cases::Target& target) {
     Grid g;
-    g.sample = sample;
     g.offset = sample_position(0, 0, sample, target);
     g.may_columns = {w.pixel_x0, w.pixel_x1 - 1};
     g.may_row_low = w.pixel_y0;

@@ -57,7 +57,6 @@ struct RowPlane {
 
 struct Grid {
     FixedPoint offset;  // of the sample in its pixel
-    uint32_t sample = 0;
     Columns may_columns, must_columns;
     int64_t may_row_low = 0, may_row_high = -1;
     int64_t must_row_low = 0, must_row_high = -1;

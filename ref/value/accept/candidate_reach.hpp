@@ -46,15 +46,14 @@ size_t place_of(const Quantity& q, const Evaluation<T>& where) {
 // Adds what a candidate accepts for every judged quantity.
 template <class T>
 void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
-                   std::span<const Quantity> quantities, bool is_projectable,
-                   const Evaluation<T>& where, std::span<const size_t> only,
-                   const FragmentValues& device, std::vector<Reach<T>>& reaches) {
+                   const Evaluation<T>& where, const Asked& asked, std::vector<Reach<T>>& reaches) {
+    const std::span<const Quantity> quantities = asked.quantities;
     std::vector<T> widest(quantities.size());
     const bool at_sample = is_same(where.attributes, where.sample);
     const bool centroid_at_sample = is_same(where.centroid, where.sample);
     std::array<bool, kPlaces> is_needed{};
     for (size_t i = 0; i < quantities.size(); ++i) {
-        if (is_judged(quantities[i], i, only)) {
+        if (is_judged(asked, i)) {
             is_needed.at(place_of(quantities[i], where)) = true;
         }
     }
@@ -72,12 +71,12 @@ void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
         }
         for (size_t i = 0; i < quantities.size(); ++i) {
             const Quantity& q = quantities[i];
-            if (is_judged(q, i, only) && reaches[i].is_known) {
+            if (is_judged(asked, i) && reaches[i].is_known) {
                 const std::span<const Site<T>> at(sites[place_of(q, where)]);
                 const bool is_own = q.at_sample || (q.at_centroid ? centroid_at_sample : at_sample);
                 add_reach(set, basis, q, at, set.hulls[i], is_own,
-                          candidate.name == ref::BasisKind::snapped,
-                          static_cast<double>(q.get(device)), widest[i], reaches[i]);
+                          candidate.name == ref::BasisKind::snapped, asked.got(i), widest[i],
+                          reaches[i]);
             }
         }
     }
@@ -85,13 +84,14 @@ void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
         const Quantity& q = quantities[i];
         // A noperspective value of a triangle that reaches behind the eye has no plane that agrees
         // with the vertices: only their hull is claimed.
-        const bool free_plane = q.kind == Kind::linear && q.id.is_attribute() && !is_projectable;
-        if (is_judged(q, i, only) && (free_plane || candidate.is_unbounded)) {
+        const bool free_plane =
+            q.kind == Kind::linear && q.id.is_attribute() && !asked.is_projectable;
+        if (is_judged(asked, i) && (free_plane || candidate.is_unbounded)) {
             if (set.depth.bias && (is_depth(q) || is_frag_coord_z(q))) {
                 reaches[i].is_free = true;  // of a gradient without bounds
                 continue;
             }
-            add_hull(set.hulls[i], widest[i], static_cast<double>(q.get(device)), reaches[i]);
+            add_hull(set.hulls[i], widest[i], asked.got(i), reaches[i]);
         }
     }
 }
@@ -119,8 +119,8 @@ struct Shared {
     std::vector<size_t> fresh;  // judged quantities whose points differ
     bool has_fresh_probes = true;
 
-    Shared(std::span<const Quantity> quantities, std::span<const size_t> only,
-           const Evaluation<T>* before, const Evaluation<T>& now) {
+    Shared(const Asked& asked, const Evaluation<T>* before, const Evaluation<T>& now) {
+        const std::span<const Quantity> quantities = asked.quantities;
         std::array<bool, kPlaces> is_kept{};
         for (size_t place = 0; before != nullptr && place < kPlaces; ++place) {
             is_kept.at(place) = is_identical(points_at(*before, place), points_at(now, place));
@@ -132,7 +132,7 @@ struct Shared {
                             }));
         for (size_t i = 0; i < quantities.size(); ++i) {
             const Quantity& q = quantities[i];
-            if (!is_judged(q, i, only)) {
+            if (!is_judged(asked, i)) {
                 continue;
             }
             const size_t place = place_of(q, now);

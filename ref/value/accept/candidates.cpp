@@ -18,31 +18,11 @@ namespace {
 // two vertices stay below 4u (|a| + |b|) <= 8u max for each plane that cuts (docs/precision.md).
 constexpr double kClipRoundings = 8;
 
-template <class T>
-T from_float(float f) {
-    return T(static_cast<double>(f));
-}
-
-// Coordinates that a box offers on one axis: its ends.
-std::vector<int64_t> ends(int64_t low, int64_t high) {
-    return low == high ? std::vector<int64_t>{low} : std::vector<int64_t>{low, high};
-}
-
-std::vector<FixedPoint> corners(const Box& box) {
-    std::vector<FixedPoint> out;
-    for (const int64_t x : ends(box.x0, box.x1)) {
-        for (const int64_t y : ends(box.y0, box.y1)) {
-            out.push_back({x, y});
-        }
-    }
-    return out;
-}
-
 // All corner triangles of the three boxes: at most 64.
 template <class T>
 bool add_corner_triangles(const Primitive& primitive, const std::vector<PlaneInput<T>>& inputs,
                           const Limits& limits, cases::Profile profile, CandidateSet<T>& set) {
-    std::array<std::vector<FixedPoint>, 3> choice;
+    std::vector<BoxCorners> choice;
     size_t count = 1;
     for (size_t i = 0; i < 3; ++i) {
         // A vertex behind the eye has the framebuffer position of its negative, and devices snap it
@@ -53,8 +33,8 @@ bool add_corner_triangles(const Primitive& primitive, const std::vector<PlaneInp
         if (!box) {
             return true;
         }
-        choice[i] = corners(*box);
-        count *= choice[i].size();
+        choice.emplace_back(*box);
+        count *= choice.back().size();
     }
     if (count == 1 && set.candidates.size() > 1) {
         return true;  // the nearest grid points only: already a candidate
@@ -107,9 +87,7 @@ std::vector<PieceVertex<T>> piece_vertices(const Primitive& primitive,
         clip_triangle(input, viewport, cases::Profile::direct3d, planes);
     size_t cuts = 0;
     for (const ClipPlane& plane : planes) {
-        const bool is_passed = is_inside(input, 0, {&plane, 1}) &&
-                               is_inside(input, 1, {&plane, 1}) && is_inside(input, 2, {&plane, 1});
-        cuts += is_passed ? 0U : 1U;
+        cuts += is_inside(input, std::span(&plane, 1)) ? 0U : 1U;
     }
     const T u(roundoff);
     const T rounding = T(kClipRoundings * static_cast<double>(cuts)) * u;
@@ -319,9 +297,7 @@ CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quan
     if (primitive.needs_clipping && volume.has_user_planes()) {
         // A clip distance may pass a sample that lies a little beyond the polygon it cuts.
         const ClipInput input(*primitive.draw, primitive.triangle.vertex);
-        const bool leaves_view = !is_inside(input, 0, volume.view()) ||
-                                 !is_inside(input, 1, volume.view()) ||
-                                 !is_inside(input, 2, volume.view());
+        const bool leaves_view = !is_inside(input, volume.view());
         set.hulls =
             hulls_of(primitive, inputs, quantities,
                      leaves_view ? piece_vertices(primitive, inputs, ideal, roundoff, volume.view())

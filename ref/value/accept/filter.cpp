@@ -7,13 +7,6 @@
 
 namespace ref::value {
 
-namespace {
-
-// Evaluated plane: |exact - v| <= e.
-struct Evaluated {
-    double v, e;
-};
-
 // x px + y py + c: two products and two sums, each within 2^-53 of terms that are bounded by the
 // sum of magnitudes; 2^-50 of it is more than twice all four. The e's are evaluated alike.
 Evaluated evaluate(const FilterPlane& plane, const Point<double>& p) {
@@ -23,11 +16,6 @@ Evaluated evaluate(const FilterPlane& plane, const Point<double>& p) {
     const double input = plane.ex * std::fabs(p.x) + plane.ey * std::fabs(p.y) + plane.ec;
     return {tx + ty + plane.c, input + size * 0x1p-50};
 }
-
-constexpr double kDown = 1.0 - 0x1p-48;  // pays for the rounding of a bound's own evaluation
-constexpr double kUp = 1.0 + 0x1p-48;
-
-}  // namespace
 
 Filter make_filter(const Basis<Ball>& basis) {
     Filter f;

@@ -25,6 +25,15 @@ struct Filter {
     std::vector<FilterPlane> planes;
 };
 
+inline constexpr double kDown = 1.0 - 0x1p-48;  // pays for the rounding of a bound's evaluation
+inline constexpr double kUp = 1.0 + 0x1p-48;
+
+// Evaluated plane: |exact - v| <= e.
+struct Evaluated {
+    double v, e;
+};
+Evaluated evaluate(const FilterPlane& plane, const Point<double>& p);
+
 Filter make_filter(const Basis<Ball>& basis);
 
 // Where the inputs are evaluated, exact in binary64 (multiples of 1/16): without decoration (and

@@ -25,12 +25,11 @@ struct Round {
 };
 
 // The numeric inputs that are evaluated at one place with each other.
-std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<const size_t> only,
-                              bool at_centroid) {
+std::vector<size_t> inputs_at(const Asked& asked, bool at_centroid) {
     std::vector<size_t> out;
-    for (size_t i = 0; i < quantities.size(); ++i) {
-        const Quantity& q = quantities[i];
-        if (is_judged(q, i, only) && q.id.is_attribute() && !q.at_sample &&
+    for (size_t i = 0; i < asked.quantities.size(); ++i) {
+        const Quantity& q = asked.quantities[i];
+        if (is_judged(asked, i) && q.id.is_attribute() && !q.at_sample &&
             q.at_centroid == at_centroid) {
             out.push_back(i);
         }
@@ -40,28 +39,25 @@ std::vector<size_t> inputs_at(std::span<const Quantity> quantities, std::span<co
 
 // Whether one place explains all inputs that are decorated alike. Each of them alone has been
 // found to fit somewhere; with a single one that is enough.
-Answer has_one_point(const CandidateSet<Ball>&, const Candidate<Ball>&,
-                     std::span<const Quantity> all, const Evaluation<Ball>&, const FragmentValues&,
-                     std::span<const size_t> only, size_t&) {
-    const bool is_single =
-        inputs_at(all, only, false).size() < 2 && inputs_at(all, only, true).size() < 2;
+Answer has_one_point(const CandidateSet<Ball>&, const Candidate<Ball>&, const Evaluation<Ball>&,
+                     const Asked& asked, size_t&) {
+    const bool is_single = inputs_at(asked, false).size() < 2 && inputs_at(asked, true).size() < 2;
     return is_single ? Answer::yes : Answer::unknown;  // polygons are cut in rationals
 }
 
 Answer has_one_point(const CandidateSet<mpq_class>& set, const Candidate<mpq_class>& candidate,
-                     std::span<const Quantity> all, const Evaluation<mpq_class>& where,
-                     const FragmentValues& device, std::span<const size_t> only, size_t& blamed) {
+                     const Evaluation<mpq_class>& where, const Asked& asked, size_t& blamed) {
     if (candidate.bases.size() != 1 || candidate.is_unbounded) {
         return Answer::yes;  // anywhere between several planes: each value alone
     }
     for (const bool at_centroid : {false, true}) {
-        const std::vector<size_t> which = inputs_at(all, only, at_centroid);
+        const std::vector<size_t> which = inputs_at(asked, at_centroid);
         if (which.size() < 2) {
             continue;
         }
-        const auto wrong =
-            first_unexplained(candidate.bases.front(), set.factor,
-                              at_centroid ? where.centroid : where.attributes, all, which, device);
+        const auto wrong = first_unexplained(candidate.bases.front(), set.factor,
+                                             at_centroid ? where.centroid : where.attributes,
+                                             asked.quantities, which, *asked.device);
         if (wrong) {
             blamed = *wrong;
             return Answer::no;
@@ -113,16 +109,15 @@ CandidateVerdict verdict_of(std::span<const Fit> fits, std::span<const size_t> j
 }  // namespace
 
 template <class T>
-CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Quantity> quantities,
-                                  bool is_projectable,
+CandidateVerdict judge_candidates(const CandidateSet<T>& set,
                                   const std::vector<Evaluation<T>>& evaluations,
-                                  const ProbePlace& place, const FragmentValues& device,
-                                  std::span<const size_t> only) {
+                                  const Asked& asked) {
+    const std::span<const Quantity> quantities = asked.quantities;
     const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
                                         [](const Quantity& q) { return q.kind == Kind::probe; });
     std::vector<size_t> judged;
     for (size_t i = 0; i < quantities.size(); ++i) {
-        if (is_judged(quantities[i], i, only)) {
+        if (is_judged(asked, i)) {
             judged.push_back(i);
         }
     }
@@ -132,7 +127,7 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Qu
     std::vector<Round<T>> kept(rounds);
     const Evaluation<T>* before = nullptr;
     for (const Evaluation<T>& where : evaluations) {
-        const Shared<T> shared(quantities, only, std::exchange(before, &where), where);
+        const Shared<T> shared(asked, std::exchange(before, &where), where);
         for (size_t c = 0; c < rounds; ++c) {
             // All evaluations of a fragment have one sample: a piece is near in all or in none.
             if (set.candidates[c].is_piece) {
@@ -154,20 +149,18 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Qu
             const size_t first = set.any_of_all ? 0 : c;
             const size_t last = set.any_of_all ? set.candidates.size() : c + 1;
             for (size_t k = first; k < last && !shared.fresh.empty(); ++k) {
-                add_candidate(set, set.candidates[k], quantities, is_projectable, where,
-                              std::span<const size_t>(shared.fresh), device, reaches);
+                add_candidate(set, set.candidates[k], where, asked.of(shared.fresh), reaches);
             }
             for (const size_t i : shared.fresh) {
-                const Quantity& q = quantities[i];
-                fits[i] = fit(reaches[i], static_cast<double>(q.get(device)), store_of(set, q));
+                fits[i] = fit(reaches[i], asked.got(i), store_of(set, quantities[i]));
                 if (fits[i].answer == Answer::unknown) {
                     return unknown;
                 }
             }
             if (has_probes && shared.has_fresh_probes) {
                 probes = {};
-                judge_probes(set, std::span(set.candidates).subspan(first, last - first),
-                             quantities, is_projectable, where, place, device, only, probes);
+                judge_probes(set, std::span(set.candidates).subspan(first, last - first), where,
+                             asked, probes);
                 if (!probes.is_known) {
                     return unknown;
                 }
@@ -180,8 +173,7 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Qu
                 verdict_of(fits, judged, probes, score, set.candidates[c].name);
             if (verdict.ok && where.is_one_point) {
                 size_t blamed = 0;
-                switch (has_one_point(set, set.candidates[c], quantities, where, device, only,
-                                      blamed)) {
+                switch (has_one_point(set, set.candidates[c], where, asked, blamed)) {
                     case Answer::unknown:
                         return unknown;
                     case Answer::no:
@@ -207,11 +199,10 @@ CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Qu
 }
 
 template <class T>
-DepthReach<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth, bool is_projectable,
-                             const Point<T>& sample) {
-    DepthReach<T> out;
+AcceptedRange<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth,
+                                bool is_projectable, const Point<T>& sample) {
+    AcceptedRange<T> out;
     const Evaluation<T> where{{sample}, {}, sample, {sample}, false};
-    const FragmentValues none;
     std::vector<Reach<T>> reaches(1);
     for (const Candidate<T>& candidate : set.candidates) {
         if (candidate.is_piece) {
@@ -224,7 +215,7 @@ DepthReach<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth, 
                 continue;
             }
         }
-        add_candidate(set, candidate, {&depth, 1}, is_projectable, where, {}, none, reaches);
+        add_candidate(set, candidate, where, Asked{{&depth, 1}, is_projectable}, reaches);
     }
     const Reach<T>& reach = reaches.front();
     out.is_known = reach.is_known;
@@ -248,31 +239,27 @@ DepthReach<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth, 
     return out;
 }
 
-template DepthReach<Ball> reach_of_depth<Ball>(const CandidateSet<Ball>&, const Quantity&, bool,
-                                               const Point<Ball>&);
-template DepthReach<mpq_class> reach_of_depth<mpq_class>(const CandidateSet<mpq_class>&,
-                                                         const Quantity&, bool,
-                                                         const Point<mpq_class>&);
+template AcceptedRange<Ball> reach_of_depth<Ball>(const CandidateSet<Ball>&, const Quantity&, bool,
+                                                  const Point<Ball>&);
+template AcceptedRange<mpq_class> reach_of_depth<mpq_class>(const CandidateSet<mpq_class>&,
+                                                            const Quantity&, bool,
+                                                            const Point<mpq_class>&);
 template <class T>
 std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
-                                              std::span<const Quantity> quantities,
-                                              bool is_projectable,
                                               const std::vector<Evaluation<T>>& evaluations,
-                                              std::span<const size_t> only) {
-    std::vector<Reach<T>> reaches(quantities.size());
-    const FragmentValues nothing;  // only reports ask for the device's values
+                                              const Asked& asked) {
+    std::vector<Reach<T>> reaches(asked.quantities.size());
     for (const Evaluation<T>& where : evaluations) {
         for (const Candidate<T>& candidate : set.candidates) {
             // A piece that may be near counts: the range is an upper bound.
             if (!candidate.is_piece ||
                 is_near(candidate.bases.front(), where.sample, set.margin) != Answer::no) {
-                add_candidate(set, candidate, quantities, is_projectable, where, only, nothing,
-                              reaches);
+                add_candidate(set, candidate, where, asked, reaches);
             }
         }
     }
     std::vector<AcceptedRange<T>> out;
-    for (const size_t index : only) {
+    for (const size_t index : asked.only) {
         const Reach<T>& reach = reaches[index];
         out.push_back(
             {reach.is_known, reach.is_free || reach.is_undefined || reach.is_first, reach.range});
@@ -281,20 +268,14 @@ std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
 }
 
 template std::vector<AcceptedRange<Ball>> accepted_ranges<Ball>(
-    const CandidateSet<Ball>&, std::span<const Quantity>, bool,
-    const std::vector<Evaluation<Ball>>&, std::span<const size_t>);
+    const CandidateSet<Ball>&, const std::vector<Evaluation<Ball>>&, const Asked&);
 template std::vector<AcceptedRange<mpq_class>> accepted_ranges<mpq_class>(
-    const CandidateSet<mpq_class>&, std::span<const Quantity>, bool,
-    const std::vector<Evaluation<mpq_class>>&, std::span<const size_t>);
+    const CandidateSet<mpq_class>&, const std::vector<Evaluation<mpq_class>>&, const Asked&);
 template CandidateVerdict judge_candidates<Ball>(const CandidateSet<Ball>&,
-                                                 std::span<const Quantity>, bool,
                                                  const std::vector<Evaluation<Ball>>&,
-                                                 const ProbePlace&, const FragmentValues&,
-                                                 std::span<const size_t>);
+                                                 const Asked&);
 template CandidateVerdict judge_candidates<mpq_class>(const CandidateSet<mpq_class>&,
-                                                      std::span<const Quantity>, bool,
                                                       const std::vector<Evaluation<mpq_class>>&,
-                                                      const ProbePlace&, const FragmentValues&,
-                                                      std::span<const size_t>);
+                                                      const Asked&);
 
 }  // namespace ref::value

@@ -5,6 +5,7 @@
 // of these candidates explains a fragment.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,18 +59,42 @@ struct Evaluation {
     bool is_one_point = false;
 };
 
-// All depths that the set's devices may compare and store at a point, after bias and clamp.
+// All that a quantity may be.
 template <class T>
-struct DepthReach {
+struct AcceptedRange {
     bool is_known = true;  // false: T cannot tell; use rationals
-    bool is_free = false;  // any depth at all
+    bool is_free = false;  // nothing is claimed of it
     Range<T> range;
 };
+
+// All depths that the set's devices may compare and store at a point, after bias and clamp.
 template <class T>
-DepthReach<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth, bool is_projectable,
-                             const Point<T>& sample);
+AcceptedRange<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& depth,
+                                bool is_projectable, const Point<T>& sample);
 
 struct ProbePlace;
+
+// What is asked of a set of candidates: the quantities of a fragment, and what the device has.
+struct Asked {
+    std::span<const Quantity> quantities;
+    bool is_projectable = false;             // the triangle
+    const ProbePlace* place = nullptr;       // where probes are asked for (probe.hpp)
+    const FragmentValues* device = nullptr;  // null where only ranges are asked for
+    std::span<const size_t> only = {};       // indices into the quantities; empty: all of them
+
+    bool has(size_t index) const {
+        return only.empty() || std::find(only.begin(), only.end(), index) != only.end();
+    }
+    // What the device has; 0 if that does not matter.
+    double got(size_t index) const {
+        return device != nullptr ? static_cast<double>(quantities[index].get(*device)) : 0;
+    }
+    Asked of(std::span<const size_t> other) const {
+        Asked out = *this;
+        out.only = other;
+        return out;
+    }
+};
 
 struct CandidateVerdict {
     bool is_known = true;
@@ -80,37 +105,24 @@ struct CandidateVerdict {
     std::vector<double> ratios;   // of the failing ones
 };
 
-// Interpolation functions, derivatives and levels of detail depend on `place` (probe.hpp).
-// Unless `only` is empty, it judges the quantities with these indices and no others.
 template <class T>
-CandidateVerdict judge_candidates(const CandidateSet<T>& set, std::span<const Quantity> quantities,
-                                  bool is_projectable,
+CandidateVerdict judge_candidates(const CandidateSet<T>& set,
                                   const std::vector<Evaluation<T>>& evaluations,
-                                  const ProbePlace& place, const FragmentValues& device,
-                                  std::span<const size_t> only);
+                                  const Asked& asked);
 
 // The failing quantities of judge_candidates() alone, for a set with any_of_all: without the ratios
 // most values are accepted by the first candidate. Nothing if only ratios tell which evaluation is
 // best, or T does not know.
 template <class T>
-std::optional<std::vector<size_t>> failing_separately(
-    const CandidateSet<T>& set, std::span<const Quantity> quantities, bool is_projectable,
-    const std::vector<Evaluation<T>>& evaluations, const ProbePlace& place,
-    const FragmentValues& device, std::span<const size_t> only);
+std::optional<std::vector<size_t>> failing_separately(const CandidateSet<T>& set,
+                                                      const std::vector<Evaluation<T>>& evaluations,
+                                                      const Asked& asked);
 
 // Everything that some quantities may be, whichever candidate and place the device uses: by place
-// in `only`, indices into the quantities. What they share, sites and their budgets, is made once.
-template <class T>
-struct AcceptedRange {
-    bool is_known = true;
-    bool is_free = false;  // nothing is claimed of it
-    Range<T> range;
-};
+// in `asked.only`. What they share, sites and their budgets, is made once.
 template <class T>
 std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
-                                              std::span<const Quantity> quantities,
-                                              bool is_projectable,
                                               const std::vector<Evaluation<T>>& evaluations,
-                                              std::span<const size_t> only);
+                                              const Asked& asked);
 
 }  // namespace ref::value

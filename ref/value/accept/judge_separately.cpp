@@ -12,16 +12,14 @@ namespace ref::value {
 // alone; what any reach of a clamped depth accepts lies in it, too.) What is accepted by some of
 // the candidates is accepted by all together, whatever T can tell of the others.
 template <class T>
-std::optional<std::vector<size_t>> failing_separately(
-    const CandidateSet<T>& set, std::span<const Quantity> quantities, bool is_projectable,
-    const std::vector<Evaluation<T>>& evaluations, const ProbePlace& place,
-    const FragmentValues& device, std::span<const size_t> only) {
+std::optional<std::vector<size_t>> failing_separately(const CandidateSet<T>& set,
+                                                      const std::vector<Evaluation<T>>& evaluations,
+                                                      const Asked& asked) {
+    const std::span<const Quantity> quantities = asked.quantities;
     const bool has_probes = std::any_of(quantities.begin(), quantities.end(),
                                         [](const Quantity& q) { return q.kind == Kind::probe; });
     const auto fit_of = [&](size_t i, const Reach<T>& reach) {
-        return fit(reach, static_cast<double>(quantities[i].get(device)),
-                   store_of(set, quantities[i]))
-            .answer;
+        return fit(reach, asked.got(i), store_of(set, quantities[i])).answer;
     };
     std::vector<bool> is_failing(quantities.size());  // of the quantities that have a plane
     CandidateVerdict probes;
@@ -32,15 +30,14 @@ std::optional<std::vector<size_t>> failing_separately(
         if (where.is_one_point || !set.any_of_all) {
             return std::nullopt;
         }
-        const Shared<T> shared(quantities, only, std::exchange(before, &where), where);
+        const Shared<T> shared(asked, std::exchange(before, &where), where);
         std::vector<size_t> open = shared.fresh;
         std::vector<Reach<T>> reaches(quantities.size());
         for (const Candidate<T>& candidate : set.candidates) {
             if (open.empty()) {
                 break;
             }
-            add_candidate(set, candidate, quantities, is_projectable, where,
-                          std::span<const size_t>(open), device, reaches);
+            add_candidate(set, candidate, where, asked.of(open), reaches);
             std::erase_if(open, [&](size_t i) { return fit_of(i, reaches[i]) == Answer::yes; });
         }
         for (const size_t i : shared.fresh) {
@@ -54,8 +51,7 @@ std::optional<std::vector<size_t>> failing_separately(
         }
         if (has_probes && shared.has_fresh_probes) {
             probes = {};
-            judge_probes(set, std::span(set.candidates), quantities, is_projectable, where, place,
-                         device, only, probes);
+            judge_probes(set, std::span(set.candidates), where, asked, probes);
             if (!probes.is_known) {
                 return std::nullopt;
             }
@@ -81,12 +77,8 @@ std::optional<std::vector<size_t>> failing_separately(
 }
 
 template std::optional<std::vector<size_t>> failing_separately<Ball>(
-    const CandidateSet<Ball>&, std::span<const Quantity>, bool,
-    const std::vector<Evaluation<Ball>>&, const ProbePlace&, const FragmentValues&,
-    std::span<const size_t>);
+    const CandidateSet<Ball>&, const std::vector<Evaluation<Ball>>&, const Asked&);
 template std::optional<std::vector<size_t>> failing_separately<mpq_class>(
-    const CandidateSet<mpq_class>&, std::span<const Quantity>, bool,
-    const std::vector<Evaluation<mpq_class>>&, const ProbePlace&, const FragmentValues&,
-    std::span<const size_t>);
+    const CandidateSet<mpq_class>&, const std::vector<Evaluation<mpq_class>>&, const Asked&);
 
 }  // namespace ref::value

@@ -245,15 +245,11 @@ class Prober {
             return {};
         }
         const T v(device);
-        const Answer low = is_at_most(accepted.range.low, v);
-        const Answer high = is_at_most(v, accepted.range.high);
+        const Answer answer =
+            both(is_at_most(accepted.range.low, v), is_at_most(v, accepted.range.high));
         const double distance =
             std::max({0.0, accepted.values.low - device, device - accepted.values.high});
-        const double ratio = accepted.budget > 0 ? distance / accepted.budget : 0;
-        if (low == Answer::no || high == Answer::no) {
-            return {Answer::no, ratio};
-        }
-        return {low == Answer::yes && high == Answer::yes ? Answer::yes : Answer::unknown, ratio};
+        return {answer, accepted.budget > 0 ? distance / accepted.budget : 0};
     }
 
     // Each of the quad's pixels and each of its rows and columns may stand for the quad.
@@ -318,16 +314,15 @@ std::array<bool, 2> depends_on_quad(std::span<const Quantity> quantities) {
 
 template <class T>
 void judge_probes(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
-                  std::span<const Quantity> quantities, bool is_projectable,
-                  const Evaluation<T>& where, const ProbePlace& place, const FragmentValues& device,
-                  std::span<const size_t> only, CandidateVerdict& verdict) {
-    const Prober<T> prober(set, candidates, is_projectable, where, place);
+                  const Evaluation<T>& where, const Asked& asked, CandidateVerdict& verdict) {
+    const std::span<const Quantity> quantities = asked.quantities;
+    const Prober<T> prober(set, candidates, asked.is_projectable, where, *asked.place);
     const auto [has_quad, has_plain] = depends_on_quad(quantities);
     std::vector<size_t> failing;
     std::vector<double> ratios;
     WorstError worst;
     bool is_first = true;
-    for (const Quad& quad : quads_of(place.id)) {
+    for (const Quad& quad : quads_of(asked.place->id)) {
         if (!is_first && (!has_quad || (quad.is_coarse && !has_plain))) {
             continue;
         }
@@ -335,13 +330,10 @@ void judge_probes(const CandidateSet<T>& set, std::span<const Candidate<T>> cand
         std::vector<double> now_ratios;
         WorstError now_worst;
         for (size_t i = 0; i < quantities.size(); ++i) {
-            const bool is_asked =
-                only.empty() || std::find(only.begin(), only.end(), i) != only.end();
-            if (quantities[i].kind != Kind::probe || !is_asked) {
+            if (quantities[i].kind != Kind::probe || !asked.has(i)) {
                 continue;
             }
-            const auto r =
-                prober.judge(quantities[i], quad, static_cast<double>(quantities[i].get(device)));
+            const auto r = prober.judge(quantities[i], quad, asked.got(i));
             if (r.answer == Answer::unknown) {
                 verdict.is_known = false;
                 return;
@@ -371,13 +363,10 @@ void judge_probes(const CandidateSet<T>& set, std::span<const Candidate<T>> cand
 }
 
 template void judge_probes<Ball>(const CandidateSet<Ball>&, std::span<const Candidate<Ball>>,
-                                 std::span<const Quantity>, bool, const Evaluation<Ball>&,
-                                 const ProbePlace&, const FragmentValues&, std::span<const size_t>,
-                                 CandidateVerdict&);
+                                 const Evaluation<Ball>&, const Asked&, CandidateVerdict&);
 template void judge_probes<mpq_class>(const CandidateSet<mpq_class>&,
                                       std::span<const Candidate<mpq_class>>,
-                                      std::span<const Quantity>, bool, const Evaluation<mpq_class>&,
-                                      const ProbePlace&, const FragmentValues&,
-                                      std::span<const size_t>, CandidateVerdict&);
+                                      const Evaluation<mpq_class>&, const Asked&,
+                                      CandidateVerdict&);
 
 }  // namespace ref::value

@@ -53,14 +53,6 @@ struct Difference {
 // The differences that a derivative of one axis (0: x, 1: y) may be.
 std::vector<Difference> differences_of(const Quad& quad, int axis, bool is_coarse);
 
-// A derivative's kind, from cases::Probe.
-enum class Fineness : uint8_t { plain, fine, coarse };
-struct Derivative {
-    bool has_x = false, has_y = false;  // both: fwidth
-    Fineness fineness = Fineness::plain;
-};
-std::optional<Derivative> derivative_of(cases::Probe probe);
-
 // The bounds of a level of detail from those of the magnitudes m = |derivative| * texels (Vulkan
 // specification, "Scale Factor, Level of Detail and Image Level(s) Selection Operation"):
 //   max(all m) <= rho <= sqrt 2 max(m_ux + m_vx, m_uy + m_vy),  lambda = log2 rho.
@@ -82,9 +74,7 @@ uint32_t levels_of(const std::array<uint32_t, 2>& texture);
 // arrangement of the quad has to explain all of them. What they fail goes into the verdict.
 template <class T>
 void judge_probes(const CandidateSet<T>& set, std::span<const Candidate<T>> candidates,
-                  std::span<const Quantity> quantities, bool is_projectable,
-                  const Evaluation<T>& where, const ProbePlace& place, const FragmentValues& device,
-                  std::span<const size_t> only, CandidateVerdict& verdict);
+                  const Evaluation<T>& where, const Asked& asked, CandidateVerdict& verdict);
 
 // The number that the reference thinks likeliest: it takes even quads, the upper row or left column
 // if coarse, offsets without rounding, and the Euclidean level of detail. There is none where the

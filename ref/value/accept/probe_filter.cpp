@@ -15,9 +15,6 @@ namespace ref::value {
 
 namespace {
 
-constexpr double kDown = 1.0 - 0x1p-48;  // pays for the rounding of a bound's own evaluation
-constexpr double kUp = 1.0 + 0x1p-48;
-
 struct Inner {
     double low = 1, high = 0;  // empty
     double value = 0, budget = 0;
@@ -25,19 +22,6 @@ struct Inner {
 
 bool is_empty(const Inner& a) {
     return !(a.low <= a.high);
-}
-
-struct Evaluated {
-    double v, e;
-};
-
-// As in filter.cpp.
-Evaluated evaluate(const FilterPlane& plane, const std::array<double, 2>& p) {
-    const double tx = plane.x * p[0];
-    const double ty = plane.y * p[1];
-    const double size = std::fabs(tx) + std::fabs(ty) + std::fabs(plane.c);
-    const double input = plane.ex * std::fabs(p[0]) + plane.ey * std::fabs(p[1]) + plane.ec;
-    return {tx + ty + plane.c, input + size * 0x1p-50};
 }
 
 // Bounds of the magnitude.
@@ -115,14 +99,14 @@ class FilterProber {
     // off by is taken away.
     Inner value(const Quantity& q, uint32_t index, const std::array<double, 2>& p) const {
         const FilterPlane& plane = filter_.planes[index];
-        const Evaluated n = evaluate(plane, p);
+        const Evaluated n = evaluate(plane, {p[0], p[1]});
         if (!q.is_perspective) {
             const double reach = factor_ * plane.budget * kDown - n.e * kUp;
             return shrunk({n.v - reach, n.v + reach, n.v, plane.budget},
                           std::fabs(n.v) + std::fabs(reach));
         }
         const FilterPlane& inv_w = filter_.planes[kPlaneInvW];
-        const Evaluated d = evaluate(inv_w, p);
+        const Evaluated d = evaluate(inv_w, {p[0], p[1]});
         const double room = (d.v - d.e) * kDown;
         if (!(room > 0)) {
             return {};

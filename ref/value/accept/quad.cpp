@@ -40,8 +40,7 @@ std::vector<Spots> probe_spots(const Quantity& q, const ProbePlace& place) {
     if (q.probe == Probe::at_sample) {
         const FixedPoint p =
             sample_position(place.id.x, place.id.y, attribute.probe_sample, *place.target);
-        return {{{static_cast<double>(p.x) / static_cast<double>(kFixedOne),
-                  static_cast<double>(p.y) / static_cast<double>(kFixedOne)}}};
+        return {{{pixels(p.x), pixels(p.y)}}};
     }
     // "may be rounded to as fixed-point values with" that many fraction bits, no direction given:
     // the offset itself, or a neighbour on the grid.
@@ -84,36 +83,6 @@ std::vector<Difference> differences_of(const Quad& quad, int axis, bool is_coars
         out.push_back(d);
     }
     return out;
-}
-
-std::optional<Derivative> derivative_of(Probe probe) {
-    switch (probe) {
-        case Probe::dx:
-            return Derivative{true, false, Fineness::plain};
-        case Probe::dy:
-            return Derivative{false, true, Fineness::plain};
-        case Probe::dx_fine:
-            return Derivative{true, false, Fineness::fine};
-        case Probe::dy_fine:
-            return Derivative{false, true, Fineness::fine};
-        case Probe::dx_coarse:
-            return Derivative{true, false, Fineness::coarse};
-        case Probe::dy_coarse:
-            return Derivative{false, true, Fineness::coarse};
-        case Probe::width:
-            return Derivative{true, true, Fineness::plain};
-        case Probe::width_fine:
-            return Derivative{true, true, Fineness::fine};
-        case Probe::width_coarse:
-            return Derivative{true, true, Fineness::coarse};
-        case Probe::value:
-        case Probe::at_centroid:
-        case Probe::at_sample:
-        case Probe::at_offset:
-        case Probe::lod:
-            break;
-    }
-    return std::nullopt;
 }
 
 Range<double> lod_bounds(const std::array<std::array<double, 2>, 2>& low,

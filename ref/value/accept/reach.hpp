@@ -39,13 +39,7 @@ Answer is_near(const Basis<T>& basis, const Point<T>& p, const T& margin) {
     Answer all = Answer::yes;
     for (const Form<T>& b : basis.bary) {
         const T slack = margin * (magnitude(b.x) + magnitude(b.y));
-        const Answer a = is_at_most(T(-slack), b.at(p));
-        if (a == Answer::no) {
-            return a;
-        }
-        if (a == Answer::unknown) {
-            all = a;
-        }
+        all = both(all, is_at_most(T(-slack), b.at(p)));
     }
     return all;
 }
@@ -209,11 +203,7 @@ Store store_of(const CandidateSet<T>& set, const Quantity& q) {
 template <class T>
 Answer may_store(const Range<T>& range, double device, const Store& store) {
     if (store.steps <= 0) {
-        const Answer low = is_at_most(range.low, T(device));
-        const Answer high = is_at_most(T(device), range.high);
-        return low == Answer::no || high == Answer::no     ? Answer::no
-               : low == Answer::yes && high == Answer::yes ? Answer::yes
-                                                           : Answer::unknown;
+        return both(is_at_most(range.low, T(device)), is_at_most(T(device), range.high));
     }
     const double code = std::round(device * store.steps);
     // depth_of_code() of cases/format/depth_format.hpp is within 2^-25 of the code's value.
@@ -223,17 +213,10 @@ Answer may_store(const Range<T>& range, double device, const Store& store) {
     const T low = range.low * T(store.steps);
     const T high = range.high * T(store.steps);
     if (store.rounding < 1) {
-        const Answer below = is_at_most(low, T(code + store.rounding));
-        const Answer above = is_at_most(T(code - store.rounding), high);
-        return below == Answer::no || above == Answer::no     ? Answer::no
-               : below == Answer::yes && above == Answer::yes ? Answer::yes
-                                                              : Answer::unknown;
+        return both(is_at_most(low, T(code + store.rounding)),
+                    is_at_most(T(code - store.rounding), high));
     }
-    const Answer below = is_positive(T(T(code + 1) - low));
-    const Answer above = is_positive(T(high - T(code - 1)));
-    return below == Answer::no || above == Answer::no     ? Answer::no
-           : below == Answer::yes && above == Answer::yes ? Answer::yes
-                                                          : Answer::unknown;
+    return both(is_positive(T(T(code + 1) - low)), is_positive(T(high - T(code - 1))));
 }
 
 template <class T>
@@ -277,9 +260,8 @@ Fit fit(const Reach<T>& reach, double device, const Store& store) {
     return {answer, ratio};
 }
 
-inline bool is_judged(const Quantity& q, size_t index, std::span<const size_t> only) {
-    return is_numeric(q) &&
-           (only.empty() || std::find(only.begin(), only.end(), index) != only.end());
+inline bool is_judged(const Asked& asked, size_t index) {
+    return is_numeric(asked.quantities[index]) && asked.has(index);
 }
 
 // Whether the points are the sample and nothing else. Both are exact in binary64.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ref/number/rational.hpp"
 #include "ref/position/clip.hpp"
 
 namespace ref::value {
@@ -16,22 +17,18 @@ namespace {
 // formed as a power of two. Each is at most u of |m slope| + |r constant|.
 constexpr double kBiasRoundings = 4;
 
-mpq_class exact(float f) {
-    return mpq_class(static_cast<double>(f));
-}
-
 // Largest |z_f| of the vertices, of those of the clipped polygon, and of either after depth clamp.
 std::vector<mpq_class> largest_depths(const Primitive& primitive) {
     const cases::Viewport& v = primitive.draw->viewport;
-    const mpq_class low = exact(std::min(v.min_depth, v.max_depth));
-    const mpq_class high = exact(std::max(v.min_depth, v.max_depth));
+    const mpq_class low = rational(std::min(v.min_depth, v.max_depth));
+    const mpq_class high = rational(std::max(v.min_depth, v.max_depth));
     // z_f = range z_d + near ("Controlling the Viewport").
     const bool is_symmetric = primitive.draw->depth.negative_one_to_one;
-    mpq_class range = exact(v.max_depth) - exact(v.min_depth);
-    mpq_class near = exact(v.min_depth);
+    mpq_class range = rational(v.max_depth) - rational(v.min_depth);
+    mpq_class near = rational(v.min_depth);
     if (is_symmetric) {
         range /= 2;
-        near = (exact(v.max_depth) + exact(v.min_depth)) / 2;
+        near = (rational(v.max_depth) + rational(v.min_depth)) / 2;
     }
     mpq_class whole = 0, whole_clamped = 0, cut = 0, cut_clamped = 0;
     const auto add = [&](const mpq_class& z, mpq_class& free, mpq_class& clamped) {
@@ -40,7 +37,7 @@ std::vector<mpq_class> largest_depths(const Primitive& primitive) {
     };
     for (const glm::vec4& clip : primitive.clip) {
         if (clip.w > 0) {
-            add(range * exact(clip.z) / exact(clip.w) + near, whole, whole_clamped);
+            add(range * rational(clip.z) / rational(clip.w) + near, whole, whole_clamped);
         }
     }
     std::vector<mpq_class> out{whole};

@@ -36,11 +36,6 @@ struct DepthPath {
     bool is_max_norm = true;  // m = max(|zx|, |zy|); otherwise anything up to the Euclidean norm
     Range<T> unit;            // r
     Range<double> viewport;   // its depths, low <= high
-
-    // Whether stored depth is anything but the plane's value in binary32.
-    bool is_plain() const {
-        return format == cases::DepthFormat::d32_float && !bias && !is_clamped;
-    }
 };
 
 template <class T>

@@ -13,19 +13,13 @@ namespace {
 
 using Points = std::vector<value::Point<mpq_class>>;
 
-mpz_class to_mpz(Int128 v) {
-    mpz_class out(static_cast<long>(v >> 64));  // rounds down, so that the rest is positive
-    out <<= 64;
-    return out + mpz_class(static_cast<unsigned long>(v));
-}
-
 template <class Classify>
 PixelCoverage coverage_of(const cases::Target& target, const TriangleSetup& setup, uint32_t x,
                           uint32_t y, Classify classify) {
     PixelCoverage out;
     out.is_one_fragment = !setup.is_clipped;
     for (uint32_t s = 0; s < target.samples; ++s) {
-        switch (classify(setup, sample_position(x, y, s, target)).coverage) {
+        switch (classify(setup, sample_position(x, y, s, target))) {
             case Coverage::must:
                 out.must |= 1U << s;
                 out.may |= 1U << s;

@@ -2,16 +2,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/value/fragment/quantities.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cases/model/rule_ids.hpp"
 #include "ref/number/fixed_point.hpp"
+#include "ref/number/rational.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 
 namespace ref::value {
 
 namespace {
+
+struct ProbeRow {
+    cases::Probe probe;
+    std::string_view rule = {};
+    std::optional<Derivative> derivative = {};
+};
+
+// In the order of cases::Probe.
+constexpr auto kProbes = [] {
+    using P = cases::Probe;
+    using enum Fineness;
+    namespace rule = cases::rule;
+    return std::to_array<ProbeRow>({
+        {P::value},
+        {P::at_centroid, rule::interp_at_centroid},
+        {P::at_sample, rule::interp_at_sample},
+        {P::at_offset, rule::interp_at_offset},
+        {P::dx, rule::derivative_plain, Derivative{true, false, plain}},
+        {P::dy, rule::derivative_plain, Derivative{false, true, plain}},
+        {P::dx_fine, rule::derivative_fine, Derivative{true, false, fine}},
+        {P::dy_fine, rule::derivative_fine, Derivative{false, true, fine}},
+        {P::dx_coarse, rule::derivative_coarse, Derivative{true, false, coarse}},
+        {P::dy_coarse, rule::derivative_coarse, Derivative{false, true, coarse}},
+        {P::width, rule::derivative_plain, Derivative{true, true, plain}},
+        {P::width_fine, rule::derivative_fine, Derivative{true, true, fine}},
+        {P::width_coarse, rule::derivative_coarse, Derivative{true, true, coarse}},
+        {P::lod, rule::lod_query},
+    });
+}();
+
+constexpr const ProbeRow& row_of(cases::Probe probe) {
+    return kProbes.at(static_cast<size_t>(probe));
+}
+static_assert(std::all_of(kProbes.begin(), kProbes.end(),
+                          [](const ProbeRow& row) { return &row == &row_of(row.probe); }));
 
 // Viewport transform: x_f = scale x_d + offset (Vulkan specification, "Controlling the Viewport").
 template <class T>
@@ -41,16 +78,10 @@ Transform<T> transform_of(const cases::Draw& draw) {
     return t;
 }
 
-template <class T>
-T from_float(float f) {
-    return T(static_cast<double>(f));
-}
-
 // Round half to even of a rational, in units of 2^-bits, as S47.16.
 std::optional<int64_t> snap(const mpq_class& pixels, int bits) {
     const mpq_class scaled = pixels * mpq_class(uint64_t{1} << bits);
-    mpz_class floor;
-    mpz_fdiv_q(floor.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+    mpz_class floor = floor_of(scaled);
     const mpq_class rest = scaled - floor;
     const int half = cmp(rest, mpq_class(1, 2));
     if (half > 0 || (half == 0 && mpz_odd_p(floor.get_mpz_t()) != 0)) {
@@ -107,46 +138,26 @@ bool set_sample_source(cases::Source source, Quantity& q) {
     return false;
 }
 
-}  // namespace
-
 // at-centroid is an input that is evaluated elsewhere, all others are functions of their own.
 void set_probe(const cases::Attribute& attribute, bool multisampled, Quantity& q) {
-    switch (attribute.probe) {
-        case cases::Probe::value:
-            return;
-        case cases::Probe::at_centroid:
-            q.at_sample = false;
-            q.at_centroid = multisampled;
-            q.rule = cases::rule::interp_at_centroid;
-            return;
-        case cases::Probe::at_sample:
-            q.rule = cases::rule::interp_at_sample;
-            break;
-        case cases::Probe::at_offset:
-            q.rule = cases::rule::interp_at_offset;
-            break;
-        case cases::Probe::dx:
-        case cases::Probe::dy:
-        case cases::Probe::width:
-            q.rule = cases::rule::derivative_plain;
-            break;
-        case cases::Probe::dx_fine:
-        case cases::Probe::dy_fine:
-        case cases::Probe::width_fine:
-            q.rule = cases::rule::derivative_fine;
-            break;
-        case cases::Probe::dx_coarse:
-        case cases::Probe::dy_coarse:
-        case cases::Probe::width_coarse:
-            q.rule = cases::rule::derivative_coarse;
-            break;
-        case cases::Probe::lod:
-            q.rule = cases::rule::lod_query;
-            break;
+    if (attribute.probe == cases::Probe::value) {
+        return;
+    }
+    q.rule = row_of(attribute.probe).rule;
+    if (attribute.probe == cases::Probe::at_centroid) {
+        q.at_sample = false;
+        q.at_centroid = multisampled;
+        return;
     }
     q.is_perspective = q.kind == Kind::perspective;
     q.kind = Kind::probe;
     q.probe = attribute.probe;
+}
+
+}  // namespace
+
+std::optional<Derivative> derivative_of(cases::Probe probe) {
+    return row_of(probe).derivative;
 }
 
 std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target) {
@@ -224,8 +235,8 @@ Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle) 
         const bool finite = is_representable(v, cases::Profile::direct3d);
         p.is_finite = p.is_finite && finite;
         p.is_projectable = p.is_projectable && finite && v.w > 0;
-        p.needs_clipping = p.needs_clipping || !is_inside(input, i, volume.all());
     }
+    p.needs_clipping = !is_inside(input, volume.all());
     return p;
 }
 
@@ -308,9 +319,8 @@ Vertices<T> moved_vertices(const Primitive& primitive, const std::array<FixedPoi
     for (size_t i = 0; i < 3; ++i) {
         v.w[i] = from_float<T>(primitive.clip[i].w);
         v.finite[i] = true;
-        // S47.16 with a magnitude of at most 2^48: exact in binary64.
-        v.hx[i] = T(static_cast<double>(at[i].x) / static_cast<double>(kFixedOne)) * v.w[i];
-        v.hy[i] = T(static_cast<double>(at[i].y) / static_cast<double>(kFixedOne)) * v.w[i];
+        v.hx[i] = T(pixels(at[i].x)) * v.w[i];
+        v.hy[i] = T(pixels(at[i].y)) * v.w[i];
     }
     return v;
 }

@@ -69,6 +69,14 @@ inline bool is_quotient(const Quantity& q) {
     return q.kind == Kind::perspective || (q.kind == Kind::probe && q.is_perspective);
 }
 
+// What derivative a probe asks for, if any.
+enum class Fineness : uint8_t { plain, fine, coarse };
+struct Derivative {
+    bool has_x = false, has_y = false;  // both: fwidth
+    Fineness fineness = Fineness::plain;
+};
+std::optional<Derivative> derivative_of(cases::Probe probe);
+
 // All quantities of a draw, in the order in which mismatches are told.
 std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& target);
 

@@ -102,8 +102,8 @@ TEST(Boxes, AgreeWithAllCornerTriangles) {
             }
         }
         const TriangleSetup setup = boxes_setup(boxes, 1, OutlineMode::boxes);
-        const Coverage fast = fast::classify(setup, p).coverage;
-        ASSERT_EQ(fast, exact::classify(setup, p).coverage) << k;
+        const Coverage fast = fast::classify(setup, p);
+        ASSERT_EQ(fast, exact::classify(setup, p)) << k;
         ASSERT_EQ(fast == Coverage::must, is_in_all_positive || is_in_all_negative) << k;
         if (is_in_some) {
             ASSERT_NE(fast, Coverage::must_not) << k;
@@ -118,10 +118,10 @@ TEST(Boxes, AgreeWithAllCornerTriangles) {
 TEST(Boxes, SliverThatMayFlipReachesItsWholeHull) {
     const std::array<Box, 3> boxes{Box{0, 0, 0, 0}, {100, -1, 100, 1}, {50, -1, 50, 1}};
     const TriangleSetup setup = boxes_setup(boxes, 1, OutlineMode::boxes);
-    EXPECT_EQ(fast::classify(setup, {75, 0}).coverage, Coverage::either);
-    EXPECT_EQ(fast::classify(setup, {75, 1}).coverage, Coverage::either);
-    EXPECT_EQ(fast::classify(setup, {75, 2}).coverage, Coverage::must_not);
-    EXPECT_EQ(fast::classify(setup, {25, 1}).coverage, Coverage::must_not);
+    EXPECT_EQ(fast::classify(setup, {75, 0}), Coverage::either);
+    EXPECT_EQ(fast::classify(setup, {75, 1}), Coverage::either);
+    EXPECT_EQ(fast::classify(setup, {75, 2}), Coverage::must_not);
+    EXPECT_EQ(fast::classify(setup, {25, 1}), Coverage::must_not);
 }
 
 TEST(Boxes, SnappedModeIsAllAndSome) {
@@ -146,7 +146,7 @@ TEST(Boxes, SnappedModeIsAllAndSome) {
         }
         const Coverage want =
             covered == all ? Coverage::must : (covered > 0 ? Coverage::either : Coverage::must_not);
-        ASSERT_EQ(fast::classify(boxes_setup(boxes, 1, OutlineMode::snapped), p).coverage, want);
+        ASSERT_EQ(fast::classify(boxes_setup(boxes, 1, OutlineMode::snapped), p), want);
         ++counts[static_cast<int>(want)];
     }
     EXPECT_GT(*std::min_element(counts, counts + 3), 300);

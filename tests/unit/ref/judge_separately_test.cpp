@@ -101,9 +101,9 @@ struct Random {
     CandidateVerdict judge(const ref::value::CandidateSet<T>& wide,
                            const std::vector<ref::value::Evaluation<T>>& evaluations, Profile at,
                            const ref::FragmentValues& device) const {
-        return ref::value::judge_candidates(wide, std::span<const ref::value::Quantity>(quantities),
-                                            primitive.is_projectable, evaluations, place(at),
-                                            device, {});
+        const ref::value::ProbePlace here = place(at);
+        return ref::value::judge_candidates(wide, evaluations,
+                                            {quantities, primitive.is_projectable, &here, &device});
     }
 };
 
@@ -119,11 +119,10 @@ TEST(ValueAlone, FailsWhatTheWholeSetFails) {
         }
         for (const double spread : {1e-5, 1e-3, 0.03, 1.0}) {
             const ref::FragmentValues device = r.device(rng, spread);
+            const ref::value::ProbePlace place = r.place(Profile::vulkan);
             const auto failing = ref::value::failing_separately(
-                balls, std::span<const ref::value::Quantity>(r.quantities),
-                r.primitive.is_projectable,
-                ref::value::evaluations<Ball>(r.fragment, Profile::vulkan),
-                r.place(Profile::vulkan), device, {});
+                balls, ref::value::evaluations<Ball>(r.fragment, Profile::vulkan),
+                {r.quantities, r.primitive.is_projectable, &place, &device});
             if (!failing) {
                 ++open;
                 continue;

@@ -106,12 +106,11 @@ Coverage answer(const Scene& s, cases::SampleId at) {
     if (s.has_boxes) {
         return exact::decide(setup, p, false).coverage;
     }
-    size_t count = 0;
-    const auto outlines = setup.outlines(count);
+    const OutlineList outlines = setup.outlines();
     const auto is_decided = [&](const FixedPoint& q) {
-        return std::all_of(
-            outlines.begin(), outlines.begin() + static_cast<std::ptrdiff_t>(count),
-            [&](const Outline* o) { return is_decided_by_points(setup, *o, s.profile, q); });
+        return std::all_of(outlines.begin(), outlines.end(), [&](const Outline* o) {
+            return is_decided_by_points(setup, *o, s.profile, q);
+        });
     };
     bool is_any = is_decided(p);
     for (const int64_t dx : {-4, 0, 4}) {
@@ -140,10 +139,8 @@ bool is_inside_the_others(const Scene& s, cases::SampleId at, const Reasons& rea
                           FixedPoint{b.x1, b.y1}};
     };
     const TriangleSetup setup = set_up(s, true);
-    size_t count = 0;
-    const auto outlines = setup.outlines(count);
-    for (size_t k = 0; k < count; ++k) {
-        const Outline& o = *outlines[k];
+    for (const Outline* const outline : setup.outlines()) {
+        const Outline& o = *outline;
         Int128 area = 0;
         for (uint32_t i = 1; i + 1 < o.count; ++i) {
             area += edge_function(middle_of(o.boxes[0]), middle_of(o.boxes[i]),
@@ -165,7 +162,7 @@ bool is_inside_the_others(const Scene& s, cases::SampleId at, const Reasons& rea
         }
     }
     // A triangle with a vertex behind the eye has no outline without the planes.
-    return count == 0;
+    return setup.outlines().size() == 0;
 }
 
 // Another triangle that holds the whole viewport, or (`is_beside`) nothing of it.
@@ -361,7 +358,7 @@ class LeafReasons {
         const bool is_drawn =
             draw.layer == at.layer && cases::is_in_mask(draw.multisample, at.sample);
         const FixedPoint p = sample_position(at.x, at.y, at.sample, case_.target);
-        const Coverage fast = is_drawn ? fast::classify(setup, p).coverage : Coverage::must_not;
+        const Coverage fast = is_drawn ? fast::classify(setup, p) : Coverage::must_not;
         EXPECT_EQ(t.decision.coverage, fast) << where << ": " << words(t);
         EXPECT_TRUE(decides(case_, t, profile_, at)) << where << ": " << words(t);
         EXPECT_TRUE(std::is_sorted(t.decision.reasons.begin(), t.decision.reasons.end())) << where;
