@@ -193,6 +193,8 @@ class Usage(ProgramTest):
         version = re.search(r"^project\(edgecase VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(), re.M)[1]
         self.assertTrue(self.edgecase("--version", check=0).stdout.startswith(f"edgecase {version}\n"))
         self.assertIn(f'"edgecase {version}"', self.edgecase("man", check=0).stdout)
+        newest = re.search(r"^## ([\d.]+)", (SOURCE / "CHANGELOG.md").read_text(), re.M)[1]
+        self.assertEqual(newest, version)
 
     def test_manual_lists_every_option(self):
         manual = (SOURCE / "docs" / "cli.md").read_text()
