@@ -23,10 +23,13 @@ format = 1
     {whole(R"~(x = 99999999999999999999
 )~"),
      R"~(f:1:25: error: this is not TOML: Error while parsing decimal integer: '99999999999999999999' is not representable in 64 bits)~"},
-    // Files that break an assertion of the parser.
+    // Files that break an assertion of the parser, or reach what it takes for unreachable.
     {whole("[=\n"), "f:1:1: error: this is not TOML: a key or a value is missing in this line"},
     {whole("format = 1\n\nv=[3,}\n[target]\n"),
      "f:3:1: error: this is not TOML: a key or a value is missing in this line"},
+    {whole("x = 1 \u029c\n"),
+     "f:1:7: error: this is not TOML: Error while parsing key-value pair: expected a comment or "
+     "whitespace, saw '\u029c'"},
     {whole(R"~(x = [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]
 )~"),
      R"~(f:1:37: error: the file nests arrays and tables too deeply; at most 32 levels are read)~"},
