@@ -12,8 +12,7 @@ namespace vk_harness {
 Result<Submission> Submission::create(const Device& device) {
     const VolkDeviceTable& vk = device.vk();
     Submission submission(device);
-    VkCommandPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    VkCommandPoolCreateInfo pool_info = Typed{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool_info.queueFamilyIndex = device.capabilities().queue_family;
     VkCommandPool pool = VK_NULL_HANDLE;
@@ -23,8 +22,8 @@ Result<Submission> Submission::create(const Device& device) {
     }
     submission.pool_ = Handle<VkCommandPool>(device.get(), pool, vk.vkDestroyCommandPool);
 
-    VkCommandBufferAllocateInfo commands_info{};
-    commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    VkCommandBufferAllocateInfo commands_info =
+        Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     commands_info.commandPool = pool;
     commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands_info.commandBufferCount = 1;
@@ -33,8 +32,7 @@ Result<Submission> Submission::create(const Device& device) {
         return fail(call_failure(Stage::device, result, "vkAllocateCommandBuffers"));
     }
 
-    VkFenceCreateInfo fence_info{};
-    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkFenceCreateInfo fence_info = Typed{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     VkFence fence = VK_NULL_HANDLE;
     result = vk.vkCreateFence(device.get(), &fence_info, nullptr, &fence);
     if (result != VK_SUCCESS) {
@@ -89,8 +87,7 @@ Result<VkCommandBuffer> Submission::begin() {
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::submit, result, "vkResetCommandPool"));
     }
-    VkCommandBufferBeginInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    VkCommandBufferBeginInfo info = Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     result = vk.vkBeginCommandBuffer(commands_, &info);
     if (result != VK_SUCCESS) {
@@ -110,8 +107,7 @@ Result<void> Submission::run() {
         return fail(call_failure(Stage::submit, result, "vkEndCommandBuffer"));
     }
 
-    VkSubmitInfo submit{};
-    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    VkSubmitInfo submit = Typed{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands_;
     result = vk.vkQueueSubmit(device_->queue(), 1, &submit, fence_.get());
@@ -139,8 +135,7 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
     const std::array<VkDescriptorPoolSize, 2> sizes = {
         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count},
         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
-    VkDescriptorPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    VkDescriptorPoolCreateInfo pool_info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool_info.maxSets = count;
     pool_info.poolSizeCount = static_cast<uint32_t>(sizes.size());
     pool_info.pPoolSizes = sizes.data();
@@ -153,8 +148,7 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
 
     const std::vector<VkDescriptorSetLayout> layouts(count, pipelines.copy_set_layout());
     std::vector<VkDescriptorSet> sets(count);
-    VkDescriptorSetAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    VkDescriptorSetAllocateInfo info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
     info.descriptorPool = pool;
     info.descriptorSetCount = count;
     info.pSetLayouts = layouts.data();

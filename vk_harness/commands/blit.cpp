@@ -24,8 +24,7 @@ bool has_features(const Capabilities& c, cases::ColorFormat format, VkFormatFeat
 
 VkImageMemoryBarrier2 change(VkImage image, VkImageLayout from, VkImageLayout to) {
     constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    VkImageMemoryBarrier2 b{};
-    b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    VkImageMemoryBarrier2 b = Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     b.srcStageMask = kStages;
     b.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     b.dstStageMask = kStages;
@@ -41,8 +40,7 @@ VkImageMemoryBarrier2 change(VkImage image, VkImageLayout from, VkImageLayout to
 
 void wait_for(const Device& device, VkCommandBuffer commands,
               const std::vector<VkImageMemoryBarrier2>& barriers) {
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    VkDependencyInfo info = Typed{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size());
     info.pImageMemoryBarriers = barriers.data();
     device.vk().vkCmdPipelineBarrier2(commands, &info);
@@ -104,8 +102,7 @@ std::vector<std::byte> encode_texels(cases::ColorFormat format,
 Result<BlitImages::PlainImage> BlitImages::make_image(const Device& device,
                                                       cases::ColorFormat format, uint32_t width,
                                                       uint32_t height) {
-    VkImageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    VkImageCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = to_vulkan(format);
     info.extent = {width, height, 1};

@@ -16,8 +16,7 @@ constexpr VkImageSubresourceRange kAllLevels = {VK_IMAGE_ASPECT_COLOR_BIT, 0,
                                                 VK_REMAINING_MIP_LEVELS, 0, 1};
 
 Result<Handle<VkSampler>> make_sampler(const Device& device) {
-    VkSamplerCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    VkSamplerCreateInfo info = Typed{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     info.magFilter = VK_FILTER_LINEAR;
     info.minFilter = VK_FILTER_LINEAR;
     info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
@@ -37,8 +36,7 @@ Result<Handle<VkSampler>> make_sampler(const Device& device) {
 
 Result<void> LodTextures::make_image(std::array<uint32_t, 2> size, Texture& texture) const {
     const VolkDeviceTable& vk = device_->vk();
-    VkImageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    VkImageCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = kTextureFormat;
     info.extent = {size[0], size[1], 1};
@@ -58,8 +56,7 @@ Result<void> LodTextures::make_image(std::array<uint32_t, 2> size, Texture& text
         return fail(memory.error());
     }
     texture.memory = std::move(*memory);
-    VkImageViewCreateInfo view_info{};
-    view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    VkImageViewCreateInfo view_info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     view_info.image = image;
     view_info.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view_info.format = kTextureFormat;
@@ -76,8 +73,7 @@ Result<void> LodTextures::make_image(std::array<uint32_t, 2> size, Texture& text
 Result<void> LodTextures::make_set(const PipelineCache& pipelines, Texture& texture) const {
     const VolkDeviceTable& vk = device_->vk();
     const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
-    VkDescriptorPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    VkDescriptorPoolCreateInfo pool_info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool_info.maxSets = 1;
     pool_info.poolSizeCount = 1;
     pool_info.pPoolSizes = &size;
@@ -88,8 +84,7 @@ Result<void> LodTextures::make_set(const PipelineCache& pipelines, Texture& text
     }
     texture.pool = Handle<VkDescriptorPool>(device_->get(), pool, vk.vkDestroyDescriptorPool);
     const VkDescriptorSetLayout layout = pipelines.texture_set_layout();
-    VkDescriptorSetAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    VkDescriptorSetAllocateInfo info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
     info.descriptorPool = pool;
     info.descriptorSetCount = 1;
     info.pSetLayouts = &layout;
@@ -99,8 +94,7 @@ Result<void> LodTextures::make_set(const PipelineCache& pipelines, Texture& text
     }
     const VkDescriptorImageInfo image_info = {sampler_.get(), texture.view.get(),
                                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    VkWriteDescriptorSet write{};
-    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    VkWriteDescriptorSet write = Typed{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = texture.set;
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
@@ -148,8 +142,7 @@ void LodTextures::record_transitions(VkCommandBuffer commands) {
             continue;
         }
         texture.is_new = false;
-        VkImageMemoryBarrier2 b{};
-        b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+        VkImageMemoryBarrier2 b = Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
         b.dstStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
         b.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
         b.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -163,8 +156,7 @@ void LodTextures::record_transitions(VkCommandBuffer commands) {
     if (barriers.empty()) {
         return;
     }
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    VkDependencyInfo info = Typed{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size());
     info.pImageMemoryBarriers = barriers.data();
     device_->vk().vkCmdPipelineBarrier2(commands, &info);

@@ -36,8 +36,7 @@ VkFrontFace to_vulkan(cases::FrontFace face) {
 }
 
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkClearValue clear) {
-    VkRenderingAttachmentInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+    VkRenderingAttachmentInfo info = Typed{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = view;
     info.imageLayout = layout;
     info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
@@ -89,8 +88,7 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
     std::vector<VkImageMemoryBarrier2> barriers;
     const auto add = [&](const Image& image, bool resolved, const Access& before,
                          const Access& after) {
-        VkImageMemoryBarrier2 b{};
-        b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+        VkImageMemoryBarrier2 b = Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
         b.srcStageMask = before.stage;
         b.srcAccessMask = before.access;
         b.dstStageMask = after.stage;
@@ -119,8 +117,7 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
         add(*plan.images[k], attachment.is_resolved(), depth ? depth_before : color_before,
             depth ? depth_after : color_after);
     }
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    VkDependencyInfo info = Typed{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     info.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size());
     info.pImageMemoryBarriers = barriers.data();
     device.vk().vkCmdPipelineBarrier2(commands, &info);
@@ -165,8 +162,7 @@ void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePl
     if (!color && !depth) {
         return;
     }
-    VkRenderingInfo rendering{};
-    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+    VkRenderingInfo rendering = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
     rendering.renderArea = {{0, 0}, {target.width, target.height}};
     rendering.layerCount = 1;
     rendering.colorAttachmentCount = color ? 1 : 0;
@@ -330,8 +326,7 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
                 break;
         }
     }
-    VkRenderingInfo rendering{};
-    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+    VkRenderingInfo rendering = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
     rendering.renderArea = {{0, 0}, {target.width, target.height}};
     rendering.layerCount = target.layers;
     rendering.colorAttachmentCount = static_cast<uint32_t>(colors.size());

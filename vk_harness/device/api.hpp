@@ -27,6 +27,17 @@ inline tl::unexpected<Failure> fail(Failure failure) {
 // Finds the loader and the functions that need no instance. Safe to call often.
 Result<void> load_vulkan(const Options& options);
 
+// A structure of Vulkan's begins as this: of its type, with zeros.
+struct Typed {
+    VkStructureType type;
+    template <class T>
+    operator T() const {  // not explicit: the structure names its C++ type
+        T out{};
+        out.sType = type;
+        return out;
+    }
+};
+
 // A device object that is destroyed with its owner.
 template <class T>
 class Handle {

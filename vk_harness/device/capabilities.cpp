@@ -62,15 +62,13 @@ void require_format(Capabilities& c, VkFormat format, std::string_view name,
 }
 
 void query_properties(Capabilities& c, uint32_t index) {
-    VkPhysicalDeviceDriverProperties driver{};
-    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-    VkPhysicalDeviceIDProperties id{};
-    id.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES;
-    VkPhysicalDeviceMaintenance3Properties maintenance{};
-    maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    VkPhysicalDeviceDriverProperties driver =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceIDProperties id = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
+    VkPhysicalDeviceMaintenance3Properties maintenance =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
     id.pNext = &maintenance;
-    VkPhysicalDeviceProperties2 properties{};
-    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    VkPhysicalDeviceProperties2 properties = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &id;
     VkPhysicalDeviceProperties first{};
     vkGetPhysicalDeviceProperties(c.physical, &first);
@@ -115,10 +113,9 @@ void query_sample_locations(Capabilities& c) {
     if (!has_device_extension(c.physical, VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME)) {
         return;
     }
-    VkPhysicalDeviceSampleLocationsPropertiesEXT locations{};
-    locations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLE_LOCATIONS_PROPERTIES_EXT;
-    VkPhysicalDeviceProperties2 properties{};
-    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    VkPhysicalDeviceSampleLocationsPropertiesEXT locations =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLE_LOCATIONS_PROPERTIES_EXT};
+    VkPhysicalDeviceProperties2 properties = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &locations;
     vkGetPhysicalDeviceProperties2(c.physical, &properties);
     constexpr uint32_t kSixteenthBits = 4;
@@ -135,21 +132,19 @@ void query_features(Capabilities& c) {
         missing.push_back(fmt::format("Vulkan 1.3 is needed, the device has {}",
                                       version_text(c.info.api_version)));
     } else {
-        VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
-        portability.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR;
-        VkPhysicalDeviceVulkan13Features features13{};
-        features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-        VkPhysicalDeviceVulkan12Features features12{};
-        features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+        VkPhysicalDevicePortabilitySubsetFeaturesKHR portability =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR};
+        VkPhysicalDeviceVulkan13Features features13 =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+        VkPhysicalDeviceVulkan12Features features12 =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
         features12.pNext = &features13;
-        VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip{};
-        depth_clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
-        VkPhysicalDeviceFeatures2 features{};
-        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
+        VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
         features.pNext = &features12;
-        VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
-        barycentric.sType =
-            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
+        VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
         // A structure may only be chained if the device has its extension.
         const auto ask = [&](const char* extension, auto& structure) {
             const bool has = has_device_extension(c.physical, extension);

@@ -18,13 +18,12 @@ ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_exten
         return out;
     }
     ClipFeatures optional;
-    VkPhysicalDeviceFeatures2 features{};
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     optional.depth_clip_control.sType =
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT;
     optional.provoking.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT;
-    VkPhysicalDeviceProvokingVertexPropertiesEXT modes{};
-    modes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_PROPERTIES_EXT;
+    VkPhysicalDeviceProvokingVertexPropertiesEXT modes =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_PROPERTIES_EXT};
     if (has_extension(physical, VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME)) {
         optional.depth_clip_control.pNext = features.pNext;
         features.pNext = &optional.depth_clip_control;
@@ -32,8 +31,7 @@ ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_exten
     if (has_extension(physical, VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) {
         optional.provoking.pNext = features.pNext;
         features.pNext = &optional.provoking;
-        VkPhysicalDeviceProperties2 chained{};
-        chained.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+        VkPhysicalDeviceProperties2 chained = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
         chained.pNext = &modes;
         vkGetPhysicalDeviceProperties2(physical, &chained);
     }

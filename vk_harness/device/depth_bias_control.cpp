@@ -33,8 +33,7 @@ DepthBiasSupport query_depth_bias_support(VkPhysicalDevice physical,
         return {};
     }
     DepthBiasControlFeatures control;
-    VkPhysicalDeviceFeatures2 features{};
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     features.pNext = &control;
     vkGetPhysicalDeviceFeatures2(physical, &features);
     return {control.control == VK_TRUE, control.force_unorm == VK_TRUE, control.floating == VK_TRUE,

@@ -87,34 +87,32 @@ Result<std::vector<DeviceInfo>> list_devices(const Options& options) {
 
 Result<Device> Device::create(const Capabilities& capabilities) {
     const float priority = 1.0F;
-    VkDeviceQueueCreateInfo queue{};
-    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    VkDeviceQueueCreateInfo queue = Typed{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = capabilities.queue_family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
 
-    VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
-    portability.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR;
+    VkPhysicalDevicePortabilitySubsetFeaturesKHR portability =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR};
     portability.triangleFans = capabilities.triangle_fans ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceVulkan13Features features13{};
-    features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    VkPhysicalDeviceVulkan13Features features13 =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     features13.dynamicRendering = VK_TRUE;
     features13.synchronization2 = VK_TRUE;
     features13.maintenance4 = VK_TRUE;  // outputs that the next stage does not read
     const VkBool32 has_viewports = capabilities.max_viewports > 1 ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceVulkan12Features features12{};
-    features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    VkPhysicalDeviceVulkan12Features features12 =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     features12.pNext = &features13;
     features12.shaderOutputViewportIndex = has_viewports;
     features12.shaderOutputLayer = capabilities.layer_output ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric{};
-    barycentric.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
+    VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
     barycentric.fragmentShaderBarycentric = VK_TRUE;
-    VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip{};
-    depth_clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
+    VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
     depth_clip.depthClipEnable = VK_TRUE;
-    VkPhysicalDeviceFeatures2 features{};
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     features.pNext = &features12;
     std::vector<const char*> extensions;
     const auto enable = [&](const char* extension, auto& structure) {
@@ -146,8 +144,7 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     DepthBiasControlFeatures bias_control;
     enable_depth_bias_control(capabilities.depth_bias, features, extensions, bias_control);
 
-    VkDeviceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    VkDeviceCreateInfo info = Typed{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = &features;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
@@ -186,8 +183,7 @@ Device::~Device() {
 
 Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
                                      VkBufferUsageFlags usage) {
-    VkBufferCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    VkBufferCreateInfo info = Typed{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = size;
     info.usage = usage;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;

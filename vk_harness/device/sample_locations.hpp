@@ -26,8 +26,7 @@ inline std::vector<VkSampleLocationEXT> sample_places(
 // `places` must outlive the result.
 inline VkSampleLocationsInfoEXT sample_locations_info(
     const std::vector<VkSampleLocationEXT>& places) {
-    VkSampleLocationsInfoEXT info{};
-    info.sType = VK_STRUCTURE_TYPE_SAMPLE_LOCATIONS_INFO_EXT;
+    VkSampleLocationsInfoEXT info = Typed{VK_STRUCTURE_TYPE_SAMPLE_LOCATIONS_INFO_EXT};
     // The bits' values are the counts.
     info.sampleLocationsPerPixel = static_cast<VkSampleCountFlagBits>(places.size());
     info.sampleLocationGridSize = {1, 1};

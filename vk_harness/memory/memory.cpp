@@ -35,8 +35,7 @@ std::optional<uint32_t> find_memory_type(const VkPhysicalDeviceMemoryProperties&
 
 Result<Handle<VkDeviceMemory>> allocate(const Device& device, VkDeviceSize size, uint32_t type,
                                         const void* next = nullptr) {
-    VkMemoryAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    VkMemoryAllocateInfo info = Typed{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.pNext = next;
     info.allocationSize = size;
     info.memoryTypeIndex = type;
@@ -61,11 +60,9 @@ Failure no_memory_type(std::string_view what) {
 Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreateInfo& of,
                                         VkImage image, VkFormat format, VkImageAspectFlags aspect,
                                         VkImageUsageFlags usage) {
-    VkImageViewUsageCreateInfo usage_info{};
-    usage_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO;
+    VkImageViewUsageCreateInfo usage_info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO};
     usage_info.usage = usage;
-    VkImageViewCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    VkImageViewCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     info.pNext = &usage_info;
     info.image = image;
     info.viewType = of.arrayLayers > 1 || of.samples != VK_SAMPLE_COUNT_1_BIT
@@ -130,8 +127,7 @@ Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::
     if (coherent_) {
         return {};
     }
-    VkMappedMemoryRange range{};
-    range.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE;
+    VkMappedMemoryRange range = Typed{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE};
     range.memory = memory_.get();
     range.size = VK_WHOLE_SIZE;
     const VkResult result = (device_->vk().*call)(device_->get(), 1, &range);
@@ -149,13 +145,12 @@ Result<void> Buffer::invalidate() const {
 }
 
 Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {
-    VkImageMemoryRequirementsInfo2 asked{};
-    asked.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2;
+    VkImageMemoryRequirementsInfo2 asked =
+        Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2};
     asked.image = image;
-    VkMemoryDedicatedRequirements dedicated{};
-    dedicated.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS;
-    VkMemoryRequirements2 answer{};
-    answer.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2;
+    VkMemoryDedicatedRequirements dedicated =
+        Typed{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS};
+    VkMemoryRequirements2 answer = Typed{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
     answer.pNext = &dedicated;
     device.vk().vkGetImageMemoryRequirements2(device.get(), &asked, &answer);
     const VkMemoryRequirements& needs = answer.memoryRequirements;
@@ -185,8 +180,7 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {
     if (!type) {
         return fail(no_memory_type("an image"));
     }
-    VkMemoryDedicatedAllocateInfo alone{};
-    alone.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO;
+    VkMemoryDedicatedAllocateInfo alone = Typed{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
     alone.image = image;
     auto allocation =
         allocate(device, places.size, *type,
@@ -227,8 +221,7 @@ Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D ex
     const bool multisampled = samples > 1;
     const VkImageUsageFlags attachment =
         depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    VkImageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    VkImageCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = format;
     info.extent = {extent.width, extent.height, 1};

@@ -15,8 +15,8 @@ namespace vk_harness {
 namespace {
 
 VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShaderModule module) {
-    VkPipelineShaderStageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    VkPipelineShaderStageCreateInfo info =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
     info.stage = stage;
     info.module = module;
     info.pName = "main";
@@ -26,8 +26,7 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
 Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStageFlags stage,
                                              uint32_t bytes, VkDescriptorSetLayout set) {
     const VkPushConstantRange range{stage, 0, bytes};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    VkPipelineLayoutCreateInfo info = Typed{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     info.setLayoutCount = 1;
     info.pSetLayouts = &set;
     info.pushConstantRangeCount = 1;
@@ -43,8 +42,8 @@ Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStage
 
 Result<Handle<VkDescriptorSetLayout>> make_set_layout(
     const Device& device, std::span<const VkDescriptorSetLayoutBinding> bindings) {
-    VkDescriptorSetLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    VkDescriptorSetLayoutCreateInfo info =
+        Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     info.bindingCount = static_cast<uint32_t>(bindings.size());
     info.pBindings = bindings.data();
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
@@ -63,8 +62,7 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
     PipelineCache cache(device);
     const VolkDeviceTable& vk = device.vk();
 
-    VkPipelineCacheCreateInfo cache_info{};
-    cache_info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+    VkPipelineCacheCreateInfo cache_info = Typed{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     VkPipelineCache handle = VK_NULL_HANDLE;
     const VkResult result = vk.vkCreatePipelineCache(device.get(), &cache_info, nullptr, &handle);
     if (result != VK_SUCCESS) {
@@ -117,8 +115,7 @@ Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> co
         failure.message = changed.error();
         return fail(std::move(failure));
     }
-    VkShaderModuleCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    VkShaderModuleCreateInfo info = Typed{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = changed->size() * sizeof(uint32_t);
     info.pCode = changed->data();
     VkShaderModule handle = VK_NULL_HANDLE;
@@ -155,8 +152,7 @@ Result<VkPipeline> PipelineCache::get_copy(const Attachment& attachment) {
     if (!code) {
         return fail(code.error());
     }
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    VkComputePipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, *code);
     info.layout = copy_layout_.get();
     VkPipeline pipeline = VK_NULL_HANDLE;
@@ -189,8 +185,8 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     VertexInputState vertex_input;
     vertex_input_state(key, vertex_input);
 
-    VkPipelineInputAssemblyStateCreateInfo assembly{};
-    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+    VkPipelineInputAssemblyStateCreateInfo assembly =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;  // the class; dynamic
 
     ViewportState viewport;
@@ -217,13 +213,13 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
         VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
         VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
         VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE};
-    VkPipelineDynamicStateCreateInfo dynamic{};
-    dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+    VkPipelineDynamicStateCreateInfo dynamic =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
     dynamic.dynamicStateCount = static_cast<uint32_t>(dynamic_states.size());
     dynamic.pDynamicStates = dynamic_states.data();
 
-    VkPipelineRenderingCreateInfo rendering{};
-    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+    VkPipelineRenderingCreateInfo rendering =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = static_cast<uint32_t>(color.formats.size());
     rendering.pColorAttachmentFormats = color.formats.data();
     rendering.depthAttachmentFormat = key.has_stencil ? kDepthStencilFormat
@@ -231,8 +227,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
                                                       : VK_FORMAT_UNDEFINED;
     rendering.stencilAttachmentFormat = key.has_stencil ? kDepthStencilFormat : VK_FORMAT_UNDEFINED;
 
-    VkGraphicsPipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.pNext = &rendering;
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();

@@ -80,8 +80,8 @@ void multisample_state(const PipelineKey& key, MultisampleState& state) {
 }
 
 VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
-    VkPipelineDepthStencilStateCreateInfo depth{};
-    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    VkPipelineDepthStencilStateCreateInfo depth =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     if (!key.has_depth) {
         return depth;
     }

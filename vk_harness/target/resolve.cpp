@@ -64,10 +64,9 @@ std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
     if (!capture::resolves_depth(t)) {
         return std::nullopt;
     }
-    VkPhysicalDeviceDepthStencilResolveProperties resolve{};
-    resolve.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_STENCIL_RESOLVE_PROPERTIES;
-    VkPhysicalDeviceProperties2 properties{};
-    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    VkPhysicalDeviceDepthStencilResolveProperties resolve =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_STENCIL_RESOLVE_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &resolve;
     vkGetPhysicalDeviceProperties2(c.physical, &properties);
     const ResolveMode& mode = mode_of(t.depth_resolve);
