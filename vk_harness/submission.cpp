@@ -15,30 +15,28 @@ Result<Submission> Submission::create(const Device& device) {
     VkCommandPoolCreateInfo pool_info = Typed{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool_info.queueFamilyIndex = device.capabilities().queue_family;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkResult result = vk.vkCreateCommandPool(device.get(), &pool_info, nullptr, &pool);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::device, result, "vkCreateCommandPool"));
+    if (auto made =
+            put(submission.pool_, make(device, Stage::device, "vkCreateCommandPool",
+                                       vk.vkCreateCommandPool, vk.vkDestroyCommandPool, pool_info));
+        !made) {
+        return fail(made.error());
     }
-    submission.pool_ = Handle<VkCommandPool>(device.get(), pool, vk.vkDestroyCommandPool);
-
     VkCommandBufferAllocateInfo commands_info =
         Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    commands_info.commandPool = pool;
+    commands_info.commandPool = submission.pool_.get();
     commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands_info.commandBufferCount = 1;
-    result = vk.vkAllocateCommandBuffers(device.get(), &commands_info, &submission.commands_);
+    const VkResult result =
+        vk.vkAllocateCommandBuffers(device.get(), &commands_info, &submission.commands_);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::device, result, "vkAllocateCommandBuffers"));
     }
-
     VkFenceCreateInfo fence_info = Typed{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    VkFence fence = VK_NULL_HANDLE;
-    result = vk.vkCreateFence(device.get(), &fence_info, nullptr, &fence);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::device, result, "vkCreateFence"));
+    if (auto made = put(submission.fence_, make(device, Stage::device, "vkCreateFence",
+                                                vk.vkCreateFence, vk.vkDestroyFence, fence_info));
+        !made) {
+        return fail(made.error());
     }
-    submission.fence_ = Handle<VkFence>(device.get(), fence, vk.vkDestroyFence);
     return submission;
 }
 
@@ -50,11 +48,11 @@ Result<Buffer*> Submission::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsag
         // Memory is taken where it is written to; growing step by step would take it again.
         const VkDeviceSize enough = std::clamp(2 * buffer.size(), kSmallest, kLargestStep);
         buffer = Buffer();  // frees the old one first
-        auto bigger = Buffer::create(*device_, std::max(size, enough), usage, access);
-        if (!bigger) {
-            return fail(bigger.error());
+        if (auto made =
+                put(buffer, Buffer::create(*device_, std::max(size, enough), usage, access));
+            !made) {
+            return fail(made.error());
         }
-        buffer = std::move(*bigger);
     }
     return &buffer;
 }
@@ -121,11 +119,7 @@ Result<void> Submission::run() {
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::submit, result, "vkWaitForFences"));
     }
-    result = vk.vkResetFences(device_->get(), 1, &fence);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::submit, result, "vkResetFences"));
-    }
-    return {};
+    return check(Stage::submit, vk.vkResetFences(device_->get(), 1, &fence), "vkResetFences");
 }
 
 Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& pipelines,
@@ -135,28 +129,13 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
     const std::array<VkDescriptorPoolSize, 2> sizes = {
         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count},
         VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}};
-    VkDescriptorPoolCreateInfo pool_info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    pool_info.maxSets = count;
-    pool_info.poolSizeCount = static_cast<uint32_t>(sizes.size());
-    pool_info.pPoolSizes = sizes.data();
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    VkResult result = vk.vkCreateDescriptorPool(device_->get(), &pool_info, nullptr, &pool);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkCreateDescriptorPool"));
-    }
-    descriptor_pools_.emplace_back(device_->get(), pool, vk.vkDestroyDescriptorPool);
-
     const std::vector<VkDescriptorSetLayout> layouts(count, pipelines.copy_set_layout());
-    std::vector<VkDescriptorSet> sets(count);
-    VkDescriptorSetAllocateInfo info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    info.descriptorPool = pool;
-    info.descriptorSetCount = count;
-    info.pSetLayouts = layouts.data();
-    result = vk.vkAllocateDescriptorSets(device_->get(), &info, sets.data());
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkAllocateDescriptorSets"));
+    auto made = make_sets(*device_, sizes, layouts);
+    if (!made) {
+        return fail(made.error());
     }
-
+    descriptor_pools_.push_back(std::move(made->pool));
+    std::vector<VkDescriptorSet>& sets = made->sets;
     const cases::Target& target = plan.test->target;
     const VkDeviceSize samples = VkDeviceSize{target.width} * target.rows() * target.samples;
     for (uint32_t k = 0; k < count; ++k) {
@@ -183,7 +162,7 @@ Result<std::vector<VkDescriptorSet>> Submission::copy_sets(const PipelineCache& 
         writes[1].pBufferInfo = &buffer_info;
         vk.vkUpdateDescriptorSets(device_->get(), 2, writes.data(), 0, nullptr);
     }
-    return sets;
+    return std::move(sets);
 }
 
 }  // namespace vk_harness

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "cases/format/color_format.hpp"
 #include "cases/model/blit_source.hpp"
 #include "vk_harness/device/format.hpp"
+#include "vk_harness/memory/barrier.hpp"
 #include "vk_harness/target/attachments.hpp"
 
 namespace vk_harness {
@@ -24,26 +24,10 @@ bool has_features(const Capabilities& c, cases::ColorFormat format, VkFormatFeat
 
 VkImageMemoryBarrier2 change(VkImage image, VkImageLayout from, VkImageLayout to) {
     constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    VkImageMemoryBarrier2 b = Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    b.srcStageMask = kStages;
-    b.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    b.dstStageMask = kStages;
-    b.dstAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    b.oldLayout = from;
-    b.newLayout = to;
-    b.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    b.image = image;
-    b.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    return b;
-}
-
-void wait_for(const Device& device, VkCommandBuffer commands,
-              const std::vector<VkImageMemoryBarrier2>& barriers) {
-    VkDependencyInfo info = Typed{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size());
-    info.pImageMemoryBarriers = barriers.data();
-    device.vk().vkCmdPipelineBarrier2(commands, &info);
+    return image_barrier(
+        image, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1},
+        {kStages, VK_ACCESS_2_TRANSFER_WRITE_BIT, from},
+        {kStages, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT, to});
 }
 
 constexpr VkImageSubresourceLayers kLayers = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
@@ -102,29 +86,15 @@ std::vector<std::byte> encode_texels(cases::ColorFormat format,
 Result<BlitImages::PlainImage> BlitImages::make_image(const Device& device,
                                                       cases::ColorFormat format, uint32_t width,
                                                       uint32_t height) {
-    VkImageCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = to_vulkan(format);
-    info.extent = {width, height, 1};
-    info.mipLevels = 1;
-    info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.tiling = VK_IMAGE_TILING_OPTIMAL;
-    info.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkImage handle = VK_NULL_HANDLE;
-    const VkResult result = device.vk().vkCreateImage(device.get(), &info, nullptr, &handle);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkCreateImage"));
-    }
+    const auto info = image_info(to_vulkan(format), {width, height},
+                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     PlainImage made;
-    made.image = Handle<VkImage>(device.get(), handle, device.vk().vkDestroyImage);
-    auto memory = bind_guarded(device, handle);
-    if (!memory) {
-        return fail(memory.error());
+    if (auto done = put(made.image, vk_harness::make_image(device, info)); !done) {
+        return fail(done.error());
     }
-    made.memory = std::move(*memory);
+    if (auto done = put(made.memory, bind_guarded(device, made.image.get())); !done) {
+        return fail(done.error());
+    }
     return made;
 }
 
@@ -133,26 +103,25 @@ Result<BlitImages> BlitImages::create(const Device& device, const cases::Case& c
     BlitImages images;
     const std::vector<std::byte> texels =
         encode_texels(blit.source_format, cases::blit_source(blit));
-    auto upload =
-        Buffer::create(device, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostAccess::write);
-    if (!upload) {
-        return fail(upload.error());
+    if (auto done = put(images.upload_,
+                        Buffer::create(device, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                       HostAccess::write));
+        !done) {
+        return fail(done.error());
     }
-    images.upload_ = std::move(*upload);
     std::copy(texels.begin(), texels.end(), images.upload_.bytes().begin());
     if (auto flushed = images.upload_.flush(); !flushed) {
         return fail(flushed.error());
     }
-    auto source = make_image(device, blit.source_format, blit.source_width, blit.source_height);
-    if (!source) {
-        return fail(source.error());
+    auto made = put(images.source_,
+                    make_image(device, blit.source_format, blit.source_width, blit.source_height));
+    if (made) {
+        made = put(images.destination_,
+                   make_image(device, c.target.color->format, c.target.width, c.target.height));
     }
-    images.source_ = std::move(*source);
-    auto destination = make_image(device, c.target.color->format, c.target.width, c.target.height);
-    if (!destination) {
-        return fail(destination.error());
+    if (!made) {
+        return fail(made.error());
     }
-    images.destination_ = std::move(*destination);
     return images;
 }
 
@@ -162,18 +131,19 @@ void BlitImages::record(const Device& device, VkCommandBuffer commands, const ca
     const cases::Blit& blit = *c.blit;
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     constexpr VkImageLayout kWritten = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    wait_for(device, commands,
-             {change(source_.image.get(), VK_IMAGE_LAYOUT_UNDEFINED, kWritten),
-              change(destination_.image.get(), VK_IMAGE_LAYOUT_UNDEFINED, kWritten)});
+    record_barriers(
+        device, commands,
+        std::array{change(source_.image.get(), VK_IMAGE_LAYOUT_UNDEFINED, kWritten),
+                   change(destination_.image.get(), VK_IMAGE_LAYOUT_UNDEFINED, kWritten)});
     VkBufferImageCopy copy{};
     copy.imageSubresource = kLayers;
     copy.imageExtent = {blit.source_width, blit.source_height, 1};
     vk.vkCmdCopyBufferToImage(commands, upload_.get(), source_.image.get(), kWritten, 1, &copy);
     const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vk.vkCmdClearColorImage(commands, destination_.image.get(), kWritten, &clear, 1, &all);
-    wait_for(device, commands,
-             {change(source_.image.get(), kWritten, kRead),
-              change(destination_.image.get(), kWritten, kWritten)});
+    record_barriers(device, commands,
+                    std::array{change(source_.image.get(), kWritten, kRead),
+                               change(destination_.image.get(), kWritten, kWritten)});
     VkImageBlit region{};
     region.srcSubresource = kLayers;
     region.dstSubresource = kLayers;
@@ -187,7 +157,8 @@ void BlitImages::record(const Device& device, VkCommandBuffer commands, const ca
     if (readback == VK_NULL_HANDLE) {
         return;
     }
-    wait_for(device, commands, {change(destination_.image.get(), kWritten, kRead)});
+    record_barriers(device, commands,
+                    std::array{change(destination_.image.get(), kWritten, kRead)});
     VkBufferImageCopy back{};
     back.bufferOffset = offset;
     back.imageSubresource = kLayers;

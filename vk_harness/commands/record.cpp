@@ -71,37 +71,23 @@ std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& te
     return scissors;
 }
 
-struct Access {
-    VkPipelineStageFlags2 stage;
-    VkAccessFlags2 access;
-    VkImageLayout layout;
-};
-
 // One barrier for all attachments of the case.
 void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
-             const Access& color_before, const Access& color_after, const Access& depth_before,
-             const Access& depth_after, const Access* after_resolve = nullptr) {
+             const ImageUse& color_before, const ImageUse& color_after,
+             const ImageUse& depth_before, const ImageUse& depth_after,
+             const ImageUse* after_resolve = nullptr) {
     // A depth image made for sample locations is told them whenever its layout changes.
     const std::vector<VkSampleLocationEXT> places =
         sample_places(plan.test->target.sample_locations);
     const VkSampleLocationsInfoEXT locations = sample_locations_info(places);
     std::vector<VkImageMemoryBarrier2> barriers;
-    const auto add = [&](const Image& image, bool resolved, const Access& before,
-                         const Access& after) {
-        VkImageMemoryBarrier2 b = Typed{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-        b.srcStageMask = before.stage;
-        b.srcAccessMask = before.access;
-        b.dstStageMask = after.stage;
-        b.dstAccessMask = after.access;
-        b.oldLayout = before.layout;
-        b.newLayout = after.layout;
-        b.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        b.image = image.get();
+    const auto add = [&](const Image& image, bool resolved, const ImageUse& before,
+                         const ImageUse& after) {
+        VkImageMemoryBarrier2 b =
+            image_barrier(image.get(), {image.aspect(), 0, 1, 0, image.layers()}, before, after);
         if (!places.empty() && !resolved && (image.aspect() & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) {
             b.pNext = &locations;
         }
-        b.subresourceRange = {image.aspect(), 0, 1, 0, image.layers()};
         barriers.push_back(b);
     };
     for (size_t k = 0; k < plan.images.size(); ++k) {
@@ -117,17 +103,14 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
         add(*plan.images[k], attachment.is_resolved(), depth ? depth_before : color_before,
             depth ? depth_after : color_after);
     }
-    VkDependencyInfo info = Typed{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size());
-    info.pImageMemoryBarriers = barriers.data();
-    device.vk().vkCmdPipelineBarrier2(commands, &info);
+    record_barriers(device, commands, barriers);
 }
 
-constexpr Access kColorDrawn = {
+constexpr ImageUse kColorDrawn = {
     VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-constexpr Access kDepthDrawn = {
+constexpr ImageUse kDepthDrawn = {
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
         VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,  // where depth is resolved
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
@@ -135,16 +118,16 @@ constexpr Access kDepthDrawn = {
     VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
 // The previous user of the attachments, if any: a draw (render_bare) or a copy. Contents are
 // dropped.
-constexpr Access kReused = {
+constexpr ImageUse kReused = {
     VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
         VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
     VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
     VK_IMAGE_LAYOUT_UNDEFINED};
-constexpr Access kCopied = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
-                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-constexpr Access kSampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                             VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
-                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+constexpr ImageUse kCopied = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+constexpr ImageUse kSampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                               VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 
 // Clears what is resolved into, by a rendering without draws, and waits for it.
 void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
@@ -342,7 +325,7 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
 
     if (for_copies) {
         // Samples are read by a shader; guards (guard.hpp) are copied whatever the target is.
-        Access after = target.samples > 1 ? kSampled : kCopied;
+        ImageUse after = target.samples > 1 ? kSampled : kCopied;
         after.stage |= kCopied.stage;
         barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after, &kCopied);
     }

@@ -20,8 +20,21 @@ std::string result_name(VkResult result);
 // A failure of one call: "vkCreateDevice failed with VK_ERROR_...".
 Failure call_failure(Stage stage, VkResult result, std::string_view call);
 
+// Nothing, or the failure of the call that returned `result`.
+Result<void> check(Stage stage, VkResult result, std::string_view call);
+
 inline tl::unexpected<Failure> fail(Failure failure) {
     return tl::unexpected<Failure>(std::move(failure));
+}
+
+// Puts what was made where it belongs, if it was made.
+template <class T>
+Result<void> put(T& to, Result<T> made) {
+    if (!made) {
+        return fail(made.error());
+    }
+    to = std::move(*made);
+    return {};
 }
 
 // Finds the loader and the functions that need no instance. Safe to call often.

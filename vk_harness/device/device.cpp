@@ -187,12 +187,8 @@ Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
     info.size = size;
     info.usage = usage;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    VkBuffer buffer = VK_NULL_HANDLE;
-    const VkResult result = device.vk().vkCreateBuffer(device.get(), &info, nullptr, &buffer);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkCreateBuffer"));
-    }
-    return Handle<VkBuffer>(device.get(), buffer, device.vk().vkDestroyBuffer);
+    return make(device, Stage::memory, "vkCreateBuffer", device.vk().vkCreateBuffer,
+                device.vk().vkDestroyBuffer, info);
 }
 
 }  // namespace vk_harness

@@ -42,6 +42,20 @@ class Device {
     std::unique_ptr<Capabilities> capabilities_;
 };
 
+// A new object of the device, made by the call that `name` names.
+template <class Info, class T>
+Result<Handle<T>> make(const Device& device, Stage stage, std::string_view name,
+                       VkResult(VKAPI_PTR* create)(VkDevice, const Info*,
+                                                   const VkAllocationCallbacks*, T*),
+                       typename Handle<T>::Destroy destroy, const Info& info) {
+    T handle = VK_NULL_HANDLE;
+    const VkResult result = create(device.get(), &info, nullptr, &handle);
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(stage, result, name));
+    }
+    return Handle<T>(device.get(), handle, destroy);
+}
+
 // A buffer of the device, not bound to memory yet.
 Result<Handle<VkBuffer>> make_buffer(const Device& device, VkDeviceSize size,
                                      VkBufferUsageFlags usage);

@@ -81,6 +81,10 @@ Failure call_failure(Stage stage, VkResult result, std::string_view call) {
     return failure;
 }
 
+Result<void> check(Stage stage, VkResult result, std::string_view call) {
+    return result == VK_SUCCESS ? Result<void>() : fail(call_failure(stage, result, call));
+}
+
 Result<void> load_vulkan(const Options& options) {
     if (!options.icd_file.empty()) {
         // The first name is read by loaders since 1.3.207, the second by older ones.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "vk_harness/device/device.hpp"
 
 namespace vk_harness {
@@ -16,5 +18,16 @@ struct MemoryUse {
 // specification, "Memory Barriers".
 void memory_barrier(const Device& device, VkCommandBuffer commands, const MemoryUse& from,
                     const MemoryUse& to);
+
+// The same of an image, and in which layout.
+struct ImageUse {
+    VkPipelineStageFlags2 stage;
+    VkAccessFlags2 access;
+    VkImageLayout layout;
+};
+VkImageMemoryBarrier2 image_barrier(VkImage image, const VkImageSubresourceRange& range,
+                                    const ImageUse& from, const ImageUse& to);
+void record_barriers(const Device& device, VkCommandBuffer commands,
+                     std::span<const VkImageMemoryBarrier2> barriers);
 
 }  // namespace vk_harness

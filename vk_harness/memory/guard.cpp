@@ -55,13 +55,12 @@ GuardPlaces place_guards(const VkMemoryRequirements& image, const VkMemoryRequir
 Result<std::unique_ptr<Guard>> Guard::create(const Device& device) {
     auto guard = std::make_unique<Guard>();
     for (Handle<VkBuffer>* side : {&guard->before_, &guard->after_}) {
-        auto buffer =
-            make_buffer(device, kGuardBytes,
-                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        if (!buffer) {
-            return fail(buffer.error());
+        if (auto made = put(*side, make_buffer(device, kGuardBytes,
+                                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                                   VK_BUFFER_USAGE_TRANSFER_DST_BIT));
+            !made) {
+            return fail(made.error());
         }
-        *side = std::move(*buffer);
     }
     // Those of the other buffer, made with the same parameters, are the same.
     device.vk().vkGetBufferMemoryRequirements(device.get(), guard->before(), &guard->needs_);

@@ -70,12 +70,8 @@ Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreat
                         : VK_IMAGE_VIEW_TYPE_2D;
     info.format = format;
     info.subresourceRange = {aspect, 0, 1, 0, of.arrayLayers};
-    VkImageView view = VK_NULL_HANDLE;
-    const VkResult result = device.vk().vkCreateImageView(device.get(), &info, nullptr, &view);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkCreateImageView"));
-    }
-    return Handle<VkImageView>(device.get(), view, device.vk().vkDestroyImageView);
+    return make(device, Stage::memory, "vkCreateImageView", device.vk().vkCreateImageView,
+                device.vk().vkDestroyImageView, info);
 }
 
 }  // namespace
@@ -83,13 +79,11 @@ Result<Handle<VkImageView>> create_view(const Device& device, const VkImageCreat
 Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
                               HostAccess access) {
     const VolkDeviceTable& vk = device.vk();
-    auto handle = make_buffer(device, size, usage);
-    if (!handle) {
-        return fail(handle.error());
-    }
     Buffer buffer;
     buffer.device_ = &device;
-    buffer.buffer_ = std::move(*handle);
+    if (auto made = put(buffer.buffer_, make_buffer(device, size, usage)); !made) {
+        return fail(made.error());
+    }
     buffer.size_ = size;
 
     VkMemoryRequirements needs{};
@@ -104,11 +98,9 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferU
     }
     buffer.coherent_ =
         (memory.memoryTypes[*type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-    auto allocation = allocate(device, needs.size, *type);
-    if (!allocation) {
-        return fail(allocation.error());
+    if (auto made = put(buffer.memory_, allocate(device, needs.size, *type)); !made) {
+        return fail(made.error());
     }
-    buffer.memory_ = std::move(*allocation);
     VkResult result = vk.vkBindBufferMemory(device.get(), buffer.get(), buffer.memory_.get(), 0);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::memory, result, "vkBindBufferMemory"));
@@ -130,8 +122,7 @@ Result<void> Buffer::synchronize(PFN_vkFlushMappedMemoryRanges VolkDeviceTable::
     VkMappedMemoryRange range = Typed{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE};
     range.memory = memory_.get();
     range.size = VK_WHOLE_SIZE;
-    const VkResult result = (device_->vk().*call)(device_->get(), 1, &range);
-    return result == VK_SUCCESS ? Result<void>() : fail(call_failure(stage, result, name));
+    return check(stage, (device_->vk().*call)(device_->get(), 1, &range), name);
 }
 
 Result<void> Buffer::flush() const {
@@ -182,13 +173,13 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {
     }
     VkMemoryDedicatedAllocateInfo alone = Typed{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
     alone.image = image;
-    auto allocation =
-        allocate(device, places.size, *type,
-                 dedicated.requiresDedicatedAllocation != VK_FALSE ? &alone : nullptr);
-    if (!allocation) {
-        return fail(allocation.error());
+    if (auto allocated =
+            put(made.memory,
+                allocate(device, places.size, *type,
+                         dedicated.requiresDedicatedAllocation != VK_FALSE ? &alone : nullptr));
+        !allocated) {
+        return fail(allocated.error());
     }
-    made.memory = std::move(*allocation);
     made.size = places.size;
     const VkResult result =
         device.vk().vkBindImageMemory(device.get(), image, made.memory.get(), places.image);
@@ -214,78 +205,108 @@ VkImageCreateFlags color_flags(uint32_t samples) {
 
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
                             uint32_t samples, uint32_t layers, VkImageCreateFlags flags) {
-    const VolkDeviceTable& vk = device.vk();
     const bool stencil = format == kDepthStencilFormat;
     const bool depth = stencil || format == VK_FORMAT_D32_SFLOAT ||
                        format == VK_FORMAT_X8_D24_UNORM_PACK32 || format == VK_FORMAT_D16_UNORM;
     const bool multisampled = samples > 1;
     const VkImageUsageFlags attachment =
         depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    VkImageCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = format;
-    info.extent = {extent.width, extent.height, 1};
-    info.mipLevels = 1;
+    VkImageCreateInfo info = image_info(
+        format, extent,
+        attachment | (multisampled ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
     info.arrayLayers = layers;
     info.samples = static_cast<VkSampleCountFlagBits>(samples);  // the bits' values are the counts
-    info.tiling = VK_IMAGE_TILING_OPTIMAL;
-    info.usage =
-        attachment | (multisampled ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     info.flags = flags;
     if (multisampled && !depth) {
         info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     }
-    VkImage handle = VK_NULL_HANDLE;
-    const VkResult result = vk.vkCreateImage(device.get(), &info, nullptr, &handle);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::memory, result, "vkCreateImage"));
-    }
     Image image;
-    image.image_ = Handle<VkImage>(device.get(), handle, vk.vkDestroyImage);
+    if (auto made = put(image.image_, make_image(device, info)); !made) {
+        return fail(made.error());
+    }
+    const VkImage handle = image.get();
     image.aspect_ = depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     if (stencil) {
         image.aspect_ |= VK_IMAGE_ASPECT_STENCIL_BIT;
     }
 
-    auto memory = bind_guarded(device, handle);
-    if (!memory) {
-        return fail(memory.error());
+    if (auto made = put(image.memory_, bind_guarded(device, handle)); !made) {
+        return fail(made.error());
     }
-    image.memory_ = std::move(*memory);
     image.layers_ = layers;
 
     VkImageUsageFlags view_usage = attachment;
     if (multisampled && depth) {
         view_usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
     }
-    auto view = create_view(device, info, handle, format, image.aspect_, view_usage);
-    if (!view) {
-        return fail(view.error());
+    const auto add_view = [&](Handle<VkImageView>& to, VkFormat seen, VkImageAspectFlags aspect,
+                              VkImageUsageFlags usage) {
+        return put(to, create_view(device, info, handle, seen, aspect, usage));
+    };
+    auto made = add_view(image.view_, format, image.aspect_, view_usage);
+    if (made && multisampled && !depth) {
+        made = add_view(image.bits_view_, bits_format(format), image.aspect_,
+                        VK_IMAGE_USAGE_SAMPLED_BIT);
     }
-    image.view_ = std::move(*view);
-    if (multisampled && !depth) {
-        auto bits = create_view(device, info, handle, bits_format(format), image.aspect_,
-                                VK_IMAGE_USAGE_SAMPLED_BIT);
-        if (!bits) {
-            return fail(bits.error());
+    if (made && multisampled && stencil) {  // a descriptor names one aspect
+        made = add_view(image.bits_view_, format, VK_IMAGE_ASPECT_DEPTH_BIT,
+                        VK_IMAGE_USAGE_SAMPLED_BIT);
+        if (made) {
+            made = add_view(image.stencil_view_, format, VK_IMAGE_ASPECT_STENCIL_BIT,
+                            VK_IMAGE_USAGE_SAMPLED_BIT);
         }
-        image.bits_view_ = std::move(*bits);
     }
-    if (multisampled && stencil) {  // a descriptor names one aspect
-        for (const auto& [aspect, to] :
-             {std::pair(VK_IMAGE_ASPECT_DEPTH_BIT, &image.bits_view_),
-              std::pair(VK_IMAGE_ASPECT_STENCIL_BIT, &image.stencil_view_)}) {
-            auto one =
-                create_view(device, info, handle, format, aspect, VK_IMAGE_USAGE_SAMPLED_BIT);
-            if (!one) {
-                return fail(one.error());
-            }
-            *to = std::move(*one);
-        }
+    if (!made) {
+        return fail(made.error());
     }
     return image;
+}
+
+Result<DescriptorSets> make_sets(const Device& device, std::span<const VkDescriptorPoolSize> sizes,
+                                 std::span<const VkDescriptorSetLayout> layouts) {
+    const VolkDeviceTable& vk = device.vk();
+    const auto count = static_cast<uint32_t>(layouts.size());
+    VkDescriptorPoolCreateInfo pool_info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool_info.maxSets = count;
+    pool_info.poolSizeCount = static_cast<uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
+    DescriptorSets out;
+    if (auto made =
+            put(out.pool, make(device, Stage::memory, "vkCreateDescriptorPool",
+                               vk.vkCreateDescriptorPool, vk.vkDestroyDescriptorPool, pool_info));
+        !made) {
+        return fail(made.error());
+    }
+    VkDescriptorSetAllocateInfo info = Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorPool = out.pool.get();
+    info.descriptorSetCount = count;
+    info.pSetLayouts = layouts.data();
+    out.sets.resize(count);
+    const VkResult result = vk.vkAllocateDescriptorSets(device.get(), &info, out.sets.data());
+    if (result != VK_SUCCESS) {
+        return fail(call_failure(Stage::memory, result, "vkAllocateDescriptorSets"));
+    }
+    return out;
+}
+
+VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage) {
+    VkImageCreateInfo info = Typed{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = format;
+    info.extent = {extent.width, extent.height, 1};
+    info.mipLevels = 1;
+    info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return info;
+}
+
+Result<Handle<VkImage>> make_image(const Device& device, const VkImageCreateInfo& info) {
+    return make(device, Stage::memory, "vkCreateImage", device.vk().vkCreateImage,
+                device.vk().vkDestroyImage, info);
 }
 
 Result<Handle<VkDeviceMemory>> bind_memory(const Device& device, VkImage image) {

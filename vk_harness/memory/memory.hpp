@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "vk_harness/memory/guard.hpp"
 
@@ -85,6 +86,18 @@ class Image {
     VkImageAspectFlags aspect_ = VK_IMAGE_ASPECT_COLOR_BIT;
     uint32_t layers_ = 1;
 };
+
+// Descriptor sets of these layouts, from a new pool with these sizes that owns them.
+struct DescriptorSets {
+    Handle<VkDescriptorPool> pool;
+    std::vector<VkDescriptorSet> sets;
+};
+Result<DescriptorSets> make_sets(const Device& device, std::span<const VkDescriptorPoolSize> sizes,
+                                 std::span<const VkDescriptorSetLayout> layouts);
+
+// What all images have in common: two dimensions, one level, layer and sample, no contents.
+VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
+Result<Handle<VkImage>> make_image(const Device& device, const VkImageCreateInfo& info);
 
 // Memory of its own for an image that needs no host access, bound to it.
 Result<Handle<VkDeviceMemory>> bind_memory(const Device& device, VkImage image);

@@ -31,13 +31,8 @@ Result<Handle<VkPipelineLayout>> make_layout(const Device& device, VkShaderStage
     info.pSetLayouts = &set;
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &range;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    const VkResult result =
-        device.vk().vkCreatePipelineLayout(device.get(), &info, nullptr, &layout);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::pipeline, result, "vkCreatePipelineLayout"));
-    }
-    return Handle<VkPipelineLayout>(device.get(), layout, device.vk().vkDestroyPipelineLayout);
+    return make(device, Stage::pipeline, "vkCreatePipelineLayout",
+                device.vk().vkCreatePipelineLayout, device.vk().vkDestroyPipelineLayout, info);
 }
 
 Result<Handle<VkDescriptorSetLayout>> make_set_layout(
@@ -46,14 +41,9 @@ Result<Handle<VkDescriptorSetLayout>> make_set_layout(
         Typed{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     info.bindingCount = static_cast<uint32_t>(bindings.size());
     info.pBindings = bindings.data();
-    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    const VkResult result =
-        device.vk().vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::pipeline, result, "vkCreateDescriptorSetLayout"));
-    }
-    return Handle<VkDescriptorSetLayout>(device.get(), layout,
-                                         device.vk().vkDestroyDescriptorSetLayout);
+    return make(device, Stage::pipeline, "vkCreateDescriptorSetLayout",
+                device.vk().vkCreateDescriptorSetLayout, device.vk().vkDestroyDescriptorSetLayout,
+                info);
 }
 
 }  // namespace
@@ -63,41 +53,32 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
     const VolkDeviceTable& vk = device.vk();
 
     VkPipelineCacheCreateInfo cache_info = Typed{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    VkPipelineCache handle = VK_NULL_HANDLE;
-    const VkResult result = vk.vkCreatePipelineCache(device.get(), &cache_info, nullptr, &handle);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::pipeline, result, "vkCreatePipelineCache"));
-    }
-    cache.cache_ = Handle<VkPipelineCache>(device.get(), handle, vk.vkDestroyPipelineCache);
-
+    auto made =
+        put(cache.cache_, make(device, Stage::pipeline, "vkCreatePipelineCache",
+                               vk.vkCreatePipelineCache, vk.vkDestroyPipelineCache, cache_info));
+    const auto then = [&made](auto& to, const auto& make_next) {
+        if (made) {
+            made = put(to, make_next());
+        }
+    };
     const std::array<VkDescriptorSetLayoutBinding, 1> texture = {
         {{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
-    auto texture_set = make_set_layout(device, texture);
-    if (!texture_set) {
-        return fail(texture_set.error());
-    }
-    cache.texture_set_layout_ = std::move(*texture_set);
-    auto layout = make_layout(device, kDrawStages, sizeof(shaders::DrawConstants),
-                              cache.texture_set_layout_.get());
-    if (!layout) {
-        return fail(layout.error());
-    }
-    cache.layout_ = std::move(*layout);
-
+    then(cache.texture_set_layout_, [&] { return make_set_layout(device, texture); });
+    then(cache.layout_, [&] {
+        return make_layout(device, kDrawStages, sizeof(shaders::DrawConstants),
+                           cache.texture_set_layout_.get());
+    });
     const std::array<VkDescriptorSetLayoutBinding, 2> copies = {
         {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
          {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}}};
-    auto copy_set = make_set_layout(device, copies);
-    if (!copy_set) {
-        return fail(copy_set.error());
+    then(cache.copy_set_layout_, [&] { return make_set_layout(device, copies); });
+    then(cache.copy_layout_, [&] {
+        return make_layout(device, VK_SHADER_STAGE_COMPUTE_BIT, kCopyConstants * sizeof(uint32_t),
+                           cache.copy_set_layout_.get());
+    });
+    if (!made) {
+        return fail(made.error());
     }
-    cache.copy_set_layout_ = std::move(*copy_set);
-    auto copy_layout = make_layout(device, VK_SHADER_STAGE_COMPUTE_BIT,
-                                   kCopyConstants * sizeof(uint32_t), cache.copy_set_layout_.get());
-    if (!copy_layout) {
-        return fail(copy_layout.error());
-    }
-    cache.copy_layout_ = std::move(*copy_layout);
     return cache;
 }
 
@@ -118,15 +99,12 @@ Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> co
     VkShaderModuleCreateInfo info = Typed{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = changed->size() * sizeof(uint32_t);
     info.pCode = changed->data();
-    VkShaderModule handle = VK_NULL_HANDLE;
-    const VkResult result =
-        device_->vk().vkCreateShaderModule(device_->get(), &info, nullptr, &handle);
-    if (result != VK_SUCCESS) {
-        return fail(call_failure(Stage::shader, result, "vkCreateShaderModule"));
+    auto made = make(*device_, Stage::shader, "vkCreateShaderModule",
+                     device_->vk().vkCreateShaderModule, device_->vk().vkDestroyShaderModule, info);
+    if (!made) {
+        return fail(made.error());
     }
-    modules_.emplace(std::move(key), Handle<VkShaderModule>(device_->get(), handle,
-                                                            device_->vk().vkDestroyShaderModule));
-    return handle;
+    return modules_.emplace(std::move(key), std::move(*made)).first->second.get();
 }
 
 Result<VkPipeline> PipelineCache::get(const PipelineKey& key) {
