@@ -20,12 +20,14 @@ namespace vk_harness {
 
 namespace {
 
-Rejection unsupported(std::string reason) {
-    return {Rendered::Status::unsupported, std::move(reason)};
+template <class... T>
+Rejection unsupported(fmt::format_string<T...> text, T&&... values) {
+    return {Rendered::Status::unsupported, fmt::format(text, std::forward<T>(values)...)};
 }
 
-Rejection invalid(std::string reason) {
-    return {Rendered::Status::error, std::move(reason)};
+template <class... T>
+Rejection invalid(fmt::format_string<T...> text, T&&... values) {
+    return {Rendered::Status::error, fmt::format(text, std::forward<T>(values)...)};
 }
 
 // Where the device puts the samples has to be known.
@@ -37,22 +39,21 @@ std::optional<Rejection> check_locations(const Capabilities& c, const cases::Tar
         return std::nullopt;
     }
     if (t.sample_locations.size() != t.samples) {
-        return invalid(fmt::format("the target has {} sample locations for {} samples",
-                                   t.sample_locations.size(), t.samples));
+        return invalid("the target has {} sample locations for {} samples",
+                       t.sample_locations.size(), t.samples);
     }
     if ((c.location_counts & t.samples) == 0) {
-        return unsupported(fmt::format(
+        return unsupported(
             "the device does not take sample locations for {} sample(s) (VK_EXT_sample_locations)",
-            t.samples));
+            t.samples);
     }
     for (const std::array<uint8_t, 2>& location : t.sample_locations) {
         for (const uint8_t sixteenths : location) {
             const float at = static_cast<float>(sixteenths) / 16.0F;
             if (at < c.location_range[0] || at > c.location_range[1]) {
                 return unsupported(
-                    fmt::format("the sample location {}/16 is outside the device's range of {} to "
-                                "{} pixels",
-                                sixteenths, c.location_range[0], c.location_range[1]));
+                    "the sample location {}/16 is outside the device's range of {} to {} pixels",
+                    sixteenths, c.location_range[0], c.location_range[1]);
             }
         }
     }
@@ -66,15 +67,15 @@ std::optional<Rejection> check_depth_format(const Capabilities& c, const cases::
     const std::string_view name = row_of(t.depth_format).vulkan_name;
     const VkSampleCountFlags counts = c.depth_sample_counts.at(static_cast<size_t>(t.depth_format));
     if (counts == 0) {
-        return unsupported(fmt::format("the device cannot draw to and read back format {}", name));
+        return unsupported("the device cannot draw to and read back format {}", name);
     }
     if (t.samples > 1 && t.depth_format == cases::DepthFormat::d24_unorm) {
         // A shader reads binary32; the conversion may be off by a step of 2^-24.
-        return unsupported(fmt::format("single samples of {} cannot be read exactly", name));
+        return unsupported("single samples of {} cannot be read exactly", name);
     }
     if ((counts & t.samples) == 0) {
-        return unsupported(fmt::format("the device does not draw {} samples a pixel with format {}",
-                                       t.samples, name));
+        return unsupported("the device does not draw {} samples a pixel with format {}", t.samples,
+                           name);
     }
     return std::nullopt;
 }
@@ -85,17 +86,16 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
         return invalid("the target has no pixels");
     }
     if (t.width > c.max_width || t.height > c.max_height) {
-        return unsupported(fmt::format("the target has {} x {} pixels, the device allows {} x {}",
-                                       t.width, t.height, c.max_width, c.max_height));
+        return unsupported("the target has {} x {} pixels, the device allows {} x {}", t.width,
+                           t.height, c.max_width, c.max_height);
     }
     if (t.layers == 0 ||
         (t.layers > 1 && (capture::resolves_color(t) || capture::resolves_depth(t)))) {
         return invalid("a target has at least one layer, and one that is resolved only one");
     }
     if (t.layers > c.max_layers) {
-        return unsupported(
-            fmt::format("the target has {} layers, the device allows {} (maxFramebufferLayers)",
-                        t.layers, c.max_layers));
+        return unsupported("the target has {} layers, the device allows {} (maxFramebufferLayers)",
+                           t.layers, c.max_layers);
     }
     if (names_layers(test) && !c.layer_output) {
         return unsupported(
@@ -103,10 +103,10 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
             "layer");
     }
     if (t.samples == 0 || t.samples > 64 || (t.samples & (t.samples - 1)) != 0) {
-        return invalid(fmt::format("{} samples a pixel is not a power of two up to 64", t.samples));
+        return invalid("{} samples a pixel is not a power of two up to 64", t.samples);
     }
     if ((c.sample_counts & t.samples) == 0) {
-        return unsupported(fmt::format("the device does not draw {} samples a pixel", t.samples));
+        return unsupported("the device does not draw {} samples a pixel", t.samples);
     }
     if (auto rejection = check_depth_format(c, t)) {
         return rejection;
@@ -120,25 +120,24 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
     }
     const uint32_t colors = color_count(attachments);
     if (colors > c.info.max_color_attachments) {
-        return unsupported(fmt::format("the case needs {} colour attachments, the device has {}",
-                                       colors, c.info.max_color_attachments));
+        return unsupported("the case needs {} colour attachments, the device has {}", colors,
+                           c.info.max_color_attachments);
     }
     const VkDeviceSize words = VkDeviceSize{t.width} * t.rows() * t.samples;
     if (t.samples > 1 && words * 16 > c.limits.maxStorageBufferRange) {
         return unsupported(
-            fmt::format("reading {} samples singly exceeds the device's storage buffer range of {} "
-                        "bytes",
-                        words, c.limits.maxStorageBufferRange));
+            "reading {} samples singly exceeds the device's storage buffer range of {} bytes",
+            words, c.limits.maxStorageBufferRange);
     }
     if (words * 16 > c.max_allocation) {
         return unsupported(
-            fmt::format("an attachment of {} bytes exceeds the device's largest allocation of {}",
-                        words * 16, c.max_allocation));
+            "an attachment of {} bytes exceeds the device's largest allocation of {}", words * 16,
+            c.max_allocation);
     }
     const VkDeviceSize needed = attachment_bytes(t, attachments);
     if (needed > c.total_memory) {
-        return unsupported(fmt::format("the attachments take {} bytes, the device has {}", needed,
-                                       c.total_memory));
+        return unsupported("the attachments take {} bytes, the device has {}", needed,
+                           c.total_memory);
     }
     return std::nullopt;
 }
@@ -160,22 +159,18 @@ std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& t
         (blends ? VkFormatFeatureFlags{VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT} : 0U) |
         (multisampled ? VkFormatFeatureFlags{VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT}
                       : VkFormatFeatureFlags{VK_FORMAT_FEATURE_TRANSFER_SRC_BIT});
-    VkFormatProperties properties{};
-    vkGetPhysicalDeviceFormatProperties(c.physical, to_vulkan(color.format), &properties);
-    if ((properties.optimalTilingFeatures & needed) != needed) {
-        return unsupported(fmt::format("the device does not draw{} to the colour format {}",
-                                       blends ? " and blend" : "", cases::name_of(color.format)));
+    if (!has_features(c, to_vulkan(color.format), needed)) {
+        return unsupported("the device does not draw{} to the colour format {}",
+                           blends ? " and blend" : "", cases::name_of(color.format));
     }
-    VkImageFormatProperties image{};
-    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
-        c.physical, to_vulkan(color.format), VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
-        color_usage(test.target.samples), color_flags(test.target.samples), &image);
-    if (result != VK_SUCCESS || (image.sampleCounts & test.target.samples) == 0 ||
-        image.maxExtent.width < test.target.width || image.maxExtent.height < test.target.height ||
-        image.maxArrayLayers < test.target.layers) {
-        return unsupported(fmt::format(
-            "the device has no {} x {} target of format {} with {} samples", test.target.width,
-            test.target.height, cases::name_of(color.format), test.target.samples));
+    const ImageLimits image =
+        image_limits(c.physical, to_vulkan(color.format), color_usage(test.target.samples),
+                     color_flags(test.target.samples));
+    if ((image.samples & test.target.samples) == 0 || image.width < test.target.width ||
+        image.height < test.target.height || image.layers < test.target.layers) {
+        return unsupported("the device has no {} x {} target of format {} with {} samples",
+                           test.target.width, test.target.height, cases::name_of(color.format),
+                           test.target.samples);
     }
     return std::nullopt;
 }
@@ -194,16 +189,15 @@ std::optional<Rejection> check_viewport(const Capabilities& c, const cases::View
     const auto max_width = static_cast<float>(c.limits.maxViewportDimensions[0]);
     const auto max_height = static_cast<float>(c.limits.maxViewportDimensions[1]);
     if (v.width > max_width || height > max_height) {
-        return unsupported(fmt::format("the viewport has {} x {} pixels, the device allows {} x {}",
-                                       v.width, height, max_width, max_height));
+        return unsupported("the viewport has {} x {} pixels, the device allows {} x {}", v.width,
+                           height, max_width, max_height);
     }
     const float low = c.limits.viewportBoundsRange[0];
     const float high = c.limits.viewportBoundsRange[1];
     const float ends[] = {v.x, v.y, v.x + v.width, v.y + v.height};
     if (std::any_of(std::begin(ends), std::end(ends),
                     [low, high](float end) { return end < low || end > high; })) {
-        return unsupported(
-            fmt::format("the viewport leaves the device's range of {} to {} pixels", low, high));
+        return unsupported("the viewport leaves the device's range of {} to {} pixels", low, high);
     }
     return std::nullopt;
 }
@@ -215,12 +209,12 @@ std::optional<Rejection> check_depth(const Capabilities& c, const cases::DepthSt
           {depth.clip && !c.depth_clip_enable, "depthClipEnable of VK_EXT_depth_clip_enable"},
           {clamps_bias && !c.depth_bias_clamp, "depthBiasClamp"}}) {
         if (lacks) {
-            return unsupported(fmt::format("the device lacks the feature {}", feature));
+            return unsupported("the device lacks the feature {}", feature);
         }
     }
     if (depth.bias) {
         if (auto missing = missing_depth_bias_support(c.depth_bias, *depth.bias)) {
-            return unsupported(std::move(*missing));
+            return unsupported("{}", *missing);
         }
     }
     return std::nullopt;
@@ -231,8 +225,8 @@ std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Dra
                                          const cases::Attribute& a) {
     const size_t vertices = draw.positions.size();
     if (a.source == cases::Source::vertex && a.values.size() != vertices) {
-        return invalid(fmt::format("attribute '{}' has {} values for {} vertices", a.name,
-                                   a.values.size(), vertices));
+        return invalid("attribute '{}' has {} values for {} vertices", a.name, a.values.size(),
+                       vertices);
     }
     if (a.source == cases::Source::barycentric && !c.barycentrics) {
         return unsupported(
@@ -253,15 +247,15 @@ std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Dra
         // Beyond the range the position is undefined; a device's range may end at 0.
         if (a.probe == cases::Probe::at_offset && (offset < c.limits.minInterpolationOffset ||
                                                    offset > c.limits.maxInterpolationOffset)) {
-            return unsupported(fmt::format(
+            return unsupported(
                 "interpolateAtOffset by {} pixels leaves the device's range of {} to {}", offset,
-                c.limits.minInterpolationOffset, c.limits.maxInterpolationOffset));
+                c.limits.minInterpolationOffset, c.limits.maxInterpolationOffset);
         }
     }
     for (const uint32_t side : a.texture_size) {
         if (a.probe == cases::Probe::lod && side > c.limits.maxImageDimension2D) {
-            return unsupported(fmt::format("a texture of {} texels a side exceeds the device's {}",
-                                           side, c.limits.maxImageDimension2D));
+            return unsupported("a texture of {} texels a side exceeds the device's {}", side,
+                               c.limits.maxImageDimension2D);
         }
     }
     return std::nullopt;
@@ -287,8 +281,8 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
         return unsupported("the device lacks the feature sampleRateShading");
     }
     if (draw.attributes.size() > cases::kMaxAttributes) {
-        return invalid(fmt::format("a draw has {} attributes, at most {} are allowed",
-                                   draw.attributes.size(), cases::kMaxAttributes));
+        return invalid("a draw has {} attributes, at most {} are allowed", draw.attributes.size(),
+                       cases::kMaxAttributes);
     }
     if (auto rejection = check_depth(c, draw.depth)) {
         return rejection;
@@ -303,14 +297,14 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
          {std::pair(draw.distances.clip_count, &draw.distances.clip),
           std::pair(draw.distances.cull_count, &draw.distances.cull)}) {
         if (count > 4 || distances->size() != (count > 0 ? vertices : 0)) {
-            return invalid(fmt::format("{} distances a vertex have values at {} of {} vertices",
-                                       count, distances->size(), vertices));
+            return invalid("{} distances a vertex have values at {} of {} vertices", count,
+                           distances->size(), vertices);
         }
     }
     const size_t elements = draw.indices ? draw.indices->size() : vertices;
     if (vertices >= kMaxId || elements >= kMaxId) {
-        return unsupported(fmt::format("a draw has {} vertices, the harness tells {} apart",
-                                       std::max(vertices, elements), kMaxId - 1));
+        return unsupported("a draw has {} vertices, the harness tells {} apart",
+                           std::max(vertices, elements), kMaxId - 1);
     }
     if (draw.primitive_restart &&
         (!draw.indices || draw.topology == cases::Topology::triangle_list)) {
@@ -320,8 +314,7 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
         for (const uint32_t index : *draw.indices) {
             const bool restart = draw.primitive_restart && index == cases::kRestartIndex;
             if (!restart && index >= vertices) {
-                return invalid(
-                    fmt::format("index {} is beyond the {} vertices of its draw", index, vertices));
+                return invalid("index {} is beyond the {} vertices of its draw", index, vertices);
             }
         }
     }
@@ -353,30 +346,28 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         return rejection;
     }
     if (auto missing = missing_resolve_or_stencil(capabilities, c.target)) {
-        return unsupported(std::move(*missing));
+        return unsupported("{}", *missing);
     }
     if (c.draws.size() >= kMaxId) {
-        return unsupported(fmt::format("the case has {} draws, the harness tells {} apart",
-                                       c.draws.size(), kMaxId - 1));
+        return unsupported("the case has {} draws, the harness tells {} apart", c.draws.size(),
+                           kMaxId - 1);
     }
     if (const uint32_t viewports = viewport_count(c); viewports > capabilities.max_viewports) {
-        return unsupported(fmt::format(
+        return unsupported(
             "the case chooses from {} viewports by gl_ViewportIndex, the device from {} (features "
             "multiViewport and shaderOutputViewportIndex)",
-            viewports, capabilities.max_viewports));
+            viewports, capabilities.max_viewports);
     }
     const InstrumentLayout layout = instrument_layout(capabilities, c);
     if (c.target.has_instruments && !layout.split && most_hits(c) > kMaxPackedHits) {
         return unsupported(
-            fmt::format("the case may hit a sample {} times and has so many attributes that hits "
-                        "are counted up "
-                        "to {}; leave out an attribute or the colour target",
-                        most_hits(c), kMaxPackedHits));
+            "the case may hit a sample {} times and has so many attributes that hits are "
+            "counted up to {}; leave out an attribute or the colour target",
+            most_hits(c), kMaxPackedHits);
     }
     for (const cases::Draw& draw : c.draws) {
         if (draw.layer >= c.target.layers) {
-            return invalid(
-                fmt::format("a draw goes to layer {} of {}", draw.layer, c.target.layers));
+            return invalid("a draw goes to layer {} of {}", draw.layer, c.target.layers);
         }
         const PipelineKey key = pipeline_key(c, draw, layout);
         if (shaders::capture_vertex(vertex_variant(key)).empty() ||
@@ -387,7 +378,7 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
         }
     }
     if (auto missing = missing_clip_support(capabilities.clip, c)) {
-        return unsupported(std::move(*missing));
+        return unsupported("{}", *missing);
     }
     return check_target(capabilities, c);
 }

@@ -16,12 +16,6 @@ namespace vk_harness {
 
 namespace {
 
-bool has_features(const Capabilities& c, cases::ColorFormat format, VkFormatFeatureFlags needed) {
-    VkFormatProperties properties{};
-    vkGetPhysicalDeviceFormatProperties(c.physical, to_vulkan(format), &properties);
-    return (properties.optimalTilingFeatures & needed) == needed;
-}
-
 VkImageMemoryBarrier2 change(VkImage image, VkImageLayout from, VkImageLayout to) {
     constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     return image_barrier(
@@ -57,14 +51,14 @@ std::optional<Rejection> check_blit(const Capabilities& capabilities, const case
     };
     const bool linear = blit.filter == cases::BlitFilter::linear;
     constexpr VkFormatFeatureFlags filtered = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    if (!has_features(capabilities, blit.source_format,
+    if (!has_features(capabilities, to_vulkan(blit.source_format),
                       VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT |
                           (linear ? filtered : VkFormatFeatureFlags{0}))) {
         return unsupported(fmt::format("the device does not blit{} from the format {}",
                                        linear ? " with a linear filter" : "",
                                        cases::name_of(blit.source_format)));
     }
-    if (!has_features(capabilities, c.target.color->format,
+    if (!has_features(capabilities, to_vulkan(c.target.color->format),
                       VK_FORMAT_FEATURE_BLIT_DST_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT |
                           VK_FORMAT_FEATURE_TRANSFER_SRC_BIT)) {
         return unsupported(fmt::format("the device does not blit to the format {}",

@@ -19,15 +19,18 @@ namespace vk_harness {
 namespace {
 
 VkPrimitiveTopology to_vulkan(cases::Topology topology) {
-    return std::array{VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
-                      VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN}
-        .at(static_cast<size_t>(topology));
+    constexpr std::array kTopologies = {VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+                                        VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
+                                        VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN};
+    static_assert(kTopologies.size() == static_cast<size_t>(cases::Topology::triangle_fan) + 1);
+    return kTopologies.at(static_cast<size_t>(topology));
 }
 
 VkCullModeFlags to_vulkan(cases::CullMode mode) {
-    return std::array{VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT,
-                      VK_CULL_MODE_FRONT_AND_BACK}
-        .at(static_cast<size_t>(mode));
+    constexpr std::array kModes = {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT, VK_CULL_MODE_BACK_BIT,
+                                   VK_CULL_MODE_FRONT_AND_BACK};
+    static_assert(kModes.size() == static_cast<size_t>(cases::CullMode::front_and_back) + 1);
+    return kModes.at(static_cast<size_t>(mode));
 }
 
 VkFrontFace to_vulkan(cases::FrontFace face) {

@@ -51,6 +51,21 @@ struct Typed {
     }
 };
 
+// Puts a structure before those that hang on another already.
+template <class Base, class T>
+void chain(Base& base, T& added) {
+    added.pNext = base.pNext;
+    base.pNext = &added;
+}
+
+// Has the device fill in one structure of properties, or its features.
+template <class T>
+void get_properties(VkPhysicalDevice physical, T& properties) {
+    VkPhysicalDeviceProperties2 all = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    all.pNext = &properties;
+    vkGetPhysicalDeviceProperties2(physical, &all);
+}
+
 // A device object that is destroyed with its owner.
 template <class T>
 class Handle {

@@ -11,6 +11,24 @@
 
 namespace vk_harness {
 
+bool has_features(const Capabilities& c, VkFormat format, VkFormatFeatureFlags needed) {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
+    return (properties.optimalTilingFeatures & needed) == needed;
+}
+
+ImageLimits image_limits(VkPhysicalDevice physical, VkFormat format, VkImageUsageFlags usage,
+                         VkImageCreateFlags flags) {
+    VkImageFormatProperties properties{};
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+        physical, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, flags, &properties);
+    if (result != VK_SUCCESS) {
+        return {};
+    }
+    return {properties.maxExtent.width, properties.maxExtent.height, properties.sampleCounts,
+            properties.maxArrayLayers};
+}
+
 namespace {
 
 std::string device_type_name(VkPhysicalDeviceType type) {
@@ -34,28 +52,9 @@ bool has_device_extension(VkPhysicalDevice physical, const char* name) {
     });
 }
 
-// Largest size and sample counts of an optimally tiled 2D image; nothing if the device has no such
-// image.
-struct ImageLimits {
-    uint32_t width = 0, height = 0;
-    VkSampleCountFlags samples = 0;
-};
-ImageLimits image_limits(VkPhysicalDevice physical, VkFormat format, VkImageUsageFlags usage,
-                         VkImageCreateFlags flags) {
-    VkImageFormatProperties properties{};
-    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
-        physical, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, flags, &properties);
-    if (result != VK_SUCCESS) {
-        return {};
-    }
-    return {properties.maxExtent.width, properties.maxExtent.height, properties.sampleCounts};
-}
-
 void require_format(Capabilities& c, VkFormat format, std::string_view name,
                     VkFormatFeatureFlags needed, std::string_view purpose) {
-    VkFormatProperties properties{};
-    vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
-    if ((properties.optimalTilingFeatures & needed) != needed) {
+    if (!has_features(c, format, needed)) {
         c.info.missing.push_back(
             fmt::format("the device cannot use format {} as {}", name, purpose));
     }
@@ -68,15 +67,13 @@ void query_properties(Capabilities& c, uint32_t index) {
     VkPhysicalDeviceMaintenance3Properties maintenance =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
     id.pNext = &maintenance;
-    VkPhysicalDeviceProperties2 properties = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    properties.pNext = &id;
     VkPhysicalDeviceProperties first{};
     vkGetPhysicalDeviceProperties(c.physical, &first);
     if (first.apiVersion >= VK_API_VERSION_1_2) {
         maintenance.pNext = &driver;
     }
     if (first.apiVersion >= VK_API_VERSION_1_1) {
-        vkGetPhysicalDeviceProperties2(c.physical, &properties);
+        get_properties(c.physical, id);
     }
 
     DeviceInfo& info = c.info;
@@ -115,9 +112,7 @@ void query_sample_locations(Capabilities& c) {
     }
     VkPhysicalDeviceSampleLocationsPropertiesEXT locations =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLE_LOCATIONS_PROPERTIES_EXT};
-    VkPhysicalDeviceProperties2 properties = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    properties.pNext = &locations;
-    vkGetPhysicalDeviceProperties2(c.physical, &properties);
+    get_properties(c.physical, locations);
     constexpr uint32_t kSixteenthBits = 4;
     if (locations.sampleLocationSubPixelBits >= kSixteenthBits) {
         c.location_counts = locations.sampleLocationSampleCounts;
@@ -149,8 +144,7 @@ void query_features(Capabilities& c) {
         const auto ask = [&](const char* extension, auto& structure) {
             const bool has = has_device_extension(c.physical, extension);
             if (has) {
-                structure.pNext = features.pNext;
-                features.pNext = &structure;
+                chain(features, structure);
             }
             return has;
         };
@@ -202,15 +196,13 @@ void query_features(Capabilities& c) {
 // With which sample counts narrow attachments can be drawn to and read back in targets as large as
 // those of kColorFormat; none if hits cannot be blended.
 VkSampleCountFlags narrow_sample_counts(const Capabilities& c, const ImageLimits& wide) {
-    VkFormatProperties properties{};
-    vkGetPhysicalDeviceFormatProperties(c.physical, kTwoNumbers, &properties);
     constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
                                              VK_FORMAT_FEATURE_TRANSFER_SRC_BIT |
                                              VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
     const ImageLimits one =
         image_limits(c.physical, kTwoNumbers,
                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
-    if ((properties.optimalTilingFeatures & kNeeded) != kNeeded || one.width < wide.width ||
+    if (!has_features(c, kTwoNumbers, kNeeded) || one.width < wide.width ||
         one.height < wide.height) {
         return 0;
     }
@@ -267,12 +259,10 @@ void query_depth_formats(Capabilities& c) {
     const VkPhysicalDeviceLimits& l = c.limits;
     for (size_t k = 0; k < c.depth_sample_counts.size(); ++k) {
         const VkFormat format = depth_format(static_cast<cases::DepthFormat>(k));
-        VkFormatProperties properties{};
-        vkGetPhysicalDeviceFormatProperties(c.physical, format, &properties);
         const VkFormatFeatureFlags needed =
             VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT;
         c.depth_sample_counts.at(k) = 0;
-        if ((properties.optimalTilingFeatures & needed) != needed) {
+        if (!has_features(c, format, needed)) {
             continue;
         }
         const ImageLimits read = image_limits(

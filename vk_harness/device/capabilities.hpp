@@ -47,6 +47,19 @@ struct Capabilities {
     bool portability_subset = false;
 };
 
+// Whether optimally tiled images of the format have all these features.
+bool has_features(const Capabilities& c, VkFormat format, VkFormatFeatureFlags needed);
+
+// Largest size, sample counts and layers of an optimally tiled 2D image; nothing if the device has
+// no such image.
+struct ImageLimits {
+    uint32_t width = 0, height = 0;
+    VkSampleCountFlags samples = 0;
+    uint32_t layers = 0;
+};
+ImageLimits image_limits(VkPhysicalDevice physical, VkFormat format, VkImageUsageFlags usage,
+                         VkImageCreateFlags flags);
+
 Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index);
 
 // Formats of the attachments (capture/capture.hpp).

@@ -19,21 +19,14 @@ ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_exten
     }
     ClipFeatures optional;
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    optional.depth_clip_control.sType =
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT;
-    optional.provoking.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT;
     VkPhysicalDeviceProvokingVertexPropertiesEXT modes =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_PROPERTIES_EXT};
     if (has_extension(physical, VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME)) {
-        optional.depth_clip_control.pNext = features.pNext;
-        features.pNext = &optional.depth_clip_control;
+        chain(features, optional.depth_clip_control);
     }
     if (has_extension(physical, VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) {
-        optional.provoking.pNext = features.pNext;
-        features.pNext = &optional.provoking;
-        VkPhysicalDeviceProperties2 chained = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-        chained.pNext = &modes;
-        vkGetPhysicalDeviceProperties2(physical, &chained);
+        chain(features, optional.provoking);
+        get_properties(physical, modes);
     }
     vkGetPhysicalDeviceFeatures2(physical, &features);
     const VkPhysicalDeviceLimits& limits = properties.limits;
@@ -51,22 +44,17 @@ ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_exten
 }
 
 void enable_clip_features(const ClipSupport& support, VkPhysicalDeviceFeatures2& features,
-                          std::vector<const char*>& extensions, ClipFeatures& chain) {
+                          std::vector<const char*>& extensions, ClipFeatures& enabled) {
     features.features.shaderClipDistance = support.max_clip > 0 ? VK_TRUE : VK_FALSE;
     features.features.shaderCullDistance = support.max_cull > 0 ? VK_TRUE : VK_FALSE;
     if (support.depth_clip_control) {
-        chain.depth_clip_control.sType =
-            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT;
-        chain.depth_clip_control.depthClipControl = VK_TRUE;
-        chain.depth_clip_control.pNext = features.pNext;
-        features.pNext = &chain.depth_clip_control;
+        enabled.depth_clip_control.depthClipControl = VK_TRUE;
+        chain(features, enabled.depth_clip_control);
         extensions.push_back(VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME);
     }
     if (support.last_provoking_vertex) {
-        chain.provoking.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT;
-        chain.provoking.provokingVertexLast = VK_TRUE;
-        chain.provoking.pNext = features.pNext;
-        features.pNext = &chain.provoking;
+        enabled.provoking.provokingVertexLast = VK_TRUE;
+        chain(features, enabled.provoking);
         extensions.push_back(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME);
     }
 }

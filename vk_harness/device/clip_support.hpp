@@ -33,12 +33,14 @@ ClipSupport query_clip_support(VkPhysicalDevice physical, HasExtension has_exten
 
 // Features to enable, as a chain that must outlive vkCreateDevice and must not be moved.
 struct ClipFeatures {
-    VkPhysicalDeviceDepthClipControlFeaturesEXT depth_clip_control{};
-    VkPhysicalDeviceProvokingVertexFeaturesEXT provoking{};
+    VkPhysicalDeviceDepthClipControlFeaturesEXT depth_clip_control =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT};
+    VkPhysicalDeviceProvokingVertexFeaturesEXT provoking =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT};
 };
 // Puts what is supported before `features`' chain, and the names of its extensions into the list.
 void enable_clip_features(const ClipSupport& support, VkPhysicalDeviceFeatures2& features,
-                          std::vector<const char*>& extensions, ClipFeatures& chain);
+                          std::vector<const char*>& extensions, ClipFeatures& enabled);
 
 // Why a case cannot be drawn: one sentence that names the feature; nothing if it can.
 std::optional<std::string> missing_clip_support(const ClipSupport& support, const cases::Case& c);

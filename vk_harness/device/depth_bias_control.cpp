@@ -50,8 +50,7 @@ void enable_depth_bias_control(const DepthBiasSupport& support, VkPhysicalDevice
     chain.force_unorm = support.force_unorm ? VK_TRUE : VK_FALSE;
     chain.floating = support.floating ? VK_TRUE : VK_FALSE;
     chain.exact = support.exact ? VK_TRUE : VK_FALSE;
-    chain.pNext = features.pNext;
-    features.pNext = &chain;
+    vk_harness::chain(features, chain);
     extensions.push_back(kExtension);
 }
 

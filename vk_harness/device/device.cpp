@@ -116,8 +116,7 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     features.pNext = &features12;
     std::vector<const char*> extensions;
     const auto enable = [&](const char* extension, auto& structure) {
-        structure.pNext = features.pNext;
-        features.pNext = &structure;
+        chain(features, structure);
         extensions.push_back(extension);
     };
     if (capabilities.portability_subset) {

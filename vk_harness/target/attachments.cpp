@@ -3,6 +3,7 @@
 #include "vk_harness/target/attachments.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "capture/capture.hpp"
 #include "cases/format/color_format.hpp"
@@ -121,41 +122,21 @@ uint32_t color_count(const std::vector<Attachment>& attachments) {
 }
 
 std::string attachment_name(const std::vector<Attachment>& attachments, size_t k) {
-    const auto attribute = [&] {
-        const auto before = std::count_if(
-            attachments.begin(), attachments.begin() + static_cast<ptrdiff_t>(k),
-            [role = attachments[k].role](const Attachment& a) { return a.role == role; });
-        return "attribute " + std::to_string(before);
-    };
-    switch (attachments[k].role) {
-        case Role::writer_and_hits:
-            return "writer and hits";
-        case Role::frag_coord:
-            return "frag_coord";
-        case Role::writer:
-            return "writer";
-        case Role::hits:
-            return "hits";
-        case Role::frag_xy:
-            return "frag_coord.xy";
-        case Role::frag_zw:
-            return "frag_coord.zw";
-        case Role::attribute:
-            return attribute();
-        case Role::attribute_zw:
-            return attribute() + ".zw";
-        case Role::color:
-            return "color";
-        case Role::depth:
-            return "depth";
-        case Role::stencil:
-            return "stencil";
-        case Role::resolved_color:
-            return "resolved color";
-        case Role::resolved_depth:
-            break;
+    // In the order of Role.
+    static constexpr std::array kNames = {
+        "writer and hits", "frag_coord",     "writer",        "hits",  "frag_coord.xy",
+        "frag_coord.zw",   "attribute ",     "attribute ",    "color", "depth",
+        "stencil",         "resolved color", "resolved depth"};
+    static_assert(kNames.size() == static_cast<size_t>(Role::resolved_depth) + 1);
+    const Role role = attachments[k].role;
+    std::string name = kNames.at(static_cast<size_t>(role));
+    if (role == Role::attribute || role == Role::attribute_zw) {
+        name += std::to_string(
+            std::count_if(attachments.begin(), attachments.begin() + static_cast<ptrdiff_t>(k),
+                          [role](const Attachment& a) { return a.role == role; }));
+        name += role == Role::attribute_zw ? ".zw" : "";
     }
-    return "resolved depth";
+    return name;
 }
 
 }  // namespace vk_harness

@@ -29,6 +29,8 @@ constexpr std::array<ResolveMode, 5> kModes = {{{VK_RESOLVE_MODE_NONE, "NONE"},
                                                 {VK_RESOLVE_MODE_MIN_BIT, "MIN"},
                                                 {VK_RESOLVE_MODE_MAX_BIT, "MAX"}}};
 
+static_assert(kModes.size() == static_cast<size_t>(cases::Resolve::max) + 1);
+
 const ResolveMode& mode_of(cases::Resolve mode) {
     return kModes.at(static_cast<size_t>(mode));
 }
@@ -38,11 +40,7 @@ const ResolveMode& mode_of(cases::Resolve mode) {
 std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
                                                       const cases::Target& t) {
     const auto has_image = [&c](VkFormat format, VkImageUsageFlags usage, uint32_t samples) {
-        VkImageFormatProperties image{};
-        return vkGetPhysicalDeviceImageFormatProperties(c.physical, format, VK_IMAGE_TYPE_2D,
-                                                        VK_IMAGE_TILING_OPTIMAL, usage, 0,
-                                                        &image) == VK_SUCCESS &&
-               (image.sampleCounts & samples) != 0;
+        return (image_limits(c.physical, format, usage, 0).samples & samples) != 0;
     };
     if (t.has_stencil) {
         const VkImageUsageFlags read =
@@ -51,24 +49,22 @@ std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
                        t.samples) ||
             (c.limits.framebufferStencilSampleCounts & t.samples) == 0 ||
             (t.samples > 1 && (c.limits.sampledImageStencilSampleCounts & t.samples) == 0)) {
-            return (fmt::format(
+            return fmt::format(
                 "the device cannot draw to and read back format D32_SFLOAT_S8_UINT with {} "
                 "sample(s)",
-                t.samples));
+                t.samples);
         }
     }
     if (capture::resolves_color(t) && !has_image(to_vulkan(t.color->format), color_usage(1), 1)) {
-        return (fmt::format("the device cannot resolve into the colour format {}",
-                            cases::name_of(t.color->format)));
+        return fmt::format("the device cannot resolve into the colour format {}",
+                           cases::name_of(t.color->format));
     }
     if (!capture::resolves_depth(t)) {
         return std::nullopt;
     }
     VkPhysicalDeviceDepthStencilResolveProperties resolve =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_STENCIL_RESOLVE_PROPERTIES};
-    VkPhysicalDeviceProperties2 properties = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    properties.pNext = &resolve;
-    vkGetPhysicalDeviceProperties2(c.physical, &properties);
+    get_properties(c.physical, resolve);
     const ResolveMode& mode = mode_of(t.depth_resolve);
     if ((resolve.supportedDepthResolveModes & static_cast<VkResolveModeFlags>(mode.bit)) == 0) {
         return fmt::format("the device does not resolve depth by {}", mode.name);
