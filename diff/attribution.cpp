@@ -336,4 +336,9 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
     finding.why = cause.why;
 }
 
+void tell(Finding& finding, ref::ReasonKind why) {
+    finding.rule = ref::rule_of(why, finding.level);
+    finding.why = ref::text_of(why);
+}
+
 }  // namespace diff

@@ -15,6 +15,7 @@
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
+#include "ref/reason/reason.hpp"
 
 namespace diff {
 
@@ -67,6 +68,9 @@ class Attribution {
     std::map<std::string, Finding> like_;            // by kind, level, expected and got
     std::map<cases::Profile, Finding> like_writer_;  // wrong writers, by level
 };
+
+// Sets rule and why to those of a reason that needs no more words.
+void tell(Finding& finding, ref::ReasonKind why);
 
 // Writes "1", "0 or 1" or "1 to 3", and "1 front, 0 back" if both faces play a part.
 std::string to_text(const ref::HitBounds& bounds);

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 
-#include "cases/model/rule_ids.hpp"
-
 namespace diff {
 
 using Kind = ref::ColorVerdict::Kind;
@@ -52,14 +50,13 @@ std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
         !reference(expectation_.profile)
              .explains_depth(index, id, capture_.depth[index], case_.target.depth_clear)) {
         Finding finding = finding_at(FindingKind::value, case_.target, id);
-        finding.rule = cases::rule::depth_linear;
+        tell(finding, ref::ReasonKind::depth_of_none);
         finding.quantity = "depth";
         finding.level = loosest_wrong([&](ref::ColorReference& at) {
             return !at.explains_depth(index, id, capture_.depth[index], case_.target.depth_clear);
         });
         finding.expected = "the depth of a fragment that the colour allows";
         finding.got = fmt::format("{:.9g}", capture_.depth[index]);
-        finding.why = "no triangle that may have written last has this depth here";
         return finding;
     }
     return std::nullopt;
@@ -80,35 +77,28 @@ Finding ColorComparison::finding_of(size_t index, cases::SampleId id,
                                     const std::optional<ref::ColorWitness>& witness) {
     Finding finding;
     set_sample(finding, case_.target, id);
-    const std::string got = unit_.text_of(capture_.color[index]);
-    const uint32_t hits = verdict.hits;
     switch (verdict.kind) {
         case Kind::missing:
-            finding.kind = FindingKind::missing;
-            attribution_.attribute_hits(finding, hits, 0);
-            break;
         case Kind::extra:
-            finding.kind = FindingKind::extra;
-            attribution_.attribute_hits(finding, hits, 0);
-            break;
         case Kind::twice:
-            finding.kind = FindingKind::double_hit;
-            attribution_.attribute_hits(finding, hits, 0);
+            finding.kind = verdict.kind == Kind::missing ? FindingKind::missing
+                           : verdict.kind == Kind::extra ? FindingKind::extra
+                                                         : FindingKind::double_hit;
+            attribution_.attribute_hits(finding, verdict.hits, 0);
             break;
         case Kind::order:
             finding.kind = FindingKind::order;
-            finding.rule = cases::rule::order_primitive;
-            finding.why = "the fragments were blended in another order than they were drawn";
+            tell(finding, ref::ReasonKind::color_order);
             break;
         default:
             finding.kind = FindingKind::value;
+            tell(finding, ref::ReasonKind::color_none);
             finding.rule = verdict.rule;
-            finding.why = "no allowed set of fragments leaves this colour";
             break;
     }
     finding.quantity = "color";
     finding.expected = verdict.expected;
-    finding.got = got;
+    finding.got = unit_.text_of(capture_.color[index]);
     finding.level = loosest_wrong([&](ref::ColorReference& at) {
         return !at.explains(index, id, capture_.color[index], witness);
     });

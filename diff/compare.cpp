@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "cases/model/rule_ids.hpp"
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
 #include "diff/contradiction.hpp"
@@ -134,12 +133,11 @@ class Comparison {
                 return;
             case capture::SampleState::inconsistent: {
                 Finding finding = finding_at(FindingKind::value, case_.target, id);
-                finding.rule = cases::rule::write_consistent;
+                tell(finding, ref::ReasonKind::planes_contradict);
                 finding.level = cases::Profile::vulkan;
                 finding.quantity = "attachments";
                 finding.expected = "all attachments written by the same fragments";
                 finding.got = contradiction_text(capture_, index);
-                finding.why = "the attachments of one sample contradict each other";
                 verdict_.device_hits[index] = 255;
                 add(std::move(finding));
                 return;

@@ -87,7 +87,6 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
         return std::nullopt;
     }
     Finding finding = finding_at(FindingKind::value, case_.target, id);
-    finding.rule = cases::rule::depth_write;
     finding.level = cases::Profile::vulkan;
     finding.quantity = "depth";
     finding.expected = expected.depth_may_be_clear ? "the clear value" : "";
@@ -104,7 +103,7 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
         finding.ratio = m.ratio;
     }
     finding.got = fmt::format("{:.9g}", device.depth);
-    finding.why = "the last fragment's draw does not write depth; no older one left this";
+    tell(finding, ref::ReasonKind::depth_unwritten);
     return finding;
 }
 
@@ -120,17 +119,15 @@ bool LastFragment::is_provoking(const capture::Writer& writer) const {
                        });
 }
 
-const char* LastFragment::provoking_rule(uint32_t draw) const {
-    const bool is_last =
-        draw < case_.draws.size() && case_.draws[draw].provoking == cases::ProvokingVertex::last;
-    return is_last ? cases::rule::provoking_last : cases::rule::provoking_first;
+bool LastFragment::provokes_by_last(uint32_t draw) const {
+    return draw < case_.draws.size() && case_.draws[draw].provoking == cases::ProvokingVertex::last;
 }
 
 Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& writer,
                                      const ref::SampleExpectation& expected) {
     Finding finding = finding_at(FindingKind::order, case_.target, id);
-    finding.rule = cases::rule::order_primitive;
-    finding.why = "another triangle than the last one that may cover the sample wrote it";
+    tell(finding, ref::ReasonKind::writer_not_last);
+    const bool by_last = provokes_by_last(writer.draw);
     std::string allowed;
     for (uint32_t k = 0; k < std::min(expected.writers_count, 4U); ++k) {
         const cases::Triangle& t =
@@ -140,14 +137,14 @@ Finding LastFragment::writer_finding(cases::SampleId id, const capture::Writer& 
         const bool same_primitive =
             writer.draw == t.draw && capture_.has_primitive && writer.primitive == t.primitive;
         if (same_primitive && writer.provoking_vertex != t.provoking) {
-            finding.rule = provoking_rule(writer.draw);
-            finding.why = "the right triangle, but its flat inputs come from another vertex";
+            tell(finding, by_last ? ref::ReasonKind::writer_other_last
+                                  : ref::ReasonKind::writer_other_first);
         }
     }
     if (!capture_.has_primitive && finding.rule == cases::rule::order_primitive &&
         !is_provoking(writer)) {
-        finding.rule = provoking_rule(writer.draw);
-        finding.why = "no triangle of that draw has this provoking vertex";
+        tell(finding,
+             by_last ? ref::ReasonKind::writer_none_last : ref::ReasonKind::writer_none_first);
     }
     if (expected.writers_count > 4) {
         allowed += fmt::format(", or {} others", expected.writers_count - 4);

@@ -62,7 +62,7 @@ class LastFragment {
   private:
     bool wrote(const capture::Writer& writer, const cases::Triangle& t) const;
     bool is_provoking(const capture::Writer& writer) const;
-    const char* provoking_rule(uint32_t draw) const;
+    bool provokes_by_last(uint32_t draw) const;
     Finding value_finding(cases::SampleId id, ref::ValueMismatch mismatch, uint32_t t) const;
     std::optional<Finding> judge_older_depth(cases::SampleId id,
                                              const ref::SampleExpectation& expected,

@@ -5,44 +5,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace diff {
 
 namespace {
 
-SampleMark mark_of(FindingKind kind) {
-    switch (kind) {
-        case FindingKind::missing:
-            return SampleMark::missing;
-        case FindingKind::extra:
-            return SampleMark::extra;
-        case FindingKind::double_hit:
-            return SampleMark::double_hit;
-        case FindingKind::value:
-            return SampleMark::value;
-        case FindingKind::order:
-            return SampleMark::order;
-    }
-    return SampleMark::ok;
+// In the order of FindingKind.
+constexpr std::array<std::string_view, kFindingKinds> kKindNames = {"missing", "extra", "double",
+                                                                    "value", "order"};
+
+SampleMark mark_of(FindingKind kind) {  // the marks of findings have the order of their kinds
+    return static_cast<SampleMark>(static_cast<size_t>(SampleMark::missing) +
+                                   static_cast<size_t>(kind));
 }
+static_assert(static_cast<size_t>(SampleMark::order) ==
+              static_cast<size_t>(SampleMark::missing) + static_cast<size_t>(FindingKind::order));
 
 }  // namespace
 
 std::string_view to_string(FindingKind kind) {
-    switch (kind) {
-        case FindingKind::missing:
-            return "missing";
-        case FindingKind::extra:
-            return "extra";
-        case FindingKind::double_hit:
-            return "double";
-        case FindingKind::value:
-            return "value";
-        case FindingKind::order:
-            return "order";
-    }
-    return "";
+    return kKindNames.at(static_cast<size_t>(kind));
 }
 
 void Verdict::raise_error(size_t index, double ratio) {

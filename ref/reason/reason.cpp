@@ -21,6 +21,10 @@ struct Row {
     std::string_view text_of_all = {};
 };
 
+constexpr std::string_view kOtherVertex =
+    "the right triangle, but its flat inputs come from another vertex";
+constexpr std::string_view kNoVertex = "no triangle of that draw has this provoking vertex";
+
 // In the order of ReasonKind.
 constexpr std::array kRows = {
     Row{top_left_in, rule::tie_top_left, "{ties}: covered under the top-left rule"},
@@ -97,6 +101,21 @@ constexpr std::array kRows = {
     Row{once_alone, rule::cover_outside, "{triangle} alone may cover the sample, and only once"},
     Row{once_each, rule::cover_outside, "{number} triangles may cover the sample, each only once"},
     Row{area_sign, rule::face_area_sign, "the sign of its area decides which face shows"},
+    Row{writer_not_last, rule::order_primitive,
+        "another triangle than the last one that may cover the sample wrote it"},
+    Row{writer_other_first, rule::provoking_first, kOtherVertex},
+    Row{writer_other_last, rule::provoking_last, kOtherVertex},
+    Row{writer_none_first, rule::provoking_first, kNoVertex},
+    Row{writer_none_last, rule::provoking_last, kNoVertex},
+    Row{depth_unwritten, rule::depth_write,
+        "the last fragment's draw does not write depth; no older one left this"},
+    Row{depth_of_none, rule::depth_linear,
+        "no triangle that may have written last has this depth here"},
+    Row{color_order, rule::order_primitive,
+        "the fragments were blended in another order than they were drawn"},
+    Row{color_none, {}, "no allowed set of fragments leaves this colour"},
+    Row{planes_contradict, rule::write_consistent,
+        "the attachments of one sample contradict each other"},
     Row{depth_ranges, rule::depth_compare, "{outcome} the depth test {compare}, {depths}"},
     Row{depth_same, rule::depth_repeat,
         "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before by the "

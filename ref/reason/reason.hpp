@@ -57,6 +57,17 @@ enum class ReasonKind : uint8_t {
     once_alone,         // one triangle may cover it, and once
     once_each,          // each of several may, and once
     area_sign,          // which face shows
+    // What else a finding says of the fragments of a sample, whatever a single one of them is.
+    writer_not_last,     // another triangle than the last wrote it
+    writer_other_first,  // the right triangle wrote it by another vertex than the provoking one,
+    writer_other_last,   // which is the first, or the last
+    writer_none_first,   // no triangle of the draw has the provoking vertex that wrote it,
+    writer_none_last,    // by a draw whose provoking vertex is the first, or the last
+    depth_unwritten,     // its depth is none of those that were written before
+    depth_of_none,       // its depth is none of the fragments' that its colour allows
+    color_order,         // its colour is that of another order of blending
+    color_none,          // its colour is that of no allowed fragments
+    planes_contradict,   // its planes were not written by the same fragments
     // A fragment passes the depth test, or fails it, or may do either.
     depth_ranges,  // by the numbers that its depth and the stored one may be
     depth_same,    // the same triangle was drawn before by the same state
