@@ -166,11 +166,10 @@ enum class Question { devices, chosen };
 cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& options,
                                  Question question, Diagnosis& d) {
     run::SignalFd signals;
-    const auto start =
-        question == Question::devices ? run::WorkerClient::start_listing : run::WorkerClient::start;
-    cases::Expected<run::WorkerClient> client =
-        start(worker_command(program), worker_options(options),
-              std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)));
+    cases::Expected<run::WorkerClient> client = run::WorkerClient::start(
+        worker_command(program), worker_options(options),
+        std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)),
+        question == Question::devices ? run::FrameType::list_devices : run::FrameType::hello);
     if (!client) {
         return tl::unexpected(client.error());
     }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -87,8 +88,11 @@ inline constexpr size_t kMaxFindings = 1000;
 
 // What a comparison says of a case: all of it that the records of a run keep.
 struct Outcome {
-    std::vector<Finding> findings;                    // the first kMaxFindings, in sample order
-    std::array<uint64_t, kFindingKinds> counts{};     // of all, capped or not
+    std::vector<Finding> findings;                 // the first kMaxFindings, in sample order
+    std::array<uint64_t, kFindingKinds> counts{};  // of all, capped or not
+    uint64_t finding_total() const {
+        return std::accumulate(counts.begin(), counts.end(), uint64_t{0});
+    }
     std::optional<uint64_t> wrong_samples;            // which may have several findings each
     cases::Profile level = cases::Profile::direct3d;  // loosest level among all findings
     // Bounding box of the wrong samples, inclusive; y counts the rows of the stacked layers.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "cases/base/printable.hpp"
@@ -75,21 +76,13 @@ std::string command_block(const CaseRecord& record) {
 }
 
 std::string severity_of(const CaseRecord& record) {
-    switch (record.status) {
-        case Status::error:
-        case Status::crash:
-        case Status::timeout:
-        case Status::device_lost:
-            return "blocker";
-        case Status::fail:
-            return record.level == cases::Profile::vulkan     ? "critical"
-                   : record.level == cases::Profile::practice ? "major"
-                                                              : "minor";
-        case Status::flake:
-            return "major";
-        default:
-            return "info";
+    constexpr std::array kOfFailures = {"critical", "major", "minor"};  // by profile
+    if (record.status == Status::fail) {
+        return kOfFailures.at(static_cast<size_t>(record.level));
     }
+    return record.status == Status::flake                                     ? "major"
+           : record.status > Status::fail && record.status != Status::not_run ? "blocker"
+                                                                              : "info";
 }
 
 // 128 bits of FNV-1a in two halves; a name, not a secret.

@@ -51,20 +51,12 @@ Json counts_json(const CaseRecord& r) {
     return json;
 }
 
-uint64_t finding_total(const CaseRecord& r) {
-    uint64_t total = 0;
-    for (const uint64_t count : r.counts) {
-        total += count;
-    }
-    return total;
-}
-
 Json case_json(const CaseRecord& r, cases::Profile profile) {
     Json findings = Json::array();
     for (const diff::Finding& f : r.findings) {
         findings.push_back(finding_json(f));
     }
-    const bool wrong = finding_total(r) > 0;
+    const bool wrong = r.finding_total() > 0;
     Json box = nullptr;
     if (wrong) {
         box = Json{{"min_x", r.min_x}, {"min_y", r.min_y}, {"max_x", r.max_x}, {"max_y", r.max_y}};
@@ -109,7 +101,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"attempts", r.attempts},
         {"level", wrong ? Json(cases::to_string(r.level)) : Json(nullptr)},
         {"counts", counts_json(r)},
-        {"finding_total", finding_total(r)},
+        {"finding_total", r.finding_total()},
         {"wrong_samples", r.wrong_samples ? Json(*r.wrong_samples) : Json(nullptr)},
         {"findings", std::move(findings)},
         {"bounding_box", std::move(box)},

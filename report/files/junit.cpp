@@ -56,26 +56,13 @@ Name split_id(const std::string& id) {
 
 enum class Element { none, skipped, failure, error };
 Element element_of(Status status) {
-    switch (status) {
-        case Status::pass:
-            return Element::none;
-        case Status::unsupported:
-        case Status::skip:
-        case Status::xfail:
-            return Element::skipped;
-        case Status::xpass:
-        case Status::improved:
-        case Status::flake:
-        case Status::fail:
-            return Element::failure;
-        case Status::device_lost:
-        case Status::timeout:
-        case Status::crash:
-        case Status::error:
-        case Status::not_run:
-            break;
+    if (status == Status::pass) {
+        return Element::none;
     }
-    return Element::error;
+    // Worst wins: what is expected comes first, then what was judged, then what was not.
+    return is_expected(status)      ? Element::skipped
+           : status <= Status::fail ? Element::failure
+                                    : Element::error;
 }
 
 std::string body_of(const CaseRecord& record) {

@@ -56,14 +56,6 @@ void put(Json& json, const char* key, const std::vector<std::string>& list) {
     }
 }
 
-uint64_t finding_total(const CaseRecord& record) {
-    uint64_t total = 0;
-    for (const uint64_t count : record.counts) {
-        total += count;
-    }
-    return std::max<uint64_t>(total, record.findings.size());
-}
-
 std::string cut(const std::string& bytes) {
     return bytes.size() <= kMaxOutput ? bytes
                                       : bytes.substr(0, kMaxOutput / 2) + "\n[...]\n" +
@@ -120,7 +112,7 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
                                      cases::printable(r.worst_quantity)});
     }
     if (!r.findings.empty()) {
-        json["finding_total"] = finding_total(r);
+        json["finding_total"] = r.finding_total();
         json["counts"] = counts_text(r);
         const diff::Finding& lead = leading_finding(r);
         json["lead"] = finding_json(r, lead, strings);

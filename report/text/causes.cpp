@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -41,32 +42,15 @@ std::string family_of(const std::string& id) {
     return id.substr(0, std::min(id.find('/'), id.find(':')));
 }
 
+// What could not be judged and deaths come first, then failures by profile, then the rest.
 int rank(const Cause& cause) {
-    switch (cause.status) {
-        case Status::error:
-            return 0;
-        case Status::crash:
-            return 1;
-        case Status::timeout:
-            return 2;
-        case Status::device_lost:
-            return 3;
-        case Status::fail:
-            return 4 + static_cast<int>(cause.level);  // vulkan, practice, direct3d
-        case Status::flake:
-            return 8;
-        case Status::improved:
-            return 9;
-        case Status::xpass:
-            return 10;
-        default:
-            return 11;
-    }
+    constexpr std::array kOrder = {Status::error,       Status::crash, Status::timeout,
+                                   Status::device_lost, Status::fail,  Status::flake,
+                                   Status::improved,    Status::xpass};
+    const auto place = std::find(kOrder.begin(), kOrder.end(), cause.status) - kOrder.begin();
+    const bool is_failure = cause.status == Status::fail;  // vulkan, practice, direct3d
+    return static_cast<int>(4 * place) + (is_failure ? static_cast<int>(cause.level) : 0);
 }
-
-}  // namespace
-
-namespace {
 
 // How far a rule reaches: the families and cases in which it leads, with the same rank.
 struct Reach {
@@ -127,10 +111,7 @@ std::string cause_title(const Cause& cause) {
     }
     text += fmt::format(" in {}, {} {}", cause.family, cause.cases.size(),
                         cause.cases.size() == 1 ? "case" : "cases");
-    text = cases::printable(text);
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    std::replace(text.begin(), text.end(), '\t', ' ');
-    return text;
+    return one_line(text);
 }
 
 }  // namespace report

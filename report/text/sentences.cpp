@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cases/base/printable.hpp"
@@ -24,18 +25,14 @@ std::string last_line(const std::string& bytes) {
                        end - (begin == std::string::npos ? 0 : begin + 1) + 1);
 }
 
-std::string one_line(const std::string& bytes) {
+}  // namespace
+
+std::string one_line(std::string_view bytes) {
     std::string text = cases::printable(bytes);
     std::replace(text.begin(), text.end(), '\n', ' ');
     std::replace(text.begin(), text.end(), '\t', ' ');
     return text;
 }
-
-uint64_t count_of(const CaseRecord& record, diff::FindingKind kind) {
-    return record.counts.at(static_cast<size_t>(kind));
-}
-
-}  // namespace
 
 const diff::Finding& leading_finding(const CaseRecord& record) {
     return *std::min_element(
@@ -58,15 +55,9 @@ std::string ratio_text(double ratio) {
 }
 
 std::string_view meaning(cases::Profile level) {
-    switch (level) {
-        case cases::Profile::vulkan:
-            return "not conformant";
-        case cases::Profile::practice:
-            return "very suspicious";
-        case cases::Profile::direct3d:
-            break;
-    }
-    return "differs from top-left hardware";
+    constexpr std::array kMeanings = {"not conformant", "very suspicious",
+                                      "differs from top-left hardware"};  // by profile
+    return kMeanings.at(static_cast<size_t>(level));
 }
 
 std::string sample_text(const diff::Finding& finding) {
@@ -76,16 +67,12 @@ std::string sample_text(const diff::Finding& finding) {
 }
 
 std::string counts_text(const CaseRecord& record) {
-    uint64_t total = 0;
-    for (const uint64_t count : record.counts) {
-        total += count;
-    }
     // Several numbers of a sample may be wrong: then the samples are told, too.
-    const bool has_more = record.wrong_samples && total > *record.wrong_samples;
+    const bool has_more = record.wrong_samples && record.finding_total() > *record.wrong_samples;
     std::string text;
     for (size_t k = 0; k < diff::kFindingKinds; ++k) {
         const auto kind = static_cast<diff::FindingKind>(k);
-        const uint64_t count = count_of(record, kind);
+        const uint64_t count = record.counts.at(k);
         if (count > 0) {
             const bool is_plural = has_more && kind == diff::FindingKind::value && count > 1;
             text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", count, diff::to_string(kind),
@@ -203,43 +190,27 @@ std::string exit_text(int code, const std::string& why) {
     if (!why.empty()) {
         return fmt::format("exit {}: {}", code, why);
     }
-    std::string_view text = "internal error, or cases were not run or could not be judged";
-    switch (code) {
-        case kExitOk:
-            text = "all as expected";
-            break;
-        case kExitUnexpected:
-            text = "unexpected results";
-            break;
-        case kExitUsage:
-            text = "usage error";
-            break;
-        case kExitInvalidFile:
-            text = "invalid case or suite file";
-            break;
-        case kExitNothingSelected:
-            text = "nothing selected";
-            break;
-        case kExitDevice:
-            text = "no device, or the wrong one";
-            break;
-        case kExitAllSkipped:
-            text = "everything was skipped or unsupported";
-            break;
-        case kExitInterrupted:
-            text = "interrupted";
-            break;
-        default:
-            break;
-    }
+    constexpr std::array<std::pair<int, std::string_view>, 8> kTexts = {
+        {{kExitOk, "all as expected"},
+         {kExitUnexpected, "unexpected results"},
+         {kExitUsage, "usage error"},
+         {kExitInvalidFile, "invalid case or suite file"},
+         {kExitNothingSelected, "nothing selected"},
+         {kExitDevice, "no device, or the wrong one"},
+         {kExitAllSkipped, "everything was skipped or unsupported"},
+         {kExitInterrupted, "interrupted"}}};
+    const auto row = std::find_if(kTexts.begin(), kTexts.end(),
+                                  [code](const auto& known) { return known.first == code; });
+    const std::string_view text =
+        row != kTexts.end() ? row->second
+                            : "internal error, or cases were not run or could not be judged";
     return fmt::format("exit {}: {}", code, text);
 }
 
 const CaseRecord* worst_case(const Run& run) {
     const CaseRecord* worst = nullptr;
     for (const CaseRecord& record : run.cases) {
-        const bool is_clean = record.counts == decltype(record.counts){};
-        if (is_clean && record.compared_values > 0 &&
+        if (record.finding_total() == 0 && record.compared_values > 0 &&
             (worst == nullptr || record.worst_ratio > worst->worst_ratio)) {
             worst = &record;
         }

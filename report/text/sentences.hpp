@@ -11,6 +11,8 @@
 
 namespace report {
 
+// Text of any bytes, printable and without line breaks and tabs.
+std::string one_line(std::string_view bytes);
 // "12.4 s", "0.03 s", "0.42 ms"; "?" if not finite.
 std::string seconds_text(double seconds);
 // At most three significant digits: "0.732", "12.5", "inf".

@@ -6,42 +6,13 @@
 #include <span>
 
 #include "cases/model/words.hpp"
-#include "cases/wire/bytes.hpp"
 #include "cases/wire/case_bytes.hpp"
 
 namespace run {
 
 using cases::wire::Reader;
 using cases::wire::Writer;
-using vk_harness::DeviceInfo;
-using vk_harness::Failure;
 using vk_harness::Rendered;
-
-namespace {
-
-template <class T>
-std::string encode(const T& value) {
-    Writer out;
-    out.put(value);
-    return out.take();
-}
-
-template <class T>
-std::optional<T> decode(std::string_view bytes) {
-    Reader in(bytes);
-    T value = in.get<T>();
-    return in.good() && in.at_end() ? std::optional(std::move(value)) : std::nullopt;
-}
-
-}  // namespace
-
-std::string encode_options(const WorkerOptions& options) {
-    return encode(options);
-}
-
-std::optional<WorkerOptions> decode_options(std::string_view bytes) {
-    return decode<WorkerOptions>(bytes);
-}
 
 std::string encode_request(uint32_t attempt, const Room& room,
                            const std::vector<const cases::Case*>& cases) {
@@ -68,30 +39,6 @@ std::optional<RenderRequest> decode_request(std::string_view bytes) {
         request.cases.push_back(std::move(*c));
     }
     return in.good() && in.at_end() ? std::optional(std::move(request)) : std::nullopt;
-}
-
-std::string encode_device(const DeviceInfo& device) {
-    return encode(device);
-}
-
-std::optional<DeviceInfo> decode_device(std::string_view bytes) {
-    return decode<DeviceInfo>(bytes);
-}
-
-std::string encode_devices(const std::vector<DeviceInfo>& devices) {
-    return encode(devices);
-}
-
-std::optional<std::vector<DeviceInfo>> decode_devices(std::string_view bytes) {
-    return decode<std::vector<DeviceInfo>>(bytes);
-}
-
-std::string encode_failure(const Failure& failure) {
-    return encode(failure);
-}
-
-std::optional<Failure> decode_failure(std::string_view bytes) {
-    return decode<Failure>(bytes);
 }
 
 namespace {

@@ -13,10 +13,26 @@
 
 #include "capture/checksum.hpp"
 #include "cases/model/case.hpp"
+#include "cases/wire/bytes.hpp"
 #include "diff/consistency.hpp"
 #include "vk_harness/public/harness.hpp"
 
 namespace run {
+
+// A message that is one value, as bytes: WorkerOptions, a device or a list of them, a failure.
+template <class T>
+std::string encode(const T& value) {
+    cases::wire::Writer out;
+    out.put(value);
+    return out.take();
+}
+// Nothing if the bytes are no such value, or hold more than it.
+template <class T>
+std::optional<T> decode(std::string_view bytes) {
+    cases::wire::Reader in(bytes);
+    T value = in.get<T>();
+    return in.good() && in.at_end() ? std::optional(std::move(value)) : std::nullopt;
+}
 
 // How a worker is to render.
 struct WorkerOptions {
@@ -29,8 +45,6 @@ struct WorkerOptions {
         visit("renderer", o.renderer...);
     }
 };
-std::string encode_options(const WorkerOptions& options);
-std::optional<WorkerOptions> decode_options(std::string_view bytes);
 
 // Where in the shared memory a batch may write its captures; with size 0 it may do so nowhere.
 struct Room {
@@ -45,14 +59,6 @@ struct RenderRequest {
 std::string encode_request(uint32_t attempt, const Room& room,
                            const std::vector<const cases::Case*>& cases);
 std::optional<RenderRequest> decode_request(std::string_view bytes);
-
-std::string encode_device(const vk_harness::DeviceInfo& device);
-std::optional<vk_harness::DeviceInfo> decode_device(std::string_view bytes);
-std::string encode_devices(const std::vector<vk_harness::DeviceInfo>& devices);
-std::optional<std::vector<vk_harness::DeviceInfo>> decode_devices(std::string_view bytes);
-
-std::string encode_failure(const vk_harness::Failure& failure);
-std::optional<vk_harness::Failure> decode_failure(std::string_view bytes);
 
 // One case of a batch. The capture's planes travel as raw bytes; decoding refuses planes whose
 // sizes do not fit the target.

@@ -172,9 +172,9 @@ void answer_list_devices(const WorkerOptions& options) {
     const vk_harness::Result<std::vector<vk_harness::DeviceInfo>> devices =
         vk_harness::list_devices(options.vulkan);
     if (devices) {
-        send(FrameType::devices, encode_devices(*devices));
+        send(FrameType::devices, encode(*devices));
     } else {
-        send(FrameType::no_device, encode_failure(devices.error()));
+        send(FrameType::no_device, encode(devices.error()));
     }
 }
 
@@ -191,7 +191,7 @@ int run_worker() {
     const cases::Expected<std::vector<Fault>> faults = parse_faults(list != nullptr ? list : "");
     if (!faults) {
         send(FrameType::no_device,
-             encode_failure({vk_harness::Stage::loader, 0, faults.error().message, {}}));
+             encode(vk_harness::Failure{vk_harness::Stage::loader, 0, faults.error().message, {}}));
         return report::kExitUsage;
     }
     if (has_fault(*faults, FaultKind::segv_at_start, "")) {
@@ -205,7 +205,7 @@ int run_worker() {
     std::unique_ptr<Backend> backend;
     while (std::optional<Frame> frame = receive(reader)) {
         if (frame->type == FrameType::configure) {
-            const std::optional<WorkerOptions> decoded = decode_options(frame->payload);
+            const std::optional<WorkerOptions> decoded = decode<WorkerOptions>(frame->payload);
             if (!decoded) {
                 return report::kExitInternal;
             }
@@ -219,11 +219,11 @@ int run_worker() {
                     vk_harness::Stage::device, 0, "no device, on purpose (EDGECASE_FAULT)", {}});
             }
             if (!made) {
-                send(FrameType::no_device, encode_failure(made.error()));
+                send(FrameType::no_device, encode(made.error()));
                 continue;
             }
             backend = std::move(*made);
-            send(FrameType::hello, encode_device(backend->device()));
+            send(FrameType::hello, encode(backend->device()));
         } else if (frame->type == FrameType::render && backend != nullptr) {
             const std::optional<RenderRequest> request = decode_request(frame->payload);
             if (!request) {

@@ -36,33 +36,21 @@ std::string describe(const Death& death) {
            " and without a result" + where;
 }
 
-cases::Expected<WorkerClient> WorkerClient::start_with(const std::vector<std::string>& command,
-                                                       const WorkerOptions& options,
-                                                       std::chrono::milliseconds timeout,
-                                                       FrameType request) {
+cases::Expected<WorkerClient> WorkerClient::start(const std::vector<std::string>& command,
+                                                  const WorkerOptions& options,
+                                                  std::chrono::milliseconds timeout,
+                                                  FrameType question) {
     std::shared_ptr<SharedMemory> memory =
-        request == FrameType::hello ? SharedMemory::create() : nullptr;
+        question == FrameType::hello ? SharedMemory::create() : nullptr;
     cases::Expected<ChildProcess> child = spawn(command, memory ? memory->fd() : -1);
     if (!child) {
         return tl::unexpected(child.error());
     }
     WorkerClient client(std::move(*child), std::move(memory), timeout);
-    client.pending_ = encode_frame(FrameType::configure, encode_options(options));
-    client.pending_ += encode_frame(request, {});
+    client.pending_ = encode_frame(FrameType::configure, encode(options));
+    client.pending_ += encode_frame(question, {});
     client.write_pending();
     return client;
-}
-
-cases::Expected<WorkerClient> WorkerClient::start(const std::vector<std::string>& command,
-                                                  const WorkerOptions& options,
-                                                  std::chrono::milliseconds timeout) {
-    return start_with(command, options, timeout, FrameType::hello);
-}
-
-cases::Expected<WorkerClient> WorkerClient::start_listing(const std::vector<std::string>& command,
-                                                          const WorkerOptions& options,
-                                                          std::chrono::milliseconds timeout) {
-    return start_with(command, options, timeout, FrameType::list_devices);
 }
 
 WorkerClient::~WorkerClient() {
@@ -197,31 +185,27 @@ bool WorkerClient::find_planes(CaseResult& result) const {
 }
 
 bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) {
+    const auto add_answer = [&](auto answer) {  // to the first request
+        if (!answer || state_ != State::starting) {
+            return false;
+        }
+        events.emplace_back(std::move(*answer));
+        return true;
+    };
     switch (frame.type) {
         case FrameType::step:
             step_ = frame.payload;
             return true;
         case FrameType::hello:
-            if (auto device = decode_device(frame.payload); device && state_ == State::starting) {
-                state_ = State::idle;
-                events.emplace_back(std::move(*device));
-                return true;
+            if (!add_answer(decode<vk_harness::DeviceInfo>(frame.payload))) {
+                return false;
             }
-            return false;
+            state_ = State::idle;
+            return true;
         case FrameType::no_device:
-            if (auto failure = decode_failure(frame.payload);
-                failure && state_ == State::starting) {
-                events.emplace_back(std::move(*failure));
-                return true;
-            }
-            return false;
+            return add_answer(decode<vk_harness::Failure>(frame.payload));
         case FrameType::devices:
-            if (auto devices = decode_devices(frame.payload);
-                devices && state_ == State::starting) {
-                events.emplace_back(std::move(*devices));
-                return true;
-            }
-            return false;
+            return add_answer(decode<std::vector<vk_harness::DeviceInfo>>(frame.payload));
         case FrameType::result:
             if (auto result = decode_result(frame.payload);
                 result && state_ == State::busy && find_planes(*result)) {

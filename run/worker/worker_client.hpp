@@ -40,19 +40,16 @@ class WorkerClient {
   public:
     enum class State { starting, idle, busy, dead };
 
-    // Starts the command; the answer is a DeviceInfo, Failure or Death event. `timeout` is the
-    // longest time without any sign of life while starting or busy.
+    // Starts the command; the answer is a DeviceInfo, Failure or Death event, or, to the question
+    // list_devices, the list of devices. `timeout` is the longest time without any sign of life
+    // while starting or busy.
     static cases::Expected<WorkerClient> start(const std::vector<std::string>& command,
                                                const WorkerOptions& options,
-                                               std::chrono::milliseconds timeout);
+                                               std::chrono::milliseconds timeout,
+                                               FrameType question = FrameType::hello);
     ~WorkerClient();
     WorkerClient(WorkerClient&&) noexcept = default;
     WorkerClient& operator=(WorkerClient&&) = delete;
-
-    // As start, but asks for the list of devices only.
-    static cases::Expected<WorkerClient> start_listing(const std::vector<std::string>& command,
-                                                       const WorkerOptions& options,
-                                                       std::chrono::milliseconds timeout);
 
     State state() const { return state_; }
     bool is_fresh() const { return batches_ == 0; }
@@ -80,10 +77,6 @@ class WorkerClient {
           memory_(std::move(memory)),
           timeout_(timeout),
           deadline_(Clock::now() + timeout) {}
-    static cases::Expected<WorkerClient> start_with(const std::vector<std::string>& command,
-                                                    const WorkerOptions& options,
-                                                    std::chrono::milliseconds timeout,
-                                                    FrameType request);
     void write_pending();
     void read_output();
     bool read_result();  // false at the end of the pipe
