@@ -175,7 +175,7 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
     }
     const std::optional<run::WorkerEvent> answer = run::wait_for_answer(*client, signals);
     if (!answer) {
-        return tl::unexpected(cases::Error{{}, "interrupted"});
+        return cases::failure("interrupted");
     }
     if (const auto* list = std::get_if<std::vector<vk_harness::DeviceInfo>>(&*answer);
         list != nullptr) {

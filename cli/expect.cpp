@@ -98,8 +98,7 @@ cases::Expected<void> replace_file(const fs::path& file, const std::string& text
     std::error_code error;
     fs::rename(other, file, error);
     if (error) {
-        return tl::unexpected(
-            cases::Error{{}, "'" + file.string() + "' cannot be written: " + error.message()});
+        return cases::failure("'" + file.string() + "' cannot be written: " + error.message());
     }
     return {};
 }

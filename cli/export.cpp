@@ -23,10 +23,8 @@ cases::Expected<void> write_below(const fs::path& file, const std::string& text)
     std::error_code error;
     fs::create_directories(file.parent_path(), error);
     if (error) {
-        return tl::unexpected(cases::Error{{},
-                                           "the folder '" + file.parent_path().string() +
-                                               "' cannot be made: " + error.message() +
-                                               "; choose another with -o"});
+        return cases::failure("the folder '" + file.parent_path().string() +
+                              "' cannot be made: " + error.message() + "; choose another with -o");
     }
     return write_text(file.string(), text);
 }

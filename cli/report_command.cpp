@@ -25,8 +25,8 @@ cases::Expected<void> write_merged(const report::Run& run, const fs::path& folde
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        return tl::unexpected(cases::Error{
-            {}, "the folder '" + folder.string() + "' cannot be made: " + error.message()});
+        return cases::failure("the folder '" + folder.string() +
+                              "' cannot be made: " + error.message());
     }
     cases::Expected<report::Journal> journal = report::Journal::open(folder, false);
     if (!journal) {

@@ -47,9 +47,8 @@ cases::Expected<void> make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        return tl::unexpected(cases::Error{{},
-                                           "the folder '" + folder.string() + "' cannot be made: " +
-                                               error.message() + "; choose another with -o"});
+        return cases::failure("the folder '" + folder.string() +
+                              "' cannot be made: " + error.message() + "; choose another with -o");
     }
     return {};
 }

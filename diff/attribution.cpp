@@ -64,6 +64,11 @@ struct Cause {
     std::string why;
 };
 
+void tell(Finding& finding, const Cause& cause) {
+    finding.rule = cause.rule;
+    finding.why = cause.why;
+}
+
 Cause cause_of(const ref::TriangleExplanation& t, cases::Profile level) {
     return {ref::rule_of(t.why(), level), told(t)};
 }
@@ -262,8 +267,7 @@ void Attribution::attribute_writer(Finding& finding,
         // Whatever is granted, that triangle cannot have been the last. If it may not cover the
         // sample at all, that says more than the order.
         if (const std::optional<Cause> cause = cause_of_stray_writer(s, wrote)) {
-            finding.rule = cause->rule;
-            finding.why = cause->why;
+            tell(finding, *cause);
         }
         like_writer_.insert_or_assign(finding.level, finding);
         return;
@@ -271,12 +275,9 @@ void Attribution::attribute_writer(Finding& finding,
     // A looser profile lets the writer cover the sample: it is a question of who owns it.
     const bool is_direct3d = finding.level == cases::Profile::direct3d;
     if (const auto* const tie = first_tie(s, true); is_direct3d && tie != nullptr) {
-        finding.rule = ref::rule_of(tie->why(), finding.level);
-        finding.why = told(*tie);
+        tell(finding, cause_of(*tie, finding.level));
     } else {
-        const Cause cause = cause_of(ref::ReasonKind::snapped_owner, finding.level);
-        finding.rule = cause.rule;
-        finding.why = cause.why;
+        tell(finding, ref::ReasonKind::snapped_owner);
     }
     like_writer_.insert_or_assign(finding.level, finding);
 }
@@ -310,30 +311,25 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) {
     const ref::SampleExplanation s = explainer(finding.level).explain(sample_of(finding));
     if (finding.kind == FindingKind::value) {
+        finding.quantity = "facing";
         if (const auto* const tie = first_tie(s, true);
             finding.level == cases::Profile::direct3d && tie != nullptr) {
-            finding.rule = ref::rule_of(tie->why(), finding.level);
-            finding.quantity = "facing";
-            finding.why = told(*tie);
+            tell(finding, cause_of(*tie, finding.level));
             return;
         }
-        const Cause cause = cause_of(ref::ReasonKind::area_sign, finding.level);
-        const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must);
-        finding.rule = cause.rule;
-        finding.quantity = "facing";
-        finding.why = t ? fmt::format("{}: {}", name_of(*t), cause.why) : cause.why;
+        tell(finding, ref::ReasonKind::area_sign);
+        if (const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must)) {
+            finding.why = fmt::format("{}: {}", name_of(*t), finding.why);
+        }
         return;
     }
     if (const std::optional<Cause> depth = cause_of_depth(case_, s, total < asked.total_min)) {
-        finding.rule = depth->rule;
-        finding.why = depth->why;
+        tell(finding, *depth);
         return;
     }
-    const Cause cause = asked.total_max == 0
-                            ? cause_of_extra(s, finding.level)
-                            : cause_of_count(s, finding.level, total, total < asked.total_min);
-    finding.rule = cause.rule;
-    finding.why = cause.why;
+    tell(finding, asked.total_max == 0
+                      ? cause_of_extra(s, finding.level)
+                      : cause_of_count(s, finding.level, total, total < asked.total_min));
 }
 
 void tell(Finding& finding, ref::ReasonKind why) {

@@ -33,13 +33,15 @@ std::vector<uint64_t> all_bytes(const std::vector<PlannedCase>& cases) {
     return bytes;
 }
 
+CaseRecord taken(std::map<size_t, CaseRecord>& from, size_t k) {
+    CaseRecord record = std::move(from.at(k));
+    from.erase(k);
+    return record;
+}
+
 // Of a duration in seconds.
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-Status death_status(const Death& death) {
-    return death.timed_out ? Status::timeout : Status::crash;
 }
 
 }  // namespace
@@ -62,10 +64,8 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
     for (size_t k = 0; k < cases_.size(); ++k) {
         const PlannedCase& c = cases_[k];
         if (!c.error.empty() || (c.expected && skips(*c.expected))) {
-            CaseRecord record = fresh_record(k);
-            record.status = c.error.empty() ? Status::skip : Status::error;
-            record.reason = c.error.empty() ? c.expected->note : c.error;
-            settle(k, std::move(record));
+            settle(k, c.error.empty() ? fresh_record(k, Status::skip, c.expected->note)
+                                      : fresh_record(k, Status::error, c.error));
         } else if (c.alone) {
             schedule_.add_alone(k);
         } else {
@@ -206,8 +206,10 @@ void RunLoop::on_start_failure(Slot& slot, const std::string& why) {
     }
 }
 
-CaseRecord RunLoop::fresh_record(size_t k) const {
+CaseRecord RunLoop::fresh_record(size_t k, Status status, const std::string& reason) const {
     CaseRecord record = make_record(cases_[k].data);
+    record.status = status;
+    record.reason = reason;
     record.rerun = cases_[k].rerun;
     return record;
 }
@@ -220,11 +222,7 @@ bool RunLoop::is_unexpected(size_t k, Status status) const {
 
 void RunLoop::on_result(Slot& slot, CaseResult& result) {
     if (!slot.batch || result.index >= slot.answered.size() || slot.answered[result.index]) {
-        slot.client->kill();
-        Death death;
-        death.malformed = true;
-        death.step = "readback";
-        on_death(slot, death);
+        on_malformed(slot);
         return;
     }
     const size_t k = slot.batch->cases[result.index];
@@ -237,11 +235,12 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
     slot.answered[result.index] = true;
     seconds_[k] += seconds_since(slot.since) / static_cast<double>(slot.answered.size());
     if (!drawn) {
-        CaseRecord record = fresh_record(k);
-        record.status = unsupported                                        ? Status::unsupported
-                        : rendered.status == Rendered::Status::device_lost ? Status::device_lost
-                                                                           : Status::error;
-        record.reason = rendered.reason;
+        const bool lost = rendered.status == Rendered::Status::device_lost;
+        CaseRecord record = fresh_record(k,
+                                         unsupported ? Status::unsupported
+                                         : lost      ? Status::device_lost
+                                                     : Status::error,
+                                         rendered.reason);
         record.messages = rendered.messages;
         if (!unsupported) {
             record.stderr_text = slot.client->output_since_batch();
@@ -250,24 +249,20 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
         return;
     }
     if (result.view.target != cases_[k].data.target) {
-        CaseRecord record = fresh_record(k);
-        record.status = Status::error;
-        record.reason = "the worker sent an image of another size than the case's target";
-        settle(k, std::move(record));
+        settle(k, fresh_record(k, Status::error,
+                               "the worker sent an image of another size than the case's target"));
         return;
     }
     if (result.consistency.size() != cases::derivations(cases_[k].data).size()) {
-        CaseRecord record = fresh_record(k);
-        record.status = Status::error;
-        record.reason = "the worker did not compare all of the case's derived renderings";
-        settle(k, std::move(record));
+        settle(k, fresh_record(k, Status::error,
+                               "the worker did not compare all of the case's derived renderings"));
         return;
     }
     const uint64_t bits = result.bits ^ cases::checksum(static_cast<uint64_t>(FrameType::result),
                                                         encode_findings(result));
     switch (schedule_.drawn(k, bits)) {
         case Schedule::Drawn::judge: {
-            auto record = std::make_shared<CaseRecord>(fresh_record(k));
+            auto record = std::make_shared<CaseRecord>(fresh_record(k, Status::not_run));
             record->messages = rendered.messages;
             record->bits = cases::hex(result.bits);
             const uint64_t bytes = capture::capture_bytes(cases_[k].data);
@@ -286,14 +281,11 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
         }
         case Schedule::Drawn::same:
             if (schedule_.confirmed(k)) {
-                CaseRecord record = std::move(judged_.at(k));
-                judged_.erase(k);
-                settle(k, std::move(record));
+                settle(k, taken(judged_, k));
             }
             break;
         case Schedule::Drawn::differs: {
-            CaseRecord record = std::move(judged_.at(k));
-            judged_.erase(k);
+            CaseRecord record = taken(judged_, k);
             record.reason = "rendering " + std::to_string(schedule_.attempts(k)) +
                             " has other bits than the first, which counted as " +
                             std::string(report::to_string(record.status));
@@ -325,19 +317,10 @@ void RunLoop::on_judged(size_t k, CaseRecord record) {
 }
 
 void RunLoop::on_batch_done(Slot& slot) {
-    std::vector<size_t> without_result;
-    for (size_t k = 0; slot.batch && k < slot.answered.size(); ++k) {
-        if (!slot.answered[k]) {
-            without_result.push_back(slot.batch->cases[k]);
-        }
-    }
+    const std::vector<size_t> without_result = slot.without_result();
     if (!without_result.empty()) {
         if (slot.batch->fresh) {  // said it was done, sent nothing
-            Death death;
-            death.malformed = true;
-            death.step = "readback";
-            slot.client->kill();
-            on_death(slot, death);
+            on_malformed(slot);
             return;
         }
         schedule_.died(
@@ -348,27 +331,40 @@ void RunLoop::on_batch_done(Slot& slot) {
     slot.batch.reset();
 }
 
+// A worker said what makes no sense, while it was alive.
+void RunLoop::on_malformed(Slot& slot) {
+    Death death;
+    death.malformed = true;
+    death.step = "readback";
+    slot.client->kill();
+    on_death(slot, death);
+}
+
+std::vector<size_t> RunLoop::Slot::without_result() const {
+    std::vector<size_t> cases;
+    for (size_t k = 0; batch && k < answered.size(); ++k) {
+        if (!answered[k]) {
+            cases.push_back(batch->cases[k]);
+        }
+    }
+    return cases;
+}
+
 void RunLoop::on_death(Slot& slot, const Death& death) {
     if (!slot.batch || !slot.sent) {
         on_start_failure(slot, describe(death));
         return;
     }
+    const std::vector<size_t> without_result = slot.without_result();
     const Batch batch = *std::exchange(slot.batch, std::nullopt);
     slot.client.reset();
-    std::vector<size_t> without_result;
-    for (size_t k = 0; k < slot.answered.size(); ++k) {
-        if (!slot.answered[k]) {
-            without_result.push_back(batch.cases[k]);
-        }
-    }
     if (without_result.empty() || !schedule_.died(batch, without_result, describe(death))) {
         return;
     }
     for (const size_t k : without_result) {
         seconds_[k] += seconds_since(slot.since);
-        CaseRecord record = fresh_record(k);
-        record.status = death_status(death);
-        record.reason = describe(death);
+        CaseRecord record =
+            fresh_record(k, death.timed_out ? Status::timeout : Status::crash, describe(death));
         record.step = death.step;
         if (death.exit.signalled && !death.timed_out && !death.malformed) {
             record.signal = signal_name(death.exit.code);
@@ -389,8 +385,7 @@ void RunLoop::settle(size_t k, CaseRecord record) {
     }
     held_[k] = std::move(record);
     for (const Schedule::Released& released : schedule_.release()) {
-        CaseRecord ready = std::move(held_.at(released.k));
-        held_.erase(released.k);
+        CaseRecord ready = taken(held_, released.k);
         if (!released.unrepeated_death.empty()) {
             ready.status = Status::flake;
             ready.reason = released.unrepeated_death + "; no case of its batch repeated that alone";

@@ -70,6 +70,7 @@ class RunLoop {
         bool sent = false;
         std::vector<bool> answered;  // [k] of the batch has a result
         Clock::time_point since;
+        std::vector<size_t> without_result() const;  // of the batch
     };
 
     void feed(Slot& slot);
@@ -79,11 +80,13 @@ class RunLoop {
     void on_result(Slot& slot, CaseResult& result);
     void on_batch_done(Slot& slot);
     void on_death(Slot& slot, const Death& death);
+    void on_malformed(Slot& slot);
     void on_start_failure(Slot& slot, const std::string& why);
     void on_judged(size_t k, report::CaseRecord record);
     void settle(size_t k, report::CaseRecord record);
     void finish(size_t k, report::CaseRecord record);
-    report::CaseRecord fresh_record(size_t k) const;
+    report::CaseRecord fresh_record(size_t k, report::Status status,
+                                    const std::string& reason = {}) const;
     bool is_unexpected(size_t k, report::Status status) const;
     int poll_timeout() const;
     void check(const cases::Expected<void>& written);

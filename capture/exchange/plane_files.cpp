@@ -27,10 +27,6 @@ namespace {
 
 constexpr std::array<const char*, 4> kComponents = {"x", "y", "z", "w"};
 
-tl::unexpected<cases::Error> failure(std::string sentence) {
-    return tl::unexpected(cases::Error{{}, std::move(sentence)});
-}
-
 bool is_same(double a, double b) {
     return std::equal_to<>()(a, b);
 }
@@ -158,8 +154,8 @@ class Reader {
                 std::ifstream stream(file);
                 std::getline(stream, out_.unsupported);
                 if (out_.unsupported.empty()) {
-                    return failure(fmt::format("{} is empty; write the reason into its first line",
-                                               quoted(file)));
+                    return cases::failure(fmt::format(
+                        "{} is empty; write the reason into its first line", quoted(file)));
                 }
                 continue;
             }
@@ -171,26 +167,27 @@ class Reader {
                 if (spec == specs.end()) {
                     continue;
                 }
-                return failure(quoted(file) + " is a folder; a plane is a file");
+                return cases::failure(quoted(file) + " is a folder; a plane is a file");
             }
             if (spec == specs.end()) {
-                return failure(unknown(file, specs));
+                return cases::failure(unknown(file, specs));
             }
             const auto [other, is_new] = files.emplace(spec->name, file);
             if (!is_new) {
-                return failure(fmt::format("{} and {} are both the plane {}; leave one of them",
-                                           quoted(other->second), quoted(file), spec->name));
+                return cases::failure(
+                    fmt::format("{} and {} are both the plane {}; leave one of them",
+                                quoted(other->second), quoted(file), spec->name));
             }
         }
         if (!out_.unsupported.empty() && !files.empty()) {
-            return failure(
+            return cases::failure(
                 fmt::format("{} says that the case is not supported, and {} is there "
                             "all the same; remove one of them",
                             quoted(folder_ / kUnsupportedFile), quoted(files.begin()->second)));
         }
         if (files.contains("coverage") && files.contains("hits")) {
-            return failure(fmt::format("{} and {} say the same twice; leave one of them",
-                                       quoted(files["coverage"]), quoted(files["hits"])));
+            return cases::failure(fmt::format("{} and {} say the same twice; leave one of them",
+                                              quoted(files["coverage"]), quoted(files["hits"])));
         }
         for (const PlaneSpec& spec : specs) {
             if (!files.contains(spec.name)) {
@@ -202,7 +199,7 @@ class Reader {
                 return tl::unexpected(numbers.error());
             }
             if (const std::string wrong = keep(spec, *numbers); !wrong.empty()) {
-                return failure(quoted(files[spec.name]) + " " + wrong);
+                return cases::failure(quoted(files[spec.name]) + " " + wrong);
             }
         }
         return std::move(out_);

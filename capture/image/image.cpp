@@ -19,10 +19,6 @@ namespace {
 constexpr const char* kModule = "edgecase-image-io.so";
 constexpr const char* kVariable = "EDGECASE_IMAGE_IO";
 
-tl::unexpected<cases::Error> failure(std::string message) {
-    return tl::unexpected(cases::Error{{}, std::move(message)});
-}
-
 struct Module {
     decltype(&edgecase_write_image) write = nullptr;
     decltype(&edgecase_read_image) read = nullptr;
@@ -41,7 +37,7 @@ cases::Expected<std::filesystem::path> find_module() {
             return candidate;
         }
     }
-    return failure(
+    return cases::failure(
         fmt::format("image files need the module {}, which is neither in {} nor in {}; "
                     "build the target edgecase_image_io or set {} to its path",
                     kModule, (dir.parent_path() / "lib").string(), dir.string(), kVariable));
@@ -55,7 +51,7 @@ cases::Expected<Module> open_module() {
     // Never closed: OpenImageIO keeps threads and thread-local objects of its own.
     void* handle = ::dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {
-        return failure(fmt::format("cannot load {}: {}", path->string(), ::dlerror()));
+        return cases::failure(fmt::format("cannot load {}: {}", path->string(), ::dlerror()));
     }
     const auto version = reinterpret_cast<decltype(&edgecase_image_io_version)>(
         ::dlsym(handle, "edgecase_image_io_version"));
@@ -66,7 +62,7 @@ cases::Expected<Module> open_module() {
         reinterpret_cast<decltype(&edgecase_read_image)>(::dlsym(handle, "edgecase_read_image"));
     if (version == nullptr || module.write == nullptr || module.read == nullptr ||
         version() != kImageIoVersion) {
-        return failure(fmt::format(
+        return cases::failure(fmt::format(
             "{} is not the image module of this edgecase; build both together", path->string()));
     }
     return module;
@@ -75,12 +71,12 @@ cases::Expected<Module> open_module() {
 cases::Expected<void> check_format(const std::filesystem::path& file, size_t channels) {
     const std::string extension = file.extension().string();
     if (extension != ".exr" && extension != ".png" && extension != ".tif") {
-        return failure(
+        return cases::failure(
             fmt::format("cannot tell the format of {} by its ending; use .exr, .png or .tif",
                         cases::printable(file.string())));
     }
     if (extension == ".png" && channels > 4) {
-        return failure(
+        return cases::failure(
             fmt::format("{} would need {} channels, and a PNG file holds at most 4; use .exr",
                         cases::printable(file.string()), channels));
     }
@@ -108,7 +104,7 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
     const size_t count = size_t{image.width} * image.height * image.channels.size();
     if (count == 0 || image.pixels.size() != count || image.width > kMaxSide ||
         image.height > kMaxSide) {
-        return failure(
+        return cases::failure(
             fmt::format("an image of {} x {} pixels and {} channels cannot have {} values",
                         image.width, image.height, image.channels.size(), image.pixels.size()));
     }
@@ -129,8 +125,8 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
                               1};
     std::array<char, 1024> error{};
     if (module->write(file.c_str(), &plain, error.data(), error.size()) != 0) {
-        return failure(fmt::format("cannot write {}: {}", cases::printable(file.string()),
-                                   cases::printable(error.data())));
+        return cases::failure(fmt::format("cannot write {}: {}", cases::printable(file.string()),
+                                          cases::printable(error.data())));
     }
     return {};
 }
@@ -146,8 +142,8 @@ cases::Expected<Image> read_image(const std::filesystem::path& file) {
     Image image;
     std::array<char, 1024> error{};
     if (module->read(file.c_str(), keep, &image, error.data(), error.size()) != 0) {
-        return failure(fmt::format("cannot read {}: {}", cases::printable(file.string()),
-                                   cases::printable(error.data())));
+        return cases::failure(fmt::format("cannot read {}: {}", cases::printable(file.string()),
+                                          cases::printable(error.data())));
     }
     return image;
 }

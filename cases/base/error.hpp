@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <tl/expected.hpp>
+#include <utility>
 #include <vector>
 
 namespace cases {
@@ -27,6 +28,11 @@ struct Error {
     std::string message;
 };
 using Errors = std::vector<Error>;
+
+// An error of no file, as a function returns it.
+inline tl::unexpected<Error> failure(std::string message) {
+    return tl::unexpected(Error{{}, std::move(message)});
+}
 
 template <class T>
 using Expected = tl::expected<T, Error>;

@@ -93,8 +93,7 @@ struct Matcher {
         }
         if (std::none_of(names.begin(), names.end(),
                          [&](const std::string& n) { return match(pattern, n); })) {
-            return tl::unexpected(
-                Error{{}, with_hint("no rule is called " + pattern, nearest_name(pattern, names))});
+            return failure(with_hint("no rule is called " + pattern, nearest_name(pattern, names)));
         }
         for (size_t i = 0; i < all.size(); ++i) {
             const std::vector<std::string>& rules = all[i].rules;
@@ -102,7 +101,7 @@ struct Matcher {
                                     [&](const std::string& r) { return match(pattern, r); });
         }
         if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
-            return tl::unexpected(Error{{}, "no case checks the rule " + pattern});
+            return failure("no case checks the rule " + pattern);
         }
         return chosen;
     }
@@ -130,8 +129,8 @@ struct Matcher {
             return by_rule(word.substr(6));
         }
         if (word.rfind('@', 0) == 0) {
-            return tl::unexpected(Error{
-                {}, "the selector " + word + " is unknown; write @rule:PATTERN or a case id"});
+            return failure("the selector " + word +
+                           " is unknown; write @rule:PATTERN or a case id");
         }
         std::vector<bool> chosen(all.size(), false);
         for (size_t i = 0; i < all.size(); ++i) {
@@ -141,7 +140,7 @@ struct Matcher {
             chosen = by_path(word);
         }
         if (std::none_of(chosen.begin(), chosen.end(), [](bool b) { return b; })) {
-            return tl::unexpected(Error{{}, nothing_matches(word)});
+            return failure(nothing_matches(word));
         }
         return chosen;
     }
@@ -230,8 +229,7 @@ Expected<std::vector<size_t>> select(const std::vector<Case>& all,
             }
         }
         if (words.size() == before) {
-            return tl::unexpected(
-                Error{{}, "standard input names no case; write one selector a line"});
+            return failure("standard input names no case; write one selector a line");
         }
     }
     const bool only_exclusions = std::all_of(
@@ -243,7 +241,7 @@ Expected<std::vector<size_t>> select(const std::vector<Case>& all,
         const bool exclude = word.rfind('!', 0) == 0;
         const std::string rest = exclude ? word.substr(1) : word;
         if (rest.empty()) {
-            return tl::unexpected(Error{{}, "a selector is empty; write a case id or a pattern"});
+            return failure("a selector is empty; write a case id or a pattern");
         }
         const Expected<std::vector<bool>> matched = matcher.one(rest);
         if (!matched) {

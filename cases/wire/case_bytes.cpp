@@ -35,14 +35,14 @@ std::string to_bytes(const Case& c) {
 Expected<Case> from_bytes(std::span<const char> bytes) {
     wire::Reader r(std::string_view(bytes.data(), bytes.size()));
     if (r.get<uint32_t>() != kMagic) {
-        return tl::unexpected(Error{{}, "these bytes are not a case of this program"});
+        return failure("these bytes are not a case of this program");
     }
     Case c = r.get<Case>();
     if (!r.good() || !has_possible_sizes(c)) {
-        return tl::unexpected(Error{{}, "the bytes of a case are cut short or damaged"});
+        return failure("the bytes of a case are cut short or damaged");
     }
     if (!r.at_end()) {
-        return tl::unexpected(Error{{}, "more bytes follow than the case has"});
+        return failure("more bytes follow than the case has");
     }
     return c;
 }

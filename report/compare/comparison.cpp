@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 
@@ -24,22 +25,10 @@ std::optional<int> severity(const CaseRecord* record) {
     if (record == nullptr) {
         return std::nullopt;
     }
-    switch (actual_status(*record)) {
-        case Status::pass:
-            return 0;
-        case Status::flake:
-            return 1;
-        case Status::fail:
-            return 2;
-        case Status::device_lost:
-            return 3;
-        case Status::timeout:
-            return 4;
-        case Status::crash:
-            return 5;
-        default:
-            return std::nullopt;
-    }
+    constexpr std::array kOrder = {Status::pass,        Status::flake,   Status::fail,
+                                   Status::device_lost, Status::timeout, Status::crash};
+    const auto at = std::find(kOrder.begin(), kOrder.end(), actual_status(*record));
+    return at == kOrder.end() ? std::nullopt : std::optional(static_cast<int>(at - kOrder.begin()));
 }
 
 // What identifies how a case fails, as far as both runs tell it.
@@ -184,7 +173,7 @@ std::string_view to_string(Change change) {
 
 cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs) {
     if (runs.size() < 2) {
-        return tl::unexpected(cases::Error{{}, "comparing needs the folders of at least two runs"});
+        return cases::failure("comparing needs the folders of at least two runs");
     }
     Comparison result;
     const Run& first = runs.front().run;
@@ -192,11 +181,10 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs) {
         const Run& run = runs[k].run;
         result.letters.push_back(letter(k));
         if (run.profile != first.profile) {
-            return tl::unexpected(cases::Error{
-                {},
+            return cases::failure(
                 fmt::format("{} is judged at profile {} and {} at {}; compare runs of one profile",
                             runs.front().folder, cases::to_string(first.profile), runs[k].folder,
-                            cases::to_string(run.profile))});
+                            cases::to_string(run.profile)));
         }
         if (run.suite_hash != first.suite_hash) {
             result.remarks.push_back(fmt::format(

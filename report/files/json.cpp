@@ -162,11 +162,7 @@ Json causes_json(const Run& run) {
 }  // namespace
 
 std::string to_json(const Run& run) {
-    Json total = Json::object();
-    const auto count = totals(run);
-    for (size_t k = 0; k < kStatuses; ++k) {
-        total[std::string(to_string(static_cast<Status>(k)))] = count.at(k);
-    }
+    Json total = encode_totals(run);
     total["cases"] = run.cases.size();
     Json list = Json::array();
     for (const CaseRecord& record : run.cases) {

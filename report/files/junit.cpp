@@ -82,14 +82,6 @@ std::string body_of(const CaseRecord& record) {
     return text;
 }
 
-std::string cut(const std::string& bytes) {
-    if (bytes.size() <= kMaxOutput) {
-        return bytes;
-    }
-    return bytes.substr(0, kMaxOutput / 2) + "\n[...]\n" +
-           bytes.substr(bytes.size() - kMaxOutput / 2);
-}
-
 std::string test_case(const CaseRecord& record) {
     const Name name = split_id(record.id);
     std::string text = fmt::format(
@@ -116,7 +108,7 @@ std::string test_case(const CaseRecord& record) {
     }
     if (!record.stderr_text.empty()) {
         text += fmt::format("      <system-err>{}</system-err>\n",
-                            cases::markup(cut(record.stderr_text)));
+                            cases::markup(head_and_tail(record.stderr_text, kMaxOutput)));
     }
     return text + "    </testcase>\n";
 }

@@ -116,6 +116,15 @@ Json encode_number(double value) {
     return value;  // nlohmann writes the shortest text that reads back as the same binary64
 }
 
+Json encode_totals(const Run& run) {
+    Json total = Json::object();
+    const auto count = totals(run);
+    for (size_t k = 0; k < kStatuses; ++k) {
+        total[std::string(to_string(static_cast<Status>(k)))] = count.at(k);
+    }
+    return total;
+}
+
 double decode_number(const Json& json, const char* key) {
     if (json.is_number()) {
         return json.get<double>();

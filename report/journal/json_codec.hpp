@@ -26,6 +26,9 @@ nlohmann::ordered_json encode_number(double value);
 std::string decode_text(const nlohmann::ordered_json& json, const char* key);
 double decode_number(const nlohmann::ordered_json& json, const char* key);
 
+// Cases by status.
+nlohmann::ordered_json encode_totals(const Run& run);
+
 // Compact, as a list where there are thousands; otherwise like the templates below.
 nlohmann::ordered_json encode(const Shape& triangle);
 nlohmann::ordered_json encode(const SampleValue& value);

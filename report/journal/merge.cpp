@@ -14,10 +14,6 @@ namespace report {
 
 namespace {
 
-tl::unexpected<cases::Error> failure(const std::string& sentence) {
-    return tl::unexpected(cases::Error{{}, sentence});
-}
-
 std::string device_text(const Run& run) {
     const Device& d = run.device;
     return fmt::format("{} {} {}, {} subpixel bits", d.name, d.driver_name, d.driver_info,
@@ -41,7 +37,7 @@ const Common kCommon[] = {
 
 cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
     if (parts.empty()) {
-        return failure("there is no run to merge; name the folders of runs");
+        return cases::failure("there is no run to merge; name the folders of runs");
     }
     const Part& first = parts.front();
     for (const Part& part : parts) {
@@ -49,7 +45,7 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
             const std::string a = common.text(first.run);
             const std::string b = common.text(part.run);
             if (a != b) {
-                return failure(fmt::format(
+                return cases::failure(fmt::format(
                     "{} is '{}' in {} and '{}' in {}; only parts of one run "
                     "can be merged, use 'edgecase compare' for different ones",
                     common.what, cases::printable(a), first.name, cases::printable(b), part.name));
@@ -61,7 +57,7 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
         for (const CaseRecord& record : part.run.cases) {
             const auto [at, fresh] = owner.emplace(record.id, &part);
             if (!fresh) {
-                return failure(
+                return cases::failure(
                     fmt::format("the case '{}' is in {} and in {}; give each job its own --shard",
                                 cases::printable(record.id), at->second->name, part.name));
             }

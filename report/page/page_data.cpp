@@ -56,12 +56,6 @@ void put(Json& json, const char* key, const std::vector<std::string>& list) {
     }
 }
 
-std::string cut(const std::string& bytes) {
-    return bytes.size() <= kMaxOutput ? bytes
-                                      : bytes.substr(0, kMaxOutput / 2) + "\n[...]\n" +
-                                            bytes.substr(bytes.size() - kMaxOutput / 2);
-}
-
 // A list, as finding() of dom.js reads it. Rows are those of the stacked layers, as in pictures.
 Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings) {
     const uint32_t row = f.layer.value_or(0) * r.pictures.layer_height + f.y;
@@ -98,7 +92,7 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
     put(json, "reason", r.reason);
     put(json, "step", r.step);
     put(json, "signal", r.signal);
-    put(json, "stderr", cut(r.stderr_text));
+    put(json, "stderr", head_and_tail(r.stderr_text, kMaxOutput));
     put(json, "messages", r.messages);
     json["time"] = seconds_text(r.seconds);
     json["seconds"] = encode_number(r.seconds);
@@ -209,11 +203,7 @@ Json page_data(const Run& run, size_t part, std::vector<size_t>& left_out) {
     for (const cases::Profile profile : cases::kProfiles) {
         meanings[std::string(cases::to_string(profile))] = meaning(profile);
     }
-    Json total = Json::object();
-    const auto count = totals(run);
-    for (size_t k = 0; k < kStatuses; ++k) {
-        total[std::string(to_string(static_cast<Status>(k)))] = count.at(k);
-    }
+    Json total = encode_totals(run);
     const auto wrong = static_cast<size_t>(
         std::count_if(run.cases.begin(), run.cases.end(),
                       [](const CaseRecord& record) { return !record.findings.empty(); }));

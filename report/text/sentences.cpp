@@ -60,6 +60,12 @@ std::string_view meaning(cases::Profile level) {
     return kMeanings.at(static_cast<size_t>(level));
 }
 
+std::string head_and_tail(const std::string& bytes, size_t most) {
+    return bytes.size() <= most
+               ? bytes
+               : bytes.substr(0, most / 2) + "\n[...]\n" + bytes.substr(bytes.size() - most / 2);
+}
+
 std::string sample_text(const diff::Finding& finding) {
     const std::string layer = finding.layer ? fmt::format("layer {} ", *finding.layer) : "";
     const std::string pixel = fmt::format("{}({},{})", layer, finding.x, finding.y);

@@ -22,6 +22,9 @@ std::string ratio_text(double ratio);
 // hardware".
 std::string_view meaning(cases::Profile level);
 
+// Its head and its tail where bytes are more than `most`.
+std::string head_and_tail(const std::string& bytes, size_t most);
+
 // "(3,4)", or "(3,4) sample 2" if the sample is not 0.
 std::string sample_text(const diff::Finding& finding);
 // "2 missing, 1 double of 64 samples", or "5 of 64 samples wrong (2 missing, 6 values)" where some

@@ -133,8 +133,7 @@ cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int
     Pipe result;
     Pipe output;
     if (!make_pipe(request) || !make_pipe(result) || !make_pipe(output)) {
-        return tl::unexpected(
-            cases::Error{{}, std::string("no pipe for a worker: ") + std::strerror(errno)});
+        return cases::failure(std::string("no pipe for a worker: ") + std::strerror(errno));
     }
     std::vector<std::string> words = command;
     std::vector<char*> argv;
@@ -145,8 +144,8 @@ cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int
     const pid_t parent = ::getpid();
     const pid_t pid = ::fork();
     if (pid < 0) {
-        return tl::unexpected(cases::Error{
-            {}, std::string("a worker could not be started: ") + std::strerror(errno)});
+        return cases::failure(std::string("a worker could not be started: ") +
+                              std::strerror(errno));
     }
     if (pid == 0) {
         become(argv.data(), parent, request.read_end.get(), result.write_end.get(),

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
@@ -35,6 +36,12 @@ constexpr std::array<std::pair<const char*, FaultKind>, 16> kNames = {{
     {"no-device", FaultKind::no_device},
 }};
 
+std::optional<FaultKind> kind_of(std::string_view word) {
+    const auto row = std::find_if(kNames.begin(), kNames.end(),
+                                  [word](const auto& known) { return known.first == word; });
+    return row == kNames.end() ? std::nullopt : std::optional(row->second);
+}
+
 void use_up_memory() {
     const rlimit limit{rlim_t{1} << 30, rlim_t{1} << 30};
     ::setrlimit(RLIMIT_AS, &limit);
@@ -55,38 +62,29 @@ cases::Expected<std::vector<Fault>> parse_faults(std::string_view list) {
              comma = list.find(',', comma + 1)) {
             const std::string_view rest = list.substr(comma + 1);
             const std::string_view word = rest.substr(0, rest.find_first_of(",@"));
-            for (const auto& [name, kind] : kNames) {
-                if (word == name) {
-                    end = std::min(end, comma);
-                }
+            if (kind_of(word)) {
+                end = std::min(end, comma);
             }
         }
         const std::string_view item = list.substr(0, end);
         list.remove_prefix(std::min(list.size(), end + 1));
         const size_t at = item.find('@');
         const std::string_view word = item.substr(0, at);
-        bool found = false;
-        for (const auto& [name, kind] : kNames) {
-            if (word == name) {
-                faults.push_back({kind, at == std::string_view::npos
-                                            ? std::string("**")
-                                            : std::string(item.substr(at + 1))});
-                found = true;
-            }
-        }
-        if (!found) {
+        const std::optional<FaultKind> kind = kind_of(word);
+        if (!kind) {
             std::vector<std::string> names;
             std::string all;
-            for (const auto& [name, kind] : kNames) {
+            for (const auto& [name, known] : kNames) {
                 all += (names.empty() ? "" : ", ") + std::string(name);
                 names.emplace_back(name);
             }
             const std::string nearest = cases::nearest_name(std::string(word), names);
-            return tl::unexpected(cases::Error{
-                {},
+            return cases::failure(
                 "EDGECASE_FAULT names an unknown fault '" + std::string(word) + "'; " +
-                    (nearest.empty() ? "there are " + all : "did you mean '" + nearest + "'?")});
+                (nearest.empty() ? "there are " + all : "did you mean '" + nearest + "'?"));
         }
+        faults.push_back({*kind, at == std::string_view::npos ? std::string("**")
+                                                              : std::string(item.substr(at + 1))});
     }
     return faults;
 }
