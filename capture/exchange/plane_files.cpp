@@ -31,10 +31,6 @@ bool is_same(double a, double b) {
     return std::equal_to<>()(a, b);
 }
 
-std::string quoted(const fs::path& file) {
-    return "'" + cases::printable(file.string()) + "'";
-}
-
 std::vector<std::string> components(uint32_t count) {
     return {kComponents.begin(), kComponents.begin() + count};
 }
@@ -45,28 +41,23 @@ std::vector<PlaneSpec> planes_of(const cases::Case& c) {
     std::vector<PlaneSpec> planes;
     const std::vector<std::string> whole = {"u8", "u32", "f32", "png", "tif", "exr"};
     const std::vector<std::string> real = {"f32", "tif", "exr"};
+    const auto add = [&planes](std::string name, PlaneKind kind, std::vector<std::string> channels,
+                               std::vector<std::string> endings, std::string what) {
+        const size_t least = channels.size();
+        planes.push_back({std::move(name), kind, std::move(channels), least, std::move(endings),
+                          std::move(what)});
+    };
     if (!c.blit) {
-        planes.push_back({"coverage",
-                          PlaneKind::mask,
-                          {"covered"},
-                          1,
-                          whole,
-                          "whether any fragment was written: 0, or the largest number of the "
-                          "format (u8 and whole numbers also 1)"});
-        planes.push_back({"hits",
-                          PlaneKind::count,
-                          {"front", "back"},
-                          1,
-                          whole,
-                          "instead of coverage: how many fragments of front and of back faces were "
-                          "written; with one channel, of both together"});
-        planes.push_back({"writer",
-                          PlaneKind::id,
-                          {"draw", "primitive"},
-                          2,
-                          {"u32", "f32", "tif", "exr"},
-                          "the triangle that wrote last: number of the draw and of the triangle in "
-                          "it, from 0; -1 (u32: 4294967295) where nothing was drawn"});
+        add("coverage", PlaneKind::mask, {"covered"}, whole,
+            "whether any fragment was written: 0, or the largest number of the format (u8 and "
+            "whole numbers also 1)");
+        add("hits", PlaneKind::count, {"front", "back"}, whole,
+            "instead of coverage: how many fragments of front and of back faces were written; with "
+            "one channel, of both together");
+        planes.back().least_channels = 1;
+        add("writer", PlaneKind::id, {"draw", "primitive"}, {"u32", "f32", "tif", "exr"},
+            "the triangle that wrote last: number of the draw and of the triangle in it, from 0; "
+            "-1 (u32: 4294967295) where nothing was drawn");
         std::vector<uint32_t> counts(cases::attributes_of(c), 1);
         for (const cases::Draw& draw : c.draws) {
             for (size_t a = 0; a < draw.attributes.size(); ++a) {
@@ -74,29 +65,20 @@ std::vector<PlaneSpec> planes_of(const cases::Case& c) {
             }
         }
         for (size_t a = 0; a < counts.size(); ++a) {
-            planes.push_back({fmt::format("attribute{}", a), PlaneKind::value,
-                              components(counts[a]), counts[a], real,
-                              "what the last fragment has of this attribute"});
+            add(fmt::format("attribute{}", a), PlaneKind::value, components(counts[a]), real,
+                "what the last fragment has of this attribute");
         }
-        planes.push_back({"fragcoord", PlaneKind::value, components(4), 4, real,
-                          "gl_FragCoord of the last fragment: x, y, z and 1/w"});
+        add("fragcoord", PlaneKind::value, components(4), real,
+            "gl_FragCoord of the last fragment: x, y, z and 1/w");
         if (c.target.has_depth) {
-            planes.push_back({"depth",
-                              PlaneKind::value,
-                              {"z"},
-                              1,
-                              real,
-                              "the stored depth; of UNORM formats code / (2^n - 1)"});
+            add("depth", PlaneKind::value, {"z"}, real,
+                "the stored depth; of UNORM formats code / (2^n - 1)");
         }
     }
     if (c.target.color) {
-        planes.push_back({"color",
-                          PlaneKind::code,
-                          components(4),
-                          4,
-                          {"u32", "png", "tif"},
-                          "the stored code of each component, red first: UNORM codes, bits of "
-                          "floats, whole numbers; 0 for components that the format lacks"});
+        add("color", PlaneKind::code, components(4), {"u32", "png", "tif"},
+            "the stored code of each component, red first: UNORM codes, bits of floats, whole "
+            "numbers; 0 for components that the format lacks");
     }
     return planes;
 }

@@ -24,10 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string quoted(const fs::path& file) {
-    return "'" + cases::printable(file.string()) + "'";
-}
-
 std::string size_text(const cases::Target& target) {
     return fmt::format("{} x {} pixels{}{}", target.width, target.height,
                        target.layers == 1 ? "" : fmt::format(", {} layers", target.layers),
@@ -179,6 +175,10 @@ cases::Expected<PlaneNumbers> read_picture(const fs::path& file, const PlaneSpec
 }
 
 }  // namespace
+
+std::string quoted(const fs::path& file) {
+    return "'" + cases::printable(file.string()) + "'";
+}
 
 cases::Expected<PlaneNumbers> read_numbers(const fs::path& file, const PlaneSpec& spec,
                                            const cases::Target& target) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "cases/base/error.hpp"
@@ -22,6 +23,9 @@ struct PlaneNumbers {
     double largest = 0;           // of formats of whole numbers: 255, 65535; else 0
     double at(size_t entry, size_t channel) const { return numbers[entry * channels + channel]; }
 };
+
+// How sentences name a file; printable.
+std::string quoted(const std::filesystem::path& file);
 
 // Reads a file of a plane. Errors, one sentence each, with both sizes: an ending that the plane
 // does not have, a file that is too short or too long, an image of another size or number of

@@ -12,8 +12,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <string_view>
 #include <vector>
 
 namespace rasterizers {
@@ -98,11 +96,5 @@ void scan_areas(const Corners& triangle, const PixelRect& rect, const SubpixelPo
 // subtracting beta: "if any b_i < 0, the pixel is outside the edge opposite P_i".
 void scan_brown(const Corners& triangle, const PixelRect& rect, const SubpixelPoint& offset,
                 Picture& out);
-
-struct NamedScan {
-    std::string_view name;
-    Scan scan = nullptr;
-};
-std::span<const NamedScan> all_scans();
 
 }  // namespace rasterizers

@@ -188,15 +188,4 @@ void scan_brown(const Corners& triangle, const PixelRect& rect, const SubpixelPo
 // alpha x, beta y <= 2^30 * 2^22 each, gamma <= 2^59.
 static_assert(2 * kCoordinateBits + 1 < 62 && kCoordinateBits + 1 + 23 < 60);
 
-std::span<const NamedScan> all_scans() {
-    static constexpr NamedScan kScans[] = {{"flat-parts", scan_flat_parts},
-                                           {"incremental", scan_incremental},
-                                           {"quads", scan_quads},
-                                           {"tiles", scan_tiles},
-                                           {"same-sign", scan_same_sign},
-                                           {"areas", scan_areas},
-                                           {"brown", scan_brown}};
-    return kScans;
-}
-
 }  // namespace rasterizers

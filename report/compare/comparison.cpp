@@ -70,13 +70,6 @@ Change change_of(const std::vector<const CaseRecord*>& records) {
     return !same_hits ? Change::other_coverage : !same_bits ? Change::other_values : Change::same;
 }
 
-bool have_same_pictures(const CaseRecord& a, const CaseRecord& b) {
-    const Pictures &p = a.pictures, &q = b.pictures;
-    return p.width > 0 && p.width == q.width && p.height == q.height && p.left == q.left &&
-           p.top == q.top && p.device_hits.size() == q.device_hits.size() &&
-           p.device_hits.size() % (size_t{p.width} * p.height) == 0 && !p.device_hits.empty();
-}
-
 // "3 of 64 samples are hit otherwise in A and B, first (3,4)", from the kept pictures.
 std::string picture_detail(const CaseRecord& a, const CaseRecord& b, const std::string& names) {
     const Pictures &p = a.pictures, &q = b.pictures;
@@ -128,7 +121,7 @@ std::string detail_of(const ComparedCase& c, const std::vector<std::string>& let
         }
         case Change::other_coverage: {
             for (size_t k = 1; k < c.records.size(); ++k) {
-                if (have_same_pictures(*first, *c.records[k])) {
+                if (show_same_hits(first->pictures, c.records[k]->pictures)) {
                     const std::string text =
                         picture_detail(*first, *c.records[k], letters[0] + " and " + letters[k]);
                     if (!text.empty()) {
@@ -166,6 +159,12 @@ std::string letter(size_t k) {
 }
 
 }  // namespace
+
+bool show_same_hits(const Pictures& a, const Pictures& b) {
+    return a.width > 0 && a.height > 0 && a.width == b.width && a.height == b.height &&
+           a.left == b.left && a.top == b.top && a.device_hits.size() == b.device_hits.size() &&
+           !a.device_hits.empty() && a.device_hits.size() % (size_t{a.width} * a.height) == 0;
+}
 
 std::string_view to_string(Change change) {
     return kNames.at(static_cast<size_t>(change));

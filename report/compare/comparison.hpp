@@ -59,6 +59,9 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs);
 // 1 with a regression, else 7 if a run is not whole, else 0.
 int exit_code(const Comparison& comparison);
 
+// Whether pictures show hits of the same samples of the same pixels.
+bool show_same_hits(const Pictures& a, const Pictures& b);
+
 // "regressions: 2 cases got worse"
 std::string heading(Change change, size_t count);
 // "exit 1: regressions"

@@ -37,13 +37,7 @@ Json pictures_of(const ComparedCase& c) {
     Json hits = Json::array();
     for (const CaseRecord* record : c.records) {
         const Pictures* p = record == nullptr ? nullptr : &record->pictures;
-        const bool has_hits = p != nullptr && p->width > 0 && p->height > 0 &&
-                              !p->device_hits.empty() &&
-                              p->device_hits.size() % (size_t{p->width} * p->height) == 0;
-        const bool fits = has_hits && (first == nullptr ||
-                                       (p->width == first->width && p->height == first->height &&
-                                        p->left == first->left && p->top == first->top &&
-                                        p->device_hits.size() == first->device_hits.size()));
+        const bool fits = p != nullptr && show_same_hits(*p, first == nullptr ? *p : *first);
         if (!fits) {
             hits.push_back(nullptr);
             continue;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "cases/base/printable.hpp"
@@ -45,13 +46,10 @@ std::string picture(const ComparedCase& c, const std::vector<std::string>& lette
             continue;
         }
         const Pictures &p = c.records[0]->pictures, &q = c.records[k]->pictures;
-        const size_t pixels = size_t{p.width} * p.height;
-        if (pixels == 0 || p.width != q.width || p.height != q.height || p.left != q.left ||
-            p.top != q.top || p.device_hits.size() != q.device_hits.size() ||
-            p.device_hits == q.device_hits || p.device_hits.size() % pixels != 0) {
+        if (!show_same_hits(p, q) || p.device_hits == q.device_hits) {
             continue;
         }
-        const size_t samples = p.device_hits.size() / pixels;
+        const size_t samples = p.device_hits.size() / (size_t{p.width} * p.height);
         const uint32_t width = std::min({p.width, kMaxSide, std::max(style.width, 16U) - 8});
         const uint32_t height = std::min(p.height, kMaxSide);
         std::string text = fmt::format(
@@ -83,28 +81,18 @@ std::string picture(const ComparedCase& c, const std::vector<std::string>& lette
 }  // namespace
 
 std::string heading(Change change, size_t count) {
-    const std::string_view cases = count == 1 ? "case" : "cases";
-    switch (change) {
-        case Change::regression:
-            return fmt::format("regressions: {} {} got worse", count, cases);
-        case Change::fix:
-            return fmt::format("fixes: {} {} got better", count, cases);
-        case Change::fails_otherwise:
-            return fmt::format("fail in all, in different ways: {} {}", count, cases);
-        case Change::fails_alike:
-            return fmt::format("fail in all, bit for bit alike: {} {}", count, cases);
-        case Change::other_coverage:
-            return fmt::format("the reference allows both, other samples are hit: {} {}", count,
-                               cases);
-        case Change::other_values:
-            return fmt::format("pass with the same hits and other values within the budgets: {} {}",
-                               count, cases);
-        case Change::only_in_some:
-            return fmt::format("judged in some of the runs only: {} {}", count, cases);
-        case Change::same:
-            break;
-    }
-    return fmt::format("the same bit for bit: {} {}", count, cases);
+    // In the order of Change.
+    constexpr std::array<const char*, kChanges> kHeadings = {
+        "regressions: {} {} got worse",
+        "fixes: {} {} got better",
+        "fail in all, in different ways: {} {}",
+        "fail in all, bit for bit alike: {} {}",
+        "the reference allows both, other samples are hit: {} {}",
+        "pass with the same hits and other values within the budgets: {} {}",
+        "judged in some of the runs only: {} {}",
+        "the same bit for bit: {} {}"};
+    return fmt::format(fmt::runtime(kHeadings.at(static_cast<size_t>(change))), count,
+                       count == 1 ? "case" : "cases");
 }
 
 std::string exit_words(const Comparison& comparison) {
@@ -218,14 +206,10 @@ std::string comparison_json(const std::vector<NamedRun>& runs, const Comparison&
                              {"results", results},
                              {"detail", c.detail}});
     }
-    Json remarks = Json::array();
-    for (const std::string& remark : comparison.remarks) {
-        remarks.push_back(remark);
-    }
     const Json json{{"schema", "edgecase-comparison-1"},
                     {"profile", cases::to_string(runs.front().run.profile)},
                     {"runs", list},
-                    {"remarks", remarks},
+                    {"remarks", comparison.remarks},
                     {"totals", totals},
                     {"exit_code", exit_code(comparison)},
                     {"cases", cases}};

@@ -5,13 +5,8 @@
 const hidden = new Set(data.kinds.filter((k) => k.count === 0 || k.name === "same").map((k) => k.name));
 const MOST_ROWS = 500;  // shown at once; the filter finds the others
 
-function theme() {
-  return document.documentElement.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-}
 function turnTheme() {
-  const name = theme() === "dark" ? "light" : "dark";
-  document.documentElement.dataset.theme = name;
-  byId("theme").setAttribute("aria-pressed", String(name === "dark"));
+  markTheme(otherTheme());
   for (const repaint of painters) { repaint(); }
 }
 const painters = new Set();

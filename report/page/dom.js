@@ -33,6 +33,15 @@ function add(parent, ...children) {
   return parent;
 }
 
+function theme() {
+  return document.documentElement.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+}
+function markTheme(name) {
+  document.documentElement.dataset.theme = name;
+  byId("theme").setAttribute("aria-pressed", String(name === "dark"));
+}
+const otherTheme = () => theme() === "dark" ? "light" : "dark";
+
 const numberClass = (text) => text.length > 20 ? "number" : "number whole";  // one that fits in a line is not broken
 
 const word = (status) => status.replace("_", " ");

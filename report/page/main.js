@@ -5,13 +5,8 @@
 let page = null;  // the case page that is shown, or null
 let overviewScroll = 0;
 
-function theme() {
-  const chosen = document.documentElement.dataset.theme;
-  return chosen || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-}
 function setTheme(name) {
-  document.documentElement.dataset.theme = name;
-  byId("theme").setAttribute("aria-pressed", String(name === "dark"));
+  markTheme(name);
   try { localStorage.setItem("edgecase-theme", name); } catch (e) { /* not remembered */ }
   if (page && page.viewer) { page.viewer.rebuild(); if (page.viewer.cursor) { page.inspector.show(page.viewer.cursor); } }
 }
@@ -148,7 +143,7 @@ document.addEventListener("keydown", (event) => {
   }
   if (event.key === " " && tag !== "BODY" && tag !== "H1" && tag !== "DIV") { return; }
   if (event.key.startsWith("Arrow") && event.target.closest(".scroll")) { return; }  // these scroll
-  const common = {"?": () => help(), t: () => setTheme(theme() === "dark" ? "light" : "dark"), "/": () => { if (page) { openOverview(); } byId("filter").focus(); }};
+  const common = {"?": () => help(), t: () => setTheme(otherTheme()), "/": () => { if (page) { openOverview(); } byId("filter").focus(); }};
   const keys = {...common, ...(page ? CASE_KEYS : LIST_KEYS), ...(page && page.viewer ? VIEWER_KEYS : {})};
   if (keys[event.key]) { event.preventDefault(); keys[event.key](); }
 });
@@ -157,7 +152,7 @@ document.addEventListener("keydown", (event) => {
   let remembered = "";
   try { remembered = localStorage.getItem("edgecase-theme"); } catch (e) { /* none */ }
   document.documentElement.dataset.title = document.title;
-  byId("theme").addEventListener("click", () => setTheme(theme() === "dark" ? "light" : "dark"));
+  byId("theme").addEventListener("click", () => setTheme(otherTheme()));
   byId("help-button").addEventListener("click", () => help());
   byId("help-close").addEventListener("click", () => help(false));
   if (remembered === "dark" || remembered === "light") { setTheme(remembered); }

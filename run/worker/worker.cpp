@@ -60,14 +60,19 @@ void print_noise() {
     std::fflush(stdout);
 }
 
+// The first plane of a rendering, wherever it lies: `own` is that of its capture.
+template <class T>
+std::span<T> first_plane(const Rendered& rendered, std::vector<T>& own) {
+    return rendered.placed.empty() ? std::span<T>(own)
+                                   : std::span(reinterpret_cast<T*>(rendered.placed.data()),
+                                               rendered.capture.sample_count());
+}
+
 // Another colour in the middle of a target that counts no hits: the second highest bit of red.
 void flip_color(Rendered& rendered) {
     const cases::Target& target = rendered.capture.target;
-    std::span<capture::ColorCodes> codes(rendered.capture.color);
-    if (!rendered.placed.empty()) {  // colours come first where there are no instruments
-        codes = std::span(reinterpret_cast<capture::ColorCodes*>(rendered.placed.data()),
-                          rendered.capture.sample_count());
-    }
+    // Colours come first where there are no instruments.
+    const std::span codes = first_plane(rendered, rendered.capture.color);
     if (target.color && !codes.empty()) {
         codes[codes.size() / 2][0] ^= 1U << (cases::component_of(target.color->format, 0).bits - 2);
     }
@@ -79,11 +84,7 @@ void flip_pixel(Rendered& rendered) {
         flip_color(rendered);
         return;
     }
-    std::span<glm::vec4> planes(rendered.capture.hits);
-    if (!rendered.placed.empty()) {  // the hits come first
-        planes = std::span(reinterpret_cast<glm::vec4*>(rendered.placed.data()),
-                           rendered.capture.sample_count());
-    }
+    const std::span planes = first_plane(rendered, rendered.capture.hits);
     const size_t n = planes.size();
     for (size_t k = 0; k < n; ++k) {
         glm::vec4& hits = planes[(n / 2 + k) % n];
