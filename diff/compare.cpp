@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cases/model/derive.hpp"
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
 #include "diff/contradiction.hpp"
@@ -86,10 +87,7 @@ class Comparison {
                 case_.target.width, case_.target.height, case_.target.samples,
                 case_.target.layers > 1 ? fmt::format(" and {} layers", case_.target.layers) : "");
         }
-        size_t attributes = 0;
-        for (const cases::Draw& draw : case_.draws) {
-            attributes = std::max(attributes, draw.attributes.size());
-        }
+        const size_t attributes = cases::attributes_of(case_);
         for (size_t a = 0; a < attributes; ++a) {
             if (case_.target.has_instruments && capture_.attribute_count <= a) {
                 return fmt::format("the capture lacks attribute {} of the case", a);
@@ -248,13 +246,7 @@ class Comparison {
 }  // namespace
 
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const capture::CaptureView& capture) {
-    return Comparison(c, expectation, capture, {}).run();
-}
-
-Verdict compare_selected(const cases::Case& c, const ref::Expectation& expectation,
-                         const capture::CaptureView& capture,
-                         const ref::ValueSelection& selection) {
+                const capture::CaptureView& capture, const ref::ValueSelection& selection) {
     return Comparison(c, expectation, capture, selection).run();
 }
 

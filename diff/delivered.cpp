@@ -247,7 +247,7 @@ Verdict compare_instruments(const cases::Case& c, const ref::Expectation& expect
                             const capture::Delivered& planes) {
     const cases::Case plain = with_instruments(c);
     const capture::Capture capture = Completion(plain, expectation, planes).run();
-    return compare_selected(plain, expectation, capture, selection_of(planes));
+    return compare(plain, expectation, capture, selection_of(planes));
 }
 
 Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,

@@ -140,14 +140,11 @@ struct Verdict : Outcome {
     // The error at a sample, in budgets, is at least `ratio`.
     void raise_error(size_t index, double ratio);
 };
-// Judges a capture. A case without any sample that must be hit is an error, never a pass.
+// Judges a capture. A case without any sample that must be hit is an error, never a pass. Of the
+// values only those selected are judged; nothing is said of how many invocations a fragment had
+// unless all are.
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                const capture::CaptureView& capture);
-
-// As compare, but of the values only those selected are judged. Nothing is said of how many
-// invocations a fragment had unless all are.
-Verdict compare_selected(const cases::Case& c, const ref::Expectation& expectation,
-                         const capture::CaptureView& capture, const ref::ValueSelection& selection);
+                const capture::CaptureView& capture, const ref::ValueSelection& selection = {});
 
 // Checks the hand-drawn picture of a case against the reference (profile direct3d, 8 subpixel
 // bits). Empty if it agrees or the case has none; else one sentence with the first pixel that

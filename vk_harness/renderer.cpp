@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/format/color_format.hpp"
+#include "cases/model/derive.hpp"
 #include "vk_harness/case_check.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -240,7 +241,8 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
             const bool has_primitive = device_->capabilities().info.has_primitive_id;
             Rendered& result = results[plan.slot];
             if (store) {
-                const uint64_t bytes = capture::plane_bytes(target, attribute_count(*plan.test));
+                const uint64_t bytes =
+                    capture::plane_bytes(target, cases::attributes_of(*plan.test));
                 result.placed = store(plan.slot, bytes);
             }
             if (result.placed.empty()) {
@@ -250,7 +252,7 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
                 result.capture.target = target;
                 result.capture.has_primitive = has_primitive;
                 result.capture.attribute_count =
-                    target.has_instruments ? attribute_count(*plan.test) : 0;
+                    target.has_instruments ? cases::attributes_of(*plan.test) : 0;
                 read_planes(plan.attachments, plan.readback, readback->bytes(),
                             capture::planes_at(target, result.capture.attribute_count,
                                                result.placed.data()));

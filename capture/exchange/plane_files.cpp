@@ -136,8 +136,8 @@ class Reader {
                 std::ifstream stream(file);
                 std::getline(stream, out_.unsupported);
                 if (out_.unsupported.empty()) {
-                    return cases::failure(fmt::format(
-                        "{} is empty; write the reason into its first line", quoted(file)));
+                    return cases::failure("{} is empty; write the reason into its first line",
+                                          quoted(file));
                 }
                 continue;
             }
@@ -156,20 +156,19 @@ class Reader {
             }
             const auto [other, is_new] = files.emplace(spec->name, file);
             if (!is_new) {
-                return cases::failure(
-                    fmt::format("{} and {} are both the plane {}; leave one of them",
-                                quoted(other->second), quoted(file), spec->name));
+                return cases::failure("{} and {} are both the plane {}; leave one of them",
+                                      quoted(other->second), quoted(file), spec->name);
             }
         }
         if (!out_.unsupported.empty() && !files.empty()) {
             return cases::failure(
-                fmt::format("{} says that the case is not supported, and {} is there "
-                            "all the same; remove one of them",
-                            quoted(folder_ / kUnsupportedFile), quoted(files.begin()->second)));
+                "{} says that the case is not supported, and {} is there "
+                "all the same; remove one of them",
+                quoted(folder_ / kUnsupportedFile), quoted(files.begin()->second));
         }
         if (files.contains("coverage") && files.contains("hits")) {
-            return cases::failure(fmt::format("{} and {} say the same twice; leave one of them",
-                                              quoted(files["coverage"]), quoted(files["hits"])));
+            return cases::failure("{} and {} say the same twice; leave one of them",
+                                  quoted(files["coverage"]), quoted(files["hits"]));
         }
         for (const PlaneSpec& spec : specs) {
             if (!files.contains(spec.name)) {

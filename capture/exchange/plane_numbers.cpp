@@ -41,7 +41,7 @@ cases::Expected<PlaneNumbers> read_raw(const fs::path& file, const std::string& 
     std::error_code error;
     const uint64_t size = fs::file_size(file, error);
     if (error) {
-        return cases::failure(fmt::format("{} cannot be read: {}", quoted(file), error.message()));
+        return cases::failure("{} cannot be read: {}", quoted(file), error.message());
     }
     PlaneNumbers out;
     std::string sizes;
@@ -54,14 +54,13 @@ cases::Expected<PlaneNumbers> read_raw(const fs::path& file, const std::string& 
                              bytes == 1 ? "1 byte" : "4 bytes");
     }
     if (out.channels == 0) {
-        return cases::failure(fmt::format("{} has {} bytes; {} take {}", quoted(file), size,
-                                          size_text(target), sizes));
+        return cases::failure("{} has {} bytes; {} take {}", quoted(file), size, size_text(target),
+                              sizes);
     }
     std::vector<unsigned char> raw(size);
     std::ifstream stream(file, std::ios::binary);
     if (!stream.read(reinterpret_cast<char*>(raw.data()), static_cast<std::streamsize>(size))) {
-        return cases::failure(
-            fmt::format("{} cannot be read: {}", quoted(file), std::strerror(errno)));
+        return cases::failure("{} cannot be read: {}", quoted(file), std::strerror(errno));
     }
     out.largest = ending == "u8" ? 255 : 0;
     out.numbers.reserve(entries * out.channels);
@@ -133,11 +132,11 @@ cases::Expected<PlaneNumbers> read_picture(const fs::path& file, const PlaneSpec
         return tl::unexpected(image.error());
     }
     if (image->width != target.width || image->height != target.rows() * target.samples) {
-        return cases::failure(fmt::format(
+        return cases::failure(
             "{} has {} x {} pixels; {} take an image of {} x {}{}{}", quoted(file), image->width,
             image->height, size_text(target), target.width, target.rows() * target.samples,
             target.layers == 1 ? "" : ", the rows of each layer below those of the one before",
-            target.samples == 1 ? "" : ", the rows of each sample below those of the one before"));
+            target.samples == 1 ? "" : ", the rows of each sample below those of the one before");
     }
     const bool needs_floats = spec.kind == PlaneKind::value || spec.kind == PlaneKind::id;
     const bool is_right_kind = needs_floats ? image->is_float && image->bits == 32
@@ -145,10 +144,10 @@ cases::Expected<PlaneNumbers> read_picture(const fs::path& file, const PlaneSpec
                                    ? !image->is_float && image->bits <= 16
                                    : image->is_float || image->bits <= 16;
     if (!is_right_kind) {
-        return cases::failure(
-            fmt::format("{} has {}-bit {}, which the plane {} does not take; write {}",
-                        quoted(file), image->bits, image->is_float ? "floats" : "whole numbers",
-                        spec.name, needs_floats ? "32-bit floats" : "8 or 16 bits"));
+        return cases::failure("{} has {}-bit {}, which the plane {} does not take; write {}",
+                              quoted(file), image->bits,
+                              image->is_float ? "floats" : "whole numbers", spec.name,
+                              needs_floats ? "32-bit floats" : "8 or 16 bits");
     }
     const size_t found = image->channels.size();
     const bool is_grey_picture =
@@ -188,8 +187,8 @@ cases::Expected<PlaneNumbers> read_numbers(const fs::path& file, const PlaneSpec
         for (const std::string& known : spec.endings) {
             all += (all.empty() ? "." : ", .") + known;
         }
-        return cases::failure(fmt::format("{} has no ending that the plane {} may have; use {}",
-                                          quoted(file), spec.name, all));
+        return cases::failure("{} has no ending that the plane {} may have; use {}", quoted(file),
+                              spec.name, all);
     }
     const bool is_raw = ending == "u8" || ending == "u32" || ending == "f32";
     return is_raw ? read_raw(file, ending, spec, target) : read_picture(file, spec, target);

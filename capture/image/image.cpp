@@ -38,9 +38,9 @@ cases::Expected<std::filesystem::path> find_module() {
         }
     }
     return cases::failure(
-        fmt::format("image files need the module {}, which is neither in {} nor in {}; "
-                    "build the target edgecase_image_io or set {} to its path",
-                    kModule, (dir.parent_path() / "lib").string(), dir.string(), kVariable));
+        "image files need the module {}, which is neither in {} nor in {}; "
+        "build the target edgecase_image_io or set {} to its path",
+        kModule, (dir.parent_path() / "lib").string(), dir.string(), kVariable);
 }
 
 cases::Expected<Module> open_module() {
@@ -51,7 +51,7 @@ cases::Expected<Module> open_module() {
     // Never closed: OpenImageIO keeps threads and thread-local objects of its own.
     void* handle = ::dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {
-        return cases::failure(fmt::format("cannot load {}: {}", path->string(), ::dlerror()));
+        return cases::failure("cannot load {}: {}", path->string(), ::dlerror());
     }
     const auto version = reinterpret_cast<decltype(&edgecase_image_io_version)>(
         ::dlsym(handle, "edgecase_image_io_version"));
@@ -62,8 +62,8 @@ cases::Expected<Module> open_module() {
         reinterpret_cast<decltype(&edgecase_read_image)>(::dlsym(handle, "edgecase_read_image"));
     if (version == nullptr || module.write == nullptr || module.read == nullptr ||
         version() != kImageIoVersion) {
-        return cases::failure(fmt::format(
-            "{} is not the image module of this edgecase; build both together", path->string()));
+        return cases::failure("{} is not the image module of this edgecase; build both together",
+                              path->string());
     }
     return module;
 }
@@ -71,14 +71,12 @@ cases::Expected<Module> open_module() {
 cases::Expected<void> check_format(const std::filesystem::path& file, size_t channels) {
     const std::string extension = file.extension().string();
     if (extension != ".exr" && extension != ".png" && extension != ".tif") {
-        return cases::failure(
-            fmt::format("cannot tell the format of {} by its ending; use .exr, .png or .tif",
-                        cases::printable(file.string())));
+        return cases::failure("cannot tell the format of {} by its ending; use .exr, .png or .tif",
+                              cases::printable(file.string()));
     }
     if (extension == ".png" && channels > 4) {
-        return cases::failure(
-            fmt::format("{} would need {} channels, and a PNG file holds at most 4; use .exr",
-                        cases::printable(file.string()), channels));
+        return cases::failure("{} would need {} channels, and a PNG file holds at most 4; use .exr",
+                              cases::printable(file.string()), channels);
     }
     return {};
 }
@@ -104,9 +102,9 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
     const size_t count = size_t{image.width} * image.height * image.channels.size();
     if (count == 0 || image.pixels.size() != count || image.width > kMaxSide ||
         image.height > kMaxSide) {
-        return cases::failure(
-            fmt::format("an image of {} x {} pixels and {} channels cannot have {} values",
-                        image.width, image.height, image.channels.size(), image.pixels.size()));
+        return cases::failure("an image of {} x {} pixels and {} channels cannot have {} values",
+                              image.width, image.height, image.channels.size(),
+                              image.pixels.size());
     }
     const auto module = open_module();
     if (!module) {
@@ -125,8 +123,8 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
                               1};
     std::array<char, 1024> error{};
     if (module->write(file.c_str(), &plain, error.data(), error.size()) != 0) {
-        return cases::failure(fmt::format("cannot write {}: {}", cases::printable(file.string()),
-                                          cases::printable(error.data())));
+        return cases::failure("cannot write {}: {}", cases::printable(file.string()),
+                              cases::printable(error.data()));
     }
     return {};
 }
@@ -142,8 +140,8 @@ cases::Expected<Image> read_image(const std::filesystem::path& file) {
     Image image;
     std::array<char, 1024> error{};
     if (module->read(file.c_str(), keep, &image, error.data(), error.size()) != 0) {
-        return cases::failure(fmt::format("cannot read {}: {}", cases::printable(file.string()),
-                                          cases::printable(error.data())));
+        return cases::failure("cannot read {}: {}", cases::printable(file.string()),
+                              cases::printable(error.data()));
     }
     return image;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstdint>
 #include <string>
 #include <tl/expected.hpp>
@@ -32,6 +34,12 @@ using Errors = std::vector<Error>;
 // An error of no file, as a function returns it.
 inline tl::unexpected<Error> failure(std::string message) {
     return tl::unexpected(Error{{}, std::move(message)});
+}
+
+template <class First, class... Rest>
+tl::unexpected<Error> failure(fmt::format_string<First, Rest...> text, First&& first,
+                              Rest&&... rest) {
+    return failure(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
 }
 
 template <class T>

@@ -181,9 +181,9 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs) {
         result.letters.push_back(letter(k));
         if (run.profile != first.profile) {
             return cases::failure(
-                fmt::format("{} is judged at profile {} and {} at {}; compare runs of one profile",
-                            runs.front().folder, cases::to_string(first.profile), runs[k].folder,
-                            cases::to_string(run.profile)));
+                "{} is judged at profile {} and {} at {}; compare runs of one profile",
+                runs.front().folder, cases::to_string(first.profile), runs[k].folder,
+                cases::to_string(run.profile));
         }
         if (run.suite_hash != first.suite_hash) {
             result.remarks.push_back(fmt::format(

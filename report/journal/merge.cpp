@@ -45,10 +45,10 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
             const std::string a = common.text(first.run);
             const std::string b = common.text(part.run);
             if (a != b) {
-                return cases::failure(fmt::format(
+                return cases::failure(
                     "{} is '{}' in {} and '{}' in {}; only parts of one run "
                     "can be merged, use 'edgecase compare' for different ones",
-                    common.what, cases::printable(a), first.name, cases::printable(b), part.name));
+                    common.what, cases::printable(a), first.name, cases::printable(b), part.name);
             }
         }
     }
@@ -58,8 +58,8 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
             const auto [at, fresh] = owner.emplace(record.id, &part);
             if (!fresh) {
                 return cases::failure(
-                    fmt::format("the case '{}' is in {} and in {}; give each job its own --shard",
-                                cases::printable(record.id), at->second->name, part.name));
+                    "the case '{}' is in {} and in {}; give each job its own --shard",
+                    cases::printable(record.id), at->second->name, part.name);
             }
         }
     }

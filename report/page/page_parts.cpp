@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/page/page_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -18,18 +20,10 @@ std::string_view page_style() {
 std::string script_data(const nlohmann::ordered_json& json) {
     std::string text;
     for (const char c : json.dump()) {
-        switch (c) {
-            case '<':
-                text += "\\u003c";
-                break;
-            case '>':
-                text += "\\u003e";
-                break;
-            case '&':
-                text += "\\u0026";
-                break;
-            default:
-                text += c;
+        if (c == '<' || c == '>' || c == '&') {
+            text += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+        } else {
+            text += c;
         }
     }
     return text;

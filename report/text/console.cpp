@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "cases/base/printable.hpp"
@@ -21,27 +22,11 @@ constexpr std::string_view kIndent = "      ";
 
 // SGR codes; blue, orange and bold tell apart what red and green do not.
 std::string_view color_of(Status status) {
-    switch (status) {
-        case Status::pass:
-            return "34";
-        case Status::unsupported:
-        case Status::skip:
-        case Status::xfail:
-            return "2";
-        case Status::xpass:
-        case Status::improved:
-            return "1;36";
-        case Status::flake:
-        case Status::not_run:
-            return "1;33";
-        case Status::fail:
-        case Status::device_lost:
-        case Status::timeout:
-        case Status::crash:
-        case Status::error:
-            break;
-    }
-    return "1;31";
+    constexpr std::string_view kBad = "1;31";
+    constexpr std::array<std::string_view, kStatuses> kColors = {
+        "34", "2",  "2",  "2",  "1;36", "1;36", "1;33",  // pass to flake
+        kBad, kBad, kBad, kBad, kBad,   "1;33"};         // fail to not_run
+    return kColors.at(static_cast<size_t>(status));
 }
 
 std::string painted(std::string_view text, std::string_view sgr, const ConsoleStyle& style) {
@@ -57,23 +42,12 @@ std::string upper(std::string_view word) {
 }
 
 char character_of(uint8_t mark, uint8_t expected_hits) {
-    switch (static_cast<diff::SampleMark>(mark)) {
-        case diff::SampleMark::ok:
-            return expected_hits == 0 ? '.' : '#';
-        case diff::SampleMark::either:
-            return '~';
-        case diff::SampleMark::missing:
-            return 'M';
-        case diff::SampleMark::extra:
-            return 'X';
-        case diff::SampleMark::double_hit:
-            return 'D';
-        case diff::SampleMark::value:
-            return 'V';
-        case diff::SampleMark::order:
-            return 'O';
+    constexpr std::string_view kCharacters = "#~MXDVO";  // by SampleMark
+    static_assert(kCharacters.size() == static_cast<size_t>(diff::SampleMark::order) + 1);
+    if (mark == 0 && expected_hits == 0) {
+        return '.';
     }
-    return '?';
+    return mark < kCharacters.size() ? kCharacters[mark] : '?';
 }
 
 // Where `length` of `size` pixels begin such that `middle` is seen.

@@ -7,6 +7,7 @@
 
 #include "capture/capture.hpp"
 #include "cases/format/color_format.hpp"
+#include "cases/model/derive.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/readback.hpp"
 #include "vk_harness/target/shader_interface.hpp"
@@ -89,7 +90,7 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
             out.push_back({Role::writer_and_hits, kColorFormat, clear_color(id, id, id, hits)});
             out.push_back({Role::frag_coord, kColorFormat, value});
         }
-        for (uint32_t k = 0; k < attribute_count(c); ++k) {
+        for (uint32_t k = 0; k < cases::attributes_of(c); ++k) {
             for (uint32_t half = 0; half < layout.attribute_attachments(); ++half) {
                 const uint32_t bytes = layout.numbers(k) * 4U;
                 out.push_back({half == 0 ? Role::attribute : Role::attribute_zw,

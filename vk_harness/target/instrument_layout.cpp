@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "cases/model/derive.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
@@ -58,7 +59,7 @@ InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& tes
         (c.narrow_sample_counts & test.target.samples) == 0) {
         return layout;
     }
-    const uint32_t attributes = std::min(attribute_count(test), cases::kMaxAttributes);
+    const uint32_t attributes = std::min(cases::attributes_of(test), cases::kMaxAttributes);
     bool has_wide = false;
     for (uint32_t k = 0; k < attributes; ++k) {
         const bool is_wide = std::any_of(test.draws.begin(), test.draws.end(), [k](const auto& d) {

@@ -4,19 +4,13 @@
 
 #include <algorithm>
 
-namespace vk_harness {
+#include "cases/model/derive.hpp"
 
-uint32_t attribute_count(const cases::Case& c) {
-    size_t count = 0;
-    for (const cases::Draw& draw : c.draws) {
-        count = std::max(count, draw.attributes.size());
-    }
-    return static_cast<uint32_t>(count);
-}
+namespace vk_harness {
 
 uint32_t input_count(const cases::Case& c) {
     if (c.target.has_instruments) {
-        return attribute_count(c);
+        return cases::attributes_of(c);
     }
     return std::any_of(c.draws.begin(), c.draws.end(),
                        [](const cases::Draw& draw) { return draw.color.attribute >= 0; })

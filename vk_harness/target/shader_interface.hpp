@@ -10,9 +10,6 @@
 
 namespace vk_harness {
 
-// The largest number of attributes among the draws: how many attribute attachments the case has.
-uint32_t attribute_count(const cases::Case& c);
-
 // The attributes that reach the vertex shader: all, or, without instruments, the one that is the
 // colour, if any.
 uint32_t input_count(const cases::Case& c);
