@@ -412,9 +412,7 @@ Result<size_t> Renderer::render_bare(std::span<const cases::Case> batch) {
         if (result.status == Rendered::Status::drawn) {
             ++drawn;
         } else if (result.status != Rendered::Status::unsupported) {
-            Failure failure;
-            failure.message = result.reason;
-            return fail(std::move(failure));
+            return fail(Stage::loader, result.reason);
         }
     }
     return drawn;

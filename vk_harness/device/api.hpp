@@ -9,6 +9,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "vk_harness/public/harness.hpp"
 
@@ -25,6 +26,10 @@ Result<void> check(Stage stage, VkResult result, std::string_view call);
 
 inline tl::unexpected<Failure> fail(Failure failure) {
     return tl::unexpected<Failure>(std::move(failure));
+}
+inline tl::unexpected<Failure> fail(Stage stage, std::string message,
+                                    VkResult result = VK_SUCCESS) {
+    return fail(Failure{stage, static_cast<int>(result), std::move(message), {}});
 }
 
 // Puts what was made where it belongs, if it was made.
@@ -76,32 +81,25 @@ class Handle {
     Handle(VkDevice device, T handle, Destroy destroy)
         : device_(device), handle_(handle), destroy_(destroy) {}
     Handle(Handle&& other) noexcept
-        : device_(other.device_), handle_(other.handle_), destroy_(other.destroy_) {
-        other.handle_ = VK_NULL_HANDLE;
-    }
-    Handle& operator=(Handle&& other) noexcept {
-        if (this != &other) {
-            reset();
-            device_ = other.device_;
-            handle_ = other.handle_;
-            destroy_ = other.destroy_;
-            other.handle_ = VK_NULL_HANDLE;
-        }
+        : device_(other.device_),
+          handle_(std::exchange(other.handle_, VK_NULL_HANDLE)),
+          destroy_(other.destroy_) {}
+    Handle& operator=(Handle other) noexcept {  // what was held goes with `other`
+        std::swap(device_, other.device_);
+        std::swap(handle_, other.handle_);
+        std::swap(destroy_, other.destroy_);
         return *this;
     }
-    ~Handle() { reset(); }
+    ~Handle() {
+        if (handle_ != VK_NULL_HANDLE) {
+            destroy_(device_, handle_, nullptr);
+        }
+    }
 
     T get() const { return handle_; }
     explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
   private:
-    void reset() {
-        if (handle_ != VK_NULL_HANDLE) {
-            destroy_(device_, handle_, nullptr);
-            handle_ = VK_NULL_HANDLE;
-        }
-    }
-
     VkDevice device_ = VK_NULL_HANDLE;
     T handle_ = VK_NULL_HANDLE;
     Destroy destroy_ = nullptr;

@@ -60,10 +60,7 @@ Result<Instance> Instance::create(const Options& options) {
         return fail(loaded.error());
     }
     if (volkGetInstanceVersion() < VK_API_VERSION_1_1) {
-        Failure failure;
-        failure.stage = Stage::loader;
-        failure.message = "the Vulkan loader knows Vulkan 1.0 only; install a newer one";
-        return fail(std::move(failure));
+        return fail(Stage::loader, "the Vulkan loader knows Vulkan 1.0 only; install a newer one");
     }
     Instance instance;
     std::vector<const char*> layers;
@@ -85,12 +82,10 @@ Result<Instance> Instance::create(const Options& options) {
     if (options.validation) {
         if (!has_layer(kValidationLayer) ||
             !has_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
-            Failure failure;
-            failure.stage = Stage::instance;
-            failure.vk_result = VK_ERROR_LAYER_NOT_PRESENT;
-            failure.message = std::string("the validation layer ") + kValidationLayer +
-                              " is not installed (Debian: vulkan-validationlayers)";
-            return fail(std::move(failure));
+            return fail(Stage::instance,
+                        std::string("the validation layer ") + kValidationLayer +
+                            " is not installed (Debian: vulkan-validationlayers)",
+                        VK_ERROR_LAYER_NOT_PRESENT);
         }
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

@@ -74,11 +74,10 @@ std::string result_name(VkResult result) {
 }
 
 Failure call_failure(Stage stage, VkResult result, std::string_view call) {
-    Failure failure;
-    failure.stage = stage;
-    failure.vk_result = static_cast<int>(result);
-    failure.message = std::string(call) + " failed with " + result_name(result);
-    return failure;
+    return {stage,
+            static_cast<int>(result),
+            std::string(call) + " failed with " + result_name(result),
+            {}};
 }
 
 Result<void> check(Stage stage, VkResult result, std::string_view call) {
@@ -93,12 +92,10 @@ Result<void> load_vulkan(const Options& options) {
     }
     const VkResult result = volkInitialize();
     if (result != VK_SUCCESS) {
-        Failure failure;
-        failure.stage = Stage::loader;
-        failure.vk_result = static_cast<int>(result);
-        failure.message =
-            "the Vulkan loader libvulkan.so.1 was not found; install it (Debian: libvulkan1)";
-        return fail(std::move(failure));
+        return fail(
+            Stage::loader,
+            "the Vulkan loader libvulkan.so.1 was not found; install it (Debian: libvulkan1)",
+            result);
     }
     return {};
 }

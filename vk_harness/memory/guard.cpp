@@ -135,12 +135,10 @@ Result<std::vector<GuardDamage>> GuardCheck::read(std::span<const std::byte> mem
             words += kGuardWords;
             if (std::all_of(side.begin(), side.end(),
                             [](uint32_t word) { return word == capture::kPoison; })) {
-                Failure failure;
-                failure.stage = Stage::readback;
-                failure.message =
+                return fail(
+                    Stage::readback,
                     "the memory beside an attachment was not copied from the device: it still "
-                    "holds the read-back memory's fill pattern";
-                return fail(std::move(failure));
+                    "holds the read-back memory's fill pattern");
             }
             if (std::optional<GuardDamage> damage = compare_side(side, is_before)) {
                 damage->guard = guard;

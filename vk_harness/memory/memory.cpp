@@ -49,11 +49,8 @@ Result<Handle<VkDeviceMemory>> allocate(const Device& device, VkDeviceSize size,
     return Handle<VkDeviceMemory>(device.get(), memory, device.vk().vkFreeMemory);
 }
 
-Failure no_memory_type(std::string_view what) {
-    Failure failure;
-    failure.stage = Stage::memory;
-    failure.message = fmt::format("the device has no memory type for {}", what);
-    return failure;
+tl::unexpected<Failure> no_memory_type(std::string_view what) {
+    return fail(Stage::memory, fmt::format("the device has no memory type for {}", what));
 }
 
 // Several layers, or samples that copy_samples.comp reads, are seen as an array.
@@ -94,7 +91,7 @@ Result<Buffer> Buffer::create(const Device& device, VkDeviceSize size, VkBufferU
                          access == HostAccess::read ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
                                                     : VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     if (!type) {
-        return fail(no_memory_type("a buffer that the host can map"));
+        return no_memory_type("a buffer that the host can map");
     }
     buffer.coherent_ =
         (memory.memoryTypes[*type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
@@ -169,7 +166,7 @@ Result<ImageMemory> bind_guarded(const Device& device, VkImage image) {
         type = find_type(needs.memoryTypeBits);
     }
     if (!type) {
-        return fail(no_memory_type("an image"));
+        return no_memory_type("an image");
     }
     VkMemoryDedicatedAllocateInfo alone = Typed{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO};
     alone.image = image;
@@ -315,7 +312,7 @@ Result<Handle<VkDeviceMemory>> bind_memory(const Device& device, VkImage image) 
     const auto type = find_memory_type(device.capabilities().memory, needs.memoryTypeBits, 0,
                                        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     if (!type) {
-        return fail(no_memory_type("an image"));
+        return no_memory_type("an image");
     }
     auto allocation = allocate(device, needs.size, *type);
     if (!allocation) {

@@ -91,10 +91,7 @@ Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> co
     }
     auto changed = change_inputs(code, key.second);
     if (!changed) {
-        Failure failure;
-        failure.stage = Stage::shader;
-        failure.message = changed.error();
-        return fail(std::move(failure));
+        return fail(Stage::shader, changed.error());
     }
     VkShaderModuleCreateInfo info = Typed{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = changed->size() * sizeof(uint32_t);
