@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "cases/model/float_bits.hpp"
+
 namespace capture {
 
 namespace {
@@ -21,9 +23,7 @@ bool is_poison(const ColorCodes& codes) {
     return codes == ColorCodes{kPoison, kPoison, kPoison, kPoison};
 }
 
-bool same_bits(float a, float b) {
-    return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
-}
+using cases::same_bits;
 
 bool is_clear(const glm::vec4& v) {
     return same_bits(v.x, kClearValue) && same_bits(v.y, kClearValue) &&

@@ -10,7 +10,6 @@
 #include <chrono>
 #include <map>
 #include <set>
-#include <thread>
 
 #include "capture/exchange/plane_files.hpp"
 #include "cases/base/printable.hpp"
@@ -180,7 +179,7 @@ report::Run make_header(const Program& program, const DiffOptions& options,
     header.seed = options.run.seed;
     std::error_code ignored;
     header.suite_root = fs::absolute(selection.root, ignored).lexically_normal().string();
-    header.jobs = std::max(1U, std::thread::hardware_concurrency());
+    header.jobs = cases::cores();
     header.device.name = options.name.empty() ? "captures" : options.name;
     header.device.driver_name = "files";
     header.device.driver_info = "in " + options.captures;
@@ -309,7 +308,7 @@ int diff_command(const Program& program, const DiffOptions& options) {
     size_t done = 0, unexpected = 0;
     Progress progress(o.quiet ? ProgressStyle::none : o.progress, selection->cases.size());
     std::vector<std::vector<std::string>> not_judged(selection->cases.size());
-    run::Pool pool(std::max(1U, std::thread::hardware_concurrency()));
+    run::Pool pool(cases::cores());
     for (size_t k = 0; k < selection->cases.size(); ++k) {
         const cases::Case& c = selection->cases[k];
         CaseRecord& record = header.cases[k];

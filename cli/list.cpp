@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/parallel.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
@@ -174,7 +175,7 @@ int lint_command(const Program& program, const LintOptions& options) {
         return code;
     }
     std::vector<cases::Errors> found(suite->selected.size());
-    run::Pool pool(std::thread::hardware_concurrency());
+    run::Pool pool(cases::cores());
     for (size_t k = 0; k < found.size(); ++k) {
         pool.submit(
             [&, k] {

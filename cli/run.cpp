@@ -55,7 +55,7 @@ cases::Expected<void> make_folder(const fs::path& folder) {
 
 // Checks every hand-drawn picture, on all cores, before a device is asked.
 void check_pictures(std::vector<run::PlannedCase>& plan) {
-    run::Pool pool(std::thread::hardware_concurrency());
+    run::Pool pool(cases::cores());
     for (run::PlannedCase& c : plan) {
         if (c.data.expected_hits) {
             pool.submit([&c] { c.error = run::check_before_running(c.data); }, [] {});

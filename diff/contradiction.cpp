@@ -4,15 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <bit>
+#include "cases/model/float_bits.hpp"
 
 namespace diff {
 
 namespace {
 
-bool same_bits(float a, float b) {
-    return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
-}
+using cases::same_bits;
 
 bool is_clear(const glm::vec4& v) {
     return same_bits(v.x, capture::kClearValue) && same_bits(v.y, capture::kClearValue) &&

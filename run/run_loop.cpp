@@ -10,6 +10,7 @@
 
 #include "capture/checksum.hpp"
 #include "cases/base/checksum.hpp"
+#include "cases/base/parallel.hpp"
 #include "cases/model/derive.hpp"
 #include "report/text/sentences.hpp"
 
@@ -55,7 +56,7 @@ RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, repor
       on_record_(std::move(on_record)),
       on_progress_(std::move(on_progress)),
       schedule_(all_bytes(cases), config_.schedule),
-      pool_(std::max(1U, std::thread::hardware_concurrency())) {}
+      pool_(cases::cores()) {}
 
 RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& device) {
     device_ = device;

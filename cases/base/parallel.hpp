@@ -13,6 +13,11 @@
 
 namespace cases {
 
+// The number of cores, at least 1.
+inline unsigned cores() {
+    return std::max(1U, std::thread::hardware_concurrency());
+}
+
 // body(k) for each k below `count`, each once, in no particular order, by the caller and up to
 // three other threads. Returns when all are done. An exception of one thread ends its share of the
 // work and is thrown on.
@@ -24,7 +29,7 @@ void for_each_index(size_t count, const Body& body) {
             body(k);
         }
     };
-    const size_t threads = std::min<size_t>({std::thread::hardware_concurrency(), 4U, count});
+    const size_t threads = std::min<size_t>({cores(), 4U, count});
     std::vector<std::future<void>> others;
     for (size_t k = 1; k < threads; ++k) {
         others.push_back(std::async(std::launch::async, take_some));

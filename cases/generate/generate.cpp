@@ -108,14 +108,17 @@ std::optional<GeneratorKeys::WRange> GeneratorKeys::w_range() {
     return WRange{low.get_num().get_si(), high.get_num().get_si()};
 }
 
+mpz_class floor_of(const mpq_class& q) {
+    mpz_class result;
+    mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
+    return result;
+}
+
 mpq_class on_grid(const mpq_class& value, int64_t grid) {
     if (grid == 0) {
         return value;
     }
-    const mpq_class scaled = value * mpq_class(grid) + mpq_class(1, 2);
-    mpz_class unit;
-    mpz_fdiv_q(unit.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
-    mpq_class result(unit, mpz_class(grid));
+    mpq_class result(floor_of(value * mpq_class(grid) + mpq_class(1, 2)), mpz_class(grid));
     result.canonicalize();
     return result;
 }

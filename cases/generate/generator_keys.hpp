@@ -62,6 +62,9 @@ class GeneratorKeys {
     size_t errors_before_;
 };
 
+// The largest integer that is not larger.
+mpz_class floor_of(const mpq_class& q);
+
 // The nearest multiple of 1/grid, ties upward; unchanged if grid is 0.
 mpq_class on_grid(const mpq_class& value, int64_t grid);
 ExactPoint on_grid(const ExactPoint& p, int64_t grid);

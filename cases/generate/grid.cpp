@@ -25,10 +25,8 @@ mpq_class displacement(const mpq_class& reach, int64_t grid, Random& random) {
         result.canonicalize();
         return result * reach;
     }
-    const mpq_class units = reach * mpq_class(grid);
-    mpz_class whole;
-    mpz_fdiv_q(whole.get_mpz_t(), units.get_num_mpz_t(), units.get_den_mpz_t());
-    result = mpq_class(random.between(-whole.get_si(), whole.get_si()), grid);
+    const long steps = floor_of(reach * mpq_class(grid)).get_si();
+    result = mpq_class(random.between(-steps, steps), grid);
     result.canonicalize();
     return result;
 }

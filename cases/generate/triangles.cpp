@@ -119,12 +119,6 @@ void push_out(std::array<ExactVertex, 3>& t, Random& random) {
     }
 }
 
-mpz_class floor_of(const mpq_class& q) {
-    mpz_class result;
-    mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-    return result;
-}
-
 }  // namespace
 
 std::optional<Generated> generate_triangles(GeneratorKeys& keys) {

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+
+#include "cases/model/float_bits.hpp"
 
 namespace cases {
 
@@ -143,7 +144,7 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
     float last_w = 1;
     mpq_class last_exact_w = 1;
     const auto exact_of = [&](float value) -> const mpq_class& {
-        if (std::bit_cast<uint32_t>(value) != std::bit_cast<uint32_t>(last_w)) {
+        if (!same_bits(value, last_w)) {
             last_w = value;
             last_exact_w = exact(static_cast<double>(value));
         }

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "cases/base/parallel.hpp"
 #include "cases/model/profile.hpp"
 #include "run/judge.hpp"
 
@@ -53,7 +53,7 @@ struct RunOptions {
     std::vector<std::string> expect;
     bool no_expect = false;
     cases::Profile profile = cases::Profile::direct3d;
-    uint32_t jobs = std::clamp(std::thread::hardware_concurrency(), 1U, 4U);
+    uint32_t jobs = std::min(cases::cores(), 4U);
     uint32_t batch = 16;
     uint32_t retries = 1;
     std::string output;

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ref/expectation/complement.hpp"
 
-#include <bit>
 #include <cmath>
+
+#include "cases/model/float_bits.hpp"
 
 namespace ref {
 
 namespace {
 
-bool same_bits(float a, float b) {
-    return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
-}
+using cases::same_bits;
 
 bool same_bits(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b, bool is_negated) {
     if (a.size() != b.size()) {

@@ -6,11 +6,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <span>
 #include <vector>
 
+#include "cases/model/float_bits.hpp"
 #include "ref/number/fixed_point.hpp"
 
 namespace ref::value {
@@ -23,9 +23,7 @@ struct Pair {
     float x = 0, y = 0;  // multiples of 1/16 below 2^15: exact in binary32
 };
 
-bool same_bits(float a, float b) {
-    return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
-}
+using cases::same_bits;
 
 Pair location(const Fragment& f, uint32_t s) {
     const auto& at = sample_locations(*f.target)[s];
