@@ -46,12 +46,7 @@ bool read_offset(LeafContext& context, const TomlValue& value, Attribute& attrib
 }
 
 bool read_texture(LeafContext& context, const TomlValue& value, Attribute& attribute) {
-    if (!context.array(value, "texture")) {
-        return false;
-    }
-    if (value.array.size() != 2) {
-        context.error(value.where, fmt::format("texture has {} numbers; write [width, height]",
-                                               value.array.size()));
+    if (!context.array_of(value, "texture", 2, "[width, height]")) {
         return false;
     }
     for (size_t i = 0; i < 2; ++i) {
@@ -88,11 +83,9 @@ bool read_source(LeafContext& context, const TomlValue& table, Attribute& attrib
     if (value == nullptr) {
         return true;
     }
-    const std::optional<Source> source = context.enumerator<Source>(*value, "source");
-    if (!source) {
+    if (!context.read(table, "source", attribute.source)) {
         return false;
     }
-    attribute.source = *source;
     if (attribute.source == Source::vertex) {
         return true;
     }
@@ -124,29 +117,19 @@ bool read_source(LeafContext& context, const TomlValue& table, Attribute& attrib
 bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
                 Attribute& attribute) {
     const bool is_flat = attribute.interpolation == Interpolation::flat;
-    if (const TomlValue* value = table.find("auxiliary")) {
-        const std::optional<Auxiliary> auxiliary =
-            context.enumerator<Auxiliary>(*value, "auxiliary");
-        if (!auxiliary) {
-            return false;
+    const auto goes_with_flat = [&](const char* key, bool is_usual) {
+        if (is_flat && !is_usual) {
+            context.error(
+                table.find(key)->where,
+                fmt::format("a flat attribute is the same everywhere; leave {} out", key));
         }
-        attribute.auxiliary = *auxiliary;
-        if (is_flat && attribute.auxiliary != Auxiliary::none) {
-            context.error(value->where,
-                          "a flat attribute is the same everywhere; leave auxiliary out");
-            return false;
-        }
-    }
-    if (const TomlValue* value = table.find("probe")) {
-        const std::optional<Probe> probe = context.enumerator<Probe>(*value, "probe");
-        if (!probe) {
-            return false;
-        }
-        attribute.probe = *probe;
-        if (is_flat && attribute.probe != Probe::value) {
-            context.error(value->where, "a flat attribute is the same everywhere; leave probe out");
-            return false;
-        }
+        return !is_flat || is_usual;
+    };
+    if (!context.read(table, "auxiliary", attribute.auxiliary) ||
+        !goes_with_flat("auxiliary", attribute.auxiliary == Auxiliary::none) ||
+        !context.read(table, "probe", attribute.probe) ||
+        !goes_with_flat("probe", attribute.probe == Probe::value)) {
+        return false;
     }
     const Probe probe = attribute.probe;
     if (!belongs(context, table, "offset", probe == Probe::at_offset, Probe::at_offset) ||
@@ -157,13 +140,8 @@ bool read_probe(LeafContext& context, const TomlValue& table, uint32_t samples,
     if (probe == Probe::at_offset && !read_offset(context, *table.find("offset"), attribute)) {
         return false;
     }
-    if (probe == Probe::at_sample) {
-        const std::optional<int64_t> sample =
-            context.integer(*table.find("sample"), "sample", 0, int64_t{samples} - 1);
-        if (!sample) {
-            return false;
-        }
-        attribute.probe_sample = static_cast<uint32_t>(*sample);
+    if (!context.read(table, "sample", attribute.probe_sample, 0, int64_t{samples} - 1)) {
+        return false;
     }
     if (probe == Probe::lod) {
         if (attribute.components != 2) {

@@ -37,10 +37,7 @@ class AttributeReader {
                 context_.error(value->where, "name is empty; leave it out or write a word");
             }
         }
-        if (const TomlValue* value = table_.find("interpolation")) {
-            attribute_.interpolation = context_.enumerator<Interpolation>(*value, "interpolation")
-                                           .value_or(Interpolation::smooth);
-        }
+        context_.read(table_, "interpolation", attribute_.interpolation);
         if (!read_source(context_, table_, attribute_) ||
             (attribute_.source == Source::vertex && !read_vertex_values()) ||
             !read_probe(context_, table_, source_.samples, attribute_)) {
@@ -206,14 +203,10 @@ class AttributeReader {
                            "from = \"barycentric\" needs a triangle list without indices");
             return false;
         }
-        const TomlValue* count = table_.find("components");
-        const std::optional<int64_t> components = count != nullptr
-                                                      ? context_.integer(*count, "components", 1, 3)
-                                                      : std::optional<int64_t>(3);
-        if (!components) {
+        attribute_.components = 3;
+        if (!context_.read(table_, "components", attribute_.components, 1, 3)) {
             return false;
         }
-        attribute_.components = static_cast<uint32_t>(*components);
         for (size_t v = 0; v < source_.vertices.size(); ++v) {
             if (const size_t corner = v % 3; corner < attribute_.components) {
                 attribute_.values[v][static_cast<glm::vec4::length_type>(corner)] = 1.0F;
@@ -223,20 +216,14 @@ class AttributeReader {
     }
 
     bool random() {
-        const auto integer = [&](const char* key, int64_t low, int64_t high) {
-            const TomlValue* value = table_.find(key);
-            return value != nullptr ? context_.integer(*value, key, low, high)
-                                    : std::optional<int64_t>(1);
-        };
-        const std::optional<int64_t> seed = integer("seed", 0, INT64_MAX);
-        const std::optional<int64_t> components = integer("components", 1, 4);
-        if (!seed || !components) {
+        uint64_t seed = 1;
+        const bool has_seed = context_.read(table_, "seed", seed, 0, INT64_MAX);
+        if (!context_.read(table_, "components", attribute_.components, 1, 4) || !has_seed) {
             return false;
         }
-        attribute_.components = static_cast<uint32_t>(*components);
-        Random draw(static_cast<uint64_t>(*seed));
+        Random draw(seed);
         for (glm::vec4& value : attribute_.values) {
-            for (int64_t i = 0; i < *components; ++i) {
+            for (uint32_t i = 0; i < attribute_.components; ++i) {
                 // A multiple of 2^-24 below 1 is a binary32.
                 value[static_cast<glm::vec4::length_type>(i)] =
                     static_cast<float>(draw.between(0, (1 << 24) - 1)) * 0x1p-24F;

@@ -21,23 +21,17 @@ Blend preset(size_t index) {
     const auto both = [](F source, F destination, BlendOp op) {
         return Blend{{source, destination, op}, {source, destination, op}};
     };
-    switch (index) {
-        case 1:
-            return {{F::src_alpha, F::one_minus_src_alpha, BlendOp::add},
-                    {F::one, F::one_minus_src_alpha, BlendOp::add}};
-        case 2:
-            return both(F::one, F::one_minus_src_alpha, BlendOp::add);
-        case 3:
-            return both(F::one, F::one, BlendOp::add);
-        case 4:
-            return both(F::dst_color, F::zero, BlendOp::add);
-        case 5:
-            return both(F::one, F::one, BlendOp::reverse_subtract);
-        case 6:
-            return both(F::one, F::one, BlendOp::min);
-        default:
-            return both(F::one, F::one, BlendOp::max);
-    }
+    const std::array<Blend, kPresets.size()> presets = {
+        {{},
+         {{F::src_alpha, F::one_minus_src_alpha, BlendOp::add},
+          {F::one, F::one_minus_src_alpha, BlendOp::add}},
+         both(F::one, F::one_minus_src_alpha, BlendOp::add),
+         both(F::one, F::one, BlendOp::add),
+         both(F::dst_color, F::zero, BlendOp::add),
+         both(F::one, F::one, BlendOp::reverse_subtract),
+         both(F::one, F::one, BlendOp::min),
+         both(F::one, F::one, BlendOp::max)}};
+    return presets.at(index);
 }
 
 // Four numbers, and for integer formats whole ones that the format holds.
@@ -71,18 +65,9 @@ std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value
 
 BlendEquation read_equation(LeafContext& context, const TomlValue& table) {
     BlendEquation out;
-    const auto factor = [&](const char* key, BlendFactor otherwise) {
-        const TomlValue* value = table.find(key);
-        return value == nullptr
-                   ? otherwise
-                   : context.enumerator<BlendFactor>(*value, std::string("the blend factor ") + key)
-                         .value_or(BlendFactor::zero);
-    };
-    out.source = factor("source", BlendFactor::one);
-    out.destination = factor("destination", BlendFactor::zero);
-    if (const TomlValue* op = table.find("op")) {
-        out.op = context.enumerator<BlendOp>(*op, "the blend op").value_or(BlendOp::add);
-    }
+    context.read(table, "source", out.source, "the blend factor source");
+    context.read(table, "destination", out.destination, "the blend factor destination");
+    context.read(table, "op", out.op, "the blend op");
     return out;
 }
 
@@ -111,20 +96,14 @@ std::optional<Blend> read_blend(LeafContext& context, const TomlValue& value,
 }
 
 uint8_t read_write_mask(LeafContext& context, const TomlValue& value) {
-    std::optional<std::string> text = context.text(value, "write_mask");
-    if (text) {
-        if (const TomlValue* named = context.parameter(*text);
-            named != nullptr && named->is(Kind::string)) {
-            text = named->string;
-        }
-    }
+    const std::string text = context.named_text(context.text(value, "write_mask").value_or(""));
     uint8_t mask = 0;
-    for (const char letter : text.value_or("")) {
+    for (const char letter : text) {
         const size_t k = std::string_view("rgba").find(letter);
         if (k == std::string_view::npos || (static_cast<unsigned>(mask) >> k & 1U) != 0) {
             context.error(value.where, fmt::format("write_mask is \"{}\"; write each of the "
                                                    "letters r, g, b and a at most once",
-                                                   *text));
+                                                   text));
             return mask;
         }
         mask = static_cast<uint8_t>(mask | 1U << k);

@@ -26,14 +26,8 @@ class BlitLoader {
                             {"format", "size", "pattern", "seed", "filter", "from", "to", "clip"});
         read_formats();
         read_size();
-        if (const TomlValue* value = table_.find("pattern")) {
-            blit_.pattern =
-                context_.enumerator<BlitPattern>(*value, "pattern").value_or(BlitPattern::unique);
-        }
-        if (const TomlValue* value = table_.find("seed")) {
-            blit_.seed =
-                static_cast<uint32_t>(context_.integer(*value, "seed", 0, 0x7fffffff).value_or(1));
-        }
+        context_.read(table_, "pattern", blit_.pattern);
+        context_.read(table_, "seed", blit_.seed, 0, 0x7fffffff);
         read_filter();
         if (context_.errors().empty()) {
             read_regions();
@@ -73,50 +67,26 @@ class BlitLoader {
     }
 
     void read_size() {
-        const TomlValue* size = table_.find("size");
-        if (size == nullptr) {
-            context_.error(table_.where, "[blit] has no size; write size = [width, height]");
-            return;
+        if (const auto size = context_.read_size(table_, "[blit]", "the source", kMaxSide)) {
+            blit_.source_width = size->front();
+            blit_.source_height = size->back();
         }
-        if (!context_.array(*size, "size")) {
-            return;
-        }
-        if (size->array.size() != 2) {
-            context_.error(size->where, fmt::format("size has {} numbers; write [width, height]",
-                                                    size->array.size()));
-            return;
-        }
-        const auto side = [&](size_t i, const char* what) {
-            return static_cast<uint32_t>(
-                context_.integer(size->array[i], what, 1, kMaxSide).value_or(1));
-        };
-        blit_.source_width = side(0, "the source's width");
-        blit_.source_height = side(1, "the source's height");
     }
 
     void read_filter() {
-        const TomlValue* value = table_.find("filter");
-        if (value == nullptr) {
-            return;
-        }
-        if (context_.enumerator<BlitFilter>(*value, "filter") == BlitFilter::linear) {
-            blit_.filter = BlitFilter::linear;
-            if (target_.color && is_integer(blit_.source_format)) {
-                context_.error(value->where, "integers are not filtered; write \"nearest\"");
-            }
+        context_.read(table_, "filter", blit_.filter);
+        if (blit_.filter == BlitFilter::linear && target_.color &&
+            is_integer(blit_.source_format)) {
+            context_.error(table_.find("filter")->where,
+                           "integers are not filtered; write \"nearest\"");
         }
     }
 
     Corners read_corners(const char* key, const Corners& otherwise, int64_t low, int64_t right,
                          int64_t bottom) {
         const TomlValue* value = table_.find(key);
-        if (value == nullptr || !context_.array(*value, key)) {
-            return otherwise;
-        }
-        if (value->array.size() != 4) {
-            context_.error(value->where,
-                           fmt::format("{} has {} numbers; write two corners, [x0, y0, x1, y1]",
-                                       key, value->array.size()));
+        if (value == nullptr ||
+            !context_.array_of(*value, key, 4, "two corners, [x0, y0, x1, y1]")) {
             return otherwise;
         }
         const auto coordinate = [&](size_t i, int64_t high) {
@@ -138,9 +108,7 @@ class BlitLoader {
         const auto right = static_cast<int32_t>(target_.width);
         const auto bottom = static_cast<int32_t>(target_.height);
         bool clip = false;
-        if (const TomlValue* value = table_.find("clip")) {
-            clip = context_.boolean(*value, "clip").value_or(false);
-        }
+        context_.read(table_, "clip", clip);
         blit_.source = read_corners("from", {0, 0, width, height}, 0, width, height);
         blit_.destination =
             clip ? read_corners("to", {0, 0, right, bottom}, -kFar, right + kFar, bottom + kFar)

@@ -32,9 +32,7 @@ class DistanceReader {
         context_.known_keys(table_, "[[draw." + name_ + "]]",
                             {"values", "constant", "plane", "half_space", "negate"});
         bool is_negated = false;
-        if (const TomlValue* value = table_.find("negate")) {
-            is_negated = context_.boolean(*value, "negate").value_or(false);
-        }
+        context_.read(table_, "negate", is_negated);
         const TomlValue* found = nullptr;
         for (const char* key : {"values", "constant", "plane", "half_space"}) {
             const TomlValue* value = table_.find(key);

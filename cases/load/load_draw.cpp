@@ -42,21 +42,15 @@ class DrawLoader {
                              "offset",        "winding",     "first",        "order",
                              "color",         "sample_mask", "shader_mask",  "min_sample_shading"});
         draw_.where = table_.where;
-        draw_.topology = enumerated("topology", Topology::triangle_list);
-        draw_.cull = enumerated("cull", CullMode::none);
-        draw_.front_face = enumerated("front_face", FrontFace::counter_clockwise);
-        space_ = worded("space", kSpace, Space::pixels);
+        context_.read(table_, "topology", draw_.topology);
+        context_.read(table_, "cull", draw_.cull);
+        context_.read(table_, "front_face", draw_.front_face);
+        space_ = static_cast<Space>(word("space", kSpace));
         draw_.multisample = load_multisample(context_, table_);
-        if (const TomlValue* value = table_.find("rasterizer_discard")) {
-            draw_.rasterizer_discard =
-                context_.boolean(*value, "rasterizer_discard").value_or(false);
-        }
+        context_.read(table_, "rasterizer_discard", draw_.rasterizer_discard);
         read_viewport();
         read_scissor();
-        if (const TomlValue* value = table_.find("viewport_index")) {
-            draw_.viewport_index = static_cast<uint32_t>(
-                context_.integer(*value, "viewport_index", 0, kMaxViewportIndex).value_or(0));
-        }
+        context_.read(table_, "viewport_index", draw_.viewport_index, 0, kMaxViewportIndex);
         read_layer();
         if (const TomlValue* depth = table_.find("depth")) {
             draw_.depth = read_depth_state(context_, *depth);
@@ -98,25 +92,16 @@ class DrawLoader {
     }
 
   private:
-    template <class Enum>
-    Enum enumerated(const char* key, Enum otherwise) {
-        return worded(key, kWords<Enum>, otherwise);
-    }
-
-    template <class Enum>
-    Enum worded(const char* key, std::span<const std::string_view> words, Enum otherwise) {
+    // The first word is that of a missing key.
+    size_t word(const char* key, std::span<const std::string_view> words) {
         const TomlValue* value = table_.find(key);
-        if (value == nullptr) {
-            return otherwise;
-        }
-        const std::optional<size_t> word = context_.word(*value, key, words);
-        return word ? static_cast<Enum>(*word) : otherwise;
+        return value == nullptr ? 0 : context_.word(*value, key, words).value_or(0);
     }
 
     static std::vector<glm::vec4> ordered(std::vector<glm::vec4> values,
                                           const std::vector<uint32_t>& order) {
-        if (std::is_sorted(order.begin(), order.end())) {
-            return values;  // a permutation, so the identity
+        if (values.empty() || std::is_sorted(order.begin(), order.end())) {
+            return values;  // none, or a permutation, so the identity
         }
         std::vector<glm::vec4> result;
         result.reserve(order.size());
@@ -142,15 +127,11 @@ class DrawLoader {
     // What a draw says of clipping and of its provoking vertices.
     void read_clipping(const AttributeSource& source, const std::vector<glm::vec4>& positions,
                        const std::vector<uint32_t>& order) {
-        draw_.provoking = enumerated("provoking", ProvokingVertex::first);
-        draw_.depth.negative_one_to_one = worded("depth_volume", kVolumeWords, size_t{0}) != 0;
+        context_.read(table_, "provoking", draw_.provoking);
+        draw_.depth.negative_one_to_one = word("depth_volume", kVolumeWords) != 0;
         draw_.distances = read_distances(context_, table_, source, positions);
-        if (!draw_.distances.clip.empty()) {
-            draw_.distances.clip = ordered(std::move(draw_.distances.clip), order);
-        }
-        if (!draw_.distances.cull.empty()) {
-            draw_.distances.cull = ordered(std::move(draw_.distances.cull), order);
-        }
+        draw_.distances.clip = ordered(std::move(draw_.distances.clip), order);
+        draw_.distances.cull = ordered(std::move(draw_.distances.cull), order);
     }
 
     void read_viewport() {
@@ -188,13 +169,10 @@ class DrawLoader {
     // then ... the framebuffer values for all layers are undefined" (Vulkan specification,
     // "Built-In Variables", Layer).
     void read_layer() {
-        const TomlValue* value = table_.find("layer");
-        if (value == nullptr) {
-            return;
-        }
-        const std::optional<int64_t> layer = context_.integer(*value, "layer", 0, kMaxLayers - 1);
-        if (layer && *layer >= target_.layers) {
-            context_.error(value->where,
+        uint32_t layer = 0;
+        context_.read(table_, "layer", layer, 0, kMaxLayers - 1);
+        if (layer >= target_.layers) {
+            context_.error(table_.find("layer")->where,
                            target_.layers == 1
                                ? std::string("the target has one layer; write layers = N in "
                                              "[target]")
@@ -202,7 +180,7 @@ class DrawLoader {
                                              target_.layers - 1));
             return;
         }
-        draw_.layer = static_cast<uint32_t>(layer.value_or(0));
+        draw_.layer = layer;
     }
 
     void read_depth(const TomlValue& depth) {

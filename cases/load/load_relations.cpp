@@ -93,13 +93,8 @@ std::vector<Relation> load_relations(LeafContext& context, const TomlValue& valu
         if (element.is(TomlValue::Kind::table)) {
             context.known_keys(element, "a relation", {"scissor-tiles"});
             const TomlValue* tile = element.find("scissor-tiles");
-            if (tile == nullptr || !context.array(*tile, "scissor-tiles")) {
-                continue;
-            }
-            if (tile->array.size() != 2) {
-                context.error(tile->where,
-                              fmt::format("scissor-tiles has {} numbers; write [width, height]",
-                                          tile->array.size()));
+            if (tile == nullptr ||
+                !context.array_of(*tile, "scissor-tiles", 2, "[width, height]")) {
                 continue;
             }
             relation.kind = RelationKind::scissor_tiles;

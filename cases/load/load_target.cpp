@@ -18,26 +18,11 @@ constexpr uint32_t kMaxSamples = 16;
 constexpr int64_t kSixteenths = 16;  // the standard grid of sample locations, a pixel
 
 void read_samples(LeafContext& context, const TomlValue& table, Target& target) {
-    const TomlValue* samples = table.find("samples");
-    if (samples == nullptr) {
-        return;
-    }
-    const std::optional<int64_t> n = context.integer(*samples, "samples", 1, kMaxSamples);
-    if (!n) {
-        return;
-    }
-    target.samples = static_cast<uint32_t>(*n);
+    context.read(table, "samples", target.samples, 1, kMaxSamples);
     if ((target.samples & (target.samples - 1)) != 0) {
-        context.error(samples->where,
+        context.error(table.find("samples")->where,
                       fmt::format("{} samples have no standard locations; write 1, 2, 4, 8 or 16",
                                   target.samples));
-    }
-}
-
-void read_layers(LeafContext& context, const TomlValue& table, Target& target) {
-    if (const TomlValue* layers = table.find("layers")) {
-        target.layers =
-            static_cast<uint32_t>(context.integer(*layers, "layers", 1, kMaxLayers).value_or(1));
     }
 }
 
@@ -54,13 +39,7 @@ void read_locations(LeafContext& context, const TomlValue& table, Target& target
         return;
     }
     for (const TomlValue& pair : locations->array) {
-        if (!context.array(pair, "a sample location")) {
-            return;
-        }
-        if (pair.array.size() != 2) {
-            context.error(pair.where, fmt::format("a sample location has {} numbers; write [x, y] "
-                                                  "in sixteenths of a pixel",
-                                                  pair.array.size()));
+        if (!context.array_of(pair, "a sample location", 2, "[x, y] in sixteenths of a pixel")) {
             return;
         }
         std::array<uint8_t, 2> location{};
@@ -92,13 +71,9 @@ void read_attachments(LeafContext& context, const TomlValue& table, Target& targ
 
 void read_resolve(LeafContext& context, const TomlValue& table, const char* key, uint32_t samples,
                   Resolve& to) {
-    const TomlValue* value = table.find(key);
-    if (value == nullptr) {
-        return;
-    }
-    to = context.enumerator<Resolve>(*value, key).value_or(Resolve::none);
+    context.read(table, key, to);
     if (to != Resolve::none && samples < 2) {
-        context.error(value->where,
+        context.error(table.find(key)->where,
                       fmt::format("{} needs several samples; write samples = 4", key));
     }
 }
@@ -132,14 +107,10 @@ void read_resolves(LeafContext& context, const TomlValue& table, Target& target)
 }
 
 void read_stencil(LeafContext& context, const TomlValue& table, Target& target) {
-    const TomlValue* value = table.find("stencil");
-    if (value == nullptr) {
-        return;
-    }
-    target.has_stencil = context.boolean(*value, "stencil").value_or(false);
+    context.read(table, "stencil", target.has_stencil);
     if (target.has_stencil &&
         (!target.has_instruments || target.depth_format != DepthFormat::d32_float)) {
-        context.error(value->where,
+        context.error(table.find("stencil")->where,
                       "stencil is judged by the hit counter and lies beside d32-float; leave out "
                       "attachments and depth");
     }
@@ -154,7 +125,7 @@ Target load_target(LeafContext& context, const TomlValue& table) {
                         "color", "attachments", "resolve", "depth_resolve", "stencil"});
     read_depth_target(context, table, target);
     read_samples(context, table, target);
-    read_layers(context, table, target);
+    context.read(table, "layers", target.layers, 1, kMaxLayers);
     read_locations(context, table, target);
     if (const TomlValue* color = table.find("color")) {
         target.color = read_color_target(context, *color);
@@ -162,55 +133,27 @@ Target load_target(LeafContext& context, const TomlValue& table) {
     read_attachments(context, table, target);
     read_resolves(context, table, target);
     read_stencil(context, table, target);
-    const TomlValue* size = table.find("size");
-    if (size == nullptr) {
-        context.error(table.where, "[target] has no size; write size = [width, height]");
+    const auto size = context.read_size(table, "[target]", "the target", kMaxTargetSize);
+    if (!size) {
         return target;
     }
-    if (!context.array(*size, "size")) {
-        return target;
-    }
-    if (size->array.size() != 2) {
-        context.error(size->where, fmt::format("size has {} numbers; write [width, height]",
-                                               size->array.size()));
-        return target;
-    }
-    const auto side = [&](size_t i, const char* what) {
-        return static_cast<uint32_t>(
-            context.integer(size->array[i], what, 1, kMaxTargetSize).value_or(0));
-    };
-    target.width = side(0, "the target's width");
-    target.height = side(1, "the target's height");
+    target.width = size->front();
+    target.height = size->back();
     if (uint64_t{target.width} * target.height * target.layers * target.samples > kMaxPixels) {
-        context.error(size->where, target.samples == 1
-                                       ? "the target has more than 2^26 pixels; make it smaller"
-                                       : "the target has more than 2^26 samples; make it smaller");
+        context.error(table.find("size")->where,
+                      target.samples == 1
+                          ? "the target has more than 2^26 pixels; make it smaller"
+                          : "the target has more than 2^26 samples; make it smaller");
     }
     return target;
 }
 
 Multisample load_multisample(LeafContext& context, const TomlValue& draw) {
     Multisample state;
-    const auto mask = [&](const char* key) -> std::optional<uint32_t> {
-        const TomlValue* value = draw.find(key);
-        if (value == nullptr) {
-            return std::nullopt;
-        }
-        const std::optional<int64_t> bits = context.integer(*value, key, 0, UINT32_MAX);
-        return bits ? std::optional(static_cast<uint32_t>(*bits)) : std::nullopt;
-    };
-    state.sample_mask = mask("sample_mask").value_or(state.sample_mask);
-    state.shader_mask = mask("shader_mask");
-    if (const TomlValue* value = draw.find("min_sample_shading")) {
-        const std::optional<Number> number = context.number(*value, "min_sample_shading");
-        if (number && (number->value < 0 || number->value > 1)) {
-            context.error(value->where,
-                          "min_sample_shading is outside 0..1; write the fraction of the samples "
-                          "that is shaded at least");
-        } else if (number) {
-            state.min_sample_shading = round_to_binary32(*number).value;
-        }
-    }
+    context.read(draw, "sample_mask", state.sample_mask, 0, UINT32_MAX);
+    context.read(draw, "shader_mask", state.shader_mask, 0, UINT32_MAX);
+    context.read_fraction(draw, "min_sample_shading", state.min_sample_shading,
+                          "; write the fraction of the samples that is shaded at least");
     return state;
 }
 

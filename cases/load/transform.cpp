@@ -110,11 +110,7 @@ std::optional<std::vector<uint32_t>> vertex_order(LeafContext& context, const To
         }
     };
     direction("winding", reversed_winding);
-    if (const TomlValue* value = draw.find("first")) {
-        const std::optional<int64_t> n = context.integer(*value, "first", 0, 2);
-        good = good && n.has_value();
-        first = n.value_or(0);
-    }
+    good = context.read(draw, "first", first, 0, 2) && good;
     direction("order", reversed_order);
     if (!good) {
         return std::nullopt;

@@ -122,11 +122,7 @@ std::optional<Number> LeafContext::any_binary32(const TomlValue& value, const st
     if (!value.is(Kind::string)) {
         return number(value, what);
     }
-    std::string text = value.string;
-    const TomlValue* named = parameter(text);
-    if (named != nullptr && named->is(Kind::string)) {
-        text = named->string;
-    }
+    const std::string text = named_text(value.string);
     if (std::optional<Number> special = read_special_number(text)) {
         return special;
     }
@@ -187,11 +183,8 @@ std::optional<size_t> LeafContext::word(const TomlValue& value, const std::strin
     auto it = find(*given);
     std::string shown = *given;
     if (it == words.end()) {
-        const TomlValue* named = parameter(*given);
-        if (named != nullptr && named->is(Kind::string)) {
-            shown = named->string;
-            it = find(shown);
-        }
+        shown = named_text(*given);
+        it = find(shown);
     }
     if (it != words.end()) {
         return static_cast<size_t>(it - words.begin());
@@ -255,6 +248,44 @@ bool LeafContext::array(const TomlValue& value, const std::string& what) {
         return false;
     }
     return true;
+}
+
+bool LeafContext::array_of(const TomlValue& value, const std::string& what, size_t count,
+                           const char* form) {
+    if (!array(value, what)) {
+        return false;
+    }
+    if (value.array.size() != count) {
+        error(value.where,
+              fmt::format("{} has {} numbers; write {}", what, value.array.size(), form));
+        return false;
+    }
+    return true;
+}
+
+std::optional<std::array<uint32_t, 2>> LeafContext::read_size(const TomlValue& table,
+                                                              const char* name,
+                                                              const std::string& owner,
+                                                              int64_t largest) {
+    const TomlValue* size = table.find("size");
+    if (size == nullptr) {
+        error(table.where, fmt::format("{} has no size; write size = [width, height]", name));
+        return std::nullopt;
+    }
+    if (!array_of(*size, "size", 2, "[width, height]")) {
+        return std::nullopt;
+    }
+    const auto width = integer(size->array[0], owner + "'s width", 1, largest);
+    const auto height = integer(size->array[1], owner + "'s height", 1, largest);
+    if (!width || !height) {
+        return std::nullopt;
+    }
+    return {{static_cast<uint32_t>(*width), static_cast<uint32_t>(*height)}};
+}
+
+std::string LeafContext::named_text(const std::string& text) {
+    const TomlValue* named = parameter(text);
+    return named != nullptr && named->is(Kind::string) ? named->string : text;
 }
 
 void LeafContext::known_keys(const TomlValue& table, const std::string& what,

@@ -13,6 +13,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,63 @@ class LeafContext {
         const std::optional<size_t> index = word(value, what, kWords<Enum>);
         return index ? std::optional(static_cast<Enum>(*index)) : std::nullopt;
     }
+    // What the key of a table says, if it is there, read by the member's type: a word of its
+    // enumeration, true or false, a binary32. `what` names it in errors, if not the key does. A
+    // mistake leaves the member as it is, and the result is false.
+    template <class T>
+    bool read(const TomlValue& table, const char* key, T& member, const std::string& what = {}) {
+        const TomlValue* value = table.find(key);
+        if (value != nullptr) {
+            using Plain = Unwrapped<T>::type;
+            const auto read_as = [&](const std::string& name) -> std::optional<Plain> {
+                if constexpr (std::is_enum_v<Plain>) {
+                    return enumerator<Plain>(*value, name);
+                } else if constexpr (std::is_same_v<Plain, bool>) {
+                    return boolean(*value, name);
+                } else {
+                    static_assert(std::is_same_v<Plain, float>);
+                    return binary32(*value, name);
+                }
+            };
+            const std::optional<Plain> given = read_as(what.empty() ? key : what);
+            if (!given) {
+                return false;
+            }
+            member = *given;
+        }
+        return true;
+    }
+    // The same of an integer in [low, high].
+    template <class T>
+    bool read(const TomlValue& table, const char* key, T& member, int64_t low, int64_t high) {
+        if (const TomlValue* value = table.find(key)) {
+            const std::optional<int64_t> given = integer(*value, key, low, high);
+            if (!given) {
+                return false;
+            }
+            member = static_cast<Unwrapped<T>::type>(*given);
+        }
+        return true;
+    }
+    // The same of a number in 0..1; `why` is the rest of the sentence for any other.
+    template <class T>
+    void read_fraction(const TomlValue& table, const char* key, T& member, const char* why) {
+        const TomlValue* value = table.find(key);
+        const std::optional<Number> given = value != nullptr ? number(*value, key) : std::nullopt;
+        if (given && (given->value < 0 || given->value > 1)) {
+            error(value->where, std::string(key) + " is outside 0..1" + why);
+        } else if (given) {
+            member = round_to_binary32(*given).value;
+        }
+    }
+    // True for an array of `count` elements; complains otherwise. `form` is what to write.
+    bool array_of(const TomlValue& value, const std::string& what, size_t count, const char* form);
+    // The key size of a table, whose name is `name`: two sides from 1 to `largest` of what `owner`
+    // is. Nothing after a mistake.
+    std::optional<std::array<uint32_t, 2>> read_size(const TomlValue& table, const char* name,
+                                                     const std::string& owner, int64_t largest);
+    // The text, or that of the matrix key that has this name.
+    std::string named_text(const std::string& text);
     // An array of numbers, exactly `count` of them.
     std::optional<std::vector<Number>> numbers(const TomlValue& value, const std::string& what,
                                                size_t count);
@@ -77,6 +135,15 @@ class LeafContext {
                     std::initializer_list<std::string_view> keys);
 
   private:
+    template <class T>
+    struct Unwrapped {
+        using type = T;
+    };
+    template <class T>
+    struct Unwrapped<std::optional<T>> {
+        using type = T;
+    };
+
     std::vector<Parameter> parameters_;
     std::set<std::string> used_;
     Errors errors_;
