@@ -4,7 +4,6 @@
 // The command "diff": judges what another program rendered of exported cases. Nothing is drawn
 // here.
 #include <poll.h>
-#include <sys/utsname.h>
 
 #include <algorithm>
 #include <chrono>
@@ -135,50 +134,11 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
                                        : "; did you mean '" + nearest + "'?")));
 }
 
-std::string host_name() {
-    utsname name{};
-    ::uname(&name);
-    return std::string(name.sysname) + " " + name.release + " " + name.machine;
-}
-
 using ExpectedById = std::map<std::string, run::ExpectationLine>;
-
-// What the expectation files say of the selected cases; their names go into the header.
-OrStop<ExpectedById> expectations_of(const RunOptions& options, const Selection& selection,
-                                     report::Run& header) {
-    const OrStop<std::vector<run::ExpectationFile>> files =
-        find_expectations(options, selection.root, header.device);
-    if (!files) {
-        return tl::unexpected(files.error());
-    }
-    const auto expected =
-        run::resolve_expectations(*files, selection.suite_ids, selection.whole_suite);
-    if (!expected) {
-        Stop stop{report::kExitInvalidFile, {}};
-        for (const cases::Error& error : expected.error()) {
-            stop.lines.push_back(cases::to_string(error));
-        }
-        return tl::unexpected(stop);
-    }
-    for (const run::ExpectationFile& file : *files) {
-        header.expectation_file +=
-            (header.expectation_file.empty() ? "" : ", ") + file.path.string();
-    }
-    return *expected;
-}
 
 report::Run make_header(const Program& program, const DiffOptions& options,
                         const Selection& selection) {
-    report::Run header;
-    header.tool_version = kVersion;
-    header.arguments = program.arguments;
-    header.environment = recorded_environment();
-    header.started = utc_now(false);
-    header.host = host_name();
-    header.profile = options.run.profile;
-    header.seed = options.run.seed;
-    std::error_code ignored;
-    header.suite_root = fs::absolute(selection.root, ignored).lexically_normal().string();
+    report::Run header = new_header(program, options.run, selection.root);
     header.jobs = cases::cores();
     header.device.name = options.name.empty() ? "captures" : options.name;
     header.device.driver_name = "files";

@@ -23,20 +23,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Stop invalid(const cases::Errors& errors) {
-    Stop stop{report::kExitInvalidFile, {}};
-    for (const cases::Error& error : errors) {
-        stop.lines.push_back(cases::to_string(error));
-    }
-    return stop;
-}
-
 // Form, statuses and dates of a file, and that its lines fit the suite and each other.
 int show(const Program& program, const ExpectOptions& options) {
     const std::string& name = options.file;
     const auto file = run::load_expectations(name);
     if (!file) {
-        return report_stop(invalid(file.error()));
+        return report_stop(invalid_files(file.error()));
     }
     const OrStop<LoadedSuite> suite = load_and_select(program, options.suite, cases::Contents::ids);
     if (!suite) {
@@ -47,7 +39,7 @@ int show(const Program& program, const ExpectOptions& options) {
         ids.push_back(c.id);
     }
     if (const auto resolved = run::resolve_expectations({*file}, ids, true); !resolved) {
-        return report_stop(invalid(resolved.error()));
+        return report_stop(invalid_files(resolved.error()));
     }
     std::array<size_t, report::kStatuses> count{};
     for (const run::ExpectationLine& line : file->lines) {
@@ -133,7 +125,7 @@ OrStop<run::Update> make_update(const Program& program, const ExpectOptions& opt
     }
     const auto file = run::parse_expectations(text, options.file, run::today_utc());
     if (!file) {
-        return tl::unexpected(invalid(file.error()));
+        return tl::unexpected(invalid_files(file.error()));
     }
     if (const std::string why = mismatch(*file, run->device, run->profile); !why.empty()) {
         return tl::unexpected(

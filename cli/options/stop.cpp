@@ -4,7 +4,17 @@
 
 #include <cstdio>
 
+#include "report/record/run.hpp"
+
 namespace cli {
+
+Stop invalid_files(const cases::Errors& errors) {
+    Stop stop{report::kExitInvalidFile, {}};
+    for (const cases::Error& error : errors) {
+        stop.lines.push_back(cases::to_string(error));
+    }
+    return stop;
+}
 
 int report_stop(const Stop& stop) {
     for (const std::string& line : stop.lines) {

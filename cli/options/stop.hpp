@@ -6,6 +6,8 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "cases/base/error.hpp"
+
 namespace cli {
 
 // Why a command cannot go on: lines for stderr and its exit code.
@@ -19,6 +21,9 @@ using OrStop = tl::expected<T, Stop>;
 inline Stop stop_with(int exit_code, const std::string& line) {
     return {exit_code, {line}};
 }
+
+// Mistakes in files, a line each.
+Stop invalid_files(const cases::Errors& errors);
 
 // Prints the lines, each after "edgecase: ", and returns the exit code.
 int report_stop(const Stop& stop);

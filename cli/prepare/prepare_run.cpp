@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/prepare/prepare_run.hpp"
 
-#include <sys/utsname.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -24,12 +22,6 @@ using report::CaseRecord;
 using report::Run;
 
 namespace {
-
-std::string host_name() {
-    utsname name{};
-    ::uname(&name);
-    return std::string(name.sysname) + " " + name.release + " " + name.machine;
-}
 
 // A fault that no case can show looks like a runner that does not see it.
 void warn_of_idle_faults(const std::vector<std::string>& ids) {
@@ -128,16 +120,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     p.options = options;
     p.selection = std::move(*selection);
     warn_of_idle_faults(p.selection.suite_ids);
-    Run& header = p.header;
-    header.tool_version = kVersion;
-    header.arguments = program.arguments;
-    header.environment = recorded_environment();
-    header.started = utc_now(false);
-    header.host = host_name();
-    header.profile = options.profile;
-    header.seed = options.seed;
-    std::error_code ignored;
-    header.suite_root = fs::absolute(p.selection.root, ignored).lexically_normal().string();
+    Run& header = p.header = new_header(program, options, p.selection.root);
     header.suite_hash = cases::hex(suite_hash(p.selection.root));
     header.shard = options.shard.index;
     header.shards = options.shard.count;
@@ -155,29 +138,14 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
 }
 
 OrStop<std::monostate> apply_expectations(Prepared& p) {
-    const OrStop<std::vector<run::ExpectationFile>> files =
-        find_expectations(p.options, p.selection.root, p.header.device);
-    if (!files) {
-        return tl::unexpected(files.error());
-    }
-    std::vector<std::string> ids = p.selection.suite_ids;
-    const auto expected = run::resolve_expectations(*files, ids, p.selection.whole_suite);
+    const auto expected = expectations_of(p.options, p.selection, p.header);
     if (!expected) {
-        Stop stop{report::kExitInvalidFile, {}};
-        for (const cases::Error& error : expected.error()) {
-            stop.lines.push_back(cases::to_string(error));
-        }
-        return tl::unexpected(stop);
+        return tl::unexpected(expected.error());
     }
     for (run::PlannedCase& c : p.plan) {
         if (const auto found = expected->find(c.data.id); found != expected->end()) {
             c.expected = found->second;
         }
-    }
-    p.header.expectation_file.clear();
-    for (const run::ExpectationFile& file : *files) {
-        p.header.expectation_file +=
-            (p.header.expectation_file.empty() ? "" : ", ") + file.path.string();
     }
     return std::monostate{};
 }

@@ -3,6 +3,7 @@
 #include "cli/prepare/run_plan.hpp"
 
 #include <fmt/format.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -68,6 +69,9 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     return selection;
 }
 
+namespace {
+
+// The expectation files of --expect, or those beside the suite that fit the device.
 OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& options,
                                                             const fs::path& suite_root,
                                                             const report::Device& device) {
@@ -91,11 +95,7 @@ OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& op
     for (const fs::path& path : paths) {
         cases::ExpectedAll<run::ExpectationFile> file = run::load_expectations(path);
         if (!file) {
-            Stop stop{report::kExitInvalidFile, {}};
-            for (const cases::Error& error : file.error()) {
-                stop.lines.push_back(cases::to_string(error));
-            }
-            return tl::unexpected(stop);
+            return tl::unexpected(invalid_files(file.error()));
         }
         const std::string why_not = mismatch(*file, device, options.profile);
         if (why_not.empty()) {
@@ -108,6 +108,46 @@ OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& op
         }
     }
     return found;
+}
+
+}  // namespace
+
+OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOptions& options,
+                                                                    const Selection& selection,
+                                                                    report::Run& header) {
+    const OrStop<std::vector<run::ExpectationFile>> files =
+        find_expectations(options, selection.root, header.device);
+    if (!files) {
+        return tl::unexpected(files.error());
+    }
+    const auto expected =
+        run::resolve_expectations(*files, selection.suite_ids, selection.whole_suite);
+    if (!expected) {
+        return tl::unexpected(invalid_files(expected.error()));
+    }
+    header.expectation_file.clear();
+    for (const run::ExpectationFile& file : *files) {
+        header.expectation_file +=
+            (header.expectation_file.empty() ? "" : ", ") + file.path.string();
+    }
+    return *expected;
+}
+
+report::Run new_header(const Program& program, const RunOptions& options,
+                       const fs::path& suite_root) {
+    report::Run header;
+    header.tool_version = kVersion;
+    header.arguments = program.arguments;
+    header.environment = recorded_environment();
+    header.started = utc_now(false);
+    utsname name{};
+    ::uname(&name);
+    header.host = std::string(name.sysname) + " " + name.release + " " + name.machine;
+    header.profile = options.profile;
+    header.seed = options.seed;
+    std::error_code ignored;
+    header.suite_root = fs::absolute(suite_root, ignored).lexically_normal().string();
+    return header;
 }
 
 namespace {

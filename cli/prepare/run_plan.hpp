@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,15 @@ struct Selection {
 // Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop.
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
 
-// The expectation files of --expect, or those beside the suite that fit the device.
-OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& options,
-                                                            const std::filesystem::path& suite_root,
-                                                            const report::Device& device);
+// What the expectation files say of each id, those of --expect or those beside the suite that fit
+// the header's device; their names go into the header.
+OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOptions& options,
+                                                                    const Selection& selection,
+                                                                    report::Run& header);
+
+// What is known of a run before its device is: how, where and when it was started, and its suite.
+report::Run new_header(const Program& program, const RunOptions& options,
+                       const std::filesystem::path& suite_root);
 
 // The words of a command on one case that repeat how this run was set up, quoted for a shell.
 std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id);

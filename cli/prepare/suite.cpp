@@ -39,14 +39,6 @@ bool is_below(const fs::path& file, const fs::path& root) {
     return !relative.empty() && *relative.begin() != "..";
 }
 
-Stop invalid_files(const cases::Errors& errors) {
-    Stop stop{report::kExitInvalidFile, {}};
-    for (const cases::Error& error : errors) {
-        stop.lines.push_back(cases::to_string(error));
-    }
-    return stop;
-}
-
 // Loads the case files outside the suite that selectors name, and puts their ids in the selectors'
 // place.
 OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
