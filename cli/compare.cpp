@@ -57,8 +57,7 @@ int compare_command(const Program&, const CompareOptions& options) {
     if (!comparison) {
         return report_stop({report::kExitUsage, {comparison.error().message}});
     }
-    const bool stdout_taken = options.json == "-" || options.html == "-";
-    std::FILE* console = stdout_taken ? stderr : stdout;
+    std::FILE* console = console_beside(options.json, {}, options.html);
     const report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     cases::Errors errors;
     if (!options.html.empty()) {

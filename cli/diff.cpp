@@ -15,6 +15,7 @@
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
+#include "cli/prepare/prepare_run.hpp"
 #include "cli/prepare/run_plan.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
@@ -172,62 +173,6 @@ std::string skipped_text(const std::map<std::string, size_t>& skipped) {
     return text.empty() ? text : text + "\n";
 }
 
-// The folder of the reports with its journal begun.
-OrStop<report::Journal> begin_journal(const fs::path& folder, const report::Run& header) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) {
-        return tl::unexpected(
-            stop_with(report::kExitUsage, "the folder '" + folder.string() + "' cannot be made: " +
-                                              error.message() + "; choose another with -o"));
-    }
-    cases::Expected<report::Journal> journal = report::Journal::open(folder, false);
-    if (!journal) {
-        return tl::unexpected(stop_with(report::kExitUsage, journal.error().message));
-    }
-    cases::Expected<void> written = journal->write_run(header);
-    if (written) {
-        written = journal->write_device(header.device);
-    }
-    if (!written) {
-        return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
-    }
-    return std::move(*journal);
-}
-
-// Reports from the journal alone, the summary and the exit code.
-int conclude(const DiffOptions& options, const fs::path& folder, const std::string& failure,
-             const std::map<std::string, size_t>& skipped, std::FILE* console,
-             const report::ConsoleStyle& style) {
-    const cases::Expected<report::Run> run = report::load_journal(folder);
-    if (!run) {
-        return report_stop(stop_with(report::kExitInternal, cases::to_string(run.error())));
-    }
-    const RunOptions& o = options.run;
-    const ReportFiles files{folder, o.json, o.junit, o.html};
-    const cases::Errors errors = write_reports(*run, files);
-    const bool failed = !errors.empty() || !failure.empty();
-    const int code = report::exit_code(*run);
-    const bool overrides = failed && code != report::kExitInterrupted;
-    if (!o.quiet) {
-        const std::string why =
-            failure.empty() ? "a report could not be written" : "judging stopped early";
-        std::fputs(skipped_text(skipped).c_str(), console);
-        std::fputs(report::console_summary(
-                       *run, written_page(files, errors), style,
-                       overrides ? report::exit_text(report::kExitInternal, why) : std::string())
-                       .c_str(),
-                   console);
-    }
-    for (const cases::Error& error : errors) {
-        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
-    }
-    if (!failure.empty()) {
-        std::fprintf(stderr, "edgecase: %s\n", failure.c_str());
-    }
-    return overrides ? report::kExitInternal : code;
-}
-
 }  // namespace
 
 int diff_command(const Program& program, const DiffOptions& options) {
@@ -247,12 +192,11 @@ int diff_command(const Program& program, const DiffOptions& options) {
     }
     const fs::path folder =
         o.output.empty() ? fs::path("out") / (utc_now(true) + "-captures") : fs::path(o.output);
-    OrStop<report::Journal> journal = begin_journal(folder, header);
+    OrStop<report::Journal> journal = open_journal(folder, header, false);
     if (!journal) {
         return report_stop(journal.error());
     }
-    const bool stdout_taken = o.json == "-" || o.junit == "-" || o.html == "-";
-    std::FILE* console = stdout_taken ? stderr : stdout;
+    std::FILE* console = console_beside(o.json, o.junit, o.html);
     report::ConsoleStyle style = console_style(console, o.color, o.verbose);
     style.folder = shell_quote(folder.string());
     if (!o.quiet) {
@@ -324,7 +268,8 @@ int diff_command(const Program& program, const DiffOptions& options) {
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }
-    return conclude(options, folder, failure, skipped, console, style);
+    return conclude(folder, o, Ci::none, console, style,
+                    {failure, "judging stopped early", skipped_text(skipped), {}});
 }
 
 }  // namespace cli

@@ -116,8 +116,7 @@ int report_command(const Program&, const ReportOptions& options) {
     const report::Run& run = source->run;
     const ReportFiles files{source->folder, options.json, options.junit, options.html};
     cases::Errors errors = write_reports(run, files);
-    const bool stdout_taken = options.json == "-" || options.junit == "-" || options.html == "-";
-    std::FILE* console = stdout_taken ? stderr : stdout;
+    std::FILE* console = console_beside(options.json, options.junit, options.html);
     report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     style.folder =
         shell_quote(options.merge ? source->folder.string() : options.directories.front());
@@ -147,9 +146,7 @@ int report_command(const Program&, const ReportOptions& options) {
                    console);
         std::fflush(console);
     }
-    for (const cases::Error& error : errors) {
-        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
-    }
+    print_errors(errors);
     if (!is_whole) {
         std::fprintf(stderr,
                      "edgecase: %s not among the folders, so not every case of the run is here; "

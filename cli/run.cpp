@@ -43,16 +43,6 @@ std::string file_name_of(const std::string& device) {
     return name.substr(0, 48);
 }
 
-cases::Expected<void> make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) {
-        return cases::failure("the folder '" + folder.string() +
-                              "' cannot be made: " + error.message() + "; choose another with -o");
-    }
-    return {};
-}
-
 // Checks every hand-drawn picture, on all cores, before a device is asked.
 void check_pictures(std::vector<run::PlannedCase>& plan) {
     run::Pool pool(cases::cores());
@@ -85,46 +75,6 @@ OrStop<std::monostate> check_required_device(const RunOptions& options,
 bool is_same_device(const report::Device& a, const report::Device& b) {
     return a.name == b.name && a.uuid == b.uuid && a.driver_version == b.driver_version &&
            a.subpixel_bits == b.subpixel_bits;
-}
-
-// Reports from the journal alone, the summary, and the exit code.
-int conclude(const Prepared& p, std::FILE* console, const report::ConsoleStyle& style,
-             const std::string& failure) {
-    const cases::Expected<Run> run = report::load_journal(p.folder);
-    if (!run) {
-        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(run.error()).c_str());
-        return report::kExitInternal;
-    }
-    ReportFiles files{p.folder, p.options.json, p.options.junit, p.options.html};
-    cases::Errors errors = write_reports(*run, files);
-    const cases::Errors ci = write_ci(*run, chosen_ci(p.options.ci), p.folder, console);
-    errors.insert(errors.end(), ci.begin(), ci.end());
-    const bool failed = !errors.empty() || !failure.empty();
-    const int code = report::exit_code(*run);
-    const bool overrides = failed && code != report::kExitInterrupted;
-    if (!p.options.quiet) {
-        const std::string why =
-            failure.empty() ? "a report could not be written" : "the run stopped early";
-        std::fputs(report::console_summary(
-                       *run, written_page(files, errors), style,
-                       overrides ? report::exit_text(report::kExitInternal, why) : std::string())
-                       .c_str(),
-                   console);
-    }
-    for (const cases::Error& error : errors) {
-        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
-    }
-    if (!failure.empty()) {
-        std::fprintf(stderr,
-                     "edgecase: the run stopped early: %s; go on with 'edgecase run --resume %s'\n",
-                     failure.c_str(), shell_quote(p.folder.string()).c_str());
-    }
-    if (run->interrupted) {
-        std::fflush(console);
-        std::fprintf(stderr, "edgecase: interrupted; go on with 'edgecase run --resume %s'\n",
-                     shell_quote(p.folder.string()).c_str());
-    }
-    return overrides ? report::kExitInternal : code;
 }
 
 run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
@@ -183,25 +133,12 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (p.folder.empty()) {
         p.folder = fs::path("out") / (utc_now(true) + "-" + file_name_of(device.name));
     }
-    if (auto made = make_folder(p.folder); !made) {
-        return report_stop(stop_with(report::kExitUsage, made.error().message));
-    }
-    cases::Expected<report::Journal> journal = report::Journal::open(p.folder, resumed);
+    OrStop<report::Journal> journal = open_journal(p.folder, p.header, resumed);
     if (!journal) {
-        return report_stop(stop_with(report::kExitUsage, journal.error().message));
-    }
-    if (!resumed) {
-        cases::Expected<void> written = journal->write_run(p.header);
-        if (written) {
-            written = journal->write_device(device);
-        }
-        if (!written) {
-            return report_stop(stop_with(report::kExitInternal, written.error().message));
-        }
+        return report_stop(journal.error());
     }
 
-    const bool stdout_taken = options.json == "-" || options.junit == "-" || options.html == "-";
-    std::FILE* console = stdout_taken ? stderr : stdout;
+    std::FILE* console = console_beside(options.json, options.junit, options.html);
     report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     style.folder = shell_quote(p.folder.string());
     if (!options.quiet) {
@@ -251,7 +188,13 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }
-    return conclude(p, console, style, failure);
+    const std::string resume =
+        "; go on with 'edgecase run --resume " + shell_quote(p.folder.string()) + "'";
+    if (!failure.empty()) {
+        failure = "the run stopped early: " + failure + resume;
+    }
+    return conclude(p.folder, options, chosen_ci(options.ci), console, style,
+                    {failure, "the run stopped early", {}, "interrupted" + resume});
 }
 
 }  // namespace

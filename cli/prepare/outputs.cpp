@@ -19,7 +19,9 @@
 #include "cli/prepare/ci.hpp"
 #include "report/files/json.hpp"
 #include "report/files/junit.hpp"
+#include "report/journal/journal.hpp"
 #include "report/page/html.hpp"
+#include "report/text/sentences.hpp"
 #include "run/process/frame.hpp"
 #include "run/process/process.hpp"
 
@@ -125,6 +127,52 @@ std::string written_page(const ReportFiles& files, const cases::Errors& errors) 
         errors.begin(), errors.end(),
         [&](const cases::Error& error) { return error.message.starts_with("'" + page + "'"); });
     return is_missing ? std::string() : page;
+}
+
+std::FILE* console_beside(const std::string& json, const std::string& junit,
+                          const std::string& html) {
+    return json == "-" || junit == "-" || html == "-" ? stderr : stdout;
+}
+
+void print_errors(const cases::Errors& errors) {
+    for (const cases::Error& error : errors) {
+        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
+    }
+}
+
+int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,
+             std::FILE* console, const report::ConsoleStyle& style, const Ending& ending) {
+    const cases::Expected<report::Run> run = report::load_journal(folder);
+    if (!run) {
+        print_errors({run.error()});
+        return report::kExitInternal;
+    }
+    const ReportFiles files{folder, options.json, options.junit, options.html};
+    cases::Errors errors = write_reports(*run, files);
+    const cases::Errors of_ci = write_ci(*run, ci, folder, console);
+    errors.insert(errors.end(), of_ci.begin(), of_ci.end());
+    const bool failed = !errors.empty() || !ending.failure.empty();
+    const int code = report::exit_code(*run);
+    const bool overrides = failed && code != report::kExitInterrupted;
+    if (!options.quiet) {
+        const std::string why =
+            ending.failure.empty() ? "a report could not be written" : ending.stopped;
+        std::fputs(ending.summary.c_str(), console);
+        std::fputs(report::console_summary(
+                       *run, written_page(files, errors), style,
+                       overrides ? report::exit_text(report::kExitInternal, why) : std::string())
+                       .c_str(),
+                   console);
+    }
+    print_errors(errors);
+    if (!ending.failure.empty()) {
+        std::fprintf(stderr, "edgecase: %s\n", ending.failure.c_str());
+    }
+    if (run->interrupted && !ending.interrupted.empty()) {
+        std::fflush(console);
+        std::fprintf(stderr, "edgecase: %s\n", ending.interrupted.c_str());
+    }
+    return overrides ? report::kExitInternal : code;
 }
 
 int finish_output(int code) {

@@ -31,6 +31,24 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files);
 // report.html in the folder, as the summary names it; empty if it could not be written.
 std::string written_page(const ReportFiles& files, const cases::Errors& errors);
 
+// Where the summary goes: standard output, unless a report goes there.
+std::FILE* console_beside(const std::string& json, const std::string& junit,
+                          const std::string& html);
+
+// Tells mistakes on standard error, a line each.
+void print_errors(const cases::Errors& errors);
+
+// What a command says at its end besides the summary.
+struct Ending {
+    std::string failure;      // why not all was done, and what to do; empty: all was
+    std::string stopped;      // that in few words, for the summary
+    std::string summary;      // printed before the summary
+    std::string interrupted;  // printed if the run was interrupted
+};
+// Writes reports from the journal alone, prints the summary, and returns the exit code.
+int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,
+             std::FILE* console, const report::ConsoleStyle& style, const Ending& ending);
+
 // The exit code of a command that ends with `code`: what standard output did not take (a full disk)
 // is told and makes it kExitInternal; a reader that has read enough is no error.
 int finish_output(int code);

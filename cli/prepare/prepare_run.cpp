@@ -137,6 +137,30 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     return p;
 }
 
+OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, bool resumed) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        return tl::unexpected(
+            stop_with(report::kExitUsage, "the folder '" + folder.string() + "' cannot be made: " +
+                                              error.message() + "; choose another with -o"));
+    }
+    cases::Expected<report::Journal> journal = report::Journal::open(folder, resumed);
+    if (!journal) {
+        return tl::unexpected(stop_with(report::kExitUsage, journal.error().message));
+    }
+    if (!resumed) {
+        cases::Expected<void> written = journal->write_run(header);
+        if (written) {
+            written = journal->write_device(header.device);
+        }
+        if (!written) {
+            return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
+        }
+    }
+    return std::move(*journal);
+}
+
 OrStop<std::monostate> apply_expectations(Prepared& p) {
     const auto expected = expectations_of(p.options, p.selection, p.header);
     if (!expected) {

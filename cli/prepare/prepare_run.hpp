@@ -11,6 +11,7 @@
 
 #include "cli/options/program.hpp"
 #include "cli/prepare/run_plan.hpp"
+#include "report/journal/journal.hpp"
 #include "report/record/run.hpp"
 #include "run/run_loop.hpp"
 
@@ -28,6 +29,11 @@ struct Prepared {
 OrStop<Prepared> prepare(const Program& program, const RunOptions& options);
 // A run that goes on from its journal.
 OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now);
+
+// The folder of the reports with its journal, begun with the header or, of a resumed run, gone on
+// with.
+OrStop<report::Journal> open_journal(const std::filesystem::path& folder, const report::Run& header,
+                                     bool resumed);
 
 // Finds the expectation files for the device of the header and what they say of the planned cases.
 OrStop<std::monostate> apply_expectations(Prepared& p);

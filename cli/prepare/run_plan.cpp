@@ -160,10 +160,20 @@ std::string join(const std::vector<std::string>& words) {
     return line;
 }
 
-void add_suite_and_profile(std::vector<std::string>& words, const RunOptions& options) {
-    if (!options.suite.suite.empty()) {
-        words.insert(words.end(), {"--suite", options.suite.suite});
+void add_given(std::vector<std::string>& words, const char* option, const std::string& value) {
+    if (!value.empty()) {
+        words.insert(words.end(), {option, value});
     }
+}
+
+void add_subpixel_bits(std::vector<std::string>& words, uint32_t bits) {
+    if (bits != 8) {
+        words.insert(words.end(), {"--subpixel-bits", std::to_string(bits)});
+    }
+}
+
+void add_suite_and_profile(std::vector<std::string>& words, const RunOptions& options) {
+    add_given(words, "--suite", options.suite.suite);
     if (options.profile != cases::Profile::direct3d) {
         words.insert(words.end(), {"--profile", std::string(cases::to_string(options.profile))});
     }
@@ -210,18 +220,12 @@ std::string driver_settings() {
 std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id) {
     std::vector<std::string> words = {program.arguments.front(), "run", selector_of(options, id)};
     add_suite_and_profile(words, options);
-    if (!options.device.device.empty()) {
-        words.insert(words.end(), {"--device", options.device.device});
-    }
-    if (!options.device.icd.empty()) {
-        words.insert(words.end(), {"--icd", options.device.icd});
-    }
+    add_given(words, "--device", options.device.device);
+    add_given(words, "--icd", options.device.icd);
     if (options.device.validation) {
         words.emplace_back("--validation");
     }
-    if (!options.device.renderer.empty()) {
-        words.insert(words.end(), {"--renderer", options.device.renderer});
-    }
+    add_given(words, "--renderer", options.device.renderer);
     if (options.repeat > 1) {
         words.insert(words.end(), {"--repeat", std::to_string(options.repeat)});
     }
@@ -236,12 +240,8 @@ std::string diff_line(const Program& program, const DiffOptions& options, const 
     std::vector<std::string> words = {program.arguments.front(), "diff",
                                       selector_of(options.run, id), "--captures", options.captures};
     add_suite_and_profile(words, options.run);
-    if (options.subpixel_bits != 8) {
-        words.insert(words.end(), {"--subpixel-bits", std::to_string(options.subpixel_bits)});
-    }
-    if (!options.name.empty()) {
-        words.insert(words.end(), {"--name", options.name});
-    }
+    add_subpixel_bits(words, options.subpixel_bits);
+    add_given(words, "--name", options.name);
     add_expectations(words, options.run);
     return join(words);
 }
@@ -251,9 +251,7 @@ std::string explain_line(const Program& program, const RunOptions& options, cons
     std::vector<std::string> words = {program.arguments.front(), "explain",
                                       selector_of(options, id)};
     add_suite_and_profile(words, options);
-    if (subpixel_bits != 8) {
-        words.insert(words.end(), {"--subpixel-bits", std::to_string(subpixel_bits)});
-    }
+    add_subpixel_bits(words, subpixel_bits);
     return join(words);
 }
 
