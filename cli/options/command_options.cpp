@@ -60,6 +60,30 @@ const std::map<std::string, std::string>& drawing_names() {
     return kNames;
 }
 
+// What run and diff have in common.
+void add_expectations(CLI::App* app, RunOptions& o) {
+    app->add_option("--expect", o.expect, "an expectation file, instead of those beside the suite")
+        ->type_name("FILE")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group("Judging");
+    app->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
+}
+void add_outputs(CLI::App* app, RunOptions& o, const char* folder, bool tells_ci) {
+    add_value(app, "-o,--output", o.output, folder, "DIR", "Output");
+    add_report_files(app, o.json, o.junit, o.html);
+    add_choice(app, "--capture", o.capture, kCaptureNames,
+               "of which cases the reports keep pictures")
+        ->group("Output");
+    add_terminal(app, o.quiet, o.verbose, o.color);
+    if (tells_ci) {
+        add_ci(app, o.ci);
+    }
+    add_choice(app, "--progress", o.progress, kProgressNames, "how progress is shown")
+        ->group("Output");
+}
+
 void define_run(CLI::App& app, RunOptions& o) {
     CLI::App* run =
         app.add_subcommand("run", "draw cases on a device and compare with the exact reference");
@@ -67,10 +91,8 @@ void define_run(CLI::App& app, RunOptions& o) {
     add_suite(run, o.suite);
     run->add_flag("--quick", o.quick, "the first and the last leaf of each case file alone")
         ->group("Selection");
-    run->add_option("--failed-in", o.failed_in,
-                    "only the cases that ended unexpectedly in an earlier run")
-        ->type_name("DIR")
-        ->group("Selection");
+    add_value(run, "--failed-in", o.failed_in,
+              "only the cases that ended unexpectedly in an earlier run", "DIR", "Selection");
     run->add_option(
            "--shard",
            [&o](const CLI::results_t& results) {
@@ -83,57 +105,31 @@ void define_run(CLI::App& app, RunOptions& o) {
         ->group("Selection");
     run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
         ->group("Selection");
-    run->add_option("--seed", o.seed, "seed of --shuffle [1]")
-        ->type_name("N")
-        ->check(in_range<uint64_t>(0, UINT64_MAX))
-        ->group("Selection");
-    run->add_option("--repeat", o.repeat, "draw each case N times; other bits make a flake [1]")
-        ->type_name("N")
-        ->check(in_range(1U, 1000000U))
-        ->group("Selection");
+    add_value(run, "--seed", o.seed, "seed of --shuffle [1]", "N", "Selection")
+        ->check(in_range<uint64_t>(0, UINT64_MAX));
+    add_value(run, "--repeat", o.repeat, "draw each case N times; other bits make a flake [1]", "N",
+              "Selection")
+        ->check(in_range(1U, 1000000U));
     add_device(run, o.device);
-    run->add_option("--require-device", o.require_device,
-                    "stop unless the device's name and driver match this regular expression")
-        ->type_name("REGEX")
-        ->group("Device");
+    add_value(run, "--require-device", o.require_device,
+              "stop unless the device's name and driver match this regular expression", "REGEX",
+              "Device");
     run->add_flag("--validation", o.device.validation, "with the Khronos validation layer")
         ->group("Device");
     add_profile(run, o.profile);
-    run->add_option("--expect", o.expect, "an expectation file, instead of those beside the suite")
-        ->type_name("FILE")
-        ->type_size(1)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->group("Judging");
-    run->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
-    run->add_option("-j,--jobs", o.jobs, "workers, 1 to 256 [one a core, at most 4]")
-        ->type_name("N")
+    add_expectations(run, o);
+    add_value(run, "-j,--jobs", o.jobs, "workers, 1 to 256 [one a core, at most 4]", "N",
+              "Isolation")
         ->envname("EDGECASE_JOBS")
-        ->check(in_range(1U, 256U))
-        ->group("Isolation");
-    run->add_option("--batch", o.batch, "cases in one submission, at most; 1 to 1024 [16]")
-        ->type_name("N")
-        ->check(in_range(1U, 1024U))
-        ->group("Isolation");
-    run->add_option("--retries", o.retries,
-                    "how often an unexpected failure is drawn again, alone [1]")
-        ->type_name("N")
-        ->check(in_range(0U, 1000U))
-        ->group("Isolation");
-    run->add_option("--resume", o.resume, "go on with an interrupted run")
-        ->type_name("DIR")
-        ->group("Isolation");
-    run->add_option("-o,--output", o.output, "where the reports go [out/<time>-<device>]")
-        ->type_name("DIR")
-        ->group("Output");
-    add_report_files(run, o.json, o.junit, o.html);
-    add_choice(run, "--capture", o.capture, kCaptureNames,
-               "of which cases the reports keep pictures")
-        ->group("Output");
-    add_terminal(run, o.quiet, o.verbose, o.color);
-    add_ci(run, o.ci);
-    add_choice(run, "--progress", o.progress, kProgressNames, "how progress is shown")
-        ->group("Output");
+        ->check(in_range(1U, 256U));
+    add_value(run, "--batch", o.batch, "cases in one submission, at most; 1 to 1024 [16]", "N",
+              "Isolation")
+        ->check(in_range(1U, 1024U));
+    add_value(run, "--retries", o.retries,
+              "how often an unexpected failure is drawn again, alone [1]", "N", "Isolation")
+        ->check(in_range(0U, 1000U));
+    add_value(run, "--resume", o.resume, "go on with an interrupted run", "DIR", "Isolation");
+    add_outputs(run, o, "where the reports go [out/<time>-<device>]", true);
 }
 
 // Rendering by others: what they get, and how it is judged.
@@ -151,28 +147,11 @@ void define_images(CLI::App& app, AllOptions& all) {
         ->type_name("DIR")
         ->required()
         ->group("Selection");
-    in->add_option("--name", all.diff.name, "of the renderer, for the reports")
-        ->type_name("NAME")
-        ->group("Output");
+    add_value(in, "--name", all.diff.name, "of the renderer, for the reports", "NAME", "Output");
     add_profile(in, o.profile);
     add_subpixel_bits(in, all.diff.subpixel_bits);
-    in->add_option("--expect", o.expect, "an expectation file, instead of those beside the suite")
-        ->type_name("FILE")
-        ->type_size(1)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->group("Judging");
-    in->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
-    in->add_option("-o,--output", o.output, "where the reports go [out/<time>-captures]")
-        ->type_name("DIR")
-        ->group("Output");
-    add_report_files(in, o.json, o.junit, o.html);
-    add_choice(in, "--capture", o.capture, kCaptureNames,
-               "of which cases the reports keep pictures")
-        ->group("Output");
-    add_terminal(in, o.quiet, o.verbose, o.color);
-    add_choice(in, "--progress", o.progress, kProgressNames, "how progress is shown")
-        ->group("Output");
+    add_expectations(in, o);
+    add_outputs(in, o, "where the reports go [out/<time>-captures]", false);
 }
 
 void define_others(CLI::App& app, AllOptions& all) {
@@ -233,11 +212,8 @@ void define_others(CLI::App& app, AllOptions& all) {
         ->type_name("");
     report->add_flag("--merge", all.report.merge,
                      "several folders, the shards of one run, become one");
-    report
-        ->add_option("-o,--output", all.report.output,
-                     "where the reports go [DIR, with --merge out/merged]")
-        ->type_name("DIR")
-        ->group("Output");
+    add_value(report, "-o,--output", all.report.output,
+              "where the reports go [DIR, with --merge out/merged]", "DIR", "Output");
     add_ci(report, all.report.ci);
     add_report_files(report, all.report.json, all.report.junit, all.report.html);
     add_terminal(report, all.report.quiet, all.report.verbose, all.report.color);

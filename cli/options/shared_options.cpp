@@ -46,9 +46,8 @@ bool parse_pair(const std::string& text, char separator, uint32_t& a, uint32_t& 
 }
 
 void add_suite_folder(CLI::App* app, SuiteOptions& o) {
-    app->add_option("--suite", o.suite, "the folder of the suite (EDGECASE_SUITE)")
-        ->type_name("DIR")
-        ->group("Selection");
+    add_value(app, "--suite", o.suite, "the folder of the suite (EDGECASE_SUITE)", "DIR",
+              "Selection");
 }
 
 void add_suite(CLI::App* app, SuiteOptions& o) {
@@ -71,26 +70,22 @@ void add_profile(CLI::App* app, cases::Profile& profile) {
 }
 
 void add_subpixel_bits(CLI::App* app, uint32_t& bits) {
-    app->add_option("--subpixel-bits", bits, "subpixel precision bits of the device, 4 to 16 [8]")
-        ->type_name("N")
-        ->check(in_range(4U, 16U))
-        ->group("Judging");
+    add_value(app, "--subpixel-bits", bits, "subpixel precision bits of the device, 4 to 16 [8]",
+              "N", "Judging")
+        ->check(in_range(4U, 16U));
 }
 
 void add_device(CLI::App* app, DeviceOptions& o) {
-    app->add_option("--device", o.device, "a part of its name, its index or its UUID")
-        ->type_name("DEVICE")
-        ->envname("EDGECASE_DEVICE")
-        ->group("Device");
-    app->add_option("--icd", o.icd, "the driver's manifest file, and no other driver")
-        ->type_name("FILE")
-        ->envname("EDGECASE_ICD")
-        ->group("Device");
-    app->add_option("--timeout", o.timeout, "seconds without a sign of life that end a worker [30]")
-        ->type_name("SECONDS")
+    add_value(app, "--device", o.device, "a part of its name, its index or its UUID", "DEVICE",
+              "Device")
+        ->envname("EDGECASE_DEVICE");
+    add_value(app, "--icd", o.icd, "the driver's manifest file, and no other driver", "FILE",
+              "Device")
+        ->envname("EDGECASE_ICD");
+    add_value(app, "--timeout", o.timeout, "seconds without a sign of life that end a worker [30]",
+              "SECONDS", "Isolation")
         ->envname("EDGECASE_TIMEOUT")
-        ->check(in_range(0.01, 86400.0))
-        ->group("Isolation");
+        ->check(in_range(0.01, 86400.0));
     add_choice(app, "--renderer", o.renderer, renderer_names(),
                "what draws: a driver, or an algorithm of docs/algorithms.md")
         ->group("Device");

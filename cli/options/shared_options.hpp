@@ -19,6 +19,13 @@
 
 namespace cli {
 
+// An option of a group of the help, whose value is shown as `type`.
+template <class T>
+CLI::Option* add_value(CLI::App* app, const std::string& name, T& target, const std::string& what,
+                       const std::string& type, const std::string& group) {
+    return app->add_option(name, target, what)->type_name(type)->group(group);
+}
+
 // An option whose value is one of a few words.
 template <class T>
 CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
