@@ -124,15 +124,14 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
     for (const std::string& id : ids) {
         folders.push_back(capture::folder_of(id));
     }
-    const std::string nearest = cases::nearest_name(unknown.front(), folders);
     const std::string more =
         unknown.size() == 1 ? "" : " and " + std::to_string(unknown.size() - 1) + " more";
-    return tl::unexpected(
-        stop_with(report::kExitInvalidFile,
-                  "'" + cases::printable((fs::path(options.captures) / unknown.front()).string()) +
-                      "'" + more + " belongs to no case of the suite" +
-                      (nearest.empty() ? "; folders have the names that 'edgecase export' writes"
-                                       : "; did you mean '" + nearest + "'?")));
+    return tl::unexpected(stop_with(
+        report::kExitInvalidFile,
+        "'" + cases::printable((fs::path(options.captures) / unknown.front()).string()) + "'" +
+            more + " belongs to no case of the suite" +
+            cases::did_you_mean(unknown.front(), folders,
+                                "; folders have the names that 'edgecase export' writes")));
 }
 
 using ExpectedById = std::map<std::string, run::ExpectationLine>;

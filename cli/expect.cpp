@@ -34,11 +34,7 @@ int show(const Program& program, const ExpectOptions& options) {
     if (!suite) {
         return report_stop(suite.error());
     }
-    std::vector<std::string> ids;
-    for (const cases::Case& c : suite->cases) {
-        ids.push_back(c.id);
-    }
-    if (const auto resolved = run::resolve_expectations({*file}, ids, true); !resolved) {
+    if (const auto resolved = run::resolve_expectations({*file}, suite->ids(), true); !resolved) {
         return report_stop(invalid_files(resolved.error()));
     }
     std::array<size_t, report::kStatuses> count{};
@@ -140,11 +136,7 @@ OrStop<run::Update> make_update(const Program& program, const ExpectOptions& opt
     if (!loaded) {
         return tl::unexpected(loaded.error());
     }
-    std::vector<std::string> ids;
-    for (const cases::Case& c : loaded->cases) {
-        ids.push_back(c.id);
-    }
-    return run::update_expectations(text, *file, *run, ids, words);
+    return run::update_expectations(text, *file, *run, loaded->ids(), words);
 }
 
 }  // namespace

@@ -98,10 +98,7 @@ cases::Errors check_case(const cases::Case& c) {
 // Expectation files beside the suite: their form, and that every line matches a case.
 cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
     cases::Errors errors;
-    std::vector<std::string> ids;
-    for (const cases::Case& c : suite.cases) {
-        ids.push_back(c.id);
-    }
+    const std::vector<std::string> ids = suite.ids();
     std::error_code none;
     const auto folder =
         std::filesystem::absolute(suite.root).lexically_normal().parent_path() / "expectations";
@@ -220,11 +217,10 @@ int explain_rule(const Program& program, const ExplainOptions& options) {
         for (const cases::Rule& known : cases::all_rules()) {
             names.emplace_back(known.id);
         }
-        const std::string nearest = cases::nearest_name(options.rule, names);
-        return report_stop({report::kExitNothingSelected,
-                            {"there is no rule '" + options.rule + "'" +
-                             (nearest.empty() ? "; docs/rules.md lists them"
-                                              : "; did you mean '" + nearest + "'?")}});
+        return report_stop(
+            {report::kExitNothingSelected,
+             {"there is no rule '" + options.rule + "'" +
+              cases::did_you_mean(options.rule, names, "; docs/rules.md lists them")}});
     }
     const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
     if (!suite) {

@@ -277,4 +277,10 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     return best;
 }
 
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise) {
+    const std::string nearest = nearest_name(word, candidates);
+    return nearest.empty() ? otherwise : "; did you mean '" + nearest + "'?";
+}
+
 }  // namespace cases

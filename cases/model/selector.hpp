@@ -29,4 +29,8 @@ Expected<std::vector<size_t>> select(const std::vector<Case>& all,
 // "did you mean" in the program.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
 
+// "; did you mean 'NAME'?" with the nearest candidate, or `otherwise` if none is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise = {});
+
 }  // namespace cases

@@ -28,11 +28,6 @@ Stop usage_error(const std::string& sentence, const std::string& command) {
             {sentence + (sentence.ends_with('?') ? " See '" : "; see '") + help + "'"}};
 }
 
-std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-    const std::string nearest = cases::nearest_name(word, names);
-    return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
-}
-
 // An error for words that no option took.
 Stop unknown_words(CLI::App& command) {
     for (const std::string& word : command.remaining()) {
@@ -46,7 +41,7 @@ Stop unknown_words(CLI::App& command) {
                 }
             }
             const std::string bare = word.substr(0, word.find('='));
-            return usage_error("unknown option '" + bare + "'" + suggestion(bare, names),
+            return usage_error("unknown option '" + bare + "'" + cases::did_you_mean(bare, names),
                                command.get_name());
         }
     }
@@ -220,12 +215,13 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
         return tl::unexpected(usage_error("a command is missing, for example 'edgecase run'", ""));
     }
     if (!is_command && first.front() != '-') {
-        return tl::unexpected(
-            usage_error("unknown command '" + first + "'" + suggestion(first, commands), ""));
+        return tl::unexpected(usage_error(
+            "unknown command '" + first + "'" + cases::did_you_mean(first, commands), ""));
     }
     if (!is_command && first != "-h" && first != "--help" && first != "--version") {
         return tl::unexpected(usage_error(
-            "unknown option '" + first + "'" + suggestion(first, {"--help", "--version"}), ""));
+            "unknown option '" + first + "'" + cases::did_you_mean(first, {"--help", "--version"}),
+            ""));
     }
     std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);  // as CLI11 wants them
     try {

@@ -37,14 +37,12 @@ CLI::Option* add_choice(CLI::App* app, const std::string& name, T& target,
     const auto parse = [&target, &names, words, name](const CLI::results_t& results) {
         const auto found = names.find(results.back());
         if (found == names.end()) {
-            const std::string nearest = cases::nearest_name(results.back(), words);
             std::string all;
             for (const std::string& word : words) {
                 all += (all.empty() ? "" : ", ") + word;
             }
-            throw CLI::ValidationError(
-                name, "'" + results.back() + "' is none of " + all +
-                          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+            throw CLI::ValidationError(name, "'" + results.back() + "' is none of " + all +
+                                                 cases::did_you_mean(results.back(), words));
         }
         target = found->second;
         return true;

@@ -39,9 +39,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     }
     Selection selection;
     selection.root = suite->root;
-    for (const cases::Case& c : suite->cases) {
-        selection.suite_ids.push_back(c.id);
-    }
+    selection.suite_ids = suite->ids();
     for (const size_t k :
          options.quick ? run::first_and_last(suite->cases, suite->selected) : suite->selected) {
         cases::Case& c = suite->cases[k];

@@ -74,6 +74,14 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
 
 }  // namespace
 
+std::vector<std::string> LoadedSuite::ids() const {
+    std::vector<std::string> all;
+    for (const cases::Case& c : cases) {
+        all.push_back(c.id);
+    }
+    return all;
+}
+
 OrStop<fs::path> find_suite_root(const Program& program, const std::string& option) {
     if (!option.empty()) {
         if (is_folder(option)) {

@@ -201,10 +201,9 @@ class Parser {
             }
         }
         if (!known) {
-            const std::string nearest = cases::nearest_name(words[1], names);
             fail("'" + words[1] + "' is no status that can be expected" +
-                 (nearest.empty() ? "; write fail, crash, timeout, device_lost, flake or skip"
-                                  : "; did you mean '" + nearest + "'?"));
+                 cases::did_you_mean(words[1], names,
+                                     "; write fail, crash, timeout, device_lost, flake or skip"));
             return;
         }
         entry.bug = words[2] == "-" ? "" : words[2];
@@ -338,11 +337,9 @@ cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
                 }
             }
             if (!used && whole_suite) {
-                const std::string nearest = cases::nearest_name(line.glob, ids);
                 errors.push_back(
                     {line.where, "'" + line.glob + "' matches no case" +
-                                     (nearest.empty() ? "; remove the line"
-                                                      : "; did you mean '" + nearest + "'?")});
+                                     cases::did_you_mean(line.glob, ids, "; remove the line")});
             }
         }
     }

@@ -235,27 +235,17 @@ class Updater {
     Update result_;
 };
 
-// A device's name as a glob that matches only it.
-std::string as_glob(const std::string& name) {
-    std::string glob;
+// A device's name with a backslash before each of the signs that a glob or a regular expression
+// reads, so that it matches only itself.
+std::string escaped(const std::string& name, std::string_view signs) {
+    std::string text;
     for (const char c : name) {
-        if (std::string_view("*?[]\\").find(c) != std::string_view::npos) {
-            glob += '\\';
+        if (signs.find(c) != std::string_view::npos) {
+            text += '\\';
         }
-        glob += c;
+        text += c;
     }
-    return glob;
-}
-
-std::string as_regex(const std::string& name) {
-    std::string regex;
-    for (const char c : name) {
-        if (std::string_view(".*+?^$()[]{}|\\").find(c) != std::string_view::npos) {
-            regex += '\\';
-        }
-        regex += c;
-    }
-    return regex;
+    return text;
 }
 
 }  // namespace
@@ -268,9 +258,10 @@ Update update_expectations(std::string_view text, const ExpectationFile& file,
 
 std::string new_expectation_file(const report::Run& run) {
     const report::Device& d = run.device;
-    std::string text = "# edgecase-expectations 1\n# device: " + as_glob(one_line(d.name));
+    std::string text =
+        "# edgecase-expectations 1\n# device: " + escaped(one_line(d.name), "*?[]\\");
     if (!d.driver_name.empty()) {
-        text += "   driver: " + as_regex(one_line(d.driver_name));
+        text += "   driver: " + escaped(one_line(d.driver_name), ".*+?^$()[]{}|\\");
         const std::string driver = d.driver_name + " " + d.driver_info;
         const std::vector<uint32_t> version = find_version(driver, d.driver_name.size());
         for (size_t k = 0; k < std::min<size_t>(version.size(), 2); ++k) {
