@@ -232,7 +232,7 @@ PLANTED = {
             "run/judge.cpp",
             "void copy(A& a, const A& b) {\n"
             + "".join(f"    a.{n} = b.{n};\n" for _, owner, names in lists_of(root, Table(root))
-                      if owner == "cases/model/case.hpp" and "topology" in names for n in names)
+                      if owner == "cases/model/draw.hpp" and "topology" in names for n in names)
             + "}\n",
         ),
         ["lists the fields of Draw a second time"],

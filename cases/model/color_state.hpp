@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a colour target is, and what a draw writes to it.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <optional>
+
+#include "cases/base/fields.hpp"
+#include "cases/format/color_format.hpp"
+
+namespace cases {
+
+// Blending of the colour target.
+enum class BlendFactor : uint8_t {  // numbered as VkBlendFactor
+    zero,
+    one,
+    src_color,
+    one_minus_src_color,
+    dst_color,
+    one_minus_dst_color,
+    src_alpha,
+    one_minus_src_alpha,
+    dst_alpha,
+    one_minus_dst_alpha,
+    constant_color,
+    one_minus_constant_color,
+    constant_alpha,
+    one_minus_constant_alpha,
+    src_alpha_saturate
+};
+enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };  // as VkBlendOp
+struct BlendEquation {
+    BlendFactor source = BlendFactor::one, destination = BlendFactor::zero;
+    BlendOp op = BlendOp::add;
+    static void fields(auto&& visit, auto&... e) {
+        visit("source", e.source...);
+        visit("destination", e.destination...);
+        visit("op", e.op...);
+    }
+    friend bool operator==(const BlendEquation&, const BlendEquation&) = default;
+};
+struct Blend {
+    BlendEquation color, alpha;
+    glm::vec4 constants{};
+    static void fields(auto&& visit, auto&... b) {
+        visit("color", b.color...);
+        visit("alpha", b.alpha...);
+        visit("constants", b.constants...);
+    }
+    friend bool operator==(const Blend&, const Blend&) = default;
+};
+
+// What a draw writes to the colour target (Target::color).
+struct ColorOutput {
+    glm::vec4 value{};       // what every fragment writes if attribute is -1
+    int32_t attribute = -1;  // else the index of the attribute that is written
+    std::optional<Blend> blend = {};
+    uint8_t write_mask = 0xf;  // bit 0: red ... bit 3: alpha
+    static void fields(auto&& visit, auto&... c) {
+        visit("value", c.value...);
+        visit("attribute", c.attribute...);
+        visit("blend", c.blend...);
+        visit("write_mask", c.write_mask...);
+    }
+    friend bool operator==(const ColorOutput&, const ColorOutput&) = default;
+};
+// One more colour attachment, judged by its stored bits.
+struct ColorTarget {
+    ColorFormat format = ColorFormat::rgba8_unorm;
+    glm::vec4 clear{};  // as the clear colour; whole numbers for integer formats
+    static void fields(auto&& visit, auto&... c) {
+        visit("format", c.format...);
+        visit("clear", c.clear...);
+    }
+    friend bool operator==(const ColorTarget&, const ColorTarget&) = default;
+};
+
+}  // namespace cases

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A draw: its vertices, what they carry, and the state of the pipeline that draws them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/base/error.hpp"
+#include "cases/base/fields.hpp"
+#include "cases/model/color_state.hpp"
+
+namespace cases {
+
+enum class Topology : uint8_t { triangle_list, triangle_strip, triangle_fan };
+enum class CullMode : uint8_t { none, front, back, front_and_back };
+enum class FrontFace : uint8_t { counter_clockwise, clockwise };
+enum class Interpolation : uint8_t { smooth, noperspective, flat };
+// Auxiliary storage qualifier of a fragment input: where in the pixel it is evaluated.
+enum class Auxiliary : uint8_t { none, centroid, sample };
+enum class ProvokingVertex : uint8_t { first, last };
+enum class CompareOp : uint8_t {  // numbered as VkCompareOp
+    never,
+    less,
+    equal,
+    less_or_equal,
+    greater,
+    not_equal,
+    greater_or_equal,
+    always
+};
+
+// Where an attribute comes from.
+enum class Source : uint8_t {
+    vertex,           // one value a vertex
+    barycentric,      // gl_BaryCoordEXT; gl_BaryCoordNoPerspEXT if noperspective; 3 components
+    sample_mask_in,   // gl_SampleMaskIn[0] as a number; 1 component
+    sample_id,        // gl_SampleID as a number; 1 component, turns sample shading on
+    sample_position,  // gl_SamplePosition; 2 components, turns sample shading on
+};
+// What the fragment shader writes of an attribute from vertices.
+enum class Probe : uint8_t {
+    value,
+    at_centroid,  // interpolateAtCentroid
+    at_sample,    // interpolateAtSample(Attribute::probe_sample)
+    at_offset,    // interpolateAtOffset(Attribute::probe_offset)
+    dx,           // dFdx ...
+    dy,
+    dx_fine,
+    dy_fine,
+    dx_coarse,
+    dy_coarse,
+    width,  // fwidth ...
+    width_fine,
+    width_coarse,
+    lod,  // textureQueryLod of a texture of Attribute::texture_size at (x, y): 2 components
+};
+
+inline constexpr uint32_t kMaxAttributes = 4;
+inline constexpr uint32_t kRestartIndex = 0xffffffffU;  // primitive restart, 32-bit indices
+inline constexpr float kMaxAttributeMagnitude =
+    0x1p126F;  // larger ones could look like the clear value
+
+// As VkViewport: pixels; height may be negative; depths in [0,1].
+struct Viewport {
+    float x = 0, y = 0, width = 0, height = 0;
+    float min_depth = 0, max_depth = 1;
+    static void fields(auto&& visit, auto&... v) {
+        visit("x", v.x...);
+        visit("y", v.y...);
+        visit("width", v.width...);
+        visit("height", v.height...);
+        visit("min_depth", v.min_depth...);
+        visit("max_depth", v.max_depth...);
+    }
+    friend bool operator==(const Viewport&, const Viewport&) = default;
+};
+
+// Is laid out as VkRect2D: half-open, in pixels.
+struct Rect {
+    int32_t x = 0, y = 0;
+    uint32_t width = 0, height = 0;
+    static void fields(auto&& visit, auto&... r) {
+        visit("x", r.x...);
+        visit("y", r.y...);
+        visit("width", r.width...);
+        visit("height", r.height...);
+    }
+    friend bool operator==(const Rect&, const Rect&) = default;
+};
+
+// A fragment-shader input. values[v] belongs to vertex v; components beyond `components` are 0.
+struct Attribute {
+    std::string name;
+    Interpolation interpolation = Interpolation::smooth;
+    uint32_t components = 1;        // 1..4
+    std::vector<glm::vec4> values;  // empty unless the source is vertex
+    Auxiliary auxiliary = Auxiliary::none;
+    Source source = Source::vertex;
+    Probe probe = Probe::value;
+    std::array<float, 2> probe_offset{};     // pixels from the centre; at_offset
+    uint32_t probe_sample = 0;               // at_sample
+    std::array<uint32_t, 2> texture_size{};  // texels, lod
+    static void fields(auto&& visit, auto&... a) {
+        visit("name", a.name...);
+        visit("interpolation", a.interpolation...);
+        visit("auxiliary", a.auxiliary...);
+        visit("source", a.source...);
+        visit("probe", a.probe...);
+        visit("components", a.components...);
+        visit("probe_sample", a.probe_sample...);
+        visit("probe_offset", a.probe_offset...);
+        visit("texture_size", a.texture_size...);
+        visit("values", a.values...);
+    }
+    friend bool operator==(const Attribute&, const Attribute&) = default;
+};
+
+// What the unit r of a constant depth bias is (VkDepthBiasRepresentationEXT): the least step of the
+// attachment's format, a constant for the whole attachment even if it is floating point, or 1.
+enum class DepthBiasRepresentation { format, force_unorm, floating };
+
+// As vkCmdSetDepthBias2EXT. constant in units of r, slope in units of the maximum depth slope,
+// clamp 0: none. is_exact: a constant r is 2^-n and not scaled (depthBiasExact).
+struct DepthBias {
+    float constant = 0, clamp = 0, slope = 0;
+    DepthBiasRepresentation representation = DepthBiasRepresentation::format;
+    bool is_exact = false;
+    // Whether VK_EXT_depth_bias_control is needed.
+    bool is_controlled() const {
+        return representation != DepthBiasRepresentation::format || is_exact;
+    }
+    static void fields(auto&& visit, auto&... b) {
+        visit("constant", b.constant...);
+        visit("slope", b.slope...);
+        visit("clamp", b.clamp...);
+        visit("representation", b.representation...);
+        visit("exact", b.is_exact...);
+    }
+    friend bool operator==(const DepthBias&, const DepthBias&) = default;
+};
+
+// Depth state of a draw. The defaults are what the capture of single-draw cases needs: every
+// fragment passes and writes.
+struct DepthState {
+    CompareOp compare = CompareOp::always;
+    bool write = true;
+    std::optional<DepthBias> bias = {};  // depthBiasEnable
+    bool clamp = false;                  // depthClampEnable
+    std::optional<bool> clip = {};       // VK_EXT_depth_clip_enable; nothing: !clamp
+    bool negative_one_to_one = false;    // VK_EXT_depth_clip_control
+    static void fields(auto&& visit, auto&... d) {
+        visit("compare", d.compare...);
+        visit("write", d.write...);
+        visit("bias", d.bias...);
+        visit("clamp", d.clamp...);
+        visit("clip", d.clip...);
+        visit("volume", d.negative_one_to_one...);
+    }
+    friend bool operator==(const DepthState&, const DepthState&) = default;
+};
+
+// User clip and cull distances: component k of clip[v] is gl_ClipDistance[k] of vertex v.
+struct ClipDistances {
+    uint32_t clip_count = 0, cull_count = 0;      // 0..4 each
+    std::vector<glm::vec4> clip = {}, cull = {};  // one a vertex, or empty if the count is 0
+    static void fields(auto&& visit, auto&... d) {
+        visit("clip_count", d.clip_count...);
+        visit("clip", d.clip...);
+        visit("cull_count", d.cull_count...);
+        visit("cull", d.cull...);
+    }
+    friend bool operator==(const ClipDistances&, const ClipDistances&) = default;
+};
+
+// Multisample state of a draw.
+struct Multisample {
+    uint32_t sample_mask = 0xffffffffU;            // pSampleMask
+    std::optional<uint32_t> shader_mask = {};      // written to gl_SampleMask
+    std::optional<float> min_sample_shading = {};  // sampleShadingEnable, minSampleShading, 0..1
+    static void fields(auto&& visit, auto&... m) {
+        visit("sample_mask", m.sample_mask...);
+        visit("shader_mask", m.shader_mask...);
+        visit("min_sample_shading", m.min_sample_shading...);
+    }
+    friend bool operator==(const Multisample&, const Multisample&) = default;
+};
+
+// One draw command and the state it needs.
+struct Draw {
+    Topology topology = Topology::triangle_list;
+    std::vector<glm::vec4> positions;  // clip space, binary32, bits as they reach the device
+    std::optional<std::vector<uint32_t>> indices;
+    bool primitive_restart = false;     // only with indices
+    std::vector<Attribute> attributes;  // at most kMaxAttributes
+    Viewport viewport;
+    Rect scissor;  // the whole target unless the file says otherwise
+    CullMode cull = CullMode::none;
+    FrontFace front_face = FrontFace::counter_clockwise;
+    ProvokingVertex provoking = ProvokingVertex::first;
+    bool rasterizer_discard = false;  // rasterizerDiscardEnable: no fragment comes of it
+    DepthState depth;
+    ClipDistances distances;
+    Multisample multisample;
+    ColorOutput color;   // if the target has a colour target
+    uint32_t layer = 0;  // below Target::layers; gl_Layer of all its primitives
+    uint32_t viewport_index = 0;  // below 16; gl_ViewportIndex of all its primitives
+    SourceLocation where;
+    static void fields(auto&& visit, auto&... d) {
+        visit("topology", d.topology...);
+        visit("positions", d.positions...);
+        visit("indices", d.indices...);
+        visit("primitive_restart", d.primitive_restart...);
+        visit("viewport", d.viewport...);
+        visit("viewport_index", d.viewport_index...);
+        visit("layer", d.layer...);
+        visit("scissor", d.scissor...);
+        visit("cull", d.cull...);
+        visit("front_face", d.front_face...);
+        visit("provoking_vertex", d.provoking...);
+        visit("rasterizer_discard", d.rasterizer_discard...);
+        visit("depth", d.depth...);
+        visit("multisample", d.multisample...);
+        visit("distances", d.distances...);
+        visit("color", d.color...);
+        visit("attributes", d.attributes...);
+        visit({"where", kNotOnWire | kNotExported}, d.where...);  // for errors
+    }
+};
+
+}  // namespace cases

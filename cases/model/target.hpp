@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a case is drawn to: size, samples, layers, depth, stencil and colour attachments.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cases/base/fields.hpp"
+#include "cases/format/depth_format.hpp"
+#include "cases/model/color_state.hpp"
+
+namespace cases {
+
+inline constexpr float kDepthClear = 0.375F;  // unless the case says otherwise
+inline constexpr uint32_t kMaxTargetSize = 16384;  // pixels a side
+inline constexpr uint32_t kMaxLayers = 256;  // every device with layered rendering has as many
+
+// How the samples of a pixel become one value at the end of rendering (VkResolveModeFlagBits).
+enum class Resolve : uint8_t { none, sample_zero, average, min, max };
+
+struct Target {
+    uint32_t width = 0, height = 0;  // pixels
+    uint32_t samples = 1;
+    uint32_t layers = 1;  // 1..kMaxLayers, all of one size
+    DepthFormat depth_format = DepthFormat::d32_float;
+    // Custom sample locations in 1/16 pixel, one a sample; empty: the standard ones.
+    std::vector<std::array<uint8_t, 2>> sample_locations = {};
+    std::optional<ColorTarget> color = {};
+    // False: only the colour target (and depth if has_depth) is attached, nothing that counts hits.
+    // Drivers take other paths then.
+    bool has_instruments = true;
+    bool has_depth = true;
+    float depth_clear = kDepthClear;  // what the depth attachment is cleared to, 0..1
+    // With several samples: average of numbers, sample_zero of integers; any of depth.
+    Resolve color_resolve = Resolve::none, depth_resolve = Resolve::none;
+    // An 8-bit stencil beside D32, cleared to 0: front faces add one, back faces subtract one,
+    // modulo 256.
+    bool has_stencil = false;
+    // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
+    uint32_t rows() const { return height * layers; }
+    static void fields(auto&& visit, auto&... t) {
+        visit("width", t.width...);
+        visit("height", t.height...);
+        visit("samples", t.samples...);
+        visit("layers", t.layers...);
+        visit("sample_locations", t.sample_locations...);
+        visit("depth", t.has_depth...);
+        visit("depth_format", t.depth_format...);
+        visit("depth_clear", t.depth_clear...);
+        visit("color", t.color...);
+        visit("stencil", t.has_stencil...);
+        visit("color_resolve", t.color_resolve...);
+        visit("depth_resolve", t.depth_resolve...);
+        visit({"instruments", kNotExported}, t.has_instruments...);  // how this program looks
+    }
+    friend bool operator==(const Target&, const Target&) = default;
+};
+
+}  // namespace cases
