@@ -134,7 +134,7 @@ int bare_command(const Program& program, const BenchOptions& options) {
     vulkan.icd_file = options.device.icd;
     vk_harness::Result<vk_harness::Renderer> renderer = vk_harness::Renderer::create(vulkan);
     if (!renderer) {
-        fmt::print(stderr, "edgecase: {}\n", renderer.error().message);
+        complain(renderer.error().message);
         return report::kExitDevice;
     }
     const vk_harness::Result<double> cold = draw_bare(*renderer, cases);
@@ -142,7 +142,7 @@ int bare_command(const Program& program, const BenchOptions& options) {
     const bool twice = std::getenv("EDGECASE_BENCH_TWICE") != nullptr;
     const vk_harness::Result<double> warm = twice ? draw_bare(*renderer, cases) : cold;
     if (!cold || !warm) {
-        fmt::print(stderr, "edgecase: {}\n", (cold ? warm : cold).error().message);
+        complain((cold ? warm : cold).error().message);
         return report::kExitAllSkipped;
     }
     fmt::print("{} {}\n", *cold, *warm);

@@ -82,7 +82,7 @@ int compare_command(const Program&, const CompareOptions& options) {
     std::fputs(report::comparison_text(runs, *comparison, style, exit).c_str(), console);
     std::fflush(console);
     for (const cases::Error& error : errors) {
-        std::fprintf(stderr, "edgecase: %s\n", error.message.c_str());
+        complain(error.message);
     }
     return errors.empty() ? report::exit_code(*comparison) : report::kExitInternal;
 }

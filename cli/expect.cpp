@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command "expect": shows and checks an expectation file, or brings it up to date with a run.
+#include <fmt/format.h>
+
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -41,19 +43,19 @@ int show(const Program& program, const ExpectOptions& options) {
     for (const run::ExpectationLine& line : file->lines) {
         ++count.at(static_cast<size_t>(line.status));
     }
-    std::printf("%s: %zu expectation%s", name.c_str(), file->lines.size(),
-                file->lines.size() == 1 ? "" : "s");
+    say(fmt::format("{}: {} expectation{}", name, file->lines.size(),
+                    file->lines.size() == 1 ? "" : "s"));
     for (size_t k = 0; k < count.size(); ++k) {
         if (count.at(k) > 0) {
             const auto status = report::to_string(static_cast<report::Status>(k));
             std::printf(", %zu %.*s", count.at(k), static_cast<int>(status.size()), status.data());
         }
     }
-    std::printf("; for %s%s%s\n", file->device_glob.c_str(), file->driver_regex.empty() ? "" : ", ",
-                file->driver_regex.c_str());
+    say(fmt::format("; for {}{}{}\n", file->device_glob, file->driver_regex.empty() ? "" : ", ",
+                    file->driver_regex));
     const cases::Errors past = run::past_lines(*file);
     for (const cases::Error& error : past) {
-        std::fprintf(stderr, "%s\n", cases::to_string(error).c_str());
+        std::fprintf(stderr, "%s\n", cases::printable(cases::to_string(error)).c_str());
     }
     return past.empty() ? report::kExitOk : report::kExitUnexpected;
 }

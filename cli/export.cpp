@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command "export": cases as plain JSON, for renderers that know nothing of this project.
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -56,8 +58,8 @@ int export_command(const Program& program, const ExportOptions& options) {
     if (auto written = write_below(folder / "index.json", index.dump(1) + "\n"); !written) {
         return report_stop({report::kExitUsage, {written.error().message}});
     }
-    std::printf("%zu case%s in %s\n", suite->selected.size(),
-                suite->selected.size() == 1 ? "" : "s", folder.string().c_str());
+    say(fmt::format("{} case{} in {}\n", suite->selected.size(),
+                    suite->selected.size() == 1 ? "" : "s", folder.string()));
     return report::kExitOk;
 }
 

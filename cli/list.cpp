@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The commands that look at case files only: "list", "lint" and "explain".
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -26,9 +28,9 @@ namespace cli {
 namespace {
 
 void print_long(const cases::Case& c) {
-    std::printf("%s\n    %s\n", c.id.c_str(), c.description.c_str());
+    say(c.id + "\n    " + c.description + "\n");
     if (!c.catches.empty()) {
-        std::printf("    catches: %s\n", c.catches.c_str());
+        say("    catches: " + c.catches + "\n");
     }
     std::string rules;
     for (const std::string& rule : c.rules) {
@@ -36,15 +38,15 @@ void print_long(const cases::Case& c) {
     }
     const std::string layers =
         c.target.layers > 1 ? std::to_string(c.target.layers) + " layers, " : "";
-    std::printf(
-        "    rules: %s\n    file: %s:%u\n    target: %u x %u, %s%u sample(s), %zu draw(s)\n",
-        rules.c_str(), c.where.file.c_str(), c.where.line, c.target.width, c.target.height,
-        layers.c_str(), c.target.samples, c.draws.size());
+    say(fmt::format(
+        "    rules: {}\n    file: {}:{}\n    target: {} x {}, {}{} sample(s), {} draw(s)\n", rules,
+        c.where.file, c.where.line, c.target.width, c.target.height, layers, c.target.samples,
+        c.draws.size()));
     for (const std::string& link : c.links) {
-        std::printf("    link: %s\n", link.c_str());
+        say("    link: " + link + "\n");
     }
     for (const std::string& note : c.notes) {
-        std::printf("    note: %s\n", note.c_str());
+        say("    note: " + note + "\n");
     }
 }
 
@@ -148,15 +150,15 @@ int list_command(const Program& program, const ListOptions& options) {
         } else if (options.long_form) {
             print_long(c);
         } else if (options.ids) {
-            std::printf("%s\n", c.id.c_str());
+            say(c.id + "\n");
         } else {
-            std::printf("%-60s  %s\n", c.id.c_str(), c.description.c_str());
+            say(fmt::format("{:<60}  {}\n", c.id, c.description));
         }
     }
     if (options.json) {
         const std::string text =
             all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-        std::printf("%s\n", text.c_str());
+        say(text + "\n");
     }
     return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
 }
@@ -194,7 +196,7 @@ int lint_command(const Program& program, const LintOptions& options) {
     size_t errors = 0;
     for (const cases::Errors& list : found) {
         for (const cases::Error& error : list) {
-            std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
+            complain(cases::to_string(error));
             ++errors;
         }
     }
@@ -258,7 +260,7 @@ int explain_command(const Program& program, const ExplainOptions& options) {
     limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
     const std::string text = explain_text(*c, limits, options.profile,
                                           {options.x, options.y, options.sample, options.layer});
-    std::printf("%s%s", text.c_str(), text.ends_with('\n') ? "" : "\n");
+    say(text + (text.ends_with('\n') ? "" : "\n"));
     return report::kExitOk;
 }
 

@@ -3,9 +3,9 @@
 //
 // The command "run": select, ask the device, draw and judge, write the reports.
 #include <algorithm>
-#include <regex>
 #include <variant>
 
+#include "cases/base/regex.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/prepare/ci.hpp"
@@ -63,7 +63,7 @@ OrStop<std::monostate> check_required_device(const RunOptions& options,
         return std::monostate{};
     }
     const std::string text = device.name + " " + device.driver_name + " " + device.driver_info;
-    if (!std::regex_search(text, std::regex(options.require_device))) {
+    if (!cases::find_regex(options.require_device, text)) {
         return tl::unexpected(
             stop_with(report::kExitDevice, "--require-device '" + options.require_device +
                                                "' does not match the device '" + text +

@@ -207,8 +207,8 @@ struct Draw {
     DepthState depth;
     ClipDistances distances;
     Multisample multisample;
-    ColorOutput color;   // if the target has a colour target
-    uint32_t layer = 0;  // below Target::layers; gl_Layer of all its primitives
+    ColorOutput color;            // if the target has a colour target
+    uint32_t layer = 0;           // below Target::layers; gl_Layer of all its primitives
     uint32_t viewport_index = 0;  // below 16; gl_ViewportIndex of all its primitives
     SourceLocation where;
     static void fields(auto&& visit, auto&... d) {

@@ -15,7 +15,7 @@
 
 namespace cases {
 
-inline constexpr float kDepthClear = 0.375F;  // unless the case says otherwise
+inline constexpr float kDepthClear = 0.375F;       // unless the case says otherwise
 inline constexpr uint32_t kMaxTargetSize = 16384;  // pixels a side
 inline constexpr uint32_t kMaxLayers = 256;  // every device with layered rendering has as many
 

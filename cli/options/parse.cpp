@@ -3,9 +3,9 @@
 #include "cli/options/parse.hpp"
 
 #include <algorithm>
-#include <regex>
 #include <variant>
 
+#include "cases/base/regex.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/options/command_options.hpp"
 #include "report/record/run.hpp"
@@ -148,12 +148,8 @@ OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o,
     if (o.no_expect && !o.expect.empty()) {
         return tl::unexpected(usage_error("--expect and --no-expect exclude each other", "run"));
     }
-    try {
-        const std::regex check(o.require_device);
-    } catch (const std::regex_error&) {
-        return tl::unexpected(usage_error(
-            "--require-device: '" + o.require_device + "' is not a regular expression (ECMAScript)",
-            "run"));
+    if (auto checked = cases::check_regex(o.require_device); !checked) {
+        return tl::unexpected(usage_error("--require-device: " + checked.error().message, "run"));
     }
     return std::monostate{};
 }

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "cases/base/printable.hpp"
 #include "report/record/run.hpp"
 
 namespace cli {
@@ -18,9 +19,17 @@ Stop invalid_files(const cases::Errors& errors) {
 
 int report_stop(const Stop& stop) {
     for (const std::string& line : stop.lines) {
-        std::fprintf(stderr, "edgecase: %s\n", line.c_str());
+        complain(line);
     }
     return stop.exit_code;
+}
+
+void complain(std::string_view text) {
+    std::fprintf(stderr, "edgecase: %s\n", cases::printable(text).c_str());
+}
+
+void say(std::string_view text) {
+    std::fputs(cases::printable(text).c_str(), stdout);
 }
 
 }  // namespace cli

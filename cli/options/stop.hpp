@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -27,5 +28,12 @@ Stop invalid_files(const cases::Errors& errors);
 
 // Prints the lines, each after "edgecase: ", and returns the exit code.
 int report_stop(const Stop& stop);
+
+// Prints "edgecase: TEXT" as a line of stderr, safe for a terminal whatever files and arguments put
+// into it.
+void complain(std::string_view text);
+
+// Prints text to stdout, made safe likewise.
+void say(std::string_view text);
 
 }  // namespace cli

@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <future>
 
+#include "cli/options/stop.hpp"
 #include "cli/prepare/ci.hpp"
 #include "report/files/json.hpp"
 #include "report/files/junit.hpp"
@@ -136,7 +137,7 @@ std::FILE* console_beside(const std::string& json, const std::string& junit,
 
 void print_errors(const cases::Errors& errors) {
     for (const cases::Error& error : errors) {
-        std::fprintf(stderr, "edgecase: %s\n", cases::to_string(error).c_str());
+        complain(cases::to_string(error));
     }
 }
 
@@ -166,11 +167,11 @@ int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci 
     }
     print_errors(errors);
     if (!ending.failure.empty()) {
-        std::fprintf(stderr, "edgecase: %s\n", ending.failure.c_str());
+        complain(ending.failure);
     }
     if (run->interrupted && !ending.interrupted.empty()) {
         std::fflush(console);
-        std::fprintf(stderr, "edgecase: %s\n", ending.interrupted.c_str());
+        complain(ending.interrupted);
     }
     return overrides ? report::kExitInternal : code;
 }

@@ -34,8 +34,7 @@ void warn_of_idle_faults(const std::vector<std::string>& ids) {
         if (fault.glob != "**" && std::none_of(ids.begin(), ids.end(), [&](const std::string& id) {
                 return cases::glob_matches(fault.glob, id);
             })) {
-            std::fprintf(stderr, "edgecase: warning: EDGECASE_FAULT: '%s' matches no case\n",
-                         fault.glob.c_str());
+            complain("warning: EDGECASE_FAULT: '" + fault.glob + "' matches no case");
         }
     }
 }

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <utility>
 
 #include "cases/base/printable.hpp"
+#include "cases/base/regex.hpp"
 #include "cases/model/selector.hpp"
 
 namespace run {
@@ -164,10 +164,8 @@ class Parser {
                     file_.driver_regex += (file_.driver_regex.empty() ? "" : " ") + word;
                 }
             }
-            try {
-                const std::regex check(file_.driver_regex, std::regex::ECMAScript);
-            } catch (const std::regex_error&) {
-                fail("'" + file_.driver_regex + "' is not a regular expression (ECMAScript)");
+            if (auto checked = cases::check_regex(file_.driver_regex); !checked) {
+                fail(checked.error().message);
             }
         } else {
             for (const std::string& word : split_words(value)) {
@@ -298,13 +296,12 @@ std::string mismatch(const ExpectationFile& file, const report::Device& device,
         return "it is for the device '" + file.device_glob + "', this is '" + device.name + "'";
     }
     const std::string driver = device.driver_name + " " + device.driver_info;
-    std::smatch match;
-    if (!std::regex_search(driver, match, std::regex(file.driver_regex))) {
+    const auto match = cases::find_regex(file.driver_regex, driver);
+    if (!match) {
         return "it is for the driver '" + file.driver_regex + "', this is '" + driver + "'";
     }
-    const size_t after = static_cast<size_t>(match.position(0) + match.length(0));
     for (const VersionBound& bound : file.versions) {
-        if (!satisfies(find_version(driver, after), bound)) {
+        if (!satisfies(find_version(driver, match->second), bound)) {
             return "its driver versions do not include '" + driver + "'";
         }
     }

@@ -132,6 +132,27 @@ class Usage(ProgramTest):
 
     def test_regular_expression(self):
         self.refused(["run", "--require-device", "("], "regular expression")
+        self.refused(["run", "--require-device", "(" * 20000], "regular expression")
+        self.refused(["run", "--require-device", "(l*)*(([a-zA-Z0-9 .,()]+)+)+!$", "--renderer", "reference"], "does not match the device", 5)
+
+    def test_no_escape_sequence_reaches_the_terminal(self):
+        escape = "\x1b]0;owned\x07"
+        text = CASE.format(n=1).replace('description = "', 'description = "\\u001b]0;owned\\u0007', 1)
+        self.assertIn("owned", text)
+        self.write_case("fam/escape", text)
+        self.write_case("fam/wrong", text.replace("[target]", f'[target]\n"{escape}" = 1'.replace("\x1b", "\\u001b").replace("\x07", "\\u0007"), 1))
+        shown = ""
+        for words in (["lint"], ["list"], ["list", escape], ["list", "--suite", escape], ["run", "-o", escape + "/x/y"], ["explain", escape, "--pixel", "1,1"]):
+            done = self.edgecase(*words)
+            shown += done.stdout + done.stderr
+        (self.suite / "fam" / "wrong.toml").unlink()
+        for words in (["list"], ["list", "--long"], ["list", "--json"], ["explain", "fam/escape", "--pixel", "1,1"]):
+            done = self.edgecase(*words, check=0)
+            shown += done.stdout + done.stderr
+        shown += self.edgecase("run", env=self.environment() | {"EDGECASE_PROFILE": escape}, check=2).stderr
+        self.assertIn("\\x1b]0;owned", shown)
+        self.assertNotIn("\x1b", shown)
+        self.assertNotIn("\x07", shown)
 
     def test_selector(self):
         self.refused(["run", "fam/cc3"], "fam/c", 4)

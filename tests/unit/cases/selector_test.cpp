@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <sstream>
 
 #include "cases/load/loader.hpp"
@@ -84,6 +85,60 @@ TEST(Selector, WorkedTable) {
         }
         EXPECT_EQ(chosen(selectors), expected) << shown;
     }
+}
+
+// What the words of docs/cli.md say, by trying every length of every star.
+bool matches_by_trying(std::string_view pattern, std::string_view text) {
+    if (pattern.empty()) {
+        return text.empty();
+    }
+    if (pattern[0] != '*') {
+        return !text.empty() && text[0] == pattern[0] &&
+               matches_by_trying(pattern.substr(1), text.substr(1));
+    }
+    const bool is_deep = pattern.starts_with("**");
+    const bool is_folders = pattern.starts_with("**/");
+    const std::string_view rest = pattern.substr(is_folders ? 3 : is_deep ? 2 : 1);
+    for (size_t n = 0; n <= text.size(); ++n) {
+        if (!is_deep && n > 0 && (text[n - 1] == '/' || text[n - 1] == ':')) {
+            return false;
+        }
+        if ((!is_folders || n == 0 || text[n - 1] == '/') &&
+            matches_by_trying(rest, text.substr(n))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+TEST(Selector, StarsMatchWhatTryingFinds) {
+    std::mt19937 random(5);
+    std::uniform_int_distribution<size_t> length(0, 7);
+    const auto word = [&](std::string_view letters) {
+        std::string out;
+        for (size_t n = length(random); n > 0; --n) {
+            out += letters[random() % letters.size()];
+        }
+        return out;
+    };
+    size_t matching = 0;
+    for (int n = 0; n < 200000; ++n) {
+        const std::string pattern = word("a/***:");
+        const std::string text = word("aa//:");
+        const bool expected = matches_by_trying(pattern, text) ||
+                              matches_by_trying(pattern, text.substr(0, text.find(':')));
+        ASSERT_EQ(glob_matches(pattern, text), expected) << pattern << " on " << text;
+        matching += expected ? 1U : 0U;
+    }
+    EXPECT_GT(matching, 20000U);
+}
+
+TEST(Selector, ManyStarsEnd) {
+    std::string pattern;
+    for (int n = 0; n < 10000; ++n) {
+        pattern += "**/";
+    }
+    EXPECT_FALSE(glob_matches(pattern + "x", std::string(200, 'a') + "/b"));
 }
 
 TEST(Selector, ReadsStandardInput) {
