@@ -53,7 +53,8 @@ int compare_command(const Program&, const CompareOptions& options) {
         }
         runs.push_back({folder, std::move(*run)});
     }
-    const cases::Expected<report::Comparison> comparison = report::compare_runs(runs);
+    const cases::Expected<report::Comparison> comparison =
+        report::compare_runs(runs, {options.common, options.strict});
     if (!comparison) {
         return report_stop({report::kExitUsage, {comparison.error().message}});
     }

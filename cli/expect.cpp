@@ -121,7 +121,7 @@ OrStop<run::Update> make_update(const Program& program, const ExpectOptions& opt
         }
         before = text = all.str();
     }
-    const auto file = run::parse_expectations(text, options.file, run::today_utc());
+    const auto file = run::parse_expectations(text, options.file, run::today_utc(), true);
     if (!file) {
         return tl::unexpected(invalid_files(file.error()));
     }

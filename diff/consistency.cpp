@@ -292,10 +292,14 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
             finding.why = why_of(derivations[k]);
             verdict.add(std::move(finding), c.target);
         }
-        verdict.counts[static_cast<size_t>(FindingKind::value)] +=
-            found[k].different - found[k].differences.size();
-        verdict.has_unmarked =
-            verdict.has_unmarked || found[k].different > found[k].differences.size();
+        if (const uint64_t more = found[k].different - found[k].differences.size(); more > 0) {
+            Finding untold;
+            untold.kind = FindingKind::value;
+            untold.rule = rule->id;
+            untold.level = rule->profile;
+            verdict.count(untold, more);
+            verdict.has_unmarked = true;
+        }
     }
 }
 

@@ -270,8 +270,12 @@ void join(Verdict& to, const Verdict& from) {
         to.max_y = is_first ? from.max_y : std::max(to.max_y, from.max_y);
         to.level = is_first ? from.level : std::min(to.level, from.level);
     }
-    for (size_t k = 0; k < to.counts.size(); ++k) {
-        to.counts.at(k) += from.counts.at(k);
+    for (const FindingGroup& group : from.groups) {
+        Finding like;
+        like.kind = group.kind;
+        like.rule = group.rule;
+        like.level = group.level;
+        to.count(like, group.count);
     }
     for (const Finding& finding : from.findings) {
         if (to.findings.size() < kMaxFindings) {

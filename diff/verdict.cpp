@@ -48,13 +48,25 @@ void Verdict::add(Finding finding, const cases::Target& target) {
     max_x = first ? id.x : std::max(max_x, id.x);
     max_y = first ? row : std::max(max_y, row);
     level = first ? finding.level : std::min(level, finding.level);
-    ++counts.at(static_cast<size_t>(finding.kind));
+    count(finding, 1);
     if (index < marks.size() &&
         (marks[index] == SampleMark::ok || marks[index] == SampleMark::either)) {
         marks[index] = mark_of(finding.kind);
     }
     if (findings.size() < kMaxFindings) {
         findings.push_back(std::move(finding));
+    }
+}
+
+void Verdict::count(const Finding& finding, uint64_t count) {
+    counts.at(static_cast<size_t>(finding.kind)) += count;
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& g) {
+        return g.kind == finding.kind && g.rule == finding.rule && g.level == finding.level;
+    });
+    if (group != groups.end()) {
+        group->count += count;
+    } else {
+        groups.push_back({finding.kind, finding.rule, finding.level, count, 0});
     }
 }
 

@@ -62,6 +62,23 @@ struct Finding {
     }
 };
 
+// The findings of a case that break one rule in one way: what an expected failure is known by.
+struct FindingGroup {
+    FindingKind kind = FindingKind::missing;
+    std::string rule;
+    cases::Profile level = cases::Profile::direct3d;
+    uint64_t count = 0;  // of all such findings, kept or not
+    uint64_t known = 0;  // how many of them an expectation file speaks of
+    static void fields(auto&& visit, auto&... g) {
+        visit("kind", g.kind...);
+        visit("rule", g.rule...);
+        visit("level", g.level...);
+        visit("count", g.count...);
+        visit("known", g.known...);
+    }
+    friend bool operator==(const FindingGroup&, const FindingGroup&) = default;
+};
+
 // Where a finding is.
 inline cases::SampleId sample_of(const Finding& finding) {
     return {finding.x, finding.y, finding.sample, finding.layer.value_or(0)};
@@ -90,6 +107,7 @@ inline constexpr size_t kMaxFindings = 1000;
 struct Outcome {
     std::vector<Finding> findings;                 // the first kMaxFindings, in sample order
     std::array<uint64_t, kFindingKinds> counts{};  // of all, capped or not
+    std::vector<FindingGroup> groups;              // the same, by kind, rule and level
     uint64_t finding_total() const {
         return std::accumulate(counts.begin(), counts.end(), uint64_t{0});
     }
@@ -103,6 +121,7 @@ struct Outcome {
     static void fields(auto&& visit, auto&... o) {
         visit("findings", o.findings...);
         visit("counts", o.counts...);
+        visit({"groups", cases::kOlderLackIt}, o.groups...);
         visit({"wrong_samples", cases::kOlderLackIt}, o.wrong_samples...);
         visit("level", o.level...);
         visit("min_x", o.min_x...);
@@ -135,6 +154,8 @@ struct Verdict : Outcome {
     // Counts a finding of a target; keeps it if fewer than kMaxFindings are kept. The first finding
     // at a sample gives it its mark.
     void add(Finding finding, const cases::Target& target);
+    // Counts `count` findings like `finding`, without a word of each.
+    void count(const Finding& finding, uint64_t count);
     // How many samples have a finding, which may have several; nothing where it is not known.
     std::optional<uint64_t> count_wrong_samples() const;
     // The error at a sample, in budgets, is at least `ratio`.

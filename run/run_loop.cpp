@@ -215,10 +215,9 @@ CaseRecord RunLoop::fresh_record(size_t k, Status status, const std::string& rea
     return record;
 }
 
-bool RunLoop::is_unexpected(size_t k, Status status) const {
+bool RunLoop::is_unexpected(size_t k, const CaseRecord& record) const {
     const auto& expected = cases_[k].expected;
-    return !report::is_expected(
-        expected ? judge_expected(status, expected->status, expected->is_past) : status);
+    return !report::is_expected(expected ? counts_as(*expected, record) : record.status);
 }
 
 void RunLoop::on_result(Slot& slot, CaseResult& result) {
@@ -298,18 +297,7 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
 }
 
 void RunLoop::on_judged(size_t k, CaseRecord record) {
-    if (!record.findings.empty()) {
-        const diff::Finding& f = report::leading_finding(record);
-        record.explain =
-            cases_[k].explain + " --pixel " + std::to_string(f.x) + "," + std::to_string(f.y);
-        if (cases_[k].data.target.samples > 1) {
-            record.explain += " --sample " + std::to_string(f.sample);
-        }
-        if (cases_[k].data.target.layers > 1) {
-            record.explain += " --layer " + std::to_string(f.layer.value_or(0));
-        }
-    }
-    const bool unexpected = record.status != Status::pass && is_unexpected(k, record.status);
+    const bool unexpected = record.status != Status::pass && is_unexpected(k, record);
     if (schedule_.judged(k, unexpected)) {
         settle(k, std::move(record));
     } else {
@@ -398,6 +386,17 @@ void RunLoop::settle(size_t k, CaseRecord record) {
 void RunLoop::finish(size_t k, CaseRecord record) {
     if (const auto& expected = cases_[k].expected; expected) {
         apply(*expected, record);
+    }
+    if (!record.findings.empty()) {
+        const diff::Finding& f = report::leading_finding(record);
+        record.explain =
+            cases_[k].explain + " --pixel " + std::to_string(f.x) + "," + std::to_string(f.y);
+        if (cases_[k].data.target.samples > 1) {
+            record.explain += " --sample " + std::to_string(f.sample);
+        }
+        if (cases_[k].data.target.layers > 1) {
+            record.explain += " --layer " + std::to_string(f.layer.value_or(0));
+        }
     }
     check(journal_.write_end(record));
     ++settled_;

@@ -87,7 +87,7 @@ class RunLoop {
     void finish(size_t k, report::CaseRecord record);
     report::CaseRecord fresh_record(size_t k, report::Status status,
                                     const std::string& reason = {}) const;
-    bool is_unexpected(size_t k, report::Status status) const;
+    bool is_unexpected(size_t k, const report::CaseRecord& record) const;
     int poll_timeout() const;
     void check(const cases::Expected<void>& written);
     void fail(const std::string& why);

@@ -30,8 +30,7 @@ std::optional<std::pair<size_t, size_t>> find_regex(std::string_view regex, std:
     const RE2 compiled({regex.data(), regex.size()}, quietly());
     re2::StringPiece match;
     const re2::StringPiece whole(text.data(), text.size());
-    if (!compiled.ok() ||
-        !compiled.Match(whole, 0, whole.size(), RE2::UNANCHORED, &match, 1)) {
+    if (!compiled.ok() || !compiled.Match(whole, 0, whole.size(), RE2::UNANCHORED, &match, 1)) {
         return std::nullopt;
     }
     const auto begin = static_cast<size_t>(match.data() - text.data());

@@ -251,6 +251,8 @@ void define_others(CLI::App& app, AllOptions& all) {
         ->type_name("FILE");
     compare->add_flag("-v,--verbose", all.compare.verbose,
                       "list every difference, draw where kept pictures differ");
+    compare->add_flag("--common", all.compare.common, "leave out cases that a run lacks");
+    compare->add_flag("--strict", all.compare.strict, "exit 1 with any difference of bits");
     add_choice(compare, "--color", all.compare.color, when_names(), "colours");
 
     CLI::App* bench = app.add_subcommand("bench", "what checking costs beside drawing");

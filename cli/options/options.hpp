@@ -95,7 +95,7 @@ struct ExpectOptions {
 struct CompareOptions {
     std::vector<std::string> directories;
     std::string json, html;
-    bool verbose = false;
+    bool verbose = false, common = false, strict = false;
     When color = When::automatic;
 };
 

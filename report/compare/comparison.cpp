@@ -17,8 +17,8 @@ namespace report {
 namespace {
 
 constexpr std::array<std::string_view, kChanges> kNames = {
-    "regression",     "fix",          "fails otherwise", "fails alike",
-    "other coverage", "other values", "only in some",    "same"};
+    "regression",   "vanished",     "fix", "fails otherwise", "fails alike", "other coverage",
+    "other values", "only in some", "same"};
 
 // How bad a status is; nothing for what was not judged.
 std::optional<int> severity(const CaseRecord* record) {
@@ -31,24 +31,53 @@ std::optional<int> severity(const CaseRecord* record) {
     return at == kOrder.end() ? std::nullopt : std::optional(static_cast<int>(at - kOrder.begin()));
 }
 
+// "value of interp.linear [vulkan]", for each group of b's findings that a has not.
+std::vector<std::string> news_of(const CaseRecord& a, const CaseRecord& b) {
+    std::vector<std::string> news;
+    for (const diff::FindingGroup& g : b.groups) {
+        if (std::none_of(a.groups.begin(), a.groups.end(), [&](const diff::FindingGroup& other) {
+                return g.kind == other.kind && g.rule == other.rule && g.level == other.level;
+            })) {
+            news.push_back(fmt::format("{} {} of {} [{}]", g.count, diff::to_string(g.kind),
+                                       g.rule.empty() ? "no told rule" : g.rule,
+                                       cases::to_string(g.level)));
+        }
+    }
+    return news;
+}
+
 // What identifies how a case fails, as far as both runs tell it.
 bool fails_alike(const CaseRecord& a, const CaseRecord& b) {
     return a.counts == b.counts && a.level == b.level && a.signal == b.signal && a.bits == b.bits &&
            actual_status(a) == actual_status(b);
 }
 
+// Whether b fails in a way in which a does not; nothing is said of journals without groups.
+bool fails_anew(const CaseRecord& a, const CaseRecord& b) {
+    if (actual_status(a) != actual_status(b) || a.signal != b.signal) {
+        return actual_status(a) == actual_status(b);
+    }
+    return !a.groups.empty() && !news_of(a, b).empty();
+}
+
 Change change_of(const std::vector<const CaseRecord*>& records) {
     const std::optional<int> first = severity(records.front());
-    bool worse = false, better = false, some = false, all = true;
+    bool worse = false, better = false, gone = false, some = false, all = true;
     for (const CaseRecord* record : records) {
         const std::optional<int> s = severity(record);
         some = some || s;
         all = all && s;
         worse = worse || (first && s && *s > *first);
         better = better || (first && s && *s < *first);
+        worse = worse ||
+                (first && s && *s == *first && *s > 0 && fails_anew(*records.front(), *record));
+        gone = gone || (first && record == nullptr);
     }
     if (worse) {
         return Change::regression;
+    }
+    if (gone) {
+        return Change::vanished;
     }
     if (better) {
         return Change::fix;
@@ -114,6 +143,15 @@ std::string detail_of(const ComparedCase& c, const std::vector<std::string>& let
                 worst = s && *s > severity(c.records[worst]).value_or(-1) ? k : worst;
             }
             std::string text = letters[worst] + ": " + short_reason(*c.records[worst]);
+            for (size_t k = 1; c.change == Change::regression && k < c.records.size(); ++k) {
+                if (severity(first) == severity(c.records[k]) && severity(first) > 0) {
+                    if (const auto news = news_of(*first, *c.records[k]); !news.empty()) {
+                        return fmt::format("{}: new: {}", letters[k], fmt::join(news, ", "));
+                    }
+                    worst = k;
+                    text = letters[worst] + ": " + short_reason(*c.records[worst]);
+                }
+            }
             if (c.change == Change::fails_otherwise && worst == 0) {
                 text += "; " + letters[1] + ": " + short_reason(*c.records[1]);
             }
@@ -140,6 +178,7 @@ std::string detail_of(const ComparedCase& c, const std::vector<std::string>& let
             }
             return text;
         }
+        case Change::vanished:
         case Change::only_in_some:
             for (size_t k = 0; k < c.records.size(); ++k) {
                 if (c.records[k] != nullptr && !severity(c.records[k])) {
@@ -170,11 +209,12 @@ std::string_view to_string(Change change) {
     return kNames.at(static_cast<size_t>(change));
 }
 
-cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs) {
+cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs, Strictness strictness) {
     if (runs.size() < 2) {
         return cases::failure("comparing needs the folders of at least two runs");
     }
     Comparison result;
+    result.strictness = strictness;
     const Run& first = runs.front().run;
     for (size_t k = 0; k < runs.size(); ++k) {
         const Run& run = runs[k].run;
@@ -210,6 +250,11 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs) {
             result.unjudged += status == Status::error || status == Status::not_run ? 1U : 0U;
         }
     }
+    if (strictness.common) {
+        std::erase_if(result.cases, [](const ComparedCase& c) {
+            return std::find(c.records.begin(), c.records.end(), nullptr) != c.records.end();
+        });
+    }
     for (ComparedCase& c : result.cases) {
         c.change = change_of(c.records);
         c.detail = detail_of(c, result.letters);
@@ -220,7 +265,12 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs) {
 }
 
 int exit_code(const Comparison& comparison) {
-    if (comparison.counts.at(static_cast<size_t>(Change::regression)) > 0) {
+    const auto count = [&](Change change) {
+        return comparison.counts.at(static_cast<size_t>(change));
+    };
+    const bool differs = comparison.cases.size() > count(Change::same) + count(Change::fails_alike);
+    if (count(Change::regression) + count(Change::vanished) > 0 ||
+        (comparison.strictness.strict && differs)) {
         return kExitUnexpected;
     }
     return comparison.unjudged > 0 ? kExitInternal : kExitOk;

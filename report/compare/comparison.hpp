@@ -24,7 +24,10 @@ struct NamedRun {
 
 // What became of a case between the first run (A) and the others, the most important first.
 enum class Change : uint8_t {
-    regression,       // worse in a later run (pass < flake < fail < device_lost < timeout < crash)
+    // Worse in a later run (pass < flake < fail < device_lost < timeout < crash), or it fails there
+    // in a way in which it did not: by another kind, rule or level, or by another signal.
+    regression,
+    vanished,         // judged in the first run, and a later one has no such case
     fix,              // better in a later run, worse in none
     fails_otherwise,  // bad in all, with other findings or other bits
     fails_alike,      // bad in all, bit for bit the same
@@ -33,8 +36,14 @@ enum class Change : uint8_t {
     only_in_some,     // not in a run, or not judged there (unsupported, skipped, not run, error)
     same,             // passes in all, bit for bit the same, or is judged in none
 };
-inline constexpr size_t kChanges = 8;
+inline constexpr size_t kChanges = 9;
 std::string_view to_string(Change change);  // "regression", "other coverage", ...
+
+// What makes a comparison fail, besides regressions and cases that vanished.
+struct Strictness {
+    bool common = false;  // cases that a run lacks are left out
+    bool strict = false;  // any difference of bits counts
+};
 
 struct ComparedCase {
     std::string id;
@@ -49,14 +58,17 @@ struct Comparison {
     std::array<size_t, kChanges> counts{};
     size_t unjudged =
         0;  // cases that a run began with and that were not run or could not be judged
+    Strictness strictness;
     std::vector<std::string> remarks;  // what makes the runs less comparable, one sentence each
 };
 
 // Error, one sentence: fewer than two runs, or runs of different profiles. The pointers are into
 // `runs`.
-cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs);
+cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs,
+                                         Strictness strictness = {});
 
-// 1 with a regression, else 7 if a run is not whole, else 0.
+// 1 with a regression, a case that vanished or, if strict, any difference; else 7 if a run is not
+// whole; else 0.
 int exit_code(const Comparison& comparison);
 
 // Whether pictures show hits of the same samples of the same pixels.
@@ -64,7 +76,7 @@ bool show_same_hits(const Pictures& a, const Pictures& b);
 
 // "regressions: 2 cases got worse"
 std::string heading(Change change, size_t count);
-// "exit 1: regressions"
+// "exit 1: regressions", "exit 1: cases vanished"
 std::string exit_words(const Comparison& comparison);
 
 // The table for a terminal. style.verbose lists every case that is not the same and draws where the

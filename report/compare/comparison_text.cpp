@@ -31,7 +31,8 @@ size_t listed(Change change, bool verbose) {
     if (change == Change::same) {
         return 0;
     }
-    if (verbose || change == Change::regression || change == Change::fix) {
+    if (verbose || change == Change::regression || change == Change::vanished ||
+        change == Change::fix) {
         return static_cast<size_t>(-1);
     }
     return change == Change::other_values || change == Change::fails_alike ? 0 : kListed;
@@ -84,6 +85,7 @@ std::string heading(Change change, size_t count) {
     // In the order of Change.
     constexpr std::array<const char*, kChanges> kHeadings = {
         "regressions: {} {} got worse",
+        "vanished: {} {} of the first run not in a later one",
         "fixes: {} {} got better",
         "fail in all, in different ways: {} {}",
         "fail in all, bit for bit alike: {} {}",
@@ -96,11 +98,18 @@ std::string heading(Change change, size_t count) {
 }
 
 std::string exit_words(const Comparison& comparison) {
+    const auto has = [&](Change change) {
+        return comparison.counts.at(static_cast<size_t>(change)) > 0;
+    };
     const int code = exit_code(comparison);
-    return fmt::format("exit {}: {}", code,
-                       code == kExitOk           ? "no regression"
-                       : code == kExitUnexpected ? "regressions"
-                                                 : "no regression, but cases were not judged");
+    return fmt::format(
+        "exit {}: {}", code,
+        code == kExitOk         ? "no regression"
+        : code == kExitInternal ? "no regression, but cases were not judged"
+        : has(Change::regression)
+            ? (has(Change::vanished) ? "regressions, and cases vanished" : "regressions")
+        : has(Change::vanished) ? "cases vanished; --common compares those that all runs have"
+                                : "differences (--strict)");
 }
 
 std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison& comparison,
@@ -129,7 +138,7 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
         if (count == 0) {
             continue;
         }
-        const bool loud = change == Change::regression;
+        const bool loud = change == Change::regression || change == Change::vanished;
         const std::string title = heading(change, count);
         text += style.color ? fmt::format("\x1b[{}m{}\x1b[0m\n", loud ? "1;31" : "1", title)
                             : title + '\n';

@@ -51,6 +51,15 @@ Json counts_json(const CaseRecord& r) {
     return json;
 }
 
+Json groups_json(const CaseRecord& r) {
+    Json json = Json::array();
+    for (diff::FindingGroup group : r.groups) {
+        cases::make_printable(group);
+        json.push_back(encode(group));
+    }
+    return json;
+}
+
 Json case_json(const CaseRecord& r, cases::Profile profile) {
     Json findings = Json::array();
     for (const diff::Finding& f : r.findings) {
@@ -88,6 +97,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"expected", r.expected ? Json(to_string(*r.expected)) : Json(nullptr)},
         {"bug", cases::printable(r.bug)},
         {"expectation", cases::printable(r.expectation)},
+        {"unlike", cases::printable(r.unlike)},
         {"expired", cases::printable(r.expired)},
         {"actual", to_string(actual_status(r))},
         {"bits", cases::printable(r.bits)},
@@ -101,6 +111,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"attempts", r.attempts},
         {"level", wrong ? Json(cases::to_string(r.level)) : Json(nullptr)},
         {"counts", counts_json(r)},
+        {"groups", groups_json(r)},
         {"finding_total", r.finding_total()},
         {"wrong_samples", r.wrong_samples ? Json(*r.wrong_samples) : Json(nullptr)},
         {"findings", std::move(findings)},

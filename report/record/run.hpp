@@ -140,6 +140,7 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     std::optional<Status> expected;  // of an expectation file
     std::string bug;                 // its bug reference
     std::string expectation;         // where it stands, "FILE:LINE"
+    std::string unlike;              // what of the failure it does not speak of; empty: nothing
     std::string expired;             // the date on which it ended, if that is past
     std::optional<Status> actual;    // what happened before the expectation was looked at
     // Checksums in hexadecimal, to compare runs with: of every bit read back, and of the hits
@@ -162,6 +163,7 @@ struct CaseRecord : PlannedCase, diff::Outcome {
         visit("expected", r.expected...);
         visit("bug", r.bug...);
         visit({"expectation", cases::kOlderLackIt}, r.expectation...);
+        visit({"unlike", cases::kOlderLackIt}, r.unlike...);
         visit({"expired", cases::kOlderLackIt}, r.expired...);
         visit({"actual", cases::kOlderLackIt}, r.actual...);
         visit({"bits", cases::kOlderLackIt}, r.bits...);

@@ -35,9 +35,17 @@ std::string one_line(std::string_view bytes) {
 }
 
 const diff::Finding& leading_finding(const CaseRecord& record) {
-    return *std::min_element(
-        record.findings.begin(), record.findings.end(),
-        [](const diff::Finding& a, const diff::Finding& b) { return a.level < b.level; });
+    const auto is_known = [&](const diff::Finding& f) {
+        return std::any_of(record.groups.begin(), record.groups.end(), [&](const auto& group) {
+            return group.kind == f.kind && group.rule == f.rule && group.level == f.level &&
+                   group.count == group.known;
+        });
+    };
+    return *std::min_element(record.findings.begin(), record.findings.end(),
+                             [&](const diff::Finding& a, const diff::Finding& b) {
+                                 return std::pair(is_known(a), a.level) <
+                                        std::pair(is_known(b), b.level);
+                             });
 }
 
 std::string seconds_text(double seconds) {
@@ -101,6 +109,9 @@ std::string what_happened(const CaseRecord& record) {
         expected =
             fmt::format("the expectation of {}{} ended on {}: re-check it, or extend the date",
                         to_string(*record.expected), bug, one_line(record.expired));
+    } else if (!record.unlike.empty()) {
+        expected = fmt::format("not as {} says{}: {}", one_line(record.expectation), bug,
+                               one_line(record.unlike));
     } else if (record.expected) {
         expected = fmt::format("expected {}{}", to_string(*record.expected), bug);
     }

@@ -36,7 +36,8 @@ std::string what_happened(const CaseRecord& record);
 std::string why_it_happened(const CaseRecord& record);
 
 // The finding that a case is known by: the first of the loosest level, so that a broken Vulkan rule
-// is never hidden behind a difference in a tie. The record has at least one.
+// is never hidden behind a difference in a tie; what no expectation speaks of comes before what is
+// known. The record has at least one.
 const diff::Finding& leading_finding(const CaseRecord& record);
 
 // "exit 1: unexpected results"; `why` stands in place of what the code means in general.

@@ -22,7 +22,7 @@ using report::Status;
 
 namespace {
 
-constexpr std::string_view kFirstLine = "# edgecase-expectations 1";
+constexpr std::string_view kOlderFirstLine = "# edgecase-expectations 1";
 constexpr std::array kStatuses = {Status::fail,        Status::crash, Status::timeout,
                                   Status::device_lost, Status::flake, Status::skip};
 
@@ -67,7 +67,8 @@ std::optional<VersionBound> parse_bound(std::string_view word) {
 
 class Parser {
   public:
-    Parser(const std::filesystem::path& path, std::string today) : today_(std::move(today)) {
+    Parser(const std::filesystem::path& path, std::string today, bool for_update)
+        : today_(std::move(today)), for_update_(for_update) {
         file_.path = path;
     }
 
@@ -84,7 +85,8 @@ class Parser {
         }
         if (line_ == 0) {
             line_ = 1;
-            fail("the file is empty; its first line must be '" + std::string(kFirstLine) + "'");
+            fail("the file is empty; its first line must be '" +
+                 std::string(kExpectationsFirstLine) + "'");
         } else if (!has_device_) {
             line_ = 1;
             fail(
@@ -104,8 +106,14 @@ class Parser {
 
     void parse_line(std::string_view line) {
         if (line_ == 1) {
-            if (line != kFirstLine) {
-                fail("the first line must be '" + std::string(kFirstLine) + "'");
+            file_.is_older = line == kOlderFirstLine;
+            if (file_.is_older && !for_update_) {
+                fail(
+                    "the file is of format 1, whose lines name no cause; bring it to format 2 with "
+                    "'edgecase expect --update RUN " +
+                    file_.path.string() + "'");
+            } else if (line != kExpectationsFirstLine && !file_.is_older) {
+                fail("the first line must be '" + std::string(kExpectationsFirstLine) + "'");
             }
         } else if (line.empty()) {
             return;
@@ -210,14 +218,20 @@ class Parser {
                  " needs a reference to a bug in its third column ('-' is for skip)");
         }
         for (size_t k = 3; k < words.size(); ++k) {
-            if (!words[k].starts_with("until=") || !is_date(words[k].substr(6))) {
+            if (is_cause_word(words[k])) {
+                if (auto added = add_cause_word(entry.cause, words[k]); !added) {
+                    fail(added.error().message);
+                }
+            } else if (words[k].starts_with("until=") && is_date(words[k].substr(6))) {
+                entry.until = words[k].substr(6);
+                entry.is_past = entry.until < today_;
+            } else {
                 fail("'" + words[k] +
-                     "' is not understood; only 'until=YYYY-MM-DD' may follow the bug");
-                continue;
+                     "' is not understood; after the bug may stand causes, like "
+                     "'extra:cover.outside@vulkan<=3', and 'until=YYYY-MM-DD'");
             }
-            entry.until = words[k].substr(6);
-            entry.is_past = entry.until < today_;
         }
+        check_cause(entry);
         if (entry.note.empty()) {
             fail("the expectation of '" + entry.glob +
                  "' gives no reason; add one sentence after ' # '");
@@ -225,8 +239,26 @@ class Parser {
         file_.lines.push_back(std::move(entry));
     }
 
+    // A failure or a crash is known by what it looks like, so that it hides no other one.
+    void check_cause(const ExpectationLine& entry) {
+        const ExpectedCause& cause = entry.cause;
+        if (entry.status == Status::skip && !cause.is_empty()) {
+            fail("a case that is not drawn has no cause; remove '" + to_text(cause) + "'");
+        } else if (file_.is_older) {
+            return;
+        } else if (entry.status == Status::fail && cause.groups.empty() && cause.bits.empty()) {
+            fail("the expectation of '" + entry.glob +
+                 "' names no cause; write KIND:RULE@LEVEL<=COUNT, as 'edgecase expect --update' "
+                 "does");
+        } else if (entry.status == Status::crash && cause.signal.empty() && cause.step.empty()) {
+            fail("the expectation of '" + entry.glob +
+                 "' does not say how it crashes; write signal=NAME or step=NAME");
+        }
+    }
+
     ExpectationFile file_;
     std::string today_;
+    bool for_update_ = false;
     Errors errors_;
     uint32_t line_ = 0;
     bool has_device_ = false;
@@ -236,8 +268,8 @@ class Parser {
 
 cases::ExpectedAll<ExpectationFile> parse_expectations(std::string_view text,
                                                        const std::filesystem::path& path,
-                                                       const std::string& today) {
-    return Parser(path, today).parse(text);
+                                                       const std::string& today, bool for_update) {
+    return Parser(path, today, for_update).parse(text);
 }
 
 cases::ExpectedAll<ExpectationFile> load_expectations(const std::filesystem::path& path) {
@@ -326,6 +358,9 @@ cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
                 }
                 used = true;
                 const auto [at, fresh] = expected.emplace(id, line);
+                if (!fresh) {
+                    add_up(at->second.cause, line.cause);
+                }
                 if (!fresh && (at->second.status != line.status || at->second.bug != line.bug)) {
                     errors.push_back({line.where, "'" + line.glob + "' disagrees about '" + id +
                                                       "' with " + at->second.where.file + ":" +
@@ -370,13 +405,23 @@ Status judge_expected(Status actual, std::optional<Status> expected, bool is_pas
     return Status::improved;  // bad, but less bad than the line says
 }
 
+Status counts_as(const ExpectationLine& line, const report::CaseRecord& record) {
+    const Status status = judge_expected(record.status, line.status, line.is_past);
+    return status == Status::xfail && !what_is_new(line.cause, record).empty() ? record.status
+                                                                               : status;
+}
+
 void apply(const ExpectationLine& line, report::CaseRecord& record) {
     record.expected = line.status;
     record.bug = line.bug;
     record.expectation = line.where.file + ":" + std::to_string(line.where.line);
     record.expired = line.is_past ? line.until : "";
     record.actual = record.status;
-    record.status = judge_expected(record.status, line.status, line.is_past);
+    if (record.status == line.status && !line.is_past) {
+        mark_known(line.cause, record);
+        record.unlike = what_is_new(line.cause, record);
+    }
+    record.status = counts_as(line, record);
 }
 
 bool skips(const ExpectationLine& line) {

@@ -15,8 +15,11 @@
 #include "cases/base/error.hpp"
 #include "cases/model/profile.hpp"
 #include "report/record/run.hpp"
+#include "run/expected/expected_cause.hpp"
 
 namespace run {
+
+inline constexpr std::string_view kExpectationsFirstLine = "# edgecase-expectations 2";
 
 // A version bound of the header: ">=22.3".
 struct VersionBound {
@@ -28,6 +31,7 @@ struct ExpectationLine {
     std::string glob;
     report::Status status = report::Status::fail;
     std::string bug;
+    ExpectedCause cause;   // what the failure looks like
     std::string until;     // YYYY-MM-DD or empty
     bool is_past = false;  // until is
     std::string note;
@@ -41,12 +45,15 @@ struct ExpectationFile {
     std::vector<VersionBound> versions;
     std::vector<cases::Profile> profiles;  // empty: all
     std::vector<ExpectationLine> lines;
+    bool is_older = false;  // format 1, whose lines name no cause: for an update only
 };
 
-// Parses a file's text. `today` (YYYY-MM-DD, UTC) decides whether an until= is past (no error).
+// Parses a file's text. `today` (YYYY-MM-DD, UTC) decides whether an until= is past (no error). A
+// file of format 1 is an error unless `for_update`.
 cases::ExpectedAll<ExpectationFile> parse_expectations(std::string_view text,
                                                        const std::filesystem::path& path,
-                                                       const std::string& today);
+                                                       const std::string& today,
+                                                       bool for_update = false);
 cases::ExpectedAll<ExpectationFile> load_expectations(const std::filesystem::path& path);
 
 // The numbers of a version in text ("Mesa 22.3.6 (LLVM 15)" -> 22 3 6), from the first digit at or
@@ -58,8 +65,8 @@ bool satisfies(const std::vector<uint32_t>& version, const VersionBound& bound);
 std::string mismatch(const ExpectationFile& file, const report::Device& device,
                      cases::Profile profile);
 
-// What the files say of each id. Errors: two lines that disagree about an id; with `whole_suite`, a
-// line that matches no id.
+// What the files say of each id; the causes of lines that agree about an id add up. Errors: two
+// lines that disagree about an id; with `whole_suite`, a line that matches no id.
 cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
     const std::vector<ExpectationFile>& files, const std::vector<std::string>& ids,
     bool whole_suite);
@@ -69,6 +76,9 @@ cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
 report::Status judge_expected(report::Status actual, std::optional<report::Status> expected,
                               bool is_past = false);
 
+// What the record of a case counts as by a line: judge_expected(), but a failure that is not as the
+// line's cause says counts as itself.
+report::Status counts_as(const ExpectationLine& line, const report::CaseRecord& record);
 // Makes of what happened what it counts as, and writes down what was expected. A line whose day is
 // past excuses nothing.
 void apply(const ExpectationLine& line, report::CaseRecord& record);

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "cases/base/printable.hpp"
 #include "cases/model/selector.hpp"
 #include "report/text/sentences.hpp"
+#include "run/expected/glob_cover.hpp"
 
 namespace run {
 
@@ -49,6 +53,12 @@ std::string with_word(const std::string& line, size_t k, const std::string& word
     return line.substr(0, begin) + word + line.substr(end);
 }
 
+// A line whose words between the bug and the reason are replaced.
+std::string with_words_after_bug(const std::string& line, const std::string& words) {
+    return line.substr(0, word_at(line, 2).second) + (words.empty() ? "" : "   " + words) + "   " +
+           line.substr(line.find('#', line.find(" #")));
+}
+
 std::string one_line(const std::string& text) {
     std::string line = cases::printable(text);
     std::replace(line.begin(), line.end(), '\n', ' ');
@@ -56,10 +66,51 @@ std::string one_line(const std::string& text) {
     return line;
 }
 
+// The words of a line between the bug and the reason.
+std::string words_of(const ExpectedCause& cause, const std::string& until) {
+    const std::string text = to_text(cause);
+    return text + (text.empty() || until.empty() ? "" : "   ") +
+           (until.empty() ? "" : "until=" + until);
+}
+
 std::string new_line(const std::string& id, Status status, const std::string& bug,
-                     const std::string& until, const std::string& reason) {
+                     const ExpectedCause& cause, const std::string& until,
+                     const std::string& reason) {
+    const std::string words = words_of(cause, until);
     return id + "   " + std::string(report::to_string(status)) + "   " + (bug.empty() ? "-" : bug) +
-           (until.empty() ? "" : "   until=" + until) + "   # " + reason;
+           (words.empty() ? "" : "   " + words) + "   # " + reason;
+}
+
+// What a line has to say of a case.
+struct Wanted {
+    std::string id;
+    Status status = Status::fail;
+    ExpectedCause cause;
+};
+
+// Cases that one line can speak of: they end alike, and crash alike.
+using Alike = std::tuple<Status, std::string, std::string>;
+Alike alike_of(const Wanted& wanted) {
+    return {wanted.status, wanted.cause.signal, wanted.cause.step};
+}
+
+// The cause of all of them that a glob matches.
+ExpectedCause cause_of_all(const std::vector<Wanted>& all, const std::string& glob) {
+    ExpectedCause cause;
+    for (const Wanted& wanted : all) {
+        if (cases::glob_matches(glob, wanted.id)) {
+            widen(cause, wanted.cause);
+        }
+    }
+    return cause;
+}
+
+std::vector<std::string> ids_of(const std::vector<Wanted>& all) {
+    std::vector<std::string> ids;
+    for (const Wanted& wanted : all) {
+        ids.push_back(wanted.id);
+    }
+    return ids;
 }
 
 // What the run says of a case, for a line that nobody has explained yet.
@@ -96,6 +147,9 @@ class Updater {
             }
         }
         add_new_lines();
+        if (file_.is_older) {
+            change_format();
+        }
         return std::move(result_);
     }
 
@@ -108,52 +162,74 @@ class Updater {
     }
 
     // What a line about the case should say now: nothing if it is not needed any more.
-    static std::optional<Status> wanted(const ExpectationLine& line, Status actual) {
-        if (line.status == Status::flake && actual == Status::pass) {
-            return Status::flake;  // a flake passes now and then
+    static std::optional<Wanted> wanted(const ExpectationLine& line, const CaseRecord& record) {
+        const Status actual = report::actual_status(record);
+        if (actual == Status::pass) {  // a flake passes now and then
+            return line.status == Status::flake
+                       ? std::optional(Wanted{record.id, line.status, line.cause})
+                       : std::nullopt;
         }
-        return actual == Status::pass ? std::nullopt : std::optional(actual);
+        Wanted wanted{record.id, actual, {}};
+        if (actual == line.status) {
+            wanted.cause = line.cause;
+        }
+        if (wanted.cause.is_empty() || !what_is_new(wanted.cause, record).empty()) {
+            widen(wanted.cause, cause_of(record));
+            if (actual == Status::crash && wanted.cause.signal.empty() &&
+                wanted.cause.step.empty()) {
+                wanted.cause = cause_of(record);
+            }
+        }
+        return wanted;
     }
 
     void update_line(const ExpectationLine& line, const std::string& raw) {
-        std::vector<std::pair<std::string, std::optional<Status>>> cases;  // what is wanted of each
-        std::set<std::optional<Status>> seen;
+        std::map<Alike, std::vector<Wanted>> wanted_of;
+        size_t matched = 0, judged = 0, passed = 0;
         for (const std::string& id : ids_) {
             if (!cases::glob_matches(line.glob, id)) {
                 continue;
             }
+            ++matched;
             covered_.insert(id);
             const auto record = records_.find(id);
-            const bool judged =
-                record != records_.end() && is_judged(report::actual_status(*record->second));
-            cases.emplace_back(id, line.status);  // not drawn: as the line says
-            if (judged) {
-                cases.back().second = wanted(line, report::actual_status(*record->second));
-                seen.insert(cases.back().second);
+            // Of what was not drawn, the line is believed.
+            std::optional<Wanted> now = Wanted{id, line.status, line.cause};
+            if (record != records_.end() && is_judged(report::actual_status(*record->second))) {
+                ++judged;
+                now = wanted(line, *record->second);
+            }
+            if (now) {
+                wanted_of[alike_of(*now)].push_back(*now);
+            } else {
+                ++passed;
             }
         }
-        std::set<std::optional<Status>> all;
-        for (const auto& [id, status] : cases) {
-            all.insert(status);
-        }
-        if (cases.empty()) {
+        if (matched == 0) {
             result_.notes.push_back("'" + line.glob + "' matches no case of the suite");
         }
-        if (seen.empty() || (all.size() == 1 && *all.begin() == line.status)) {
-            keep_line(line, raw, !seen.empty());
-        } else if (all.size() == 1 && !*all.begin()) {
+        if (judged == 0) {
+            keep_line(line, raw, false);
+        } else if (wanted_of.empty()) {
             remove(raw);
             ++result_.removed;
-        } else if (all.size() == 1) {
-            ++result_.changed;
-            change(line, raw, **all.begin());
+        } else if (wanted_of.size() == 1 && passed == 0) {
+            const std::vector<Wanted>& all = wanted_of.begin()->second;
+            const Wanted now{line.glob, all.front().status, cause_of_all(all, line.glob)};
+            if (now.status == line.status && now.cause == line.cause) {
+                keep_line(line, raw, true);
+            } else {
+                ++result_.changed;
+                change(line, raw, now);
+            }
         } else {
             ++result_.changed;
             remove(raw);
-            for (const auto& [id, status] : cases) {
-                if (status) {
-                    check_bug(line, id);
-                    add(new_line(id, *status, bug_of(line), line.until, line.note));
+            for (const auto& [alike, all] : wanted_of) {
+                for (const std::string& glob : cover_by_globs(ids_of(all), ids_)) {
+                    check_bug(line, glob);
+                    add(new_line(glob, all.front().status, bug_of(line), cause_of_all(all, glob),
+                                 line.until, line.note));
                 }
             }
         }
@@ -168,14 +244,34 @@ class Updater {
         }
     }
 
-    void change(const ExpectationLine& line, const std::string& raw, Status status) {
+    void change(const ExpectationLine& line, const std::string& raw, const Wanted& now) {
         check_bug(line, line.glob);
         remove(raw);
-        std::string changed = with_word(raw, 1, std::string(report::to_string(status)));
+        std::string changed = with_word(raw, 1, std::string(report::to_string(now.status)));
         if (line.bug.empty() && !words_.bug.empty()) {
             changed = with_word(changed, 2, words_.bug);
         }
-        add(changed);
+        add(with_words_after_bug(changed, words_of(now.cause, line.until)));
+    }
+
+    // A file of format 1 is one of format 2 once all its lines name causes.
+    void change_format() {
+        const auto again = parse_expectations(result_.text, file_.path, "", true);
+        const bool is_whole =
+            again && std::all_of(again->lines.begin(), again->lines.end(), [](const auto& line) {
+                return !line.cause.is_empty() ||
+                       (line.status != Status::fail && line.status != Status::crash);
+            });
+        if (!is_whole) {
+            result_.notes.emplace_back(
+                "the file stays of format 1, which a run refuses: this run did not draw all of its "
+                "cases, so some lines name no cause");
+            return;
+        }
+        const size_t end = result_.text.find('\n');
+        remove(result_.text.substr(0, end));
+        result_.changes.push_back("+ " + std::string(kExpectationsFirstLine));
+        result_.text = std::string(kExpectationsFirstLine) + result_.text.substr(end);
     }
 
     void keep_line(const ExpectationLine& line, const std::string& raw, bool still_true) {
@@ -188,7 +284,7 @@ class Updater {
             --result_.kept;
             ++result_.changed;
             remove(raw);
-            add(with_word(raw, 3, "until=" + words_.until));
+            add(with_words_after_bug(raw, words_of(line.cause, words_.until)));
             return;
         }
         keep(raw);
@@ -200,6 +296,9 @@ class Updater {
     }
 
     void add_new_lines() {
+        // Failures that break the same rules in the same way, in the order of the first.
+        std::map<std::pair<Alike, std::set<std::string>>, size_t> index;
+        std::vector<std::vector<Wanted>> all_new;
         for (const CaseRecord& record : run_.cases) {
             const Status status = record.status;
             const bool bad = status >= Status::flake && status <= Status::crash;
@@ -219,9 +318,28 @@ class Updater {
                 result_.without_bug.push_back(record.id);
                 continue;
             }
-            ++result_.added;
-            add(new_line(record.id, status, words_.bug, words_.until,
-                         words_.reason.empty() ? reason_of(record) : words_.reason));
+            Wanted now{record.id, status, cause_of(record)};
+            std::set<std::string> rules;
+            for (const diff::FindingGroup& group : now.cause.groups) {
+                rules.insert(std::string(diff::to_string(group.kind)) + ' ' + group.rule);
+            }
+            const auto [at, fresh] =
+                index.emplace(std::pair(alike_of(now), std::move(rules)), all_new.size());
+            if (fresh) {
+                all_new.emplace_back();
+            }
+            all_new[at->second].push_back(std::move(now));
+        }
+        for (const std::vector<Wanted>& alike : all_new) {
+            for (const std::string& glob : cover_by_globs(ids_of(alike), ids_)) {
+                const auto first = std::find_if(alike.begin(), alike.end(), [&](const Wanted& w) {
+                    return cases::glob_matches(glob, w.id);
+                });
+                ++result_.added;
+                add(new_line(
+                    glob, first->status, words_.bug, cause_of_all(alike, glob), words_.until,
+                    words_.reason.empty() ? reason_of(*records_.at(first->id)) : words_.reason));
+            }
         }
     }
 
@@ -259,7 +377,7 @@ Update update_expectations(std::string_view text, const ExpectationFile& file,
 std::string new_expectation_file(const report::Run& run) {
     const report::Device& d = run.device;
     std::string text =
-        "# edgecase-expectations 1\n# device: " + escaped(one_line(d.name), "*?[]\\");
+        std::string(kExpectationsFirstLine) + "\n# device: " + escaped(one_line(d.name), "*?[]\\");
     if (!d.driver_name.empty()) {
         text += "   driver: " + escaped(one_line(d.driver_name), ".*+?^$()[]{}|\\");
         const std::string driver = d.driver_name + " " + d.driver_info;

@@ -33,9 +33,11 @@ struct Update {
 };
 
 // `text` parsed to `file`; `ids` are those of the whole suite. A line stays as it is while all its
-// cases end as it says, or were not drawn; its status is changed if all end otherwise; it goes if
-// all pass; if they differ it becomes one line a case. Comments, order and other lines stay byte
-// for byte. Unexpected results that no line speaks of become lines at the end.
+// cases end as it says, or were not drawn; its status or cause is changed if all end otherwise (a
+// count only grows: the file may speak of other drivers, too); it goes if all pass; if they differ
+// it becomes a few lines. Comments, order and other lines stay byte for byte. Unexpected results
+// that no line speaks of become lines at the end, one for cases with the same cause where a glob
+// matches them and nothing else.
 Update update_expectations(std::string_view text, const ExpectationFile& file,
                            const report::Run& run, const std::vector<std::string>& ids,
                            const UpdateWords& words);

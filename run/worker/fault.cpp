@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <utility>
@@ -17,7 +18,7 @@ namespace run {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, FaultKind>, 16> kNames = {{
+constexpr std::array<std::pair<const char*, FaultKind>, 17> kNames = {{
     {"segv", FaultKind::segv},
     {"abort", FaultKind::abort},
     {"hang", FaultKind::hang},
@@ -26,6 +27,7 @@ constexpr std::array<std::pair<const char*, FaultKind>, 16> kNames = {{
     {"truncate", FaultKind::truncate},
     {"garbage", FaultKind::garbage},
     {"flip-pixel", FaultKind::flip_pixel},
+    {"shift-value", FaultKind::shift_value},
     {"flake", FaultKind::flake},
     {"flip-derived", FaultKind::flip_derived},
     {"device-lost", FaultKind::device_lost},
@@ -36,7 +38,9 @@ constexpr std::array<std::pair<const char*, FaultKind>, 16> kNames = {{
     {"no-device", FaultKind::no_device},
 }};
 
+// The kind of a word without its "+N".
 std::optional<FaultKind> kind_of(std::string_view word) {
+    word = word.substr(0, word.find('+'));
     const auto row = std::find_if(kNames.begin(), kNames.end(),
                                   [word](const auto& known) { return known.first == word; });
     return row == kNames.end() ? std::nullopt : std::optional(row->second);
@@ -83,19 +87,31 @@ cases::Expected<std::vector<Fault>> parse_faults(std::string_view list) {
                 "EDGECASE_FAULT names an unknown fault '" + std::string(word) + "'; " +
                 (nearest.empty() ? "there are " + all : "did you mean '" + nearest + "'?"));
         }
-        faults.push_back({*kind, at == std::string_view::npos ? std::string("**")
-                                                              : std::string(item.substr(at + 1))});
+        Fault fault;
+        fault.kind = *kind;
+        fault.glob = at == std::string_view::npos ? "**" : item.substr(at + 1);
+        if (const size_t plus = word.find('+'); plus != std::string_view::npos) {
+            const char* const stop = word.data() + word.size();
+            const auto read = std::from_chars(word.data() + plus + 1, stop, fault.skipped);
+            const bool has_place =
+                *kind == FaultKind::flip_pixel || *kind == FaultKind::shift_value;
+            if (read.ec != std::errc() || read.ptr != stop || !has_place) {
+                return cases::failure(
+                    "EDGECASE_FAULT: '{}' is not understood; '+N' with a number stands after "
+                    "flip-pixel and shift-value only",
+                    word);
+            }
+        }
+        faults.push_back(std::move(fault));
     }
     return faults;
 }
 
-bool has_fault(const std::vector<Fault>& faults, FaultKind kind, std::string_view id) {
-    for (const Fault& fault : faults) {
-        if (fault.kind == kind && (fault.glob == "**" || cases::glob_matches(fault.glob, id))) {
-            return true;
-        }
-    }
-    return false;
+const Fault* find_fault(const std::vector<Fault>& faults, FaultKind kind, std::string_view id) {
+    const auto at = std::find_if(faults.begin(), faults.end(), [&](const Fault& fault) {
+        return fault.kind == kind && (fault.glob == "**" || cases::glob_matches(fault.glob, id));
+    });
+    return at == faults.end() ? nullptr : &*at;
 }
 
 void commit(FaultKind kind) {

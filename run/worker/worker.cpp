@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <span>
@@ -68,31 +69,65 @@ std::span<T> first_plane(const Rendered& rendered, std::vector<T>& own) {
                                                rendered.capture.sample_count());
 }
 
-// Another colour in the middle of a target that counts no hits: the second highest bit of red.
-void flip_color(Rendered& rendered) {
+// Another colour in the middle of a target that counts no hits, or `skipped` samples after it: the
+// second highest bit of red.
+void flip_color(Rendered& rendered, uint32_t skipped) {
     const cases::Target& target = rendered.capture.target;
     // Colours come first where there are no instruments.
     const std::span codes = first_plane(rendered, rendered.capture.color);
     if (target.color && !codes.empty()) {
-        codes[codes.size() / 2][0] ^= 1U << (cases::component_of(target.color->format, 0).bits - 2);
+        codes[(codes.size() / 2 + skipped) % codes.size()][0] ^=
+            1U << (cases::component_of(target.color->format, 0).bits - 2);
     }
 }
 
-// One hit more at the first drawn sample from the middle of the target on: a double hit.
-void flip_pixel(Rendered& rendered) {
+// Indices of the samples that were hit, from the middle of the target on.
+std::vector<size_t> drawn_from_the_middle(std::span<const glm::vec4> hits) {
+    std::vector<size_t> drawn;
+    for (size_t k = 0; k < hits.size(); ++k) {
+        const size_t at = (hits.size() / 2 + k) % hits.size();
+        if (hits[at].x + hits[at].y > 0) {
+            drawn.push_back(at);
+        }
+    }
+    return drawn;
+}
+
+// One hit more at a drawn sample: a double hit.
+void flip_pixel(Rendered& rendered, uint32_t skipped = 0) {
     if (!rendered.capture.target.has_instruments) {
-        flip_color(rendered);
+        flip_color(rendered, skipped);
         return;
     }
-    const std::span planes = first_plane(rendered, rendered.capture.hits);
-    const size_t n = planes.size();
-    for (size_t k = 0; k < n; ++k) {
-        glm::vec4& hits = planes[(n / 2 + k) % n];
-        if (hits.x + hits.y > 0) {
-            hits.x += 1;
-            hits.w += 1;
-            return;
+    const std::span hits = first_plane(rendered, rendered.capture.hits);
+    if (const std::vector<size_t> drawn = drawn_from_the_middle(hits); !drawn.empty()) {
+        glm::vec4& hit = hits[drawn[skipped % drawn.size()]];
+        hit.x += 1;
+        hit.w += 1;
+    }
+}
+
+// One more in the first attribute of a drawn sample, or, after all of those, in its FragCoord.x.
+void shift_value(Rendered& rendered, uint32_t skipped) {
+    capture::Capture& own = rendered.capture;
+    if (!own.target.has_instruments) {
+        flip_color(rendered, skipped);
+        return;
+    }
+    const capture::PlaneSpans planes =
+        rendered.placed.empty()
+            ? capture::PlaneSpans(own)
+            : capture::planes_at(own.target, own.attribute_count, rendered.placed.data());
+    std::vector<float*> values;
+    for (const std::span plane : {planes.attributes[0], planes.frag_coord}) {
+        for (const size_t at : drawn_from_the_middle(planes.hits)) {
+            if (!plane.empty() && std::isfinite(plane[at].x)) {
+                values.push_back(&plane[at].x);
+            }
         }
+    }
+    if (!values.empty()) {
+        *values[skipped % values.size()] += 1;
     }
 }
 
@@ -149,9 +184,13 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
             results[k].rendered.status = Rendered::Status::unsupported;
             results[k].rendered.reason = "unsupported on purpose (EDGECASE_FAULT)";
         }
-        if (has_fault(faults, FaultKind::flip_pixel, id) ||
-            (request.attempt == 1 && has_fault(faults, FaultKind::flake, id))) {
+        if (const Fault* fault = find_fault(faults, FaultKind::flip_pixel, id); fault != nullptr) {
+            flip_pixel(results[k].rendered, fault->skipped);
+        } else if (request.attempt == 1 && has_fault(faults, FaultKind::flake, id)) {
             flip_pixel(results[k].rendered);
+        }
+        if (const Fault* fault = find_fault(faults, FaultKind::shift_value, id); fault != nullptr) {
+            shift_value(results[k].rendered, fault->skipped);
         }
         const std::string frame = frame_of(static_cast<uint32_t>(k), std::move(results[k]), shared);
         if (has_fault(faults, FaultKind::truncate, id)) {

@@ -43,15 +43,40 @@ class Compare(CompareTest):
         done = self.compare(a, b, check=1)
         self.assertEqual(self.changes(), {
             "fam/c1": "regression", "fam/c2": "fix", "fam/c3": "fix", "fam/c5": "regression", "fam/c6": "fails alike",
-            "fam/c7": "fails alike", "fam/c8": "only in some", "fam/c9": "only in some"})
+            "fam/c7": "fails alike", "fam/c8": "only in some", "fam/c9": "vanished"})
         self.assertIn("regressions: 2 cases got worse\n", done.stdout)
         self.assertRegex(done.stdout, r"  A +B +case\n  fail +crash +fam/c1   B: SIGSEGV")
         self.assertIn("fixes: 2 cases got better\n", done.stdout)
-        self.assertTrue(done.stdout.endswith("exit 1: regressions\n"))
+        self.assertTrue(done.stdout.endswith("exit 1: regressions, and cases vanished\n"))
         # The other way round the fixes are the regressions.
         self.compare(b, a, check=1)
         self.assertEqual(self.changes()["fam/c2"], "regression")
         self.assertEqual(self.changes()["fam/c1"], "fix")
+
+    def test_cases_that_vanish_are_no_success(self):
+        a, b = self.run_as("a"), self.run_as("b", "fam/c1", "fam/c2")
+        done = self.compare(a, b, check=1)
+        self.assertEqual(set(self.changes().values()), {"vanished"})
+        self.assertIn("vanished: 8 cases of the first run not in a later one\n", done.stdout)
+        self.assertTrue(done.stdout.endswith("exit 1: cases vanished; --common compares those that all runs have\n"))
+        done = self.edgecase("compare", a, b, "--common", check=0)
+        self.assertIn("the same bit for bit: 2 cases\n", done.stdout)
+        self.edgecase("compare", b, a, check=0)  # more cases than before
+
+    def test_another_kind_of_failure_is_a_regression(self):
+        a = self.run_as("a", fault="flip-pixel@fam/c1,segv@fam/c2,flip-pixel@fam/c3")
+        b = self.run_as("b", fault="shift-value@fam/c1,abort@fam/c2,flip-pixel+3@fam/c3")
+        done = self.compare(a, b, check=1)
+        self.assertEqual(self.changes(), {"fam/c1": "regression", "fam/c2": "regression", "fam/c3": "fails otherwise"})
+        self.assertIn("fam/c1   B: new: 1 value of fragcoord.xy [vulkan]\n", done.stdout)
+
+    def test_strict(self):
+        """Any difference of bits counts, also between runs that fail."""
+        a, b = self.run_as("a", fault="flip-pixel@fam/c3"), self.run_as("b", fault="flip-pixel+3@fam/c3")
+        self.compare(a, b, check=0)
+        done = self.edgecase("compare", a, b, "--strict", check=1)
+        self.assertTrue(done.stdout.endswith("exit 1: differences (--strict)\n"))
+        self.edgecase("compare", a, a, "--strict", check=0)
 
     def test_a_page_without_reports_has_no_links(self):
         a, b = self.run_as("a"), self.run_as("b", fault="flip-pixel@fam/c1")
@@ -79,7 +104,7 @@ class Compare(CompareTest):
         """An expectation file changes what a run says, not what happened."""
         folder = self.suite.parent / "expectations"
         folder.mkdir()
-        (folder / "x.txt").write_text("# edgecase-expectations 1\n# device: Edgecase*\nfam/c3 fail b#1  # Known.\n")
+        (folder / "x.txt").write_text("# edgecase-expectations 2\n# device: Edgecase*\nfam/c3 fail b#1 double:cover.outside@vulkan<=1  # Known.\n")
         a = self.run_as("a", fault="flip-pixel@fam/c3")
         self.assertEqual(self.statuses(a)["fam/c3"], "xfail")
         b = self.run_as("b")
@@ -134,7 +159,8 @@ class Compare(CompareTest):
         self.assertIn("note: the suites of A and B are not the same: a case may ask something else\n", done.stdout)
 
 
-HEADER = "# edgecase-expectations 1\n# device: Edgecase*\n"
+HEADER = "# edgecase-expectations 2\n# device: Edgecase*\n"
+FLIPPED = "double:cover.outside@vulkan<=1"  # what flip-pixel does to a case of the suite
 
 
 class Update(CompareTest):
@@ -149,25 +175,25 @@ class Update(CompareTest):
         self.run_as("a", fault="flip-pixel@fam/c1,segv@fam/c3")
         self.update("--bug", "mesa#7", "--until", "2999-01-01")
         text = self.file.read_text()
-        self.assertRegex(text, r"\A# edgecase-expectations 1\n# device: Edgecase reference   driver: \S+ =1\.0   profile: direct3d\n"
-                               r"fam/c1   fail   mesa#7   until=2999-01-01   # 1 \w+ of 64 samples, \S+ \[\w+\]\.\n"
-                               r"fam/c3   crash   mesa#7   until=2999-01-01   # .*SIGSEGV.*\n\Z")
+        self.assertRegex(text, r"\A# edgecase-expectations 2\n# device: Edgecase reference   driver: \S+ =1\.0   profile: direct3d\n"
+                               rf"fam/c1   fail   mesa#7   {FLIPPED}   until=2999-01-01   # 1 \w+ of 64 samples, \S+ \[\w+\]\.\n"
+                               r"fam/c3   crash   mesa#7   signal=SIGSEGV   until=2999-01-01   # .*SIGSEGV.*\n\Z")
         self.run_suite("--expect", self.file, fault="flip-pixel@fam/c1,segv@fam/c3", check=0)
         self.edgecase("expect", self.file, check=0)
 
     def test_what_changed_and_nothing_else(self):
-        lines = ["", "# why c1 is here", "fam/c1    fail   b#1      # The first.", "fam/c2  fail  b#2  # The second.",
-                 "", "  # indented", "fam/c3 fail b#3 # The third.", "fam/c4 skip - # Too slow.",
+        lines = ["", "# why c1 is here", f"fam/c1    fail   b#1   {FLIPPED}    # The first.", f"fam/c2  fail  b#2  {FLIPPED}  # The second.",
+                 "", "  # indented", f"fam/c3 fail b#3 {FLIPPED} # The third.", "fam/c4 skip - # Too slow.",
                  "fam/c5 flake b#5 # Now and then."]
         self.file.write_text(HEADER + "\n".join(lines) + "\n")
         self.run_as("a", "--expect", self.file, fault="flip-pixel@fam/c1,segv@fam/c3,flip-pixel@fam/c7")
         done = self.update("--bug", "b#9", "--reason", "New today.")
         lines[3:4] = []
-        lines[5] = "fam/c3 crash b#3 # The third."
-        lines.append("fam/c7   fail   b#9   # New today.")
+        lines[5] = "fam/c3 crash b#3   signal=SIGSEGV   # The third."
+        lines.append(f"fam/c7   fail   b#9   {FLIPPED}   # New today.")
         self.assertEqual(self.file.read_text(), HEADER + "\n".join(lines) + "\n")
-        self.assertEqual(done.stdout, "- fam/c2  fail  b#2  # The second.\n- fam/c3 fail b#3 # The third.\n"
-                                      "+ fam/c3 crash b#3 # The third.\n+ fam/c7   fail   b#9   # New today.\n"
+        self.assertEqual(done.stdout, f"- fam/c2  fail  b#2  {FLIPPED}  # The second.\n- fam/c3 fail b#3 {FLIPPED} # The third.\n"
+                                      f"+ fam/c3 crash b#3   signal=SIGSEGV   # The third.\n+ fam/c7   fail   b#9   {FLIPPED}   # New today.\n"
                                       f"{self.file}: 1 removed, 1 changed, 1 added, 3 kept\n")
         again = self.update("--bug", "b#9")
         self.assertTrue(again.stdout.endswith("nothing to write\n"), again.stdout)
@@ -175,15 +201,44 @@ class Update(CompareTest):
     def test_a_glob_whose_cases_differ(self):
         for k in range(3):
             self.write_case(f"g/x{k}", (self.suite / "fam/c1.toml").read_text())
-        self.file.write_text(HEADER + "g/*  fail  b#1  # All of them.\n")
+        self.file.write_text(HEADER + f"g/*  fail  b#1  {FLIPPED}  # All of them.\n")
         self.run_as("a", "g/x0", "g/x1", "--expect", self.file, fault="flip-pixel@g/x0")
         self.update()
         # g/x2 was not drawn, so the line still holds for it.
-        self.assertEqual(self.file.read_text(), HEADER + "g/x0   fail   b#1   # All of them.\n"
-                                                         "g/x2   fail   b#1   # All of them.\n")
+        self.assertEqual(self.file.read_text(), HEADER + f"g/x0   fail   b#1   {FLIPPED}   # All of them.\n"
+                                                         f"g/x2   fail   b#1   {FLIPPED}   # All of them.\n")
+
+    def matrix(self, name, fault):
+        self.write_case(name, (self.suite / "fam/c1.toml").read_text().replace("[[1,1]", '[["1 + 0 * a * b",1]') + "[matrix]\na = [1, 2, 3]\nb = [1, 2]\n")
+        self.run_as("a", fault=fault)
+
+    def test_cases_with_one_cause_share_a_line(self):
+        """A glob of a new line matches what fails, and nothing else."""
+        self.matrix("fam/m", "flip-pixel@fam/m:a=1*,flip-pixel@fam/m:a=3*b=2")
+        self.update("--bug", "b#1", "--reason", "R.")
+        self.assertEqual(self.file.read_text().splitlines()[2:], [f"fam/m:a=1,*   fail   b#1   {FLIPPED}   # R.",
+                                                                  f"fam/m:a=3,b=2   fail   b#1   {FLIPPED}   # R."])
+        self.run_suite("--expect", self.file, fault="flip-pixel@fam/m:a=1*,flip-pixel@fam/m:a=3*b=2", check=0)
+
+    def test_other_causes_have_other_lines(self):
+        self.matrix("fam/m", "flip-pixel@fam/m:*b=1,segv@fam/m:*b=2,shift-value+1@fam/m:a=1*b=1")
+        self.update("--bug", "b#1", "--reason", "R.")
+        shifted = "value:fragcoord.xy@vulkan<=1"
+        self.assertEqual(self.file.read_text().splitlines()[2:], [
+            f"fam/m:a=1,b=1   fail   b#1   {FLIPPED} {shifted}   # R.", "fam/m:*,b=2   crash   b#1   signal=SIGSEGV   # R.",
+            f"fam/m:a=2,b=1   fail   b#1   {FLIPPED}   # R.", f"fam/m:a=3,b=1   fail   b#1   {FLIPPED}   # R."])
+
+    def test_a_cause_grows(self):
+        """What is new beside a known failure is added to its line, and then known."""
+        self.file.write_text(HEADER + f"fam/c1  fail  b#1  {FLIPPED}  # The first.\n")
+        self.run_as("a", "--expect", self.file, fault="flip-pixel@fam/c1,shift-value+1@fam/c1")
+        self.update()
+        self.assertEqual(self.file.read_text(), HEADER + f"fam/c1  fail  b#1   {FLIPPED} value:fragcoord.xy@vulkan<=1   # The first.\n")
+        self.run_suite("--expect", self.file, fault="flip-pixel@fam/c1,shift-value+1@fam/c1", check=0)
+        self.run_suite("--expect", self.file, fault="flip-pixel@fam/c1", check=0)
 
     def test_lines_of_cases_that_were_not_drawn_stay(self):
-        text = HEADER + "fam/c1  fail  b#1  # The first.\nfam/gone  fail  b#1  # Its case is gone.\n"
+        text = HEADER + f"fam/c1  fail  b#1  {FLIPPED}  # The first.\nfam/gone  fail  b#1  {FLIPPED}  # Its case is gone.\n"
         self.file.write_text(text)
         self.run_as("a", "fam/c2", "--expect", self.file)
         self.assertEqual(self.update().stdout, "note: 'fam/gone' matches no case of the suite\n"
@@ -191,12 +246,12 @@ class Update(CompareTest):
         self.assertEqual(self.file.read_text(), text)
 
     def test_a_line_that_ended(self):
-        self.file.write_text(HEADER + "fam/c1  fail  b#1  until=2020-01-01  # The first.\n")
+        self.file.write_text(HEADER + f"fam/c1  fail  b#1  {FLIPPED}  until=2020-01-01  # The first.\n")
         self.run_as("a", "--expect", self.file, fault="flip-pixel@fam/c1")
         self.assertIn("note: the expectation of 'fam/c1' ended on 2020-01-01 and is still needed; look at it again and "
                       "give --until DATE to extend it\n", self.update().stdout)
         self.update("--until", "2999-12-31")
-        self.assertEqual(self.file.read_text(), HEADER + "fam/c1  fail  b#1  until=2999-12-31  # The first.\n")
+        self.assertEqual(self.file.read_text(), HEADER + f"fam/c1  fail  b#1   {FLIPPED}   until=2999-12-31   # The first.\n")
         self.assertEqual(self.edgecase("expect", self.file, check=0).stdout,
                          f"{self.file}: 1 expectation, 1 fail; for Edgecase*\n")
 
@@ -207,7 +262,7 @@ class Update(CompareTest):
 
     def test_another_file_speaks_of_it(self):
         other = self.folder / "other.txt"
-        other.write_text(HEADER + "fam/c1  fail  b#1  # The first.\n")
+        other.write_text(HEADER + f"fam/c1  fail  b#1  {FLIPPED}  # The first.\n")
         self.run_as("a", "--expect", other)
         self.assertIn(f"note: 'fam/c1' is spoken of by {other}:3; update that file\n", self.update().stdout)
 
@@ -233,7 +288,7 @@ class Update(CompareTest):
         self.assertEqual(self.file.read_text(), HEADER + "fam/c1 fial x # y\n")
 
     def test_show(self):
-        self.file.write_text(HEADER + "fam/c1  fail  b#1  until=2020-01-01  # The first.\n")
+        self.file.write_text(HEADER + f"fam/c1  fail  b#1  {FLIPPED}  until=2020-01-01  # The first.\n")
         done = self.edgecase("expect", self.file, check=1)
         self.assertEqual(done.stderr, f"{self.file}:3:1: error: the expectation of 'fam/c1' ended on 2020-01-01; "
                                       "re-check it, or extend the date\n")

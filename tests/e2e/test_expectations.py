@@ -6,7 +6,10 @@ import unittest
 
 from support import ProgramTest
 
-HEADER = "# edgecase-expectations 1\n# device: Edgecase*   driver: reference >=1.0 <2\n"
+HEADER = "# edgecase-expectations 2\n# device: Edgecase*   driver: reference >=1.0 <2\n"
+
+
+FLIPPED = "double:cover.outside@vulkan<=1"  # what flip-pixel does to a case of the suite
 
 
 class ExpectationTest(ProgramTest):
@@ -19,7 +22,8 @@ class ExpectationTest(ProgramTest):
 
 class Statuses(ExpectationTest):
     def outcome(self, expected, fault, status, exit_code):
-        self.expectations(f"fam/c3  {expected}  bug#1  # It is known.\n")
+        cause = {"fail": FLIPPED, "crash": "signal=SIGSEGV", "flake": ""}[expected]
+        self.expectations(f"fam/c3  {expected}  bug#1  {cause}  # It is known.\n")
         self.run_suite(fault=f"{fault}@fam/c3" if fault else "", check=exit_code)
         self.assertEqual(self.statuses()["fam/c3"], status)
 
@@ -47,7 +51,7 @@ class Statuses(ExpectationTest):
         self.assertEqual(self.statuses()["fam/c3"], "skip")
 
     def test_no_expect(self):
-        self.expectations("fam/c3  fail  bug#1  # It is known.\n")
+        self.expectations(f"fam/c3  fail  bug#1  {FLIPPED}  # It is known.\n")
         self.run_suite("--no-expect", fault="flip-pixel@fam/c3", check=1)
 
 
@@ -55,19 +59,82 @@ class Statuses(ExpectationTest):
         return re.search(r"rerun: (?:\w+=\S+ )*\S+ (.*)\n", done.stdout)[1]
 
     def test_the_rerun_line_repeats_how_it_was_judged(self):
-        path = self.expectations("fam/c3  fail  bug#1  # It is known.\n")
+        path = self.expectations(f"fam/c3  fail  bug#1  {FLIPPED}  # It is known.\n")
         done = self.run_suite("--no-expect", fault="flip-pixel@fam/c3", check=1)
         self.assertEqual(self.rerun(done), "run fam/c3 --renderer reference --no-expect")
         done = self.run_suite("--expect", path, "--timeout", "7.5", "fam/c1", fault="flip-pixel@fam/c1", check=1)
         self.assertEqual(self.rerun(done), f"run fam/c1 --renderer reference --timeout 7.5 --expect {path}")
 
     def test_an_unexpected_pass_names_the_command(self):
-        path = self.expectations("fam/c3  fail  bug#1  # It is known.\n")
+        path = self.expectations(f"fam/c3  fail  bug#1  {FLIPPED}  # It is known.\n")
         line = f"      update: edgecase expect --update {self.out} {path}\n"
         self.assertIn(line, self.run_suite(check=1).stdout)
         self.assertIn(line, self.edgecase("report", self.out, check=0).stdout)
         self.edgecase("expect", "--update", self.out, path, check=0)
         self.run_suite(check=0)
+
+
+class Causes(ExpectationTest):
+    """A known failure hides no other one."""
+
+    def unexpected(self, cause, fault, words, status="fail"):
+        path = self.expectations(f"fam/c3 {status} bug#1 {cause}  # Known.\n")
+        done = self.run_suite(fault=fault, check=1)
+        self.assertEqual(self.statuses()["fam/c3"], status)
+        self.assertIn(f"not as {path}:3 says (bug#1): {words}\n", done.stdout)
+        return done
+
+    def test_another_rule(self):
+        self.unexpected("missing:cover.inside@vulkan<=30", "flip-pixel@fam/c3", "1 double of cover.outside [vulkan] is new")
+
+    def test_another_kind_beside_the_known_one(self):
+        done = self.unexpected(FLIPPED, "flip-pixel@fam/c3,shift-value+1@fam/c3", "1 value of fragcoord.xy [vulkan] is new")
+        self.assertIn("frag_coord.x: expected ", done.stdout)  # what is new is told, and how it is explained
+
+    def test_another_level(self):
+        self.unexpected("double:cover.outside@direct3d<=1", "flip-pixel@fam/c3", "1 double of cover.outside [vulkan] is new")
+
+    def test_another_signal(self):
+        self.unexpected("signal=SIGSEGV", "abort@fam/c3", "the signal is 'SIGABRT' and not 'SIGSEGV'", "crash")
+
+    def test_the_bits(self):
+        self.expectations("fam/c3 fail bug#1 bits=0000000000000000  # Known.\n")
+        self.run_suite(fault="flip-pixel@fam/c3", check=1)
+        bits = next(c for c in self.results()["cases"] if c["id"] == "fam/c3")["bits"]
+        self.expectations(f"fam/c3 fail bug#1 bits={bits}  # Known.\n")
+        self.run_suite(fault="flip-pixel@fam/c3", check=0)
+        self.run_suite(fault="flip-pixel@fam/c3,shift-value+1@fam/c3", check=1)
+
+    def test_wrong_words(self):
+        for cause, sentence in (
+                ("", "names no cause; write KIND:RULE@LEVEL<=COUNT"),
+                ("double:cover.outsid@vulkan<=1", "'cover.outsid' is no rule; did you mean 'cover.outside'?"),
+                ("twice:cover.outside@vulkan<=1", "'twice' is no kind of finding; write missing, extra, double, value or order"),
+                ("double:cover.outside@vulcan<=1", "'vulcan' is no level; write vulkan, practice or direct3d"),
+                ("double:cover.outside", "'' is no level"),
+                ("double:cover.outside@vulkan", "'vulkan' does not say how far the cause reaches; write 'vulkan<=COUNT'"),
+                ("double:cover.outside@vulkan<=0", "does not say how far"),
+                ("double:cover.outside@vulkan<=1x", "does not say how far"),
+                ("double:cover.outside@vulkan<=1,vulkan<=2", "gives a second count for the same findings"),
+                ("bits=", "'bits=' has no value"),
+                ("signal=A signal=B " + FLIPPED, "'signal=B' stands beside another one")):
+            path = self.expectations(f"fam/c3 fail bug#1 {cause}  # Known.\n")
+            done = self.edgecase("expect", path, check=3)
+            self.assertIn(sentence, done.stderr)
+        for text, sentence in (("fam/c3 crash bug#1  # Known.\n", "does not say how it crashes; write signal=NAME or step=NAME"),
+                               (f"fam/c3 skip - {FLIPPED}  # Slow.\n", "a case that is not drawn has no cause")):
+            self.assertIn(sentence, self.edgecase("expect", self.expectations(text), check=3).stderr)
+
+    def test_an_older_file(self):
+        """It is refused by a run, and an update gives its lines causes."""
+        path = self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER.replace("expectations 2", "expectations 1"))
+        done = self.run_suite(fault="flip-pixel@fam/c3", check=3)
+        self.assertIn(f"edgecase: {path}:1:1: error: the file is of format 1, whose lines name no cause; bring it to "
+                      f"format 2 with 'edgecase expect --update RUN {path}'\n", done.stderr)
+        self.run_suite("--no-expect", fault="flip-pixel@fam/c3", check=1)
+        self.edgecase("expect", "--update", self.out, path, check=0)
+        self.assertEqual(path.read_text(), HEADER + f"fam/c3 fail bug#1   {FLIPPED}   # Known.\n")
+        self.run_suite(fault="flip-pixel@fam/c3", check=0)
 
 
 class Files(ExpectationTest):
@@ -77,7 +144,7 @@ class Files(ExpectationTest):
         self.assertIn(words, done.stderr)
 
     def test_no_reason(self):
-        self.refused("fam/c3 fail bug#1\n", "reason")
+        self.refused(f"fam/c3 fail bug#1 {FLIPPED}\n", "reason")
 
     def test_no_bug(self):
         self.refused("fam/c3 fail -  # Known.\n", "bug")
@@ -88,7 +155,7 @@ class Files(ExpectationTest):
     def test_past_date(self):
         """It excuses nothing, is told, and is news whatever happens; lint refuses the file."""
         ended = "ended on 2020-01-01: re-check it, or extend the date"
-        path = self.expectations("fam/c3 fail bug#1 until=2020-01-01  # Known.\n")
+        path = self.expectations(f"fam/c3 fail bug#1 {FLIPPED} until=2020-01-01  # Known.\n")
         done = self.run_suite(fault="flip-pixel@fam/c3", check=1)
         self.assertEqual(self.statuses()["fam/c3"], "fail")
         self.assertIn(f", the expectation of fail (bug#1) {ended}\n", done.stdout)
@@ -103,51 +170,52 @@ class Files(ExpectationTest):
         self.assertEqual(self.statuses()["fam/c3"], "fail")
 
     def test_no_day_of_the_calendar(self):
-        self.refused("fam/c3 fail bug#1 until=2026-02-30  # Known.\n",
-                     "'until=2026-02-30' is not understood; only 'until=YYYY-MM-DD' may follow the bug")
+        self.refused(f"fam/c3 fail bug#1 {FLIPPED} until=2026-02-30  # Known.\n",
+                     "'until=2026-02-30' is not understood; after the bug may stand causes, like "
+                     "'extra:cover.outside@vulkan<=3', and 'until=YYYY-MM-DD'")
 
     def test_line_that_matches_nothing(self):
-        self.refused("fam/cc3 fail bug#1  # Known.\n", "did you mean 'fam/c")
+        self.refused(f"fam/cc3 fail bug#1 {FLIPPED}  # Known.\n", "did you mean 'fam/c")
 
     def test_line_that_matches_nothing_of_a_part(self):
-        self.expectations("fam/cc3 fail bug#1  # Known.\n")
+        self.expectations(f"fam/cc3 fail bug#1 {FLIPPED}  # Known.\n")
         self.run_suite("fam/c1", check=0)
 
     def test_conflict(self):
-        self.refused("fam/c3 fail bug#1  # Known.\nfam/c* crash bug#2  # Known.\n", "disagrees")
+        self.refused(f"fam/c3 fail bug#1 {FLIPPED}  # Known.\nfam/c* crash bug#2 signal=SIGSEGV  # Known.\n", "disagrees")
 
     def test_expect_checks_what_a_run_checks(self):
-        for text, sentence in (("fam/cc3 fail bug#1  # Known.\n", "did you mean 'fam/c"),
-                               ("fam/c3 fail bug#1  # Known.\nfam/c* crash bug#2  # Known.\n", "disagrees about 'fam/c3'")):
+        for text, sentence in ((f"fam/cc3 fail bug#1 {FLIPPED}  # Known.\n", "did you mean 'fam/c"),
+                               (f"fam/c3 fail bug#1 {FLIPPED}  # Known.\nfam/c* crash bug#2 signal=SIGSEGV  # Known.\n", "disagrees about 'fam/c3'")):
             path = self.expectations(text)
             self.assertIn(sentence, self.edgecase("expect", path, check=3).stderr)
-        self.edgecase("expect", self.expectations("fam/c3 fail bug#1  # Known.\n"), check=0)
+        self.edgecase("expect", self.expectations(f"fam/c3 fail bug#1 {FLIPPED}  # Known.\n"), check=0)
 
     def test_a_file_that_is_something_else(self):
         path = self.expectations("", header="{\"a\": 1,\n \"b\x01\": 2}\n")
         self.assertEqual(self.edgecase("expect", path, check=3).stderr,
-                         f"edgecase: {path}:1:1: error: the first line must be '# edgecase-expectations 1'\n")
+                         f"edgecase: {path}:1:1: error: the first line must be '# edgecase-expectations 2'\n")
         path = self.expectations("fam/c3 f\x1b[31m bug#1  # Known.\n")
         self.assertNotIn("\x1b", self.edgecase("expect", path, check=3).stderr)
 
     def test_no_header(self):
-        self.refused("fam/c3 fail bug#1  # Known.\n", "first line", header="")
+        self.refused(f"fam/c3 fail bug#1 {FLIPPED}  # Known.\n", "first line", header="")
 
     def test_another_device_is_passed_over(self):
-        self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER.replace("Edgecase*", "Other*"))
+        self.expectations(f"fam/c3 fail bug#1 {FLIPPED}  # Known.\n", HEADER.replace("Edgecase*", "Other*"))
         self.run_suite(check=0)
 
     def test_another_version_is_passed_over(self):
-        self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER.replace("<2", "<1"))
+        self.expectations(f"fam/c3 fail bug#1 {FLIPPED}  # Known.\n", HEADER.replace("<2", "<1"))
         self.run_suite(check=0)
 
     def test_a_named_file_must_fit(self):
-        path = self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER.replace("Edgecase*", "Other*"))
+        path = self.expectations(f"fam/c3 fail bug#1 {FLIPPED}  # Known.\n", HEADER.replace("Edgecase*", "Other*"))
         done = self.run_suite("--expect", path, check=5)
         self.assertIn("Edgecase reference", done.stderr)
 
     def test_another_profile_is_passed_over(self):
-        self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER + "# profile: vulkan\n")
+        self.expectations(f"fam/c3 fail bug#1 {FLIPPED}  # Known.\n", HEADER + "# profile: vulkan\n")
         self.run_suite(check=0)
 
 

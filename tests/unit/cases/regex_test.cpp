@@ -28,8 +28,7 @@ TEST(Regex, FindsTheLeftmostMatch) {
 
 TEST(Regex, SaysWhatIsWrong) {
     EXPECT_TRUE(check_regex("a|b"));
-    EXPECT_EQ(check_regex("(").error().message,
-              "'(' is not a regular expression (missing ): ()");
+    EXPECT_EQ(check_regex("(").error().message, "'(' is not a regular expression (missing ): ()");
     EXPECT_FALSE(find_regex("(", "("));
 }
 

@@ -160,6 +160,9 @@ Run sample_run() {
          "triangle 1 of draw 0", "triangle 0 of draw 0", "later primitives overwrite earlier ones",
          0},
     };
+    for (const diff::Finding& f : fail.findings) {
+        fail.groups.push_back({f.kind, f.rule, f.level, 1, 0});
+    }
     fail.worst_ratio = std::numeric_limits<double>::infinity();
     fail.worst_quantity = "attribute 0.x";
     fail.pictures = make_pictures();

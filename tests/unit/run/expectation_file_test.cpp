@@ -21,7 +21,7 @@ report::Device lavapipe() {
 
 std::string mismatch_of(const std::string& header) {
     const auto file =
-        parse_expectations("# edgecase-expectations 1\n# " + header + "\n", "f", "2026-01-01");
+        parse_expectations("# edgecase-expectations 2\n# " + header + "\n", "f", "2026-01-01");
     EXPECT_TRUE(file) << header;
     return file ? mismatch(*file, lavapipe(), cases::Profile::direct3d) : "not parsed";
 }
@@ -86,7 +86,7 @@ TEST(Expectations, DatesAreDaysOfTheCalendar) {
 TEST(Expectations, APastDateIsKnownToTheDay) {
     const auto past_on = [](const std::string& today) {
         const auto file = parse_expectations(
-            "# edgecase-expectations 1\n# device: *\na fail b until=2026-05-01  # R.\n", "f",
+            "# edgecase-expectations 2\n# device: *\na flake b until=2026-05-01  # R.\n", "f",
             today);
         return file ? past_lines(*file).size() : size_t{99};
     };
@@ -100,10 +100,17 @@ TEST(Faults, CommasInsideIdsDoNotSeparate) {
     ASSERT_TRUE(faults);
     ASSERT_EQ(faults->size(), 3U);
     EXPECT_EQ((*faults)[0].glob, "a/b:x=1,y=2");
-    EXPECT_TRUE(has_fault(*faults, FaultKind::segv, "a/b:x=1,y=2"));
-    EXPECT_FALSE(has_fault(*faults, FaultKind::segv, "a/b:x=1,y=3"));
-    EXPECT_TRUE(has_fault(*faults, FaultKind::hang, "anything"));
+    EXPECT_NE(find_fault(*faults, FaultKind::segv, "a/b:x=1,y=2"), nullptr);
+    EXPECT_EQ(find_fault(*faults, FaultKind::segv, "a/b:x=1,y=3"), nullptr);
+    EXPECT_NE(find_fault(*faults, FaultKind::hang, "anything"), nullptr);
     EXPECT_FALSE(parse_faults("segv,nosie"));
+    const auto later = parse_faults("flip-pixel+12@a,shift-value+3");
+    ASSERT_TRUE(later);
+    EXPECT_EQ((*later)[0].skipped, 12U);
+    EXPECT_EQ((*later)[1].skipped, 3U);
+    for (const char* bad : {"segv+1", "flip-pixel+", "flip-pixel+x", "flip-pixel+1x"}) {
+        EXPECT_FALSE(parse_faults(bad)) << bad;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/expected/expected_cause.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "cases/model/rule.hpp"
+#include "cases/model/selector.hpp"
+
+namespace run {
+
+using diff::FindingGroup;
+using diff::FindingKind;
+
+namespace {
+
+constexpr std::string_view kUntold = "-";  // the rule of findings that were counted only
+
+auto key_of(const FindingGroup& group) {
+    return std::tie(group.kind, group.rule, group.level);
+}
+
+const FindingGroup* find_like(const ExpectedCause& cause, const FindingGroup& group) {
+    const auto at =
+        std::find_if(cause.groups.begin(), cause.groups.end(),
+                     [&](const FindingGroup& other) { return key_of(other) == key_of(group); });
+    return at == cause.groups.end() ? nullptr : &*at;
+}
+
+void insert(ExpectedCause& cause, const FindingGroup& group) {
+    const auto at = std::lower_bound(
+        cause.groups.begin(), cause.groups.end(), group,
+        [](const FindingGroup& a, const FindingGroup& b) { return key_of(a) < key_of(b); });
+    if (at != cause.groups.end() && key_of(*at) == key_of(group)) {
+        at->count = std::max(at->count, group.count);
+    } else {
+        cause.groups.insert(at, {group.kind, group.rule, group.level, group.count, 0});
+    }
+}
+
+std::optional<FindingKind> parse_kind(std::string_view word) {
+    for (size_t k = 0; k < diff::kFindingKinds; ++k) {
+        if (word == diff::to_string(static_cast<FindingKind>(k))) {
+            return static_cast<FindingKind>(k);
+        }
+    }
+    return std::nullopt;
+}
+
+// The words "signal=", "step=" and "bits=", and what they set.
+constexpr std::array<std::pair<std::string_view, std::string ExpectedCause::*>, 3> kTexts = {{
+    {"bits=", &ExpectedCause::bits},
+    {"signal=", &ExpectedCause::signal},
+    {"step=", &ExpectedCause::step},
+}};
+
+cases::Expected<void> add_text(std::string& to, std::string_view word, std::string_view value) {
+    if (value.empty() || !to.empty()) {
+        return cases::failure("'{}' {}", word,
+                              value.empty() ? "has no value" : "stands beside another one");
+    }
+    to = value;
+    return {};
+}
+
+// "vulkan<=9" of a group.
+cases::Expected<void> add_bound(ExpectedCause& cause, FindingGroup group, std::string_view bound) {
+    const size_t sign = bound.find("<=");
+    const std::string_view level = bound.substr(0, sign);
+    const auto profile = cases::parse_profile(level);
+    if (!profile) {
+        return cases::failure("'{}' is no level; write vulkan, practice or direct3d", level);
+    }
+    group.level = *profile;
+    const std::string_view number =
+        sign == std::string_view::npos ? std::string_view() : bound.substr(sign + 2);
+    const char* const end = number.data() + number.size();
+    const auto read = std::from_chars(number.data(), end, group.count);
+    if (number.empty() || read.ec != std::errc() || read.ptr != end || group.count == 0) {
+        return cases::failure("'{}' does not say how far the cause reaches; write '{}<=COUNT'",
+                              bound, level);
+    }
+    if (find_like(cause, group) != nullptr) {
+        return cases::failure("'{}' gives a second count for the same findings", bound);
+    }
+    insert(cause, group);
+    return {};
+}
+
+}  // namespace
+
+bool is_cause_word(std::string_view word) {
+    return word.find(':') != std::string_view::npos ||
+           std::any_of(kTexts.begin(), kTexts.end(),
+                       [word](const auto& text) { return word.starts_with(text.first); });
+}
+
+cases::Expected<void> add_cause_word(ExpectedCause& cause, std::string_view word) {
+    for (const auto& [name, member] : kTexts) {
+        if (word.starts_with(name)) {
+            return add_text(cause.*member, word, word.substr(name.size()));
+        }
+    }
+    const size_t colon = word.find(':'), at = std::min(word.find('@', colon), word.size());
+    FindingGroup group;
+    const auto kind = parse_kind(word.substr(0, colon));
+    if (!kind) {
+        return cases::failure("'{}' is no kind of finding; write missing, extra, double, value or "
+                              "order",
+                              word.substr(0, colon));
+    }
+    group.kind = *kind;
+    group.rule = word.substr(colon + 1, at - colon - 1);
+    if (group.rule == kUntold) {
+        group.rule.clear();
+    } else if (cases::find_rule(group.rule) == nullptr) {
+        std::vector<std::string> ids;
+        for (const cases::Rule& rule : cases::all_rules()) {
+            ids.emplace_back(rule.id);
+        }
+        return cases::failure("'{}' is no rule{}", group.rule,
+                              cases::did_you_mean(group.rule, ids, "; docs/rules.md lists them"));
+    }
+    std::string_view bounds = word.substr(std::min(at + 1, word.size()));
+    do {
+        const size_t comma = std::min(bounds.find(','), bounds.size());
+        if (auto added = add_bound(cause, group, bounds.substr(0, comma)); !added) {
+            return added;
+        }
+        bounds.remove_prefix(std::min(comma + 1, bounds.size()));
+    } while (!bounds.empty());
+    return {};
+}
+
+std::string to_text(const ExpectedCause& cause) {
+    std::string text;
+    const FindingGroup* before = nullptr;
+    for (const FindingGroup& group : cause.groups) {
+        const bool goes_on =
+            before != nullptr && before->kind == group.kind && before->rule == group.rule;
+        text += goes_on ? ","
+                        : fmt::format("{}{}:{}@", text.empty() ? "" : " ",
+                                      diff::to_string(group.kind),
+                                      group.rule.empty() ? kUntold : group.rule);
+        text += fmt::format("{}<={}", cases::to_string(group.level), group.count);
+        before = &group;
+    }
+    for (const auto& [name, member] : kTexts) {
+        if (!(cause.*member).empty()) {
+            text += fmt::format("{}{}{}", text.empty() ? "" : " ", name, cause.*member);
+        }
+    }
+    return text;
+}
+
+ExpectedCause cause_of(const report::CaseRecord& record) {
+    ExpectedCause cause;
+    for (const FindingGroup& group : record.groups) {
+        insert(cause, group);
+    }
+    cause.signal = record.signal;
+    cause.step = record.signal.empty() ? record.step : "";
+    return cause;
+}
+
+void add_up(ExpectedCause& cause, const ExpectedCause& other) {
+    for (const FindingGroup& group : other.groups) {
+        insert(cause, group);
+    }
+    for (const auto& [name, member] : kTexts) {
+        if ((cause.*member).empty()) {
+            cause.*member = other.*member;
+        }
+    }
+}
+
+void widen(ExpectedCause& cause, const ExpectedCause& other) {
+    if (cause.is_empty()) {
+        cause = other;
+        return;
+    }
+    for (const FindingGroup& group : other.groups) {
+        insert(cause, group);
+    }
+    for (const auto& [name, member] : kTexts) {
+        if (cause.*member != other.*member) {
+            (cause.*member).clear();
+        }
+    }
+}
+
+std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& record) {
+    std::string text;
+    const auto say = [&text](std::string sentence) {
+        text += (text.empty() ? "" : "; ") + std::move(sentence);
+    };
+    const auto check = [&](std::string_view what, const std::string& is, const std::string& known) {
+        if (!known.empty() && known != is) {
+            say(fmt::format("the {} {} '{}' and not '{}'", what, what == "bits" ? "are" : "is", is,
+                            known));
+        }
+    };
+    check("signal", record.signal, cause.signal);
+    check("step", record.step, cause.step);
+    check("bits", record.bits, cause.bits);
+    if (cause.groups.empty()) {
+        return text;  // the bits say all, or a death has no findings
+    }
+    for (const FindingGroup& group : record.groups) {
+        const FindingGroup* like = find_like(cause, group);
+        if (const uint64_t known = like == nullptr ? 0 : like->count; group.count > known) {
+            say(fmt::format("{} {} of {} [{}] {}", group.count, diff::to_string(group.kind),
+                            group.rule.empty() ? "no told rule" : group.rule,
+                            cases::to_string(group.level),
+                            known == 0 ? std::string(group.count == 1 ? "is new" : "are new")
+                                       : fmt::format("where {} are known", known)));
+        }
+    }
+    return text;
+}
+
+void mark_known(const ExpectedCause& cause, report::CaseRecord& record) {
+    const bool same_bits = !cause.bits.empty() && cause.bits == record.bits;
+    for (FindingGroup& group : record.groups) {
+        const FindingGroup* like = find_like(cause, group);
+        group.known = same_bits         ? group.count
+                      : like == nullptr ? 0
+                                        : std::min(group.count, like->count);
+    }
+}
+
+}  // namespace run

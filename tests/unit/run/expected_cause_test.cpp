@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/expected/expected_cause.hpp"
+
+#include <gtest/gtest.h>
+
+#include "run/expected/glob_cover.hpp"
+
+namespace run {
+namespace {
+
+using cases::Profile;
+using diff::FindingKind;
+
+ExpectedCause parsed(std::initializer_list<const char*> words) {
+    ExpectedCause cause;
+    for (const char* word : words) {
+        EXPECT_TRUE(is_cause_word(word)) << word;
+        const auto added = add_cause_word(cause, word);
+        EXPECT_TRUE(added) << word << ": " << (added ? "" : added.error().message);
+    }
+    return cause;
+}
+
+report::CaseRecord failed(uint64_t extra, uint64_t values) {
+    report::CaseRecord record;
+    record.status = report::Status::fail;
+    record.groups = {{FindingKind::extra, "cover.outside", Profile::vulkan, extra, 0},
+                     {FindingKind::value, "interp.linear", Profile::practice, values, 0}};
+    record.bits = "0123";
+    return record;
+}
+
+TEST(ExpectedCause, WordsAreReadAndWritten) {
+    const ExpectedCause cause = parsed({"value:interp.linear@practice<=3,direct3d<=40",
+                                        "extra:cover.outside@vulkan<=9", "value:-@vulkan<=7"});
+    EXPECT_EQ(to_text(cause),
+              "extra:cover.outside@vulkan<=9 value:-@vulkan<=7 "
+              "value:interp.linear@practice<=3,direct3d<=40");
+    EXPECT_EQ(parsed({"signal=SIGSEGV", "step=submit"}).signal, "SIGSEGV");
+    EXPECT_FALSE(is_cause_word("until=2026-01-01"));
+}
+
+TEST(ExpectedCause, ACountIsABound) {
+    const ExpectedCause cause =
+        parsed({"extra:cover.outside@vulkan<=9", "value:interp.linear@practice<=3"});
+    EXPECT_EQ(what_is_new(cause, failed(9, 3)), "");
+    EXPECT_EQ(what_is_new(cause, failed(1, 1)), "");
+    EXPECT_EQ(what_is_new(cause, failed(10, 4)),
+              "10 extra of cover.outside [vulkan] where 9 are known; "
+              "4 value of interp.linear [practice] where 3 are known");
+    EXPECT_EQ(what_is_new(parsed({"extra:cover.outside@vulkan<=9"}), failed(9, 2)),
+              "2 value of interp.linear [practice] are new");
+    EXPECT_EQ(what_is_new(parsed({"bits=0124"}), failed(1, 1)),
+              "the bits are '0123' and not '0124'");
+    EXPECT_EQ(what_is_new(parsed({"bits=0123"}), failed(1, 1)), "");
+}
+
+TEST(ExpectedCause, WhatIsKnownIsMarked) {
+    report::CaseRecord record = failed(10, 4);
+    mark_known(parsed({"extra:cover.outside@vulkan<=9"}), record);
+    EXPECT_EQ(record.groups[0].known, 9U);
+    EXPECT_EQ(record.groups[1].known, 0U);
+    mark_known(parsed({"bits=0123"}), record);
+    EXPECT_EQ(record.groups[1].known, 4U);
+}
+
+TEST(ExpectedCause, GrowsToTheLargestCount) {
+    ExpectedCause cause = cause_of(failed(9, 3));
+    widen(cause, cause_of(failed(2, 5)));
+    EXPECT_EQ(to_text(cause), "extra:cover.outside@vulkan<=9 value:interp.linear@practice<=5");
+    report::CaseRecord crash;
+    crash.signal = "SIGSEGV";
+    crash.step = "submit";
+    EXPECT_EQ(to_text(cause_of(crash)), "signal=SIGSEGV");
+    add_up(cause, cause_of(crash));
+    EXPECT_EQ(cause.signal, "SIGSEGV");
+}
+
+TEST(GlobCover, MatchesWhatIsWantedAndNothingElse) {
+    std::vector<std::string> all;
+    for (const char* a : {"1", "2", "3"}) {
+        for (const char* b : {"x", "y"}) {
+            all.push_back(std::string("f/m:a=") + a + ",b=" + b);
+        }
+    }
+    all.emplace_back("f/single");
+    EXPECT_EQ(cover_by_globs(all, all), (std::vector<std::string>{"f/m:*", "f/single"}));
+    EXPECT_EQ(cover_by_globs({all[0], all[1], all[4]}, all),
+              (std::vector<std::string>{"f/m:a=1,*", "f/m:a=3,b=x"}));
+    EXPECT_EQ(cover_by_globs({all[1], all[3], all[5]}, all),
+              (std::vector<std::string>{"f/m:*,b=y"}));
+    EXPECT_EQ(cover_by_globs({all[2]}, all), (std::vector<std::string>{all[2]}));
+    EXPECT_TRUE(cover_by_globs({}, all).empty());
+}
+
+}  // namespace
+}  // namespace run
