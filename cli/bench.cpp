@@ -69,7 +69,7 @@ std::optional<double> timed(const std::vector<std::string>& command, const std::
 
 // The words that start the program again, under its driver's C library if there is one.
 std::vector<std::string> self(const Program& program, const std::string& command) {
-    std::vector<std::string> words = worker_command(program);
+    std::vector<std::string> words = worker_command(program).words;
     words.back() = command;
     return words;
 }

@@ -19,6 +19,7 @@
 #include "cli/prepare/run_plan.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
+#include "report/text/unexpected.hpp"
 #include "run/judge.hpp"
 #include "run/process/pool.hpp"
 #include "run/process/signal_fd.hpp"
@@ -32,10 +33,6 @@ using report::Status;
 namespace {
 
 using Time = std::chrono::steady_clock;
-
-constexpr size_t kPrinted = 100;  // unexpected results in full
-constexpr std::string_view kFurther =
-    "further unexpected results stand in the reports only (or use -v)\n";
 
 double seconds_since(Time::time_point begin) {
     return std::chrono::duration<double>(Time::now() - begin).count();
@@ -208,8 +205,19 @@ int diff_command(const Program& program, const DiffOptions& options) {
     work.limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
     std::map<std::string, size_t> skipped;
     std::string failure;
-    size_t done = 0, unexpected = 0;
+    size_t done = 0;
     Progress progress(o.quiet ? ProgressStyle::none : o.progress, selection->cases.size());
+    std::vector<std::string> ids;
+    for (const cases::Case& c : selection->cases) {
+        ids.push_back(c.id);
+    }
+    report::UnexpectedResults unexpected(ids, style);
+    const auto print = [&](const std::string& text) {
+        if (!text.empty()) {
+            progress.clear();
+            std::fputs(text.c_str(), console);
+        }
+    };
     std::vector<std::vector<std::string>> not_judged(selection->cases.size());
     run::Pool pool(cases::cores());
     for (size_t k = 0; k < selection->cases.size(); ++k) {
@@ -231,17 +239,7 @@ int diff_command(const Program& program, const DiffOptions& options) {
                 ++skipped[word];
             }
             ++done;
-            // What was not delivered is counted in the summary; the reports hold all.
-            const bool is_told = record.status != Status::not_run;
-            if (!report::is_expected(record.status) && is_told &&
-                (++unexpected <= kPrinted || o.verbose)) {
-                progress.clear();
-                std::fputs(
-                    (unexpected == kPrinted && !o.verbose ? std::string(kFurther)
-                                                          : report::console_case(record, style))
-                        .c_str(),
-                    console);
-            }
+            print(unexpected.add(record));
             record.pictures = {};
             record.findings.clear();
         };
@@ -259,7 +257,7 @@ int diff_command(const Program& program, const DiffOptions& options) {
         ::poll(fds.data(), fds.size(), 200);
         header.interrupted = signals.has_come();
         pool.collect();
-        progress.show(done, unexpected);
+        progress.show(done, unexpected.count());
     }
     progress.clear();
     header.ended = utc_now(false);

@@ -13,6 +13,7 @@
 #include "report/journal/journal.hpp"
 #include "report/journal/merge.hpp"
 #include "report/text/sentences.hpp"
+#include "report/text/unexpected.hpp"
 
 namespace cli {
 
@@ -123,10 +124,13 @@ int report_command(const Program&, const ReportOptions& options) {
     if (!options.quiet) {
         std::fputs(report::console_header(run, style).c_str(), console);
     }
+    std::vector<std::string> ids;
     for (const report::CaseRecord& record : run.cases) {
-        if (!report::is_expected(record.status) && record.status != report::Status::not_run) {
-            std::fputs(report::console_case(record, style).c_str(), console);
-        }
+        ids.push_back(record.id);
+    }
+    report::UnexpectedResults unexpected(ids, style);
+    for (const report::CaseRecord& record : run.cases) {
+        std::fputs(unexpected.add(record).c_str(), console);
     }
     std::fflush(console);
     const cases::Errors ci = write_ci(run, chosen_ci(options.ci), files.folder, console);

@@ -14,6 +14,7 @@
 #include "cli/prepare/prepare_run.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
+#include "report/text/unexpected.hpp"
 #include "run/process/manifest.hpp"
 #include "run/process/pool.hpp"
 
@@ -92,6 +93,27 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     return config;
 }
 
+// One case, drawn once, by a worker that a person looks at.
+OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& options,
+                                    std::vector<run::PlannedCase>& plan, run::LoopConfig& config) {
+    if (plan.size() != 1) {
+        return tl::unexpected(stop_with(report::kExitUsage, "--debugger runs one case, and " +
+                                                                std::to_string(plan.size()) +
+                                                                " are selected; name one id"));
+    }
+    cases::Expected<run::Command> command = debugged_worker_command(program, options.debugger);
+    if (!command) {
+        return tl::unexpected(stop_with(report::kExitUsage, command.error().message));
+    }
+    plan.front().alone = true;
+    config.command = std::move(*command);
+    config.timeout = std::chrono::hours(24 * 365);
+    config.schedule.lanes = 1;
+    config.schedule.repeat = 1;
+    config.schedule.retries = 0;
+    return std::monostate{};
+}
+
 int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                  run::WorkerClient worker, run::SignalFd& signals) {
     const bool resumed = !p.header.device.name.empty();
@@ -155,30 +177,28 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                      earlier, earlier == 1 ? "result" : "results", style.folder.c_str());
         std::fflush(console);
     }
-    Progress progress(options.quiet ? ProgressStyle::none : options.progress, p.plan.size());
-    constexpr size_t kPrinted = 100;  // unexpected results in full; the reports hold all
-    size_t unexpected = 0;
-    const auto on_record = [&](const CaseRecord& record) {
-        if (report::is_expected(record.status)) {
-            return;
+    Progress progress(
+        options.quiet || !options.debugger.empty() ? ProgressStyle::none : options.progress,
+        p.plan.size());
+    std::vector<std::string> ids;
+    for (const run::PlannedCase& c : p.plan) {
+        ids.push_back(c.data.id);
+    }
+    report::UnexpectedResults unexpected(ids, style);
+    const auto print = [&](const std::string& text) {
+        if (!text.empty()) {
+            progress.clear();
+            std::fputs(text.c_str(), console);
+            std::fflush(console);
         }
-        ++unexpected;
-        if (unexpected > kPrinted && !options.verbose) {
-            return;
-        }
-        progress.clear();
-        const std::string text =
-            unexpected == kPrinted && !options.verbose
-                ? "further unexpected results stand in the reports only (or use -v)\n"
-                : report::console_case(record, style);
-        std::fputs(text.c_str(), console);
-        std::fflush(console);
     };
+    const auto on_record = [&](const CaseRecord& record) { print(unexpected.add(record)); };
     const run::Clock::time_point begin = run::Clock::now();
     run::RunLoop loop(config, p.plan, *journal, signals, on_record,
-                      [&](size_t done) { progress.show(done, unexpected); });
+                      [&](size_t done) { progress.show(done, unexpected.count()); });
     const run::RunLoop::End end = loop.run(std::move(first->client), first->device);
     progress.clear();
+    print(unexpected.rest());
 
     Run& header = p.header;
     header.ended = utc_now(false);
@@ -205,7 +225,7 @@ int run_command(const Program& program, const RunOptions& options) {
     // The driver's start takes as long as reading the suite, so both are done at once. What is
     // wrong with the suite is told first all the same.
     std::optional<OrStop<run::WorkerClient>> worker;
-    if (!resumes) {
+    if (!resumes && options.debugger.empty()) {
         worker.emplace(start_first_worker(loop_config(program, options)));
     }
     OrStop<Prepared> prepared =
@@ -213,7 +233,12 @@ int run_command(const Program& program, const RunOptions& options) {
     if (!prepared) {
         return report_stop(prepared.error());
     }
-    const run::LoopConfig config = loop_config(program, prepared->options);
+    run::LoopConfig config = loop_config(program, prepared->options);
+    if (!prepared->options.debugger.empty()) {
+        if (auto set = set_debugger(program, prepared->options, prepared->plan, config); !set) {
+            return report_stop(set.error());
+        }
+    }
     if (!worker) {
         worker.emplace(start_first_worker(config));
     }

@@ -35,7 +35,7 @@ struct PlannedCase {
 };
 
 struct LoopConfig {
-    std::vector<std::string> command;  // starts a worker
+    Command command;  // starts a worker
     WorkerOptions worker;
     std::string icd_from = "--icd";  // what chose worker.vulkan.icd_file
     std::chrono::milliseconds timeout{30000};

@@ -128,6 +128,9 @@ void define_run(CLI::App& app, RunOptions& o) {
     add_value(run, "--retries", o.retries,
               "how often an unexpected failure is drawn again, alone [1]", "N", "Isolation")
         ->check(in_range(0U, 1000U));
+    add_value(run, "--debugger", o.debugger,
+              "run the worker of one case under 'gdb', 'lldb' or other words, on this terminal",
+              "WORDS", "Isolation");
     add_value(run, "--resume", o.resume, "go on with an interrupted run", "DIR", "Isolation");
     add_outputs(run, o, "where the reports go [out/<time>-<device>]", true);
 }

@@ -56,6 +56,7 @@ struct RunOptions {
     uint32_t jobs = std::min(cases::cores(), 4U);
     uint32_t batch = 16;
     uint32_t retries = 1;
+    std::string debugger;
     std::string output;
     std::string json, junit, html;
     run::KeepPictures capture = run::KeepPictures::failed;

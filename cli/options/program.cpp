@@ -29,6 +29,15 @@ std::string find_program(const std::string& name) {
     return fs::absolute(name, ignored).lexically_normal().string();
 }
 
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) {
+        words.push_back(word);
+    }
+    return words;
+}
+
 }  // namespace
 
 const char* const kVersion = EDGECASE_VERSION;
@@ -45,17 +54,38 @@ Program make_program(int argc, const char* const* argv) {
     return program;
 }
 
-std::vector<std::string> worker_command(const Program& program) {
-    std::vector<std::string> words;
-    if (const char* prefix = std::getenv("EDGECASE_SELF_PREFIX"); prefix != nullptr) {
-        std::istringstream in(prefix);
-        for (std::string word; in >> word;) {
-            words.push_back(word);
-        }
+run::Command worker_command(const Program& program) {
+    const char* const prefix = std::getenv("EDGECASE_SELF_PREFIX");
+    run::Command command;
+    command.words = words_of(prefix != nullptr ? prefix : "");
+    command.words.push_back(program.path);
+    command.words.emplace_back("worker");
+    return command;
+}
+
+cases::Expected<run::Command> debugged_worker_command(const Program& program,
+                                                      const std::string& debugger) {
+    run::Command command;
+    command.keeps_terminal = true;
+    command.words = words_of(debugger);
+    const std::string name = command.words.empty() ? std::string() : command.words.front();
+    const std::string path = find_program(name);
+    if (name.empty() || ::access(path.c_str(), X_OK) != 0) {
+        return cases::failure(
+            "--debugger: there is no program '{}'; install it, or name another one", name);
     }
-    words.push_back(program.path);
-    words.emplace_back("worker");
-    return words;
+    command.words.front() = path;
+    if (command.words.size() == 1) {
+        const std::string file = fs::path(path).filename().string();
+        const std::vector<std::string> starts =
+            file == "gdb"    ? std::vector<std::string>{"-q", "-ex", "run", "--args"}
+            : file == "lldb" ? std::vector<std::string>{"-o", "run", "--"}
+                             : std::vector<std::string>{};
+        command.words.insert(command.words.end(), starts.begin(), starts.end());
+    }
+    const std::vector<std::string> worker = worker_command(program).words;
+    command.words.insert(command.words.end(), worker.begin(), worker.end());
+    return command;
 }
 
 std::string shell_quote(const std::string& word) {

@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "cases/base/error.hpp"
+#include "run/process/process.hpp"
+
 namespace cli {
 
 // The program's version, as project() of CMakeLists.txt has it.
@@ -22,8 +25,14 @@ struct Program {
 // driver's own C library it names that library's ld.so.
 Program make_program(int argc, const char* const* argv);
 
-// The words that start a worker: those of EDGECASE_SELF_PREFIX, the program, "worker".
-std::vector<std::string> worker_command(const Program& program);
+// What starts a worker: the words of EDGECASE_SELF_PREFIX, the program, "worker".
+run::Command worker_command(const Program& program);
+
+// The same under a debugger that keeps the terminal: "gdb" and "lldb" are started so that they run
+// the worker at once; other words stand before it as they are ("valgrind --quiet"). Error: no such
+// program.
+cases::Expected<run::Command> debugged_worker_command(const Program& program,
+                                                      const std::string& debugger);
 
 // One word for a POSIX shell: as it is if it is harmless, else in single quotes.
 std::string shell_quote(const std::string& word);

@@ -102,7 +102,7 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
     const std::vector<Cause> list = causes(run);
     std::string text;
     for (size_t k = 0; k < std::min(list.size(), kMaxAnnotations); ++k) {
-        const CaseRecord& first = *list[k].cases.front();
+        const CaseRecord& first = smallest_case(list[k]);
         const std::string body = fmt::format(
             "{}   {}\n{}\nrerun: {}{}", first.id, what_happened(first), why_it_happened(first),
             first.rerun, first.explain.empty() ? "" : "\nexplain: " + first.explain);
@@ -142,11 +142,11 @@ std::string to_github_summary(const Run& run) {
     }
     text +=
         "\n### Unexpected results by cause\n\n"
-        "| status | rule | kind | broken profile | family | cases | the first |\n"
+        "| status | rule | kind | broken profile | family | cases | the smallest |\n"
         "| --- | --- | --- | --- | --- | ---: | --- |\n";
     size_t told = 0;
     for (const Cause& cause : list) {
-        const CaseRecord& first = *cause.cases.front();
+        const CaseRecord& first = smallest_case(cause);
         const std::string row =
             fmt::format("| {} | {} | {} | {} | {} | {} | {}: {} |\n", cell(to_string(cause.status)),
                         cell(cause.rule), cell(cause.kind),
@@ -161,9 +161,9 @@ std::string to_github_summary(const Run& run) {
     if (told < list.size()) {
         text += fmt::format("\n+{} more causes, see the report.\n", list.size() - told);
     }
-    text += "\n### Commands that repeat the first case of each\n\n";
+    text += "\n### Commands that repeat the smallest case of each\n\n";
     for (size_t k = 0; k < std::min({told, list.size(), kMaxCommands}); ++k) {
-        const std::string block = command_block(*list[k].cases.front());
+        const std::string block = command_block(smallest_case(list[k]));
         if (text.size() + block.size() <= kMaxSummary) {
             text += block;
         }

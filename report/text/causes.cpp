@@ -102,6 +102,15 @@ std::vector<Cause> causes(const Run& run) {
     return list;
 }
 
+const CaseRecord& smallest_case(const Cause& cause) {
+    const auto size = [](const CaseRecord* r) {
+        return std::pair(r->compared_samples, r->finding_total());
+    };
+    return **std::min_element(
+        cause.cases.begin(), cause.cases.end(),
+        [&](const CaseRecord* a, const CaseRecord* b) { return size(a) < size(b); });
+}
+
 std::string cause_title(const Cause& cause) {
     std::string text(to_string(cause.status));
     std::replace(text.begin(), text.end(), '_', ' ');

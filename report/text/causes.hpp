@@ -29,6 +29,9 @@ struct Cause {
 // here and there. The pointers are into `run`.
 std::vector<Cause> causes(const Run& run);
 
+// The case that shows the cause with the fewest samples, and among those with the fewest findings.
+const CaseRecord& smallest_case(const Cause& cause);
+
 // "fail: tie.top-left missing in ties, 12 cases"; printable, one line.
 std::string cause_title(const Cause& cause);
 

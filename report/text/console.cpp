@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <vector>
 
 #include "cases/base/printable.hpp"
+#include "report/text/causes.hpp"
 #include "report/text/sentences.hpp"
+#include "report/text/unexpected.hpp"
 #include "report/text/wrap.hpp"
 
 namespace report {
@@ -108,6 +111,62 @@ std::string or_unknown(const std::string& text) {
     return text.empty() ? "unknown" : cases::printable(text);
 }
 
+constexpr size_t kMaxPrintedLines = 8;  // of what a driver printed before it died
+constexpr size_t kMaxPrintedColumns = 160;
+constexpr size_t kMaxCauses = 20;
+
+// The last lines that a driver printed before its worker ended, and how to look at it.
+std::string death_text(const CaseRecord& record) {
+    std::vector<std::string> lines;
+    const std::string text = cases::printable(record.stderr_text);
+    for (size_t begin = 0; begin < text.size();) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        if (text.find_first_not_of(" \t", begin) < end) {
+            lines.push_back(text.substr(begin, std::min(end - begin, kMaxPrintedColumns)));
+        }
+        begin = end + 1;
+    }
+    std::string printed;
+    for (size_t k = lines.size() - std::min(lines.size(), kMaxPrintedLines); k < lines.size();
+         ++k) {
+        printed += fmt::format("{}  | {}\n", kIndent, lines[k]);
+    }
+    if (!printed.empty()) {
+        printed = fmt::format("{}the driver printed{}:\n", kIndent,
+                              lines.size() > kMaxPrintedLines ? ", in the end" : "") +
+                  printed;
+    }
+    return printed +
+           fmt::format("{}debug: {} --debugger gdb\n", kIndent, cases::printable(record.rerun));
+}
+
+// The causes of a run's unexpected results, one line each with its smallest case.
+std::string causes_text(const Run& run, const ConsoleStyle& style) {
+    std::vector<Cause> list = causes(run);
+    std::erase_if(list, [](const Cause& cause) { return cause.status == Status::not_run; });
+    size_t results = 0;
+    for (const Cause& cause : list) {
+        results += cause.cases.size();
+    }
+    if (results <= kHandful && !style.verbose) {
+        return {};  // each has been told
+    }
+    std::string text = list.empty() ? "" : "causes, the worst first:\n";
+    const size_t told = style.verbose ? list.size() : std::min(list.size(), kMaxCauses);
+    for (size_t k = 0; k < told; ++k) {
+        const Cause& cause = list[k];
+        const std::string level =
+            cause.rule.empty() ? "" : fmt::format(" [{}]", cases::to_string(cause.level));
+        text += fmt::format("  {}{}   rerun: {}\n",
+                            painted(cause_title(cause), color_of(cause.status), style), level,
+                            cases::printable(smallest_case(cause).rerun));
+    }
+    if (told < list.size()) {
+        text += fmt::format("  and {} more: see the report, or use -v\n", list.size() - told);
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string console_header(const Run& run, const ConsoleStyle& style) {
@@ -132,6 +191,9 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
         cases::printable(record.id), what_happened(record));
     text += fmt::format("{}{}\n", kIndent, why_it_happened(record));
     text += fmt::format("{}rerun: {}\n", kIndent, cases::printable(record.rerun));
+    if (record.status == Status::crash || record.status == Status::timeout) {
+        text += death_text(record);
+    }
     if (!record.explain.empty()) {
         text += fmt::format("{}explain: {}\n", kIndent, cases::printable(record.explain));
     }
@@ -150,8 +212,8 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
 std::string console_summary(const Run& run, const std::string& report_path,
                             const ConsoleStyle& style, const std::string& exit_words) {
     const auto count = totals(run);
-    std::string text =
-        fmt::format("{} {}", run.cases.size(), run.cases.size() == 1 ? "case" : "cases");
+    std::string text = causes_text(run, style);
+    text += fmt::format("{} {}", run.cases.size(), run.cases.size() == 1 ? "case" : "cases");
     for (size_t k = 0; k < kStatuses; ++k) {
         if (count.at(k) > 0) {
             const auto status = static_cast<Status>(k);

@@ -20,11 +20,14 @@ struct ConsoleStyle {
 };
 // First line of a run: tool version, device, driver, Vulkan version, subpixel bits, profile, seed.
 std::string console_header(const Run& run, const ConsoleStyle& style);
-// What is printed at once for an unexpected result: three lines (what, why, how to repeat it), and
-// a fourth with the command that explains its first wrong sample, if there is one, or that brings
-// the expectation file up to date.
+// What is printed for an unexpected result: three lines (what, why, how to repeat it), and a fourth
+// with the command that explains its first wrong sample, if there is one, or that brings the
+// expectation file up to date. Of a crash or a hang the driver's last lines follow, and the command
+// that runs it under a debugger.
 std::string console_case(const CaseRecord& record, const ConsoleStyle& style);
-// Last lines: totals, worst error in budgets, where the report lies, exit code with its meaning
+// Last lines: the causes of unexpected results, if they are more than a handful (kHandful) or
+// style.verbose, one line each with the smallest case and how to repeat it; totals, worst error in
+// budgets, where the report lies, exit code with its meaning
 // (`exit_words`, or, if empty, those of the run).
 std::string console_summary(const Run& run, const std::string& report_path,
                             const ConsoleStyle& style, const std::string& exit_words = {});

@@ -3,6 +3,7 @@
 #include "report/text/wrap.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace report {
 
@@ -21,13 +22,26 @@ size_t columns(std::string_view text) {
     return count;
 }
 
+bool starts_as_command(std::string_view text) {
+    constexpr std::array<std::string_view, 4> kWords = {
+        "rerun: ", "explain: ", "update: ", "debug: "};
+    return std::any_of(kWords.begin(), kWords.end(),
+                       [text](std::string_view word) { return text.starts_with(word); });
+}
+
 std::string wrapped_line(std::string_view line, size_t width) {
     const size_t indent = std::min(line.find_first_not_of(' '), line.size());
     const std::string_view body = line.substr(indent);
-    const bool is_command = body.starts_with("rerun: ") || body.starts_with("explain: ") ||
-                            body.starts_with("update: ");
-    if (columns(line) <= width || is_command) {
+    if (columns(line) <= width || starts_as_command(body)) {
         return std::string(line);
+    }
+    // A command after other words keeps a line of its own, so that it can be copied.
+    for (size_t at = line.find("   ", indent); at != std::string_view::npos;
+         at = line.find("   ", at + 1)) {
+        if (starts_as_command(line.substr(at + 3))) {
+            return wrapped_line(line.substr(0, at), width) + '\n' + std::string(indent + 2, ' ') +
+                   std::string(line.substr(at + 3));
+        }
     }
     const std::string deeper(std::min(indent + 2, width / 2), ' ');
     std::string text(indent, ' ');

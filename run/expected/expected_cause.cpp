@@ -113,9 +113,10 @@ cases::Expected<void> add_cause_word(ExpectedCause& cause, std::string_view word
     FindingGroup group;
     const auto kind = parse_kind(word.substr(0, colon));
     if (!kind) {
-        return cases::failure("'{}' is no kind of finding; write missing, extra, double, value or "
-                              "order",
-                              word.substr(0, colon));
+        return cases::failure(
+            "'{}' is no kind of finding; write missing, extra, double, value or "
+            "order",
+            word.substr(0, colon));
     }
     group.kind = *kind;
     group.rule = word.substr(colon + 1, at - colon - 1);
@@ -146,10 +147,10 @@ std::string to_text(const ExpectedCause& cause) {
     for (const FindingGroup& group : cause.groups) {
         const bool goes_on =
             before != nullptr && before->kind == group.kind && before->rule == group.rule;
-        text += goes_on ? ","
-                        : fmt::format("{}{}:{}@", text.empty() ? "" : " ",
-                                      diff::to_string(group.kind),
-                                      group.rule.empty() ? kUntold : group.rule);
+        text += goes_on
+                    ? ","
+                    : fmt::format("{}{}:{}@", text.empty() ? "" : " ", diff::to_string(group.kind),
+                                  group.rule.empty() ? kUntold : group.rule);
         text += fmt::format("{}<={}", cases::to_string(group.level), group.count);
         before = &group;
     }

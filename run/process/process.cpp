@@ -94,9 +94,11 @@ void set_nonblocking(int fd) {
 }
 
 // In the child between fork and exec: only calls that are safe there.
-[[noreturn]] void become(char* const* argv, pid_t parent, int request, int result, int output,
-                         int shared) {
-    ::setpgid(0, 0);
+[[noreturn]] void become(char* const* argv, bool keeps_terminal, pid_t parent, int request,
+                         int result, int output, int shared) {
+    if (!keeps_terminal) {
+        ::setpgid(0, 0);
+    }
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) {
         ::_exit(127);  // the parent died before prctl
@@ -107,10 +109,12 @@ void set_nonblocking(int fd) {
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
     ::signal(SIGPIPE, SIG_DFL);
-    const int null = ::open("/dev/null", O_RDONLY);
-    ::dup2(null, STDIN_FILENO);
-    ::dup2(output, STDOUT_FILENO);
-    ::dup2(output, STDERR_FILENO);
+    if (!keeps_terminal) {
+        const int null = ::open("/dev/null", O_RDONLY);
+        ::dup2(null, STDIN_FILENO);
+        ::dup2(output, STDOUT_FILENO);
+        ::dup2(output, STDERR_FILENO);
+    }
     ::dup2(request, kRequestFd);
     ::dup2(result, kResultFd);
     if (shared >= 0) {
@@ -128,14 +132,14 @@ void set_nonblocking(int fd) {
 
 }  // namespace
 
-cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int shared) {
+cases::Expected<ChildProcess> spawn(const Command& command, int shared) {
     Pipe request;
     Pipe result;
     Pipe output;
     if (!make_pipe(request) || !make_pipe(result) || !make_pipe(output)) {
         return cases::failure(std::string("no pipe for a worker: ") + std::strerror(errno));
     }
-    std::vector<std::string> words = command;
+    std::vector<std::string> words = command.words;
     std::vector<char*> argv;
     for (std::string& word : words) {
         argv.push_back(word.data());
@@ -148,14 +152,17 @@ cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int
                               std::strerror(errno));
     }
     if (pid == 0) {
-        become(argv.data(), parent, request.read_end.get(), result.write_end.get(),
-               output.write_end.get(), shared);
+        become(argv.data(), command.keeps_terminal, parent, request.read_end.get(),
+               result.write_end.get(), output.write_end.get(), shared);
     }
-    ::setpgid(pid, pid);  // in both, so that neither has to wait for the other
+    if (!command.keeps_terminal) {
+        ::setpgid(pid, pid);  // in both, so that neither has to wait for the other
+    }
     constexpr int kPipeBytes = 1 << 20;
     ::fcntl(result.read_end.get(), F_SETPIPE_SZ, kPipeBytes);  // fewer switches; may be refused
     ChildProcess child;
     child.pid = pid;
+    child.keeps_terminal = command.keeps_terminal;
     child.request = std::move(request.write_end);
     child.result = std::move(result.read_end);
     child.output = std::move(output.read_end);
@@ -165,9 +172,10 @@ cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int
     return child;
 }
 
-ExitStatus kill_and_reap(pid_t pid, int grace_ms) {
+ExitStatus kill_and_reap(ChildProcess& child, int grace_ms) {
+    const pid_t pid = child.pid;
     siginfo_t info{};
-    for (int waited = 0; waited < grace_ms; ++waited) {
+    for (int waited = 0; !child.keeps_terminal && waited < grace_ms; ++waited) {
         info = siginfo_t{};
         if (::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
             info.si_pid == pid) {
@@ -177,8 +185,12 @@ ExitStatus kill_and_reap(pid_t pid, int grace_ms) {
         ::nanosleep(&one_ms, nullptr);
     }
     // The leader is not reaped yet, so the group's number cannot belong to anyone else.
-    ::kill(-pid, SIGKILL);
-    ::kill(pid, SIGKILL);
+    if (child.keeps_terminal) {
+        child.request.reset();  // a worker that still runs sees that it is not needed
+    } else {
+        ::kill(-pid, SIGKILL);
+        ::kill(pid, SIGKILL);
+    }
     int status = 0;
     while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
     }

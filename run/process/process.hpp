@@ -57,20 +57,30 @@ struct ExitStatus {
 // "SIGSEGV", ...
 std::string signal_name(int signal);
 
+// What starts a child.
+struct Command {
+    std::vector<std::string> words;  // the first is a path
+    // The child keeps the standard input, output and error of this process, and its process group:
+    // a debugger, which a person ends.
+    bool keeps_terminal = false;
+};
+
 struct ChildProcess {
     pid_t pid = -1;
+    bool keeps_terminal = false;
     Fd request;  // write end, non-blocking
     Fd result;   // read end, non-blocking
-    Fd output;   // read end of the child's stdout and stderr, non-blocking
+    Fd output;   // read end of the child's stdout and stderr, non-blocking; closed if it keeps them
 };
 
 // Starts a command: own process group, killed when the calling thread's process dies, no core file,
 // stdin from /dev/null, the worker's fds 3 and 4 connected, `shared` (if not -1) as its fd 5,
 // everything else closed on exec.
-cases::Expected<ChildProcess> spawn(const std::vector<std::string>& command, int shared = -1);
+cases::Expected<ChildProcess> spawn(const Command& command, int shared = -1);
 
 // Kills the child's whole process group and reaps the child. A child that is dying by itself is
-// given `grace_ms` to do so, and its own status is told.
-ExitStatus kill_and_reap(pid_t pid, int grace_ms);
+// given `grace_ms` to do so, and its own status is told. A child that keeps the terminal is not
+// killed but waited for.
+ExitStatus kill_and_reap(ChildProcess& child, int grace_ms);
 
 }  // namespace run

@@ -36,7 +36,7 @@ std::string describe(const Death& death) {
            " and without a result" + where;
 }
 
-cases::Expected<WorkerClient> WorkerClient::start(const std::vector<std::string>& command,
+cases::Expected<WorkerClient> WorkerClient::start(const Command& command,
                                                   const WorkerOptions& options,
                                                   std::chrono::milliseconds timeout,
                                                   FrameType question) {
@@ -61,7 +61,7 @@ WorkerClient::~WorkerClient() {
 
 void WorkerClient::kill() {
     if (state_ != State::dead && child_.request.is_open()) {
-        kill_and_reap(child_.pid, 0);
+        kill_and_reap(child_, 0);
     }
     state_ = State::dead;
 }
@@ -230,7 +230,7 @@ Death WorkerClient::die(bool timed_out, bool malformed, int grace_ms) {
     Death death;
     death.timed_out = timed_out;
     death.malformed = malformed;
-    death.exit = kill_and_reap(child_.pid, grace_ms);
+    death.exit = kill_and_reap(child_, grace_ms);
     read_output();
     death.step = step_;
     death.output = output_.text();

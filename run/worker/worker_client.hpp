@@ -43,8 +43,7 @@ class WorkerClient {
     // Starts the command; the answer is a DeviceInfo, Failure or Death event, or, to the question
     // list_devices, the list of devices. `timeout` is the longest time without any sign of life
     // while starting or busy.
-    static cases::Expected<WorkerClient> start(const std::vector<std::string>& command,
-                                               const WorkerOptions& options,
+    static cases::Expected<WorkerClient> start(const Command& command, const WorkerOptions& options,
                                                std::chrono::milliseconds timeout,
                                                FrameType question = FrameType::hello);
     ~WorkerClient();

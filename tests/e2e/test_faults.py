@@ -197,5 +197,50 @@ class Output(ProgramTest):
         self.assertEqual(before, {name: (self.out / name).read_bytes() for name in before})
 
 
+class Debugger(ProgramTest):
+    """The worker of one case on the terminal of the person who asked."""
+
+    def test_it_keeps_the_terminal(self):
+        script = self.folder / "debugger"
+        script.write_text('#!/bin/sh\nread answer\necho "debugger hears $answer, starts $2"\nshift\nexec "$@"\n')
+        script.chmod(0o755)
+        done = self.edgecase("run", "--renderer=reference", "-o", self.out, "fam/c3", "--debugger", f"{script} -x",
+                             stdin="hello\n", check=0)
+        self.assertIn("debugger hears hello, starts /", done.stdout)
+        self.assertEqual(self.statuses()["fam/c3"], "pass")
+        self.assert_no_orphans()
+
+    def test_a_crash_names_it(self):
+        done = self.run_suite("fam/c3", fault="segv@fam/c3,noise@fam/c3", check=1)
+        self.assertIn("      the driver printed:\n        | driver \\x1b[31mred", done.stdout)
+        self.assertRegex(done.stdout, r"      debug: \S+ run fam/c3 --renderer reference --debugger gdb\n")
+        done = self.run_suite("fam/c3", "--debugger", "env A=1", fault="segv@fam/c3", check=1)
+        self.assertEqual(self.statuses()["fam/c3"], "crash")
+
+    def test_wrong_words(self):
+        done = self.run_suite("--debugger", "gdb", check=2)
+        self.assertEqual(done.stderr, "edgecase: --debugger runs one case, and 10 are selected; name one id\n")
+        done = self.run_suite("fam/c3", "--debugger", "no-such-debugger", check=2)
+        self.assertEqual(done.stderr, "edgecase: --debugger: there is no program 'no-such-debugger'; install it, or name "
+                                      "another one\n")
+
+
+class Order(ProgramTest):
+    def test_two_runs_print_the_same(self):
+        """Whatever the order in which two workers come to an end."""
+        printed = []
+        for fault in ("flip-pixel,segv@fam/c2", "flip-pixel,segv@fam/c2", "flip-pixel,segv@fam/c2"):
+            done = self.run_suite("-j", "2", "--batch", "1", fault=fault, check=1)
+            lines = [re.sub(r"after \S+ \w+|   \S+ m?s   seed", "", line) for line in done.stdout.splitlines()]
+            printed.append(lines)
+        self.assertEqual(printed[0], printed[1])
+        self.assertEqual(printed[0], printed[2])
+        text = "\n".join(printed[0])
+        self.assertEqual(re.findall(r"^(?:FAIL|CRASH) (\S+)", text, re.M), [f"fam/c{k}" for k in range(5)])
+        self.assertIn("\nmore unexpected results: their causes follow at the end; -v tells each\ncauses, the worst first:\n"
+                      "  crash: SIGSEGV during submit in fam, 1 case   rerun: ", text)
+        self.assertIn("\n  fail: cover.outside double in fam, 9 cases [vulkan]   rerun: ", text)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -14,8 +14,10 @@
 #include "report/files/json.hpp"
 #include "report/files/junit.hpp"
 #include "report/page/html.hpp"
+#include "report/text/causes.hpp"
 #include "report/text/console.hpp"
 #include "report/text/sentences.hpp"
+#include "report/text/unexpected.hpp"
 #include "sample_run.hpp"
 
 namespace report {
@@ -134,10 +136,63 @@ TEST(console, three_lines_and_the_explain_command) {
     for (const CaseRecord& r : run.cases) {
         const std::string text = console_case(r, {});
         const auto lines = std::count(text.begin(), text.end(), '\n');
-        EXPECT_EQ(lines, r.explain.empty() ? 3 : 4) << text;
+        const bool died = r.status == Status::crash || r.status == Status::timeout;
+        EXPECT_EQ(lines, r.explain.empty() && !died  ? 3
+                         : r.status == Status::crash ? 7
+                                                     : 4)
+            << text;
         EXPECT_NE(text.find(r.id), std::string::npos);
         EXPECT_NE(text.find("rerun: " + r.rerun), std::string::npos);
     }
+}
+
+TEST(console, unexpected_results_come_in_the_order_of_the_selection) {
+    const report::Run run = test::sample_run();
+    std::vector<std::string> ids;
+    std::string in_order;
+    size_t unexpected = 0;
+    for (const CaseRecord& r : run.cases) {
+        ids.push_back(r.id);
+        if (!is_expected(r.status) && r.status != Status::not_run && ++unexpected <= kHandful) {
+            in_order += console_case(r, {});
+        }
+    }
+    ASSERT_GT(unexpected, kHandful);
+    in_order += "more unexpected results: their causes follow at the end; -v tells each\n";
+    UnexpectedResults backwards(ids, {});
+    std::string text;
+    for (auto r = run.cases.rbegin(); r != run.cases.rend(); ++r) {
+        EXPECT_EQ(text, "");
+        text += backwards.add(*r);
+    }
+    EXPECT_EQ(text, in_order);
+    EXPECT_EQ(backwards.count(), unexpected);
+    EXPECT_EQ(backwards.rest(), "");
+    UnexpectedResults cut_off(ids, {});  // the first case never ends
+    for (auto r = run.cases.rbegin(); std::next(r) != run.cases.rend(); ++r) {
+        EXPECT_EQ(cut_off.add(*r), "");
+    }
+    EXPECT_EQ(cut_off.rest(), in_order);
+}
+
+TEST(console, the_end_tells_the_causes) {
+    const report::Run run = test::sample_run();
+    const std::string text = console_summary(run, "", {});
+    const std::vector<Cause> list = causes(run);
+    ASSERT_GT(list.size(), 3U);
+    size_t at = text.find("causes, the worst first:\n");
+    for (const Cause& cause : list) {
+        if (cause.status != Status::not_run) {
+            ASSERT_NE(at, std::string::npos);
+            at = text.find("  " + cause_title(cause), at);
+            EXPECT_NE(text.find("rerun: " + smallest_case(cause).rerun + "\n", at),
+                      std::string::npos);
+        }
+    }
+    EXPECT_LT(at, text.find("14 cases  1 pass"));
+    report::Run few = run;
+    few.cases.resize(4);  // one failure, which has been told
+    EXPECT_EQ(console_summary(few, "", {}).find("causes"), std::string::npos);
 }
 
 TEST(console, the_loosest_level_leads) {
