@@ -93,7 +93,7 @@ void add_device(CLI::App* app, DeviceOptions& o) {
 
 void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color) {
     app->add_flag("-q,--quiet", quiet, "only unexpected results")->group("Output");
-    app->add_flag("-v,--verbose", verbose, "add a picture of each unexpected case")
+    app->add_flag("-v,--verbose", verbose, "tell every unexpected case, with a picture")
         ->group("Output");
     add_choice(app, "--color", color, when_names(), "colours")->group("Output");
 }
