@@ -80,19 +80,6 @@ OrStop<run::UpdateWords> check_words(const ExpectOptions& options) {
     return run::UpdateWords{options.bug, options.reason, options.until};
 }
 
-cases::Expected<void> replace_file(const fs::path& file, const std::string& text) {
-    const fs::path other = file.string() + ".new";  // so that no half-written file is left
-    if (auto written = write_text(other.string(), text); !written) {
-        return written;
-    }
-    std::error_code error;
-    fs::rename(other, file, error);
-    if (error) {
-        return cases::failure("'" + file.string() + "' cannot be written: " + error.message());
-    }
-    return {};
-}
-
 std::string sentence(const std::vector<std::string>& ids) {
     std::string text;
     for (size_t k = 0; k < std::min<size_t>(ids.size(), 3); ++k) {
@@ -178,7 +165,7 @@ int expect_command(const Program& program, const ExpectOptions& options) {
     if (same || options.dry_run) {
         return report::kExitOk;
     }
-    if (const auto written = replace_file(options.file, update->text); !written) {
+    if (const auto written = replace_text(options.file, update->text); !written) {
         return report_stop(stop_with(report::kExitInternal, written.error().message));
     }
     return report::kExitOk;

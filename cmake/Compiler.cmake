@@ -21,6 +21,12 @@ if(EDGECASE_SANITIZE)
     endif()
     add_link_options(-fsanitize=${EDGECASE_SANITIZE})
 endif()
+if(NOT EDGECASE_SANITIZE)
+    # The program reads files of strangers and runs beside drivers that write anywhere.
+    add_compile_options(-fstack-protector-strong)
+    add_compile_definitions($<$<NOT:$<CONFIG:Debug>>:_FORTIFY_SOURCE=2>)  # it needs optimisation
+    add_link_options(LINKER:-z,relro,-z,now)
+endif()
 find_program(EDGECASE_MOLD mold)
 if(EDGECASE_MOLD)
     add_link_options(-fuse-ld=mold)

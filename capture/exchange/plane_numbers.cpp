@@ -127,7 +127,8 @@ std::string wrong_channels(const fs::path& file, size_t count, const PlaneSpec& 
 
 cases::Expected<PlaneNumbers> read_picture(const fs::path& file, const PlaneSpec& spec,
                                            const cases::Target& target) {
-    const cases::Expected<Image> image = read_image(file);
+    const cases::Expected<Image> image =
+        read_image(file, target.width, target.rows() * target.samples);
     if (!image) {
         return tl::unexpected(image.error());
     }

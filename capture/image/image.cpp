@@ -86,8 +86,10 @@ void keep(void* context, const EdgecaseImage* from) {
     to.width = from->width;
     to.height = from->height;
     to.channels.assign(from->names, from->names + from->channels);
-    const size_t count = size_t{from->width} * from->height * from->channels;
-    to.pixels.assign(from->pixels, from->pixels + count);
+    if (from->pixels != nullptr) {
+        const size_t count = size_t{from->width} * from->height * from->channels;
+        to.pixels.assign(from->pixels, from->pixels + count);
+    }
     to.bits = from->bits;
     to.is_float = from->is_float != 0;
 }
@@ -129,7 +131,8 @@ cases::Expected<void> write_image(const std::filesystem::path& file, const Image
     return {};
 }
 
-cases::Expected<Image> read_image(const std::filesystem::path& file) {
+cases::Expected<Image> read_image(const std::filesystem::path& file, uint32_t width,
+                                  uint32_t height) {
     if (auto known = check_format(file, 1); !known) {
         return tl::unexpected(known.error());
     }
@@ -139,7 +142,7 @@ cases::Expected<Image> read_image(const std::filesystem::path& file) {
     }
     Image image;
     std::array<char, 1024> error{};
-    if (module->read(file.c_str(), keep, &image, error.data(), error.size()) != 0) {
+    if (module->read(file.c_str(), width, height, keep, &image, error.data(), error.size()) != 0) {
         return cases::failure("cannot read {}: {}", cases::printable(file.string()),
                               cases::printable(error.data()));
     }

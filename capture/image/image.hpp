@@ -26,7 +26,9 @@ struct Image {
 // It is an error if the module is missing, the format unknown or the path cannot be written.
 cases::Expected<void> write_image(const std::filesystem::path& file, const Image& image);
 // Reads such a file; floats keep their bits, but a NaN may lose its payload. Colours are not
-// multiplied by alpha.
-cases::Expected<Image> read_image(const std::filesystem::path& file);
+// multiplied by alpha. Of an image of another size than width x height, `pixels` is empty: nothing
+// is decoded.
+cases::Expected<Image> read_image(const std::filesystem::path& file, uint32_t width,
+                                  uint32_t height);
 
 }  // namespace capture

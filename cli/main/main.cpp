@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -7,6 +8,7 @@
 #include "report/record/run.hpp"
 
 int main(int argc, char** argv) {
+    ::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, and told
     try {
         return cli::edgecase_main(argc, argv);
     } catch (const std::exception& e) {

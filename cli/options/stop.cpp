@@ -3,6 +3,8 @@
 #include "cli/options/stop.hpp"
 
 #include <cstdio>
+#include <map>
+#include <string>
 
 #include "cases/base/printable.hpp"
 #include "report/record/run.hpp"
@@ -10,9 +12,19 @@
 namespace cli {
 
 Stop invalid_files(const cases::Errors& errors) {
+    constexpr size_t kMostOfAFile = 20;  // who mends twenty of one file runs the program again
     Stop stop{report::kExitInvalidFile, {}};
+    std::map<std::string, size_t> count;
     for (const cases::Error& error : errors) {
-        stop.lines.push_back(cases::to_string(error));
+        if (++count[error.where.file] <= kMostOfAFile) {
+            stop.lines.push_back(cases::to_string(error));
+        }
+    }
+    for (const auto& [file, errors_of_file] : count) {
+        if (errors_of_file > kMostOfAFile) {
+            stop.lines.push_back(file + ": and " + std::to_string(errors_of_file - kMostOfAFile) +
+                                 " more errors");
+        }
     }
     return stop;
 }

@@ -61,7 +61,7 @@ cases::Errors write_ci(const report::Run& run, Ci ci, const fs::path& folder, st
         }
     } else if (ci == Ci::gitlab) {
         const std::string text = report::to_gitlab(run, base_of("CI_PROJECT_DIR"));
-        if (auto written = write_text((folder / "gl-code-quality.json").string(), text); !written) {
+        if (auto written = replace_text(folder / "gl-code-quality.json", text); !written) {
             errors.push_back(written.error());
         }
     }

@@ -39,6 +39,19 @@ cases::Error system_error(const std::string& file) {
     return {{}, "'" + file + "' cannot be written: " + std::strerror(errno)};
 }
 
+// Writes to `path` what errors call `name`.
+cases::Expected<void> write_as(const std::string& path, const std::string& text,
+                               const std::string& name) {
+    run::Fd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!fd.is_open() || !run::write_all(fd.get(), text)) {
+        return tl::unexpected(system_error(name));
+    }
+    if (::close(fd.release()) != 0) {  // some file systems tell of a full disk only now
+        return tl::unexpected(system_error(name));
+    }
+    return {};
+}
+
 }  // namespace
 
 cases::Expected<void> write_text(const std::string& file, const std::string& text) {
@@ -49,12 +62,20 @@ cases::Expected<void> write_text(const std::string& file, const std::string& tex
         }
         return {};
     }
-    run::Fd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (!fd.is_open() || !run::write_all(fd.get(), text)) {
-        return tl::unexpected(system_error(file));
+    return write_as(file, text, file);
+}
+
+cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text) {
+    const std::filesystem::path other = file.string() + ".new";
+    std::error_code error;
+    std::filesystem::remove(other, error);  // what an interrupted program left, or a link
+    if (auto written = write_as(other.string(), text, file.string()); !written) {
+        std::filesystem::remove(other, error);
+        return written;
     }
-    if (::close(fd.release()) != 0) {  // some file systems tell of a full disk only now
-        return tl::unexpected(system_error(file));
+    std::filesystem::rename(other, file, error);
+    if (error) {
+        return cases::failure("'" + file.string() + "' cannot be written: " + error.message());
     }
     return {};
 }
@@ -81,8 +102,9 @@ void write_pages(const report::Run& run, const ReportFiles& files, cases::Errors
             if (k > 0 && file == "-") {
                 break;
             }
+            const std::string part = k == 0 ? file : part_file(file, k + 1);
             if (cases::Expected<void> written =
-                    write_text(k == 0 ? file : part_file(file, k + 1), pages[k]);
+                    file == in_folder ? replace_text(part, pages[k]) : write_text(part, pages[k]);
                 !written) {
                 errors.push_back(written.error());
             }
@@ -101,14 +123,16 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
             return;
         }
         const std::string text = make(run);
-        for (const std::string& file :
-             {has_folder ? (files.folder / in_folder).string() : std::string(), extra}) {
-            if (file.empty()) {
-                continue;
-            }
-            if (cases::Expected<void> written = write_text(file, text); !written) {
+        const auto check = [&](const cases::Expected<void>& written) {
+            if (!written) {
                 errors.push_back(written.error());
             }
+        };
+        if (has_folder) {
+            check(replace_text(files.folder / in_folder, text));
+        }
+        if (!extra.empty()) {
+            check(write_text(extra, text));
         }
     };
     cases::Errors of_pages;

@@ -25,6 +25,8 @@ struct ReportFiles {
 // Writes text to a file or "-". Error: one sentence with the file and errno's reason, also for a
 // full disk.
 cases::Expected<void> write_text(const std::string& file, const std::string& text);
+// Puts a whole file in the place of what had its name, be it a link: never a half-written one.
+cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text);
 
 // Writes all reports of a run and returns what could not be written.
 cases::Errors write_reports(const report::Run& run, const ReportFiles& files);

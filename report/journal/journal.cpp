@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -93,7 +94,7 @@ Journal& Journal::operator=(Journal&& other) noexcept {
 
 cases::Expected<Journal> Journal::open(const std::filesystem::path& dir, bool append) {
     const std::string file = (dir / "journal.jsonl").string();
-    const int flags = append ? O_RDWR | O_APPEND : O_WRONLY | O_CREAT | O_TRUNC | O_APPEND;
+    const int flags = append ? O_RDWR | O_APPEND : O_WRONLY | O_CREAT | O_APPEND;
     const int fd = ::open(file.c_str(), flags | O_CLOEXEC, 0644);
     if (fd < 0) {
         const int error = errno;
@@ -106,6 +107,16 @@ cases::Expected<Journal> Journal::open(const std::filesystem::path& dir, bool ap
     }
     Journal journal(fd);
     journal.file_ = file;
+    // Held until the journal is closed or its process ends. A file system without locks has none.
+    if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        return failure(
+            fmt::format("another run is writing {}; wait for its end, or choose another "
+                        "directory with -o",
+                        file));
+    }
+    if (!append && ::ftruncate(fd, 0) != 0 && errno != EINVAL) {  // no ordinary file: /dev/full
+        return failure(fmt::format("cannot empty {}: {}", file, std::strerror(errno)));
+    }
     if (append && !drop_torn_line(fd)) {
         return failure(
             fmt::format("cannot go on with {}: it is no ordinary file, or its torn last "

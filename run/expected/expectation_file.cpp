@@ -105,7 +105,9 @@ class Parser {
     }
 
     void parse_line(std::string_view line) {
-        if (line_ == 1) {
+        if (line.find('\0') != std::string_view::npos) {
+            fail("the line holds a zero byte, which no text has");
+        } else if (line_ == 1) {
             file_.is_older = line == kOlderFirstLine;
             if (file_.is_older && !for_update_) {
                 fail(

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
@@ -18,10 +19,11 @@ namespace run {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, FaultKind>, 17> kNames = {{
+constexpr std::array<std::pair<const char*, FaultKind>, 18> kNames = {{
     {"segv", FaultKind::segv},
     {"abort", FaultKind::abort},
     {"hang", FaultKind::hang},
+    {"flood", FaultKind::flood},
     {"oom", FaultKind::oom},
     {"exit0", FaultKind::exit0},
     {"truncate", FaultKind::truncate},
@@ -128,6 +130,12 @@ void commit(FaultKind kind) {
             for (;;) {
                 ::pause();
             }
+        case FaultKind::flood: {
+            const std::string text(size_t{1} << 16, 'f');
+            while (::write(STDERR_FILENO, text.data(), text.size()) >= 0 || errno == EINTR) {
+            }
+            break;
+        }
         case FaultKind::oom:
             use_up_memory();
             break;

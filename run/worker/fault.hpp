@@ -19,6 +19,7 @@ enum class FaultKind {
     segv,           // dies while a batch with a matching case is drawn
     abort,          // likewise, by SIGABRT
     hang,           // never comes back
+    flood,          // prints without end
     oom,            // allocates without end under a memory limit, then dies as the allocator does
     exit0,          // leaves with status 0 and without a result
     truncate,       // sends half of the matching case's result, then leaves

@@ -154,7 +154,7 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
             print_noise();
         }
         for (const FaultKind kind : {FaultKind::segv, FaultKind::abort, FaultKind::hang,
-                                     FaultKind::oom, FaultKind::exit0}) {
+                                     FaultKind::flood, FaultKind::oom, FaultKind::exit0}) {
             if (has_fault(faults, kind, c.id)) {
                 step("submit");
                 commit(kind);

@@ -122,7 +122,9 @@ void WorkerClient::write_pending() {
 void WorkerClient::read_output() {
     constexpr size_t kOutputChunk = size_t{1} << 16;
     const auto chunk = std::make_unique_for_overwrite<char[]>(kOutputChunk);
-    while (child_.output.is_open()) {
+    // A worker that prints without end must not keep this process from looking at the clock.
+    constexpr size_t kMostChunks = 16;
+    for (size_t chunks = 0; chunks < kMostChunks && child_.output.is_open(); ++chunks) {
         const ssize_t n = ::read(child_.output.get(), chunk.get(), kOutputChunk);
         if (n > 0) {
             output_.add({chunk.get(), static_cast<size_t>(n)});

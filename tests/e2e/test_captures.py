@@ -241,6 +241,11 @@ class WrongInput(Captures):
         self.judge(check=7)
         self.assertEqual(self.record()["status"], "error")
 
+    def test_an_image_that_claims_gigabytes_is_not_decoded(self):
+        bomb = png(16384, 16384, [0] * 64)  # decoding it would find that rows are missing
+        file = self.deliver("coverage.png", bomb)
+        self.rejects(f"'{file}' has 16384 x 16384 pixels; 8 x 8 pixels take an image of 8 x 8")
+
     def test_truncated_image(self):
         whole = png(SIDE, SIDE, [255 * v for v in INSIDE])
         for length in (0, 8, 40, len(whole) // 2, len(whole) - 20):

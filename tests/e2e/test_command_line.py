@@ -64,7 +64,7 @@ class Usage(ProgramTest):
             self.assertEqual(done.stderr, f"edgecase: {sentence}; see 'edgecase run --help'\n")
 
     def test_a_variable_is_named(self):
-        for name, value in (("PROFILE", "foo"), ("TIMEOUT", "x"), ("JOBS", "0")):
+        for name, value in (("PROFILE", "xyzzy"), ("TIMEOUT", "x"), ("JOBS", "0")):
             done = self.edgecase("run", env=self.environment() | {f"EDGECASE_{name}": value}, check=2)
             self.assertTrue(done.stderr.startswith(f"edgecase: EDGECASE_{name}: '{value}' is no"), done.stderr)
             option = f"--{name.lower()}"
@@ -99,8 +99,8 @@ class Usage(ProgramTest):
         self.assertNotIn("mesa-vulkan-drivers", done.stdout)
 
     def test_faults(self):
-        env = self.environment("foo")
-        self.assertIn("unknown fault 'foo'; there are segv, abort,", self.edgecase("run", "--renderer=reference", env=env, check=5).stderr)
+        env = self.environment("xyzzy")
+        self.assertIn("unknown fault 'xyzzy'; there are segv, abort,", self.edgecase("run", "--renderer=reference", env=env, check=5).stderr)
         env = self.environment("sgev")
         self.assertIn("did you mean 'segv'?", self.edgecase("run", "--renderer=reference", env=env, check=5).stderr)
         self.assertEqual(self.run_suite(fault="segv@fam/cc1", check=0).stderr,
@@ -129,6 +129,12 @@ class Usage(ProgramTest):
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertIn('inf and nan may stand in positions of space "clip" and in attributes only', done.stderr)
         self.assertEqual(done.stdout, "the suite cannot be read, 1 error\n")
+
+    def test_many_errors_of_a_file_are_counted(self):
+        self.write_case("fam/many", "".join(f"key{k} = 1\n" for k in range(1000)))
+        done = self.edgecase("lint", check=3)
+        self.assertLess(done.stderr.count("\n"), 25)
+        self.assertRegex(done.stderr, r"many\.toml: and 9\d\d more errors")
 
     def test_regular_expression(self):
         self.refused(["run", "--require-device", "("], "regular expression")

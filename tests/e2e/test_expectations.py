@@ -125,6 +125,10 @@ class Causes(ExpectationTest):
                                (f"fam/c3 skip - {FLIPPED}  # Slow.\n", "a case that is not drawn has no cause")):
             self.assertIn(sentence, self.edgecase("expect", self.expectations(text), check=3).stderr)
 
+    def test_a_zero_byte(self):
+        path = self.expectations(f"fam/c3 fail bug#1 {FLIPPED}  # Kno\0wn.\n")
+        self.assertIn("zero byte", self.edgecase("expect", path, check=3).stderr)
+
     def test_an_older_file(self):
         """It is refused by a run, and an update gives its lines causes."""
         path = self.expectations("fam/c3 fail bug#1  # Known.\n", HEADER.replace("expectations 2", "expectations 1"))

@@ -47,6 +47,10 @@ class Charging(ProgramTest):
     def test_hang(self):
         self.charge("hang", "timeout", "--timeout", "0.5")
 
+    def test_a_flood_of_output_ends_at_the_time_limit(self):
+        case = self.charge("flood", "timeout", "--timeout", "0.5")
+        self.assertLess(len(json.dumps(case)), 100_000)
+
     def test_wrong_pixel(self):
         case = self.charge("flip-pixel", "fail")
         self.assertEqual(case["findings"][0]["kind"], "double")
@@ -152,6 +156,24 @@ class Output(ProgramTest):
     def test_full_disk(self):
         done = self.run_suite("--json", "/dev/full", check=7)
         self.assertIn("No space left", done.stderr)
+
+    def test_a_file_that_may_not_grow(self):
+        done = subprocess.run(["bash", "-c", 'ulimit -f 4; exec "$@"', "bash", PROGRAM, "run", "--renderer=reference", "-o",
+                               str(self.out)], env=self.environment(), cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 7, done.stdout + done.stderr)
+        self.assertIn("File too large", done.stderr)
+
+    def test_reports_replace_links(self):
+        self.run_suite(check=0)
+        other = self.folder / "other.txt"
+        other.write_text("mine")
+        for name in ("results.json", "junit.xml", "report.html"):
+            (self.out / name).unlink()
+            (self.out / name).symlink_to(other)
+        self.edgecase("report", self.out, check=0)
+        self.assertEqual(other.read_text(), "mine")
+        self.assertFalse((self.out / "results.json").is_symlink())
+        self.assertEqual(list(self.out.glob("*.new")), [])
 
     def test_folder_that_cannot_be_made(self):
         (self.folder / "file").write_text("")

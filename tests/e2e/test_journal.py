@@ -101,6 +101,21 @@ class Resume(JournalTest):
         self.assertEqual(set(self.statuses().values()), {"pass"})
 
 
+class TwoRuns(JournalTest):
+    def test_a_folder_takes_one_run_at_a_time(self):
+        process = self.start_hanging()
+        journal = self.out / "journal.jsonl"
+        for words in (["--renderer=reference", "-o", self.out], ["--resume", self.out]):
+            before = journal.read_text()
+            done = self.edgecase("run", *words, check=2)
+            self.assertIn("another run is writing", done.stderr)
+            self.assertTrue(journal.read_text().startswith(before))
+        process.kill()
+        process.communicate()
+        self.wait_for_no_orphans()
+        self.edgecase("run", "--resume", self.out, check=0)
+
+
 class Interrupt(JournalTest):
     def interrupt(self, number):
         process = self.start_hanging("-j", "2")

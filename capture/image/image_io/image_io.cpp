@@ -60,7 +60,8 @@ std::string write(const char* path, const EdgecaseImage& image) {
     return {};
 }
 
-std::string read(const char* path, EdgecaseImageSink sink, void* context) {
+std::string read(const char* path, uint32_t wanted_width, uint32_t wanted_height,
+                 EdgecaseImageSink sink, void* context) {
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     const auto input = OIIO::ImageInput::open(path, &config);
@@ -76,8 +77,10 @@ std::string read(const char* path, EdgecaseImageSink sink, void* context) {
         width * height > kMaxValues / channels || spec.depth > 1) {
         return "the image has an unusable size";
     }
-    std::vector<float> pixels(static_cast<size_t>(width * height * channels));
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data())) {
+    const bool is_wanted = width == wanted_width && height == wanted_height;
+    std::vector<float> pixels(is_wanted ? static_cast<size_t>(width * height * channels) : 0);
+    if (is_wanted &&
+        !input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data())) {
         return input->geterror();
     }
     std::vector<const char*> names;
@@ -89,7 +92,7 @@ std::string read(const char* path, EdgecaseImageSink sink, void* context) {
                               static_cast<uint32_t>(height),
                               static_cast<uint32_t>(channels),
                               names.data(),
-                              pixels.data(),
+                              is_wanted ? pixels.data() : nullptr,
                               static_cast<uint32_t>(spec.format.basesize() * 8),
                               spec.format.is_floating_point() ? 1U : 0U};
     sink(context, &image);
@@ -111,10 +114,10 @@ int edgecase_write_image(const char* path, const EdgecaseImage* image, char* err
     }
 }
 
-int edgecase_read_image(const char* path, EdgecaseImageSink sink, void* context, char* error,
-                        size_t size) {
+int edgecase_read_image(const char* path, uint32_t width, uint32_t height, EdgecaseImageSink sink,
+                        void* context, char* error, size_t size) {
     try {
-        const std::string sentence = read(path, sink, context);
+        const std::string sentence = read(path, width, height, sink, context);
         return sentence.empty() ? 0 : fail(sentence, error, size);
     } catch (const std::exception& e) {
         return fail(e.what(), error, size);

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-inline constexpr uint32_t kImageIoVersion = 2;
+inline constexpr uint32_t kImageIoVersion = 3;
 
 extern "C" {
 
@@ -23,8 +23,10 @@ struct EdgecaseImage {
 using EdgecaseImageSink = void (*)(void* context, const EdgecaseImage* image);
 
 uint32_t edgecase_image_io_version();
-// Each returns 0, or 1 with one sentence in `error` (zero-terminated, cut to `size` bytes).
+// Of an image that has not `width` x `height` pixels, `pixels` is null: a file of a few bytes may
+// claim gigabytes. Each returns 0, or 1 with one sentence in `error` (zero-terminated, cut to
+// `size` bytes).
 int edgecase_write_image(const char* path, const EdgecaseImage* image, char* error, size_t size);
-int edgecase_read_image(const char* path, EdgecaseImageSink sink, void* context, char* error,
-                        size_t size);
+int edgecase_read_image(const char* path, uint32_t width, uint32_t height, EdgecaseImageSink sink,
+                        void* context, char* error, size_t size);
 }

@@ -43,7 +43,7 @@ TEST_F(ImageTest, exr_and_tiff_keep_every_bit) {
     for (const char* name : {"a.exr", "a.tif"}) {
         const auto written = write_image(dir_ / name, kSpecial);
         ASSERT_TRUE(written) << written.error().message;
-        const auto back = read_image(dir_ / name);
+        const auto back = read_image(dir_ / name, 3, 2);
         ASSERT_TRUE(back) << back.error().message;
         EXPECT_EQ(back->width, 3U);
         EXPECT_EQ(back->height, 2U);
@@ -58,7 +58,20 @@ TEST_F(ImageTest, exr_and_tiff_keep_every_bit) {
             }
         }
     }
-    EXPECT_EQ(read_image(dir_ / "a.exr")->channels, kSpecial.channels);
+    EXPECT_EQ(read_image(dir_ / "a.exr", 3, 2)->channels, kSpecial.channels);
+}
+
+TEST_F(ImageTest, an_image_of_another_size_is_not_decoded) {
+    for (const char* name : {"a.exr", "a.tif", "a.png"}) {
+        const Image image = {2, 2, {"Y"}, {0, 1, 1, 0}};
+        ASSERT_TRUE(write_image(dir_ / name, image));
+        const auto other = read_image(dir_ / name, 2, 3);
+        ASSERT_TRUE(other) << other.error().message;
+        EXPECT_EQ(other->width, 2U);
+        EXPECT_EQ(other->height, 2U);
+        EXPECT_TRUE(other->pixels.empty()) << name;
+        EXPECT_EQ(read_image(dir_ / name, 2, 2)->pixels.size(), 4U) << name;
+    }
 }
 
 TEST_F(ImageTest, png_clamps_and_rounds) {
@@ -68,7 +81,7 @@ TEST_F(ImageTest, png_clamps_and_rounds) {
         {"Y"},
         {-1, 0, 0.5F, 1, 2, kInfinity, std::numeric_limits<float>::quiet_NaN(), 0.25F}};
     ASSERT_TRUE(write_image(dir_ / "a.png", image));
-    const auto back = read_image(dir_ / "a.png");
+    const auto back = read_image(dir_ / "a.png", 4, 2);
     ASSERT_TRUE(back) << back.error().message;
     const float expected[] = {0, 0, 128.0F / 255, 1, 1, 1, 0, 64.0F / 255};
     for (size_t k = 0; k < 8; ++k) {
@@ -89,8 +102,8 @@ TEST_F(ImageTest, errors_are_sentences) {
     EXPECT_NE(message(write_image(dir_ / "a.exr", short_one)).find("cannot have 11 values"),
               std::string::npos);
     std::ofstream(dir_ / "b.exr") << "not an image";
-    EXPECT_NE(message(read_image(dir_ / "b.exr")).find("cannot read"), std::string::npos);
-    EXPECT_NE(message(read_image(dir_ / "c.exr")).find("cannot read"), std::string::npos);
+    EXPECT_NE(message(read_image(dir_ / "b.exr", 3, 2)).find("cannot read"), std::string::npos);
+    EXPECT_NE(message(read_image(dir_ / "c.exr", 3, 2)).find("cannot read"), std::string::npos);
     Image wide = {1, 1, {"a", "b", "c", "d", "e"}, {0, 0, 0, 0, 0}};
     EXPECT_NE(message(write_image(dir_ / "a.png", wide)).find("at most 4"), std::string::npos);
     ::setenv("EDGECASE_IMAGE_IO", "/nonexistent.so", 1);
