@@ -69,7 +69,7 @@ class LeafContext {
     bool read(const TomlValue& table, const char* key, T& member, const std::string& what = {}) {
         const TomlValue* value = table.find(key);
         if (value != nullptr) {
-            using Plain = Unwrapped<T>::type;
+            using Plain = typename Unwrapped<T>::type;
             const auto read_as = [&](const std::string& name) -> std::optional<Plain> {
                 if constexpr (std::is_enum_v<Plain>) {
                     return enumerator<Plain>(*value, name);
@@ -96,7 +96,7 @@ class LeafContext {
             if (!given) {
                 return false;
             }
-            member = static_cast<Unwrapped<T>::type>(*given);
+            member = static_cast<typename Unwrapped<T>::type>(*given);
         }
         return true;
     }
