@@ -10,27 +10,40 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/parallel.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/explain_text.hpp"
+#include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "report/record/run.hpp"
+#include "report/text/wrap.hpp"
 #include "run/expected/expectation_file.hpp"
 #include "run/judge.hpp"
 #include "run/process/pool.hpp"
 
 namespace cli {
 
+using cases::counted;
+
 namespace {
 
+// For people: on a terminal no word is broken at its last column; elsewhere a line stays whole, for
+// programs that search.
+void say_wrapped(const std::string& text) {
+    const report::ConsoleStyle style = console_style(stdout, When::never, false);
+    say(style.wrap ? report::wrapped(text, style.width) : text);
+}
+
 void print_long(const cases::Case& c) {
-    say(c.id + "\n    " + c.description + "\n");
+    say(c.id + "\n");
+    say_wrapped("    " + c.description + "\n");
     if (!c.catches.empty()) {
-        say("    catches: " + c.catches + "\n");
+        say_wrapped("    catches: " + c.catches + "\n");
     }
     std::string rules;
     for (const std::string& rule : c.rules) {
@@ -38,15 +51,16 @@ void print_long(const cases::Case& c) {
     }
     const std::string layers =
         c.target.layers > 1 ? std::to_string(c.target.layers) + " layers, " : "";
-    say(fmt::format(
-        "    rules: {}\n    file: {}:{}\n    target: {} x {}, {}{} sample(s), {} draw(s)\n", rules,
-        c.where.file, c.where.line, c.target.width, c.target.height, layers, c.target.samples,
-        c.draws.size()));
+    const std::string drawn = c.blit ? "a blit" : counted(c.draws.size(), "draw");
+    say_wrapped("    rules: " + rules + "\n");
+    say(fmt::format("    file: {}:{}\n    target: {} x {}, {}{}, {}\n", c.where.file, c.where.line,
+                    c.target.width, c.target.height, layers, counted(c.target.samples, "sample"),
+                    drawn));
     for (const std::string& link : c.links) {
         say("    link: " + link + "\n");
     }
     for (const std::string& note : c.notes) {
-        say("    note: " + note + "\n");
+        say_wrapped("    note: " + note + "\n");
     }
 }
 
@@ -123,11 +137,6 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
     return errors;
 }
 
-// "1 error", "2 errors"
-std::string counted(size_t n, const std::string& word) {
-    return std::to_string(n) + " " + word + (n == 1 ? "" : "s");
-}
-
 }  // namespace
 
 int list_command(const Program& program, const ListOptions& options) {
@@ -152,7 +161,7 @@ int list_command(const Program& program, const ListOptions& options) {
         } else if (options.ids) {
             say(c.id + "\n");
         } else {
-            say(fmt::format("{:<60}  {}\n", c.id, c.description));
+            say_wrapped(c.id + "  " + c.description + "\n");
         }
     }
     if (options.json) {
@@ -191,8 +200,11 @@ int lint_command(const Program& program, const LintOptions& options) {
         pool.wait();
         pool.collect();
     }
+    // Expectation files are about the suite, so they are none of a selection's business.
     size_t files = 0;
-    found.push_back(check_expectation_files(*suite, files));
+    if (options.suite.selectors.empty()) {
+        found.push_back(check_expectation_files(*suite, files));
+    }
     size_t errors = 0;
     for (const cases::Errors& list : found) {
         for (const cases::Error& error : list) {
@@ -201,8 +213,9 @@ int lint_command(const Program& program, const LintOptions& options) {
         }
     }
     if (!options.quiet) {
-        std::printf("%s and %s checked, %s\n", counted(suite->selected.size(), "case").c_str(),
-                    counted(files, "expectation file").c_str(), counted(errors, "error").c_str());
+        const std::string beside = files == 0 ? "" : " and " + counted(files, "expectation file");
+        std::printf("%s%s checked, %s\n", counted(suite->selected.size(), "case").c_str(),
+                    beside.c_str(), counted(errors, "error").c_str());
     }
     if (errors != 0) {
         return report::kExitInvalidFile;
@@ -252,9 +265,8 @@ int explain_command(const Program& program, const ExplainOptions& options) {
               std::to_string(options.sample) +
               (layered ? " layer " + std::to_string(options.layer) : "") +
               " is outside the target of " + std::to_string(target.width) + " x " +
-              std::to_string(target.height) + " pixels with " + std::to_string(target.samples) +
-              " sample(s)" +
-              (layered ? " and " + std::to_string(target.layers) + " layer(s)" : "")}});
+              std::to_string(target.height) + " pixels with " + counted(target.samples, "sample") +
+              (layered ? " and " + counted(target.layers, "layer") : "")}});
     }
     ref::Limits limits;
     limits.subpixel_bits = static_cast<int>(options.subpixel_bits);

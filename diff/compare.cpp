@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cases/base/counted.hpp"
 #include "cases/model/derive.hpp"
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
@@ -83,8 +84,9 @@ class Comparison {
     std::string unusable() const {
         if (capture_.target != case_.target || !capture::has_all_planes(capture_)) {
             return fmt::format(
-                "the capture has another size than the case's {}x{} target with {} sample(s){}",
-                case_.target.width, case_.target.height, case_.target.samples,
+                "the capture has another size than the case's {}x{} target with {}{}",
+                case_.target.width, case_.target.height,
+                cases::counted(case_.target.samples, "sample"),
                 case_.target.layers > 1 ? fmt::format(" and {} layers", case_.target.layers) : "");
         }
         const size_t attributes = cases::attributes_of(case_);

@@ -264,11 +264,16 @@ void vary(capture::Capture& capture, const cases::Variation& variation) {
 std::string plane_name(uint32_t plane, uint32_t word) {
     constexpr std::array<const char*, 4> kOrigins = {"draw", "primitive", "provoking vertex",
                                                      "spare"};
+    constexpr std::array<const char*, 4> kHits = {"front hits", "back hits", "guard of the hits",
+                                                  "sum of the hits"};
     if (plane == kDepthPlane) {
         return "depth";
     }
     if (plane == kWritersPlane) {
         return fmt::format("writer's {}", kOrigins[word % 4]);
+    }
+    if (plane == kHitsPlane) {
+        return kHits[word % 4];
     }
     return fmt::format("{}.{}", capture::name_of_plane(plane), "xyzw"[word % 4]);
 }

@@ -29,8 +29,10 @@ std::string check_expected_hits(const cases::Case& c) {
                                    : b.total_min <= 9         ? static_cast<char>('0' + b.total_min)
                                                               : '#';
             if (drawn != reference) {
-                return fmt::format("the picture has '{}' at {}, the reference says {} hit(s)",
-                                   drawn, cases::sample_text(c.target, id), to_text(b));
+                return fmt::format(
+                    "the picture has '{}' at {}, the reference says {}", drawn,
+                    cases::sample_text(c.target, id),
+                    to_text(b) + (b.total_min == 1 && b.total_max == 1 ? " hit" : " hits"));
             }
         }
     }

@@ -258,9 +258,8 @@ class Judge {
         finding.sample = sample;
         finding.expected = fmt::format("{}", expected);
         finding.got = fmt::format("{}", got);
-        finding.why = fmt::format(
-            "the hit counter saw {} fragment(s) of front and {} of back faces at this sample",
-            hits.x, hits.y);
+        finding.why = fmt::format("at this sample the hit counter saw {} front and {} back faces",
+                                  hits.x, hits.y);
         report(std::move(finding), pixel, "stencil");
     }
 

@@ -44,7 +44,8 @@ std::optional<Rejection> check_locations(const Capabilities& c, const cases::Tar
     }
     if ((c.location_counts & t.samples) == 0) {
         return unsupported(
-            "the device does not take sample locations for {} sample(s) (VK_EXT_sample_locations)",
+            "the device does not take sample locations at sample count {} "
+            "(VK_EXT_sample_locations)",
             t.samples);
     }
     for (const std::array<uint8_t, 2>& location : t.sample_locations) {

@@ -208,10 +208,8 @@ class Reader {
             names.push_back(spec.name);
             all += (all.empty() ? "" : ", ") + spec.name;
         }
-        const std::string nearest = cases::nearest_name(file.stem().string(), names);
-        return fmt::format("{} is no plane of this case{}; it has {}", quoted(file),
-                           nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest),
-                           all);
+        return fmt::format("{} is no plane of this case, which has {}{}", quoted(file), all,
+                           cases::did_you_mean(file.stem().string(), names));
     }
 
     // Into the planes; what is wrong with a number, if anything.

@@ -24,7 +24,8 @@ struct Module {
     decltype(&edgecase_read_image) read = nullptr;
 };
 
-// The module of EDGECASE_IMAGE_IO, if set; else the first there is next to the program.
+// The module of EDGECASE_IMAGE_IO, if set; else the first there is next to the program: installed,
+// or in the folder of a build.
 cases::Expected<std::filesystem::path> find_module() {
     if (const char* named = std::getenv(kVariable); named != nullptr && *named != '\0') {
         return std::filesystem::path(named);
@@ -32,7 +33,8 @@ cases::Expected<std::filesystem::path> find_module() {
     std::error_code error;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
     const auto dir = program.parent_path();
-    for (const auto& candidate : {dir.parent_path() / "lib" / kModule, dir / kModule}) {
+    for (const auto& candidate : {dir.parent_path() / "lib" / "edgecase" / kModule,
+                                  dir.parent_path() / "lib" / kModule, dir / kModule}) {
         if (!error && std::filesystem::exists(candidate, error)) {
             return candidate;
         }

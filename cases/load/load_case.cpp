@@ -179,8 +179,7 @@ class CaseLoader {
             if (!context_.table(table, "draw")) {
                 continue;
             }
-            c_.draws.push_back(
-                load_draw(context_, table, c_.target, c_.draws.size() + 1, c_.notes));
+            c_.draws.push_back(load_draw(context_, table, c_.target, c_.draws.size(), c_.notes));
         }
         check_layers(*draws);
     }

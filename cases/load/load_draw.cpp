@@ -377,10 +377,10 @@ class DrawLoader {
 
 }  // namespace
 
-Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t number,
+Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t index,
                std::vector<std::string>& notes) {
     DrawLoader loader(context, table, target);
-    return loader.load(fmt::format("draw {}", number), notes);
+    return loader.load(fmt::format("draw {}", index), notes);
 }
 
 }  // namespace cases

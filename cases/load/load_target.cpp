@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "cases/base/counted.hpp"
 #include "cases/load/color.hpp"
 #include "cases/load/parts.hpp"
 
@@ -32,10 +33,10 @@ void read_locations(LeafContext& context, const TomlValue& table, Target& target
         return;
     }
     if (locations->array.size() != target.samples) {
-        context.error(locations->where,
-                      fmt::format("sample_locations has {} entries for {} sample(s); write one "
-                                  "[x, y] a sample",
-                                  locations->array.size(), target.samples));
+        context.error(locations->where, fmt::format("sample_locations has {} for {}; write one "
+                                                    "[x, y] a sample",
+                                                    counted(locations->array.size(), "pair"),
+                                                    counted(target.samples, "sample")));
         return;
     }
     for (const TomlValue& pair : locations->array) {

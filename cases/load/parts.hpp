@@ -29,9 +29,9 @@ void read_depth_target(LeafContext& context, const TomlValue& table, Target& tar
 // Reads the table `depth` of a draw.
 DepthState read_depth_state(LeafContext& context, const TomlValue& value);
 
-// One [[draw]] table. `number` counts from 1 and stands in notes. Mistakes go to the context; the
+// One [[draw]] table. `index` of the draw, from 0, stands in notes. Mistakes go to the context; the
 // result is then meaningless.
-Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t number,
+Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t index,
                std::vector<std::string>& notes);
 
 // Magnitudes of distances other than zero: far from underflow and overflow of what a device

@@ -178,7 +178,7 @@ struct Matcher {
         const bool is_folder = std::find(folders.begin(), folders.end(), bare) != folders.end();
         std::error_code ignored;
         if (!is_folder && std::filesystem::is_directory(word, ignored)) {
-            return word + " is a folder outside the suite; write --suite " + word;
+            return word + " is a folder without case files (*.toml)";
         }
         if (!is_folder && std::filesystem::is_regular_file(word, ignored)) {
             return word + " is no case file (*.toml)";

@@ -193,6 +193,13 @@ std::string selector_of(const RunOptions& options, const std::string& id) {
         if (selector.ends_with(".toml") && fs::path(selector).stem() == base) {
             return selector;
         }
+        // A folder of one's own: its file; the suite's folders are not below the working directory
+        // by their ids.
+        const fs::path file = fs::path(selector) / (base + ".toml");
+        std::error_code ignored;
+        if (fs::is_regular_file(file, ignored)) {
+            return file.string();
+        }
     }
     return id;
 }
@@ -279,6 +286,9 @@ report::Device to_report(const vk_harness::DeviceInfo& device) {
     report::Device d;
     cases::copy_like_fields(device, d);
     d.type = device.device_type;
+    if (device.api_version == 0) {
+        return d;  // no Vulkan: an algorithm, or the reference
+    }
     // VK_API_VERSION_*: variant 31..29, major 28..22, minor 21..12, patch 11..0
     d.api_version = std::to_string((device.api_version >> 22) & 0x7fU) + "." +
                     std::to_string((device.api_version >> 12) & 0x3ffU) + "." +

@@ -26,11 +26,7 @@ bool is_folder(const fs::path& path) {
 }
 
 fs::path source_tree_suite() {
-#ifdef EDGECASE_SUITE_DIR
-    return EDGECASE_SUITE_DIR;
-#else
-    return fs::path(__FILE__).parent_path().parent_path() / "cases" / "suite";
-#endif
+    return fs::path(__FILE__).parent_path().parent_path().parent_path() / "cases" / "suite";
 }
 
 bool is_below(const fs::path& file, const fs::path& root) {
@@ -39,20 +35,43 @@ bool is_below(const fs::path& file, const fs::path& root) {
     return !relative.empty() && *relative.begin() != "..";
 }
 
-// Loads the case files outside the suite that selectors name, and puts their ids in the selectors'
-// place.
+// Whether a selector is a case file outside the suite, or a folder with some that has nothing to do
+// with the suite's.
+bool is_outside_file(const fs::path& selector, const fs::path& root) {
+    std::error_code ignored;
+    return selector.extension() == ".toml" && fs::is_regular_file(selector, ignored) &&
+           !is_below(selector, root);
+}
+bool is_outside_folder(const fs::path& selector, const fs::path& root) {
+    if (!is_folder(selector) || is_below(selector, root) || is_below(root, selector)) {
+        return false;
+    }
+    std::error_code ignored;
+    const fs::recursive_directory_iterator files(selector, ignored);
+    return std::any_of(begin(files), end(files),
+                       [](const auto& entry) { return entry.path().extension() == ".toml"; });
+}
+
+// Loads the case files outside the suite that selectors name, themselves or by their folder, and
+// puts their ids in the selectors' place. Below a folder ids are paths, as in a suite.
 OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
                                                     LoadedSuite& suite) {
     std::vector<std::string> selectors;
     for (const std::string& selector : options.selectors) {
-        std::error_code ignored;
-        if (!selector.ends_with(".toml") || !fs::is_regular_file(selector, ignored) ||
-            is_below(selector, suite.root)) {
+        cases::ExpectedAll<std::vector<cases::Case>> loaded;
+        if (is_outside_file(selector, suite.root)) {
+            loaded = cases::load_file(selector, suite.root);
+        } else if (is_outside_folder(selector, suite.root)) {
+            cases::Suite own = cases::load_suite(selector);
+            if (own.errors.empty()) {
+                loaded = std::move(own.cases);
+            } else {
+                loaded = tl::unexpected(std::move(own.errors));
+            }
+        } else {
             selectors.push_back(selector);
             continue;
         }
-        cases::ExpectedAll<std::vector<cases::Case>> loaded =
-            cases::load_file(selector, suite.root);
         if (!loaded) {
             return tl::unexpected(invalid_files(loaded.error()));
         }
@@ -61,7 +80,7 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
                 if (known.id == c.id) {
                     return tl::unexpected(
                         Stop{report::kExitInvalidFile,
-                             {selector + ": error: its id '" + c.id + "' is already that of " +
+                             {c.where.file + ": error: its id '" + c.id + "' is already that of " +
                               known.where.file + "; rename the file"}});
                 }
             }
@@ -98,21 +117,24 @@ OrStop<fs::path> find_suite_root(const Program& program, const std::string& opti
             report::kExitInvalidFile,
             {"no suite in '" + std::string(value) + "' (EDGECASE_SUITE): it is not a folder"}});
     }
-    std::string looked;
     fs::path folder = fs::path(program.path).parent_path();
     for (int up = 0; up < 5 && folder.has_relative_path(); ++up, folder = folder.parent_path()) {
-        const fs::path candidate = folder / "cases" / "suite";
-        if (is_folder(candidate)) {
-            return candidate;
+        for (const fs::path& candidate :
+             {folder / "cases" / "suite", folder / "share" / "edgecase" / "cases" / "suite"}) {
+            if (is_folder(candidate)) {
+                return candidate;
+            }
         }
-        looked += "'" + candidate.string() + "', ";
     }
     if (is_folder(source_tree_suite())) {
         return source_tree_suite();
     }
-    return tl::unexpected(Stop{report::kExitInvalidFile,
-                               {"no suite found; looked for " + looked + "'" +
-                                source_tree_suite().string() + "'; name it with --suite DIR"}});
+    return tl::unexpected(
+        Stop{report::kExitInvalidFile,
+             {"no suite found: neither cases/suite nor share/edgecase/cases/suite is "
+              "in a folder above '" +
+              program.path + "', nor is there '" + source_tree_suite().string() +
+              "'; name it with --suite DIR"}});
 }
 
 OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,

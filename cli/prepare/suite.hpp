@@ -16,8 +16,9 @@
 
 namespace cli {
 
-// --suite, else EDGECASE_SUITE, else "cases/suite" in a folder above the program, else the source
-// tree that the program was built from.
+// --suite, else EDGECASE_SUITE, else "cases/suite" or, where it is installed,
+// "share/edgecase/cases/suite" in a folder above the program, else the source tree that the program
+// was built from.
 OrStop<std::filesystem::path> find_suite_root(const Program& program, const std::string& option);
 
 // A hash of the paths and bytes of all case files below the folder: whether two runs had the same

@@ -75,7 +75,7 @@ std::string header(const Run& run) {
                                             cases::to_string(run.profile), meaning(run.profile)));
     if (const CaseRecord* worst = worst_case(run)) {
         text += key_fact("largest accepted error",
-                         fmt::format("{} budgets, {}", ratio_text(worst->worst_ratio), worst->id));
+                         fmt::format("{}, {}", accepted_text(run, *worst), worst->id));
     }
     text += key_fact("took", seconds_text(run.seconds) + (run.ended.empty() ? ", cut off" : ""));
     text += "</dl>\n<details><summary>About this run</summary><dl>\n";

@@ -171,15 +171,14 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
 
 std::string console_header(const Run& run, const ConsoleStyle& style) {
     const Device& d = run.device;
-    // Captures of another renderer have no Vulkan.
-    const bool is_other = d.type == "other" && d.api_version.empty();
-    std::string text =
-        fmt::format("{}  {}  {}{}{}{}  {} subpixel bits  profile {}  seed {}",
-                    painted("edgecase " + or_unknown(run.tool_version), "1", style),
-                    or_unknown(d.name), or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ",
-                    cases::printable(d.driver_info),
-                    is_other ? std::string() : "  Vulkan " + or_unknown(d.api_version),
-                    d.subpixel_bits, cases::to_string(run.profile), run.seed);
+    // What draws without a driver (captures, an algorithm) has no Vulkan.
+    const bool is_other = d.api_version.empty() && !d.name.empty();
+    std::string text = fmt::format(
+        "{}  {}  {}{}{}{}  {} subpixel bits  profile {}  seed {}",
+        painted("edgecase " + or_unknown(run.tool_version), "1", style), or_unknown(d.name),
+        or_unknown(d.driver_name), d.driver_info.empty() ? "" : " ",
+        cases::printable(d.driver_info), is_other ? "" : "  Vulkan " + or_unknown(d.api_version),
+        d.subpixel_bits, cases::to_string(run.profile), run.seed);
     std::replace(text.begin(), text.end(), '\n', ' ');
     text += '\n';
     return style.wrap ? wrapped(text, style.width) : text;
@@ -227,10 +226,9 @@ std::string console_summary(const Run& run, const std::string& report_path,
     text +=
         fmt::format("   {}   seed {}\n", is_cut ? "cut off" : seconds_text(run.seconds), run.seed);
     if (const CaseRecord* worst = worst_case(run)) {
-        text +=
-            fmt::format("largest accepted error {} budgets{}{} in {}\n",
-                        ratio_text(worst->worst_ratio), worst->worst_quantity.empty() ? "" : ", ",
-                        cases::printable(worst->worst_quantity), cases::printable(worst->id));
+        text += fmt::format("largest accepted error {}{}{} in {}\n", accepted_text(run, *worst),
+                            worst->worst_quantity.empty() ? "" : ", ",
+                            cases::printable(worst->worst_quantity), cases::printable(worst->id));
     }
     const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
     text += report_path.empty()

@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
+#include "ref/number/plane_budget.hpp"
 
 namespace report {
 
@@ -23,6 +25,18 @@ std::string last_line(const std::string& bytes) {
     const size_t begin = text.rfind('\n', end);
     return text.substr(begin == std::string::npos ? 0 : begin + 1,
                        end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+}
+
+// "2 missing", "1 wrong value"; "3 values" where wrong samples are told beside them.
+std::string counted_findings(diff::FindingKind kind, uint64_t count, bool is_beside_wrong) {
+    switch (kind) {
+        case diff::FindingKind::value:
+            return cases::counted(count, is_beside_wrong ? "value" : "wrong value");
+        case diff::FindingKind::order:
+            return std::to_string(count) + " out of order";
+        default:
+            return fmt::format("{} {}", count, diff::to_string(kind));
+    }
 }
 
 }  // namespace
@@ -80,6 +94,11 @@ std::string sample_text(const diff::Finding& finding) {
     return finding.sample == 0 ? pixel : fmt::format("{} sample {}", pixel, finding.sample);
 }
 
+std::string accepted_text(const Run& run, const CaseRecord& record) {
+    return fmt::format("{} of {:.4g} allowed budgets", ratio_text(record.worst_ratio),
+                       ref::budget_factor(run.profile));
+}
+
 std::string counts_text(const CaseRecord& record) {
     // Several numbers of a sample may be wrong: then the samples are told, too.
     const bool has_more = record.wrong_samples && record.finding_total() > *record.wrong_samples;
@@ -88,9 +107,7 @@ std::string counts_text(const CaseRecord& record) {
         const auto kind = static_cast<diff::FindingKind>(k);
         const uint64_t count = record.counts.at(k);
         if (count > 0) {
-            const bool is_plural = has_more && kind == diff::FindingKind::value && count > 1;
-            text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", count, diff::to_string(kind),
-                                is_plural ? "s" : "");
+            text += (text.empty() ? "" : ", ") + counted_findings(kind, count, has_more);
         }
     }
     if (has_more) {

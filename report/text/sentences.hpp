@@ -18,6 +18,9 @@ std::string seconds_text(double seconds);
 // At most three significant digits: "0.732", "12.5", "inf".
 std::string ratio_text(double ratio);
 
+// The largest error of a case, and what its run accepts: "1.08 of 2 allowed budgets".
+std::string accepted_text(const Run& run, const CaseRecord& record);
+
 // What breaking a profile means: "not conformant", "very suspicious", "differs from top-left
 // hardware".
 std::string_view meaning(cases::Profile level);
@@ -27,8 +30,8 @@ std::string head_and_tail(const std::string& bytes, size_t most);
 
 // "(3,4)", or "(3,4) sample 2" if the sample is not 0.
 std::string sample_text(const diff::Finding& finding);
-// "2 missing, 1 double of 64 samples", or "5 of 64 samples wrong (2 missing, 6 values)" where some
-// have several findings; empty without any.
+// "2 missing, 1 wrong value of 64 samples", or "5 of 64 samples wrong (2 missing, 6 values)" where
+// some have several findings; empty without any.
 std::string counts_text(const CaseRecord& record);
 // One line that tells what happened to a case, without its id.
 std::string what_happened(const CaseRecord& record);

@@ -55,11 +55,9 @@ class ReferenceBackend : public Backend {
   public:
     explicit ReferenceBackend(const rasterizers::Device* algorithm) : algorithm_(algorithm) {
         device_.name = "Edgecase reference";
-        device_.driver_name = "reference";
-        device_.driver_info = "version 1.0.0";
+        device_.driver_name = "built in";
         device_.uuid = std::string(32, '0');
         device_.device_type = "cpu";
-        device_.api_version = 1U << 22 | 3U << 12;  // VK_API_VERSION_1_3
         device_.subpixel_bits = 8;
         device_.viewport_subpixel_bits = 8;
         device_.interpolation_offset_bits = 4;
@@ -69,7 +67,6 @@ class ReferenceBackend : public Backend {
         device_.has_primitive_id = true;
         if (algorithm_ != nullptr) {
             device_.name = "Edgecase algorithm " + std::string(algorithm_->name);
-            device_.driver_name = algorithm_->name;
         }
     }
     const DeviceInfo& device() const override { return device_; }

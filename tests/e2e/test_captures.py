@@ -269,8 +269,8 @@ class WrongInput(Captures):
 
     def test_files_that_do_not_belong(self):
         file = self.deliver("covrage.u8", bytes(INSIDE))
-        self.rejects(f"'{file}' is no plane of this case, did you mean 'coverage'?; it has coverage, hits, writer, "
-                     "fragcoord, depth")
+        self.rejects(f"'{file}' is no plane of this case, which has coverage, hits, writer, fragcoord, depth; did you "
+                     "mean 'coverage'?")
         file = self.deliver("coverage.bmp", b"BM")
         self.rejects(f"'{file}' has no ending that the plane coverage may have; use .u8, .u32, .f32, .png, .tif, .exr")
         first, second = self.deliver("coverage.f32", b""), self.deliver("coverage.u8", b"")

@@ -109,7 +109,7 @@ class Usage(ProgramTest):
     def test_folders_and_files_that_are_no_cases(self):
         (self.folder / "mine").mkdir()
         (self.folder / "notes.txt").write_text("")
-        self.refused(["run", "mine"], "mine is a folder outside the suite; write --suite mine", 4)
+        self.refused(["run", "mine"], "mine is a folder without case files (*.toml)", 4)
         self.refused(["run", "notes.txt"], "notes.txt is no case file (*.toml)", 4)
         (self.folder / "fam").mkdir()
         self.refused(["run", "fam"], "did you mean fam/**?", 4)
@@ -260,6 +260,28 @@ class Listing(ProgramTest):
         listed = listed or json.loads(self.edgecase("list", "--json", "fam/c1", "fam/c2", check=0).stdout)
         self.assertEqual([c["id"] for c in listed], ["fam/c1", "fam/c2"])
 
+    def test_a_program_reads_a_line_a_case(self):
+        self.assertEqual(self.edgecase("list", "fam/c1", check=0).stdout, "fam/c1  A square of two triangles, number 1.\n")
+
+    def test_draws_are_counted_from_zero_everywhere(self):
+        vertices = "[[draw]]\nvertices = [[1,1], [7,1], [1,7],  [7,1], [7,7], [1,7]]\n"
+        self.write_case("fam/two", CASE.format(n=1) + vertices.replace("7]]", "7], [0.1, 0.3, 0.7, 3], [3, 1], [1, 3]]"))
+        told = self.edgecase("list", "--long", "fam/two", check=0).stdout
+        self.assertIn("1 sample, 2 draws\n", told)
+        self.assertIn("note: draw 1: ", told)
+        self.edgecase("render", "fam/two", "-o", "two.json", check=0)
+        draws = {w["draw"] for s in json.loads((self.folder / "two.json").read_text())["samples"] for w in s["writers"]}
+        self.assertEqual(draws, {1})  # the second draw is the last writer everywhere
+        explained = self.edgecase("explain", "fam/two", "--pixel", "3,3", check=0).stdout
+        self.assertEqual(set(re.findall(r"of draw (\d+)", explained)), {"0", "1"})
+
+    def test_lint_of_ones_own_counts_no_expectation_files(self):
+        (self.folder / "mine.toml").write_text(CASE.format(n=0))
+        (self.folder / "cases/expectations").mkdir()
+        (self.folder / "cases/expectations/x.txt").write_text("device: x\n")
+        self.assertEqual(self.edgecase("lint", "mine.toml", check=0).stdout, "1 case checked, 0 errors\n")
+        self.assertIn("10 cases and 1 expectation file checked", self.edgecase("lint").stdout)
+
     def test_ids_on_standard_input(self):
         done = self.edgecase("list", "--ids", "-", stdin="fam/c2\nfam/c5\n", check=0)
         self.assertEqual(done.stdout.split(), ["fam/c2", "fam/c5"])
@@ -272,7 +294,7 @@ class Listing(ProgramTest):
         self.write_case("fam/c3", (self.suite / "fam/c3.toml").read_text() + f'[expect]\nhits = "{picture}"\n')
         done = self.edgecase("lint", check=3)
         self.assertRegex(done.stderr, r"^edgecase: .*c3\.toml:")
-        self.assertEqual(done.stdout, "10 cases and 0 expectation files checked, 1 error\n")
+        self.assertEqual(done.stdout, "10 cases checked, 1 error\n")
 
     def test_explain(self):
         self.assertIn("must be covered", self.edgecase("explain", "fam/c1", "--pixel", "2,2", check=0).stdout)
@@ -286,7 +308,7 @@ class Listing(ProgramTest):
         self.assertIn("no draw goes to this layer", beside)
         self.assertIn("the draw goes to layer 1", beside)
         refused = self.edgecase("explain", "fam/layered", "--pixel", "2,2", "--layer", "2", check=2).stderr
-        self.assertIn("pixel 2,2 sample 0 layer 2 is outside the target of 8 x 8 pixels with 1 sample(s) and 2 layer(s)",
+        self.assertIn("pixel 2,2 sample 0 layer 2 is outside the target of 8 x 8 pixels with 1 sample and 2 layers",
                       refused)
 
     def test_render_layers(self):
@@ -344,6 +366,23 @@ class Selection(ProgramTest):
     def test_empty_shard(self):
         shards = [self.run_suite("fam/c1", "--shard", f"{k}/4").returncode for k in range(1, 5)]
         self.assertEqual(sorted(shards), [0, 4, 4, 4])
+
+    def test_folder_outside_the_suite(self):
+        for name in ("a", "sub/b"):
+            (self.folder / "mine" / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / "mine" / f"{name}.toml").write_text(CASE.format(n=0))
+        done = self.run_suite("mine/", fault="flip-pixel@sub/b", check=1)
+        self.assertEqual(self.statuses(), {"a": "pass", "sub/b": "fail"})
+        # The line to draw it again names the file, which needs no --suite.
+        rerun = re.search(r"rerun: (?:\w+=\S+ )*\S+ run (.*)", done.stdout).group(1).split()
+        self.assertEqual(rerun[0], "mine/sub/b.toml")
+        self.run_suite(*rerun, fault="flip-pixel", check=1)
+        self.assertEqual(self.edgecase("list", "--ids", "mine", "fam/c1", check=0).stdout.split(), ["fam/c1", "a", "sub/b"])
+        # A folder that holds the suite is none of one's own.
+        self.assertEqual(self.edgecase("list", "--ids", "cases", check=0).stdout.split(), self.ids)
+        self.write_case("a", CASE.format(n=0))
+        self.assertIn("mine/a.toml: error: its id 'a' is already that of",
+                      self.edgecase("list", "mine", check=3).stderr)
 
     def test_file_outside_the_suite(self):
         (self.folder / "mine.toml").write_text((self.suite / "fam/c1.toml").read_text())

@@ -49,6 +49,20 @@ class Terminal(TerminalTest):
         self.assertNotIn("\x1b[", self.run_suite(check=0).stdout)
         self.assertIn("\x1b[34m", self.run_suite("--color", "always", check=0).stdout)
 
+    def test_a_list_breaks_no_word(self):
+        self.write_case("fam/long", (self.suite / "fam/c1.toml").read_text().replace("number 1", "number " + "twenty-seven " * 12))
+        for words in (("list", "fam/long"), ("list", "--long", "fam/long")):
+            lines = self.on_terminal(*words).splitlines()
+            told = [line for line in lines if "file:" not in line]
+            self.assertLessEqual(max(map(len, told)), 80)
+            self.assertEqual(" ".join(told).split().count("twenty-seven"), 12)
+        self.assertIn("fam/c1  A square", self.on_terminal("list", "fam/c1"))
+
+    def test_what_draws_without_a_driver_tells_no_vulkan(self):
+        first = self.edgecase("run", "--renderer=areas", "fam/c1", "-o", "out").stdout.splitlines()[0]
+        self.assertRegex(first, r"  Edgecase algorithm areas  built in  8 subpixel bits  profile direct3d  seed 1$")
+        self.assertRegex(self.run_suite("fam/c1", check=0).stdout, r"\nlargest accepted error \S+ of 2 allowed budgets[ ,]")
+
     def test_forty_columns(self):
         text = self.on_terminal(*self.RUN, "--color", "never", columns=40, fault="flip-pixel@fam/c1")
         self.assertIn("FAIL fam/c1", text)

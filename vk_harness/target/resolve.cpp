@@ -50,8 +50,8 @@ std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
             (c.limits.framebufferStencilSampleCounts & t.samples) == 0 ||
             (t.samples > 1 && (c.limits.sampledImageStencilSampleCounts & t.samples) == 0)) {
             return fmt::format(
-                "the device cannot draw to and read back format D32_SFLOAT_S8_UINT with {} "
-                "sample(s)",
+                "the device cannot draw to and read back format D32_SFLOAT_S8_UINT at "
+                "sample count {}",
                 t.samples);
         }
     }

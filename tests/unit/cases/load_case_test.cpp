@@ -162,7 +162,7 @@ TEST(LoadCase, ConvertsPixelsOnceAndNotesRounding) {
     // 0.6f - 0.6 = 2^-24 * 0.4, times 5/3 pixels.
     EXPECT_EQ(all[0].notes,
               std::vector<std::string>{
-                  "draw 1: 1 of 3 vertices were rounded to binary32 in clip space, the first is "
+                  "draw 0: 1 of 3 vertices were rounded to binary32 in clip space, the first is "
                   "vertex 2; x and y moved by at most 3.97e-08 pixels"});
 }
 
@@ -176,7 +176,7 @@ TEST(LoadCase, NotesVerticesWithoutTriangle) {
         load(kHead + "[target]\nsize = [8,8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8],[1,1]]\n");
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(all[0].notes,
-              std::vector<std::string>{"draw 1: the last 1 of 4 vertices make no triangle"});
+              std::vector<std::string>{"draw 0: the last 1 of 4 vertices make no triangle"});
 }
 
 TEST(LoadCase, MovesVertices) {

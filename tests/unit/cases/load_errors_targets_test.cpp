@@ -63,7 +63,7 @@ samples = 2)~"),
     {target(R"~(size = [8, 8]
 samples = 2
 sample_locations = [[1, 2]])~"),
-     R"~(f:7:20: error: sample_locations has 1 entries for 2 sample(s); write one [x, y] a sample)~"},
+     R"~(f:7:20: error: sample_locations has 1 pair for 2 samples; write one [x, y] a sample)~"},
     {target(R"~(size = [8, 8]
 samples = 2
 sample_locations = [[1, 2], [3]])~"),

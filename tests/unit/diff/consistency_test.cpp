@@ -168,7 +168,7 @@ TEST(Consistency, FindingsNameSampleBitsAndRule) {
     EXPECT_EQ(f.level, cases::Profile::vulkan);
     EXPECT_EQ(f.x, 2U);
     EXPECT_EQ(f.y, 2U);
-    EXPECT_EQ(f.quantity, "hits.x, scissor-tiles 3x2");
+    EXPECT_EQ(f.quantity, "front hits, scissor-tiles 3x2");
     EXPECT_EQ(f.expected, "0x00000000 (0)");
     EXPECT_EQ(f.got, "0x3f800000 (1)");
     EXPECT_EQ(verdict.counts[static_cast<size_t>(FindingKind::value)], 1U);

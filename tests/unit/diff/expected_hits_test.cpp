@@ -16,7 +16,7 @@ TEST(ExpectedHits, AgreesOrNamesTheFirstPixel) {
     EXPECT_EQ(diff::check_expected_hits(c), "");
     c.expected_hits->rows[1] = "111.";
     EXPECT_EQ(diff::check_expected_hits(c),
-              "the picture has '1' at pixel (2, 1), the reference says 0 hit(s)");
+              "the picture has '1' at pixel (2, 1), the reference says 0 hits");
 }
 
 TEST(ExpectedHits, OnePictureASample) {
@@ -27,7 +27,7 @@ TEST(ExpectedHits, OnePictureASample) {
     EXPECT_EQ(diff::check_expected_hits(c), "");
     c.expected_hits = cases::ExpectedHits{{"1.", "..", "..", ".."}, {}};
     EXPECT_EQ(diff::check_expected_hits(c),
-              "the picture has '1' at pixel (0, 0), sample 0, the reference says 0 hit(s)");
+              "the picture has '1' at pixel (0, 0), sample 0, the reference says 0 hits");
 }
 
 }  // namespace

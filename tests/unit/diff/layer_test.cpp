@@ -111,7 +111,7 @@ TEST(LayeredCompare, ACaptureOfOneLayerIsRefused) {
     k.capture.target.layers = 1;
     const diff::Verdict v = diff::compare(k.c, k.e, k.capture);
     EXPECT_EQ(v.error,
-              "the capture has another size than the case's 8x4 target with 1 sample(s) and 3 "
+              "the capture has another size than the case's 8x4 target with 1 sample and 3 "
               "layers");
 }
 
@@ -152,7 +152,7 @@ TEST(LayeredPicture, TheReferenceIsCheckedLayerByLayer) {
     EXPECT_EQ(diff::check_expected_hits(c), "");
     std::swap(c.expected_hits->rows[4], c.expected_hits->rows[8]);
     EXPECT_EQ(diff::check_expected_hits(c),
-              "the picture has '.' at layer 1, pixel (3, 0), the reference says 1 hit(s)");
+              "the picture has '.' at layer 1, pixel (3, 0), the reference says 1 hit");
 }
 
 }  // namespace

@@ -243,14 +243,15 @@ TEST(sentences, samples_are_told_where_they_are_fewer_than_findings) {
     CaseRecord record;
     record.compared_samples = 256;
     record.counts = {0, 0, 0, 376, 0};
-    EXPECT_EQ(report::counts_text(record), "376 value of 256 samples");  // of an older journal
+    EXPECT_EQ(report::counts_text(record),
+              "376 wrong values of 256 samples");  // of an older journal
     record.wrong_samples = 188;
     EXPECT_EQ(report::counts_text(record), "188 of 256 samples wrong (376 values)");
     record.counts = {2, 0, 0, 376, 0};
     record.wrong_samples = 190;
     EXPECT_EQ(report::counts_text(record), "190 of 256 samples wrong (2 missing, 376 values)");
     record.counts = {2, 0, 0, 188, 0};
-    EXPECT_EQ(report::counts_text(record), "2 missing, 188 value of 256 samples");
+    EXPECT_EQ(report::counts_text(record), "2 missing, 188 wrong values of 256 samples");
 }
 
 TEST(json, golden) {

@@ -72,7 +72,7 @@ TEST(CaseCheck, SampleLocations) {
     expect_rejected(m, c, error, "the target has 3 sample locations for 4 samples");
     c.target.sample_locations.push_back({8, 8});
     expect_rejected(m, c, unsupported,
-                    "the device does not take sample locations for 4 sample(s) "
+                    "the device does not take sample locations at sample count 4 "
                     "(VK_EXT_sample_locations)");
     m.location_counts = VK_SAMPLE_COUNT_4_BIT;
     m.location_range[1] = 0.9375F;
