@@ -7,10 +7,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "capture/exchange/plane_files.hpp"
+#include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
@@ -131,6 +134,59 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
                                 "; folders have the names that 'edgecase export' writes")));
 }
 
+// The cases of an export, by its list.
+OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
+    const fs::path file = folder / "index.json";
+    std::set<std::string> ids;
+    try {
+        std::ifstream in(file);
+        const auto index = nlohmann::json::parse(in);
+        for (const auto& entry : index.at("cases")) {
+            ids.insert(entry.at("id").get<std::string>());
+        }
+    } catch (const std::exception&) {
+        return tl::unexpected(stop_with(report::kExitInvalidFile,
+                                        "'" + cases::printable(file.string()) +
+                                            "' is no list of exported cases; name the folder that "
+                                            "'edgecase export' wrote"));
+    }
+    return ids;
+}
+
+// Without selectors, what was exported or drawn is judged; the sentence says so.
+OrStop<std::string> keep_captured(const DiffOptions& options, Selection& selection) {
+    const size_t all = selection.cases.size();
+    if (!options.exported.empty()) {
+        const OrStop<std::set<std::string>> ids = exported_ids(options.exported);
+        if (!ids) {
+            return tl::unexpected(ids.error());
+        }
+        std::erase_if(selection.cases, [&](const cases::Case& c) { return !ids->contains(c.id); });
+    } else if (options.run.suite.selectors.empty()) {
+        std::erase_if(selection.cases, [&](const cases::Case& c) {
+            std::error_code ignored;
+            return !fs::is_directory(fs::path(options.captures) / capture::folder_of(c.id),
+                                     ignored);
+        });
+    } else {
+        return std::string();
+    }
+    if (selection.cases.empty()) {
+        return tl::unexpected(stop_with(
+            report::kExitNothingSelected,
+            "no case is selected: " + (options.exported.empty()
+                                           ? "'" + options.captures + "' holds a folder of none"
+                                           : "'" + options.exported + "' lists none of them")));
+    }
+    const size_t left_out = all - selection.cases.size();
+    selection.whole_suite = selection.whole_suite && left_out == 0;
+    const bool is_told = options.exported.empty() && left_out > 0;
+    return is_told ? cases::counted(left_out, "case") +
+                         " without a folder in the captures left out; --exported DIR judges all "
+                         "that was exported\n"
+                   : std::string();
+}
+
 using ExpectedById = std::map<std::string, run::ExpectationLine>;
 
 report::Run make_header(const Program& program, const DiffOptions& options,
@@ -174,12 +230,16 @@ std::string skipped_text(const std::map<std::string, size_t>& skipped) {
 int diff_command(const Program& program, const DiffOptions& options) {
     run::SignalFd signals;
     const RunOptions& o = options.run;
-    const OrStop<Selection> selection = select_cases(program, o);
+    OrStop<Selection> selection = select_cases(program, o);
     if (!selection) {
         return report_stop(selection.error());
     }
     if (auto checked = check_captures(options, selection->suite_ids); !checked) {
         return report_stop(checked.error());
+    }
+    const OrStop<std::string> left_out = keep_captured(options, *selection);
+    if (!left_out) {
+        return report_stop(left_out.error());
     }
     report::Run header = make_header(program, options, *selection);
     const auto expected = expectations_of(o, *selection, header);
@@ -196,7 +256,7 @@ int diff_command(const Program& program, const DiffOptions& options) {
     report::ConsoleStyle style = console_style(console, o.color, o.verbose);
     style.folder = shell_quote(folder.string());
     if (!o.quiet) {
-        std::fputs(report::console_header(header, style).c_str(), console);
+        std::fputs((report::console_header(header, style) + *left_out).c_str(), console);
         std::fflush(console);
     }
 

@@ -123,7 +123,7 @@ std::vector<Part> find_parts(const Program& program) {
         {"validation layer", "'--validation'", find_file(layers, "VkLayer_khronos_validation.json"),
          "sudo apt install vulkan-validationlayers"},
         {"image files", "EXR and PNG files",
-         find_file({folder / "../lib", folder}, "edgecase-image-io.so"),
+         find_file({folder / "../lib/edgecase", folder / "../lib", folder}, "edgecase-image-io.so"),
          "sudo apt install libopenimageio-dev && scripts/build release"}};
     const OrStop<fs::path> suite = find_suite_root(program, "");
     parts.push_back({"suite", "'edgecase run' without a selector", suite ? suite->string() : "",

@@ -37,7 +37,7 @@ std::string range(uint32_t low, uint32_t high) {
 
 std::string allowed_hits(const ref::HitBounds& b) {
     std::string text = fmt::format("allowed: {} {} in all", range(b.total_min, b.total_max),
-                                   b.total_max == 1 ? "hit" : "hits");
+                                   b.total_min == 1 && b.total_max == 1 ? "hit" : "hits");
     if (b.front_max > 0 || b.back_max > 0) {
         text += fmt::format(" ({} by front faces, {} by back faces)",
                             range(b.front_min, b.front_max), range(b.back_min, b.back_max));

@@ -157,17 +157,13 @@ capture::Image values_image(Reference& r) {
     return image;
 }
 
-// To look at: white must be covered, black must not, grey may; the samples of a pixel are averaged.
+// To look at: white must be covered, black must not, grey may.
 capture::Image coverage_image(const Reference& r) {
     const cases::Target& target = r.c.target;
     capture::Image image{target.width, target.rows(), {"R", "G", "B"}, {}};
-    for (size_t pixel = 0; pixel < size_t{target.width} * target.rows(); ++pixel) {
-        float sum = 0;
-        for (uint32_t s = 0; s < target.samples; ++s) {
-            const ref::HitBounds& hits = r.expectation.samples[pixel * target.samples + s].hits;
-            sum += hits.total_min > 0 ? 1.0F : hits.total_max > 0 ? 0.5F : 0.0F;
-        }
-        image.pixels.insert(image.pixels.end(), 3, sum / static_cast<float>(target.samples));
+    for (const ref::SampleExpectation& s : r.expectation.samples) {
+        const float shade = s.hits.total_min > 0 ? 1.0F : s.hits.total_max > 0 ? 0.5F : 0.0F;
+        image.pixels.insert(image.pixels.end(), 3, shade);
     }
     return image;
 }
@@ -208,6 +204,12 @@ int render_command(const Program& program, const RenderOptions& options) {
             {report::kExitUsage,
              {"'" + options.output + "' has no known extension; use .exr, .png or .json"}});
     }
+    const bool is_picture = extension == ".png";
+    if (!is_picture && options.scale > 0) {
+        return report_stop({report::kExitUsage,
+                            {"--scale is for pictures to look at (*.png); values keep the "
+                             "target's size, so leave it out"}});
+    }
     const OrStop<Drawing> drawing = picture_of(*c, options);
     if (!drawing) {
         return report_stop(drawing.error());
@@ -215,8 +217,10 @@ int render_command(const Program& program, const RenderOptions& options) {
     const cases::Expected<void> written =
         extension == ".json"
             ? write_text(options.output, drawing->json)
-            : capture::write_image(options.output,
-                                   extension == ".png" ? drawing->picture : drawing->values);
+            : capture::write_image(
+                  options.output, is_picture
+                                      ? enlarged(drawing->picture, c->target.samples, options.scale)
+                                      : drawing->values);
     if (!written) {
         return report_stop({report::kExitInternal, {cases::to_string(written.error())}});
     }

@@ -29,7 +29,11 @@ if(NOT EDGECASE_SANITIZE)
 endif()
 find_program(EDGECASE_MOLD mold)
 if(EDGECASE_MOLD)
-    add_link_options(-fuse-ld=mold)
+    include(CheckLinkerFlag)
+    check_linker_flag(CXX -fuse-ld=mold EDGECASE_TAKES_MOLD)  # GCC does from 12.1 on
+    if(EDGECASE_TAKES_MOLD)
+        add_link_options(-fuse-ld=mold)
+    endif()
 endif()
 
 # Headers that most files include, compiled once for the target; only in presets that ask for it.

@@ -17,7 +17,7 @@ inline constexpr Examples kExamples[] = {
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
     {"lint", "  edgecase lint my-case.toml                is a file of your own well formed\n"},
     {"explain",
-     "  edgecase explain 'ties/diagonal-edge:rotation=0' --pixel 3,4\n"
+     "  edgecase explain 'ties/diagonal-edge:rotation=0' --pixel 3,3\n"
      "  edgecase explain --rule tie.top-left      what a rule demands\n"},
     {"render",
      "  edgecase render ties/apex-up -o picture.png                    what is allowed\n"
@@ -30,7 +30,8 @@ inline constexpr Examples kExamples[] = {
      "\n"
      "docs/other-renderers.md tells it step by step; docs/schema/case-1.json is the format.\n"},
     {"diff",
-     "  edgecase diff --captures captures                      every case of the suite\n"
+     "  edgecase diff --captures captures                      what was drawn, whatever it is\n"
+     "  edgecase diff --captures captures --exported cases     all that was exported to cases\n"
      "  edgecase diff 'ties/**' --captures captures -o out/me  one family, reports in out/me\n"
      "  edgecase diff --captures captures --subpixel-bits 4    of a renderer that snaps to 1/16\n"
      "\n"

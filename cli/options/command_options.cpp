@@ -16,7 +16,7 @@ constexpr const char* kFooter =
     "  edgecase run                                   the whole suite on the first device\n"
     "  edgecase run 'coverage/**' -o out/mine         one family, reports in out/mine\n"
     "  edgecase run my-case.toml --device llvmpipe    a file of your own on a chosen device\n"
-    "  edgecase explain ties/apex-up --pixel 3,4      why a sample must be covered\n"
+    "  edgecase explain ties/apex-up --pixel 10,11    why a sample must be covered\n"
     "  edgecase doctor                                what is installed, what is missing\n"
     "\n"
     "Selectors: globs on ids ('*' within a part, '**' across), '@rule:PATTERN', a case file or "
@@ -150,6 +150,9 @@ void define_images(CLI::App& app, AllOptions& all) {
         ->type_name("DIR")
         ->required()
         ->group("Selection");
+    add_value(in, "--exported", all.diff.exported,
+              "judge all cases of this export [those that have a folder in the captures]", "DIR",
+              "Selection");
     add_value(in, "--name", all.diff.name, "of the renderer, for the reports", "NAME", "Output");
     add_profile(in, o.profile);
     add_subpixel_bits(in, all.diff.subpixel_bits);
@@ -196,6 +199,10 @@ void define_others(CLI::App& app, AllOptions& all) {
                      "*.exr (values), *.png (to look at) or *.json")
         ->type_name("FILE")
         ->required();
+    add_value(render, "--scale", all.render.scale,
+              "*.png: pixels on each side of a pixel, 1 to 512 [the longer side near 512]", "N",
+              "Output")
+        ->check(in_range(1U, 512U));
     add_profile(render, all.render.profile);
     add_subpixel_bits(render, all.render.subpixel_bits);
     add_choice(render, "--renderer", all.render.renderer, drawing_names(),

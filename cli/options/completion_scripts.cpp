@@ -1,15 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
+#include "cases/model/rule.hpp"
 #include "cli/options/command_table.hpp"
 
 namespace cli {
 
 namespace {
-
-// Ids without their matrix part: such an id means all its leaves, and bash breaks words at ':'.
-constexpr const char* kIds = "edgecase list --ids 2>/dev/null | sed 's/:.*//' | sort -u";
 
 std::string join(const std::vector<std::string>& words, const std::string& between) {
     std::string text;
@@ -51,6 +47,18 @@ std::string patterns(const CommandEntry& command, const OptionEntry& option) {
     return join(words, "|");
 }
 
+// The words that may follow an option: its choices, or the ids of all rules.
+std::vector<std::string> values_of(const OptionEntry& option) {
+    if (option.names.back() != "--rule") {
+        return option.choices;
+    }
+    std::vector<std::string> ids;
+    for (const cases::Rule& rule : cases::all_rules()) {
+        ids.emplace_back(rule.id);
+    }
+    return ids;
+}
+
 // What follows an option, in each shell's words: choices, files, nothing to propose.
 std::string value_cases(const CommandTable& table, bool zsh) {
     std::string text;
@@ -59,15 +67,13 @@ std::string value_cases(const CommandTable& table, bool zsh) {
             if (option.is_positional || option.type.empty()) {
                 continue;
             }
-            const std::string words = join(option.choices, " ");
+            const std::string words = join(values_of(option), " ");
             std::string action = "return";
-            if (!option.choices.empty()) {
-                action =
-                    zsh ? "compadd -- " + words + "; return"
-                        : "COMPREPLY=($(compgen -W \"" + words + "\" -- \"$current\")); return";
+            if (!words.empty()) {
+                action = zsh ? "compadd -- " + words + "; return"
+                             : "_edgecase_words \"" + words + "\"; return";
             } else if (is_file(option)) {
-                action =
-                    zsh ? "_files; return" : "COMPREPLY=($(compgen -f -- \"$current\")); return";
+                action = zsh ? "_files; return" : "_edgecase_files; return";
             }
             text += "        " + std::string(zsh ? "(" : "") + patterns(command, option) + ") " +
                     action + " ;;\n";
@@ -86,6 +92,47 @@ std::vector<std::string> positional_words(const CommandEntry& command) {
     return {};
 }
 
+// "@rule:ID" of all rules.
+std::string rule_selectors() {
+    std::string text;
+    for (const cases::Rule& rule : cases::all_rules()) {
+        text += (text.empty() ? "@rule:" : " @rule:") + std::string(rule.id);
+    }
+    return text;
+}
+
+// Functions of the bash script. Readline breaks the line at every character of COMP_WORDBREAKS, '='
+// and ':' and '@' among them, so the word is taken from the line itself, and what lies before its
+// last break, which readline keeps, is taken off the answers.
+constexpr const char* kBashFunctions = R"SH(_edgecase_words() {
+    local word
+    for word in $1; do
+        [[ $word == "$current"* ]] && COMPREPLY+=("$lead$word")
+    done
+}
+_edgecase_files() {
+    local file
+    while IFS= read -r file; do
+        [ -d "$file" ] && file=$file/ && compopt -o nospace 2>/dev/null
+        [ -n "$quote" ] || printf -v file %q "$file"
+        COMPREPLY+=("$lead$file")
+    done < <(compgen -f -- "$current")
+}
+_edgecase_cases() {
+    if [ "${current#!}" != "$current" ]; then
+        lead=$lead! current=${current#!}
+    fi
+    case "$current" in
+        @*) _edgecase_words "$_edgecase_rules" ;;
+        *:*) _edgecase_words "$(edgecase list --ids "${current%%:*}" 2>/dev/null)" ;;
+        *)
+            _edgecase_words "$(edgecase list --ids 2>/dev/null | sed 's/:.*//' | sort -u)"
+            _edgecase_files
+            ;;
+    esac
+}
+)SH";
+
 }  // namespace
 
 std::string bash_completion(const CommandTable& table) {
@@ -95,46 +142,79 @@ std::string bash_completion(const CommandTable& table) {
     }
     std::string text =
         "# bash completion of edgecase; load it with: source <(edgecase completion bash)\n"
-        "_edgecase() {\n"
-        "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-        "    local command=${COMP_WORDS[1]}\n"
-        "    COMPREPLY=()\n"
-        "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-        "        COMPREPLY=($(compgen -W \"" +
-        join(names, " ") +
-        " --help --version\" -- \"$current\"))\n"
-        "        return\n"
-        "    fi\n"
-        "    case \"$command $previous\" in\n" +
-        value_cases(table, false) +
-        "    esac\n"
-        "    if [ \"${current#-}\" != \"$current\" ]; then\n"
-        "        case \"$command\" in\n";
+        "_edgecase_rules='" +
+        rule_selectors() + "'\n" + kBashFunctions +
+        R"(_edgecase_propose() {
+    if [ "$place" -eq 1 ]; then
+        _edgecase_words ")" +
+        join(names, " ") + R"( --help --version"
+        return
+    fi
+    if [[ $current == --*=* ]]; then
+        previous=${current%%=*} lead=$previous= current=${current#*=}
+    fi
+    case "$command $previous" in
+)" + value_cases(table, false) +
+        R"(    esac
+    if [ "${current#-}" != "$current" ]; then
+        case "$command" in
+)";
     for (const CommandEntry& command : table.commands) {
-        text += "            " + command.name + ") COMPREPLY=($(compgen -W \"" +
-                join(option_names(command), " ") + "\" -- \"$current\")) ;;\n";
+        text += "            " + command.name + ") _edgecase_words \"" +
+                join(option_names(command), " ") + "\" ;;\n";
     }
-    text +=
-        "        esac\n"
-        "        return\n"
-        "    fi\n"
-        "    case \"$command\" in\n";
+    text += R"(        esac
+        return
+    fi
+    case "$command" in
+)";
     for (const CommandEntry& command : table.commands) {
         const std::vector<std::string> words = positional_words(command);
         if (command.takes_cases()) {
-            text += "        " + command.name + ") COMPREPLY=($(compgen -W \"$(" + kIds +
-                    ")\" -- \"$current\") $(compgen -f -- \"$current\")) ;;\n";
+            text += "        " + command.name + ") _edgecase_cases ;;\n";
         } else if (!words.empty()) {
-            text += "        " + command.name + ") COMPREPLY=($(compgen -W \"" + join(words, " ") +
-                    "\" -- \"$current\")) ;;\n";
+            text +=
+                "        " + command.name + ") _edgecase_words \"" + join(words, " ") + "\" ;;\n";
         }
     }
-    return text +
-           "        *) COMPREPLY=($(compgen -f -- \"$current\")) ;;\n"
-           "    esac\n"
-           "}\n"
-           "complete -o filenames -F _edgecase edgecase\n";
+    return text + R"(        *) _edgecase_files ;;
+    esac
 }
+_edgecase() {
+    local line=${COMP_LINE:0:COMP_POINT} quote='' lead='' kept='' k
+    local current=${line##*[[:space:]]} words
+    read -ra words <<<"$line"
+    local place=$((${#words[@]} - 1)) command=${words[1]}
+    if [ -z "$current" ]; then
+        place=$((place + 1))
+    fi
+    local previous=${words[place - 1]}
+    case "$current" in
+        \'* | \"*) quote=${current:0:1} current=${current:1} ;;
+        *)
+            for ((k = 0; k < ${#current}; k++)); do
+                [[ $COMP_WORDBREAKS == *"${current:k:1}"* ]] && kept=${current:0:k+1}
+            done
+            ;;
+    esac
+    COMPREPLY=()
+    _edgecase_propose
+    COMPREPLY=("${COMPREPLY[@]#"$kept"}")
+}
+complete -F _edgecase edgecase
+)";
+}
+
+// What the zsh script proposes for a selector; `rules` is its caller's.
+constexpr const char* kZshFunction = R"SH(_edgecase_cases() {
+    compset -P '!'
+    case $PREFIX in
+        (@*) compadd -- $rules ;;
+        (*:*) compadd -- ${(f)"$(edgecase list --ids ${PREFIX%%:*} 2>/dev/null)"} ;;
+        (*) compadd -- ${(f)"$(edgecase list --ids 2>/dev/null | sed 's/:.*//' | sort -u)"}; _files ;;
+    esac
+}
+)SH";
 
 std::string zsh_completion(const CommandTable& table) {
     // _describe takes 'NAME:TEXT', so a colon in a name or text is escaped.
@@ -147,10 +227,13 @@ std::string zsh_completion(const CommandTable& table) {
     };
     std::string text =
         "#compdef edgecase\n"
-        "# zsh completion of edgecase: write it to a file _edgecase in a folder of $fpath\n"
+        "# zsh completion of edgecase: write it to a file _edgecase in a folder of $fpath\n" +
+        std::string(kZshFunction) +
         "_edgecase() {\n"
         "    local command=${words[2]} previous=${words[CURRENT-1]}\n"
-        "    local -a entries\n"
+        "    local -a entries rules=(" +
+        rule_selectors() +
+        ")\n"
         "    if (( CURRENT == 2 )); then\n"
         "        entries=(";
     for (const CommandEntry& command : table.commands) {
@@ -160,6 +243,10 @@ std::string zsh_completion(const CommandTable& table) {
         ")\n"
         "        _describe command entries\n"
         "        return\n"
+        "    fi\n"
+        "    if [[ $PREFIX == --*=* ]]; then\n"
+        "        previous=${PREFIX%%=*}\n"
+        "        compset -P '*='\n"
         "    fi\n"
         "    case \"$command $previous\" in\n" +
         value_cases(table, true) +
@@ -186,8 +273,7 @@ std::string zsh_completion(const CommandTable& table) {
     for (const CommandEntry& command : table.commands) {
         const std::vector<std::string> words = positional_words(command);
         if (command.takes_cases()) {
-            text +=
-                "        (" + command.name + ") compadd -- ${(f)\"$(" + kIds + ")\"}; _files ;;\n";
+            text += "        (" + command.name + ") _edgecase_cases ;;\n";
         } else if (!words.empty()) {
             text += "        (" + command.name + ") compadd -- " + join(words, " ") + " ;;\n";
         }
@@ -199,8 +285,26 @@ std::string zsh_completion(const CommandTable& table) {
            "compdef _edgecase edgecase\n";
 }
 
+// What the fish script proposes for a selector.
+constexpr const char* kFishFunction = R"SH(function __edgecase_cases
+    set -l bang (string match -r '^!?' -- (commandline -ct))
+    set -l word (string replace -r '^!' '' -- (commandline -ct))
+    switch $word
+        case '@*'
+            string join \n -- $bang$__edgecase_rules
+        case '*:*'
+            string join \n -- $bang(edgecase list --ids (string replace -r ':.*' '' -- $word) 2>/dev/null)
+        case '*'
+            string join \n -- $bang(edgecase list --ids 2>/dev/null | sed 's/:.*//' | sort -u)
+    end
+end
+)SH";
+
 std::string fish_completion(const CommandTable& table) {
-    std::string text = "# fish completion of edgecase: edgecase completion fish | source\n";
+    std::string text =
+        "# fish completion of edgecase: edgecase completion fish | source\n"
+        "set -g __edgecase_rules " +
+        rule_selectors() + "\n" + kFishFunction;
     const std::string start = "complete -c edgecase ";
     for (const CommandEntry& command : table.commands) {
         text += start + "-n __fish_use_subcommand -f -a " + command.name + " -d " +
@@ -217,8 +321,8 @@ std::string fish_completion(const CommandTable& table) {
                 text += name.starts_with("--") ? "-l " + name.substr(2) + " "
                                                : "-s " + name.substr(1) + " ";
             }
-            if (!option.choices.empty()) {
-                text += "-x -a " + quoted(join(option.choices, " ")) + " ";
+            if (const std::vector<std::string> values = values_of(option); !values.empty()) {
+                text += "-x -a " + quoted(join(values, " ")) + " ";
             } else if (is_file(option)) {
                 text += "-r -F ";
             } else if (!option.type.empty()) {
@@ -228,7 +332,7 @@ std::string fish_completion(const CommandTable& table) {
         }
         const std::vector<std::string> words = positional_words(command);
         if (command.takes_cases()) {
-            text += when + "-a " + quoted("(" + std::string(kIds) + ")") + "\n";
+            text += when + "-a '(__edgecase_cases)'\n";
         } else if (!words.empty()) {
             text += when + "-f -a " + quoted(join(words, " ")) + "\n";
         }

@@ -104,6 +104,7 @@ struct RenderOptions {
     SuiteOptions suite;  // exactly one selector, one case
     std::string output;
     std::string renderer;  // "": what the reference allows; else what this one draws
+    uint32_t scale = 0;    // side of a pixel in a *.png; 0: chosen by the target's size
     cases::Profile profile = cases::Profile::direct3d;
     uint32_t subpixel_bits = 8;
 };
@@ -116,7 +117,9 @@ struct ExportOptions {
 struct DiffOptions {
     RunOptions run;        // what judging and reporting have in common
     std::string captures;  // folder
-    std::string name;      // of the renderer, for the reports
+    std::string
+        exported;      // folder whose index.json lists the cases, "": those that captures are of
+    std::string name;  // of the renderer, for the reports
     uint32_t subpixel_bits = 8;
 };
 

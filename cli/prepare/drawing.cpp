@@ -130,20 +130,44 @@ capture::Image drawing_values(const cases::Case& c, const capture::Capture& capt
     return image;
 }
 
-// White where all samples of a pixel were hit, black where none was.
+// White where a sample was hit, black where not.
 capture::Image drawing_picture(const cases::Case& c, const capture::Capture& capture) {
     capture::Image image{c.target.width, c.target.rows(), {"R", "G", "B"}, {}};
-    for (size_t first = 0; first < capture.sample_count(); first += c.target.samples) {
-        float sum = 0;
-        for (uint32_t s = 0; s < c.target.samples; ++s) {
-            sum += is_hit(capture, first + s) ? 1.0F : 0.0F;
-        }
-        image.pixels.insert(image.pixels.end(), 3, sum / static_cast<float>(c.target.samples));
+    for (size_t index = 0; index < capture.sample_count(); ++index) {
+        image.pixels.insert(image.pixels.end(), 3, is_hit(capture, index) ? 1.0F : 0.0F);
     }
     return image;
 }
 
 }  // namespace
+
+capture::Image enlarged(const capture::Image& picture, uint32_t samples, uint32_t scale) {
+    constexpr uint32_t kSide = 512;
+    const uint32_t longer = std::max(picture.width, picture.height);
+    const uint32_t side = scale > 0 ? scale : std::max(1U, kSide / longer);
+    const uint32_t columns = samples >= 8 ? 4 : samples >= 2 ? 2 : 1;
+    const uint32_t rows = samples / columns;
+    const size_t channels = picture.channels.size();
+    capture::Image out{picture.width * side, picture.height * side, picture.channels, {}};
+    out.pixels.reserve(size_t{out.width} * out.height * channels);
+    for (uint32_t y = 0; y < out.height; ++y) {
+        for (uint32_t x = 0; x < out.width; ++x) {
+            const size_t pixel = size_t{y / side} * picture.width + x / side;
+            const uint32_t at = y % side * rows / side * columns + x % side * columns / side;
+            for (size_t channel = 0; channel < channels; ++channel) {
+                const auto of = [&](uint32_t s) {
+                    return picture.pixels[(pixel * samples + s) * channels + channel];
+                };
+                float sum = 0;
+                for (uint32_t s = 0; s < samples; ++s) {
+                    sum += of(s);
+                }
+                out.pixels.push_back(side >= columns ? of(at) : sum / static_cast<float>(samples));
+            }
+        }
+    }
+    return out;
+}
 
 OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) {
     cases::Case whole = c;

@@ -17,8 +17,13 @@ namespace cli {
 struct Drawing {
     std::string json;
     capture::Image values;   // as many channels as there are values
-    capture::Image picture;  // to look at: R, G, B in 0..1
+    capture::Image picture;  // to look at: R, G, B in 0..1, the samples of a pixel in turn
 };
+
+// The picture with pixels of `scale` x `scale` (0: so many that the longer side has nearly 512),
+// each a grid of its samples, sample 0 at the top left (2: side by side; 4: 2 x 2; 8: 4 x 2; 16:
+// 4 x 4). Where a pixel is too small for that, its samples are averaged.
+capture::Image enlarged(const capture::Image& picture, uint32_t samples, uint32_t scale);
 
 // What `renderer` draws of a case with draws: "reference", or an algorithm. Planes that the case
 // does not attach are drawn too. Error: why that renderer cannot draw it.

@@ -221,6 +221,25 @@ class WrongInput(Captures):
         self.assertEqual(done.stderr, f"edgecase: '{self.captures}/fam/c01' belongs to no case of the suite; did you mean "
                          "'fam/c0'?\n")
 
+    def test_without_selectors_what_was_drawn_is_judged(self):
+        self.deliver("coverage.u8", bytes(INSIDE))
+        words = ("diff", "--captures", self.captures, "-o", self.out)
+        done = self.edgecase(*words, check=0)
+        self.assertEqual(self.statuses(), {"fam/c1": "pass"})
+        self.assertIn("\n9 cases without a folder in the captures left out; --exported DIR judges all that was exported\n", done.stdout)
+        # What was exported and not drawn is no pass.
+        self.edgecase("export", "fam/c1", "fam/c2", "-o", "exported", check=0)
+        done = self.edgecase(*words, "--exported", "exported", check=7)
+        self.assertEqual(self.statuses(), {"fam/c1": "pass", "fam/c2": "not_run"})
+        self.assertNotIn("left out", done.stdout)
+        self.edgecase(*words, "fam/c1", "--exported", "exported", check=0)
+        done = self.edgecase(*words, "--exported", "nowhere", check=3)
+        self.assertEqual(done.stderr, "edgecase: 'nowhere/index.json' is no list of exported cases; name the folder that "
+                         "'edgecase export' wrote\n")
+        (self.captures / "fam/c1").rename(self.folder / "away")
+        self.assertEqual(self.edgecase(*words, check=4).stderr,
+                         f"edgecase: no case is selected: '{self.captures}' holds a folder of none\n")
+
     def test_unknown_selector(self):
         self.captures.mkdir()
         self.judge(check=4, case="fam/c11")

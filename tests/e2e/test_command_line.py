@@ -101,6 +101,10 @@ class Usage(ProgramTest):
     def test_faults(self):
         env = self.environment("xyzzy")
         self.assertIn("unknown fault 'xyzzy'; there are segv, abort,", self.edgecase("run", "--renderer=reference", env=env, check=5).stderr)
+        known = self.edgecase("run", "--renderer=reference", env=env, check=5).stderr.split("there are ")[1]
+        told = (SOURCE / "docs/cli.md").read_text().split("## Faults on purpose")[1]
+        for fault in re.findall(r"[a-z0-9-]+", known):
+            self.assertIn(f"`{fault}`", told)
         env = self.environment("sgev")
         self.assertIn("did you mean 'segv'?", self.edgecase("run", "--renderer=reference", env=env, check=5).stderr)
         self.assertEqual(self.run_suite(fault="segv@fam/cc1", check=0).stderr,

@@ -1,9 +1,15 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
 """The whole way through a real Vulkan driver. A machine without one fails these tests: they are never skipped."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
 import unittest
 
-from support import SOURCE, ProgramTest
+from support import CASE, PROGRAM, SOURCE, ProgramTest
 
 
 class Driver(ProgramTest):
@@ -47,6 +53,54 @@ class Driver(ProgramTest):
     def test_unknown_device(self):
         done = self.run_driver("--device", "no such device", check=5)
         self.assertIn("no such device", done.stderr)
+
+
+class Examples(ProgramTest):
+    """Every example that a help ends with, run as it stands, in the order of the commands."""
+
+    def prepare(self):
+        home = self.folder / "home"
+        (home / ".config/fish/completions").mkdir(parents=True)
+        (self.folder / "bin").mkdir()
+        for name, text in (("my-renderer", f'exec {sys.executable} {SOURCE}/docs/examples/rasterize.py "$@"'),
+                           ("man", 'cat >/dev/null')):
+            (self.folder / "bin" / name).write_text(f"#!/bin/sh\n{text}\n")
+            (self.folder / "bin" / name).chmod(0o755)
+        (self.folder / "bin/edgecase").symlink_to(pathlib.Path(PROGRAM).resolve())
+        (self.folder / "my-case.toml").write_text(CASE.format(n=0))
+        manifest = next(pathlib.Path("/usr/share/vulkan/icd.d").glob("lvp_icd*.json"))
+        shutil.copy(manifest, self.folder / "my_icd.json")
+        env = self.environment() | {"HOME": str(home), "PATH": f"{self.folder}/bin:{os.environ['PATH']}",
+                                    "EDGECASE_SUITE": str(SOURCE / "cases/suite")}
+        shutil.copytree(SOURCE / "cases/expectations", self.folder / "cases/expectations")
+        for name, words in (("before", []), ("after", []), ("lavapipe", []), ("swiftshader", ["--renderer=brown"]),
+                            ("shard-1", ["--shard=1/2"]), ("shard-2", ["--shard=2/2"])):
+            self.edgecase("run", "ties/**", *(words or ["--renderer=reference"]), *(["--renderer=reference"] if "shard" in name else []),
+                          "-o", f"out/{name}", env=env, check=0)
+        return env
+
+    def test_examples_of_every_help(self):
+        env = self.prepare()
+        text = self.edgecase("--help", check=0).stdout
+        commands = re.findall(r"^  ([a-z]+) ", text.split("Examples:")[0], re.M)
+        seen = []
+        for source in ["", *commands]:
+            text = self.edgecase(*([source] if source else []), "--help", check=0).stdout
+            for line in text.partition("Examples:\n")[2].split("\n\n")[0].splitlines():
+                example, _, told = line.strip().partition("  ")
+                if example in seen:
+                    continue
+                seen.append(example)
+                done = subprocess.run(["bash", "-c", "set -o pipefail; " + example], env=env, cwd=self.folder,
+                                      capture_output=True, text=True, timeout=240, check=False)
+                # What was snapped to 1/256 pixel may be wrong on a grid of 1/16.
+                may = (0, 1) if "--subpixel-bits" in example else (0,)
+                self.assertIn(done.returncode, may, f"{example}\n{done.stdout[-2000:]}\n{done.stderr}")
+                if "--pixel" in example:
+                    self.assertNotIn("no triangle is within", done.stdout, example)
+                if "must be covered" in told:
+                    self.assertIn("therefore the sample must be covered exactly once", done.stdout, example)
+        self.assertGreater(len(seen), 30)
 
 
 if __name__ == "__main__":

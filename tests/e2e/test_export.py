@@ -10,6 +10,7 @@ import struct
 import subprocess
 import sys
 import unittest
+import zlib
 
 import jsonschema
 from captures_support import Captures, CASE, INSIDE, png, schema, SIDE, TIES
@@ -52,6 +53,11 @@ class Export(Captures):
         self.assertGreater(len(seen), 100)
         self.assertEqual(len({e["folder"] for e in listed["cases"]}), len(listed["cases"]))
 
+    def test_the_page_tells_every_need(self):
+        page = (SOURCE / "docs/other-renderers.md").read_text(encoding="utf-8")
+        table = page.split("| word | the case has |")[1].split("\n\n")[0]
+        self.assertEqual(re.findall(r"^\| `([a-z-]+)` \|", table, re.M), schema("case-1")["properties"]["needs"]["items"]["enum"])
+
     def test_state(self):
         self.write_case(CASE, TIES.replace("[[draw]]", "[[draw]]\ncull = \"front\"\nscissor = [1, 2, 3, 4]"))
         self.export(CASE)
@@ -86,10 +92,79 @@ to   = [3, 0, 1, 1]
 """
 
 
+def grey(path):
+    """The red of each pixel of an 8-bit PNG, row by row."""
+    data, at, packed = path.read_bytes(), 8, b""
+    width, height, depth, kind = struct.unpack(">IIBB", data[16:26])
+    channels = {0: 1, 2: 3, 6: 4}[kind]
+    while at < len(data):
+        length, name = struct.unpack(">I4s", data[at:at + 8])
+        packed += data[at + 8:at + 8 + length] if name == b"IDAT" else b""
+        at += length + 12
+    raw, size, rows = zlib.decompress(packed), channels * depth // 8, []
+    stride = width * size
+    before = bytes(stride)
+    for y in range(height):
+        how, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for k in range(stride):
+            left, up, corner = line[k - size] if k >= size else 0, before[k], before[k - size] if k >= size else 0
+            paeth = min((left, up, corner), key=lambda n: abs(left + up - corner - n))
+            line[k] = (line[k] + (0, left, up, (left + up) // 2, paeth)[how]) % 256
+        rows.append(list(line[::size]))
+        before = bytes(line)
+    return rows
+
+
 class Render(Captures):
     def json(self, *words):
+        """The picture as JSON, which keeps to its schema."""
         self.edgecase("render", *words, "-o", self.folder / "x.json", check=0)
-        return json.loads((self.folder / "x.json").read_text(encoding="utf-8"))
+        picture = json.loads((self.folder / "x.json").read_text(encoding="utf-8"))
+        jsonschema.Draft7Validator(schema(picture["schema"].removeprefix("edgecase-"))).validate(picture)
+        return picture
+
+    def test_schemas_know_every_member(self):
+        """Of rich cases of the real suite; a schema without a member that is written would be none."""
+        self.write_case("fam/blit", BLIT)
+        suite = ("--suite", SOURCE / "cases/suite")
+        for words, name in ((("clip/noperspective:swap=0,lean=0", *suite), "reference-1"),
+                            ((CASE, "--renderer", "tiles"), "drawing-1"), (("fam/blit",), "blit-1")):
+            told = schema(name)
+
+            def check(value, rule, where):
+                if isinstance(value, dict) and "properties" in rule:
+                    self.assertLessEqual(set(value), set(rule["properties"]), where)
+                    for key, part in value.items():
+                        check(part, rule["properties"][key], f"{where}.{key}")
+                if isinstance(value, list):
+                    for part in value:
+                        check(part, rule.get("items", {}), where)
+
+            picture = self.json(*words)
+            self.assertEqual(picture["schema"], f"edgecase-{name}")
+            check(picture, told, name)
+            for key in told["required"]:
+                self.assertFalse(jsonschema.Draft7Validator(told).is_valid({k: v for k, v in picture.items() if k != key}), key)
+
+    def size(self, *words):
+        self.edgecase("render", *words, "-o", "x.png", check=0)
+        return struct.unpack(">II", (self.folder / "x.png").read_bytes()[16:24])
+
+    def test_pictures_are_large_enough_to_see_a_pixel(self):
+        self.assertEqual(self.size(CASE), (512, 512))
+        self.assertEqual(self.size(CASE, "--scale", "3"), (24, 24))
+        self.assertEqual(self.size(CASE, "--renderer", "tiles", "--scale", "2"), (16, 16))
+        self.assertEqual(self.edgecase("render", CASE, "-o", "x.exr", "--scale", "2", check=2).stderr,
+                         "edgecase: --scale is for pictures to look at (*.png); values keep the target's size, so leave it out\n")
+        self.edgecase("render", CASE, "-o", "x.exr", check=0)
+        # 4 samples: each a quarter of its pixel, sample 0 top left. The edge x = 1/2 leaves samples 0 and 2 out.
+        self.write_case("fam/four", TIES.split("[target]")[0] + "[target]\nsize = [2, 1]\nsamples = 4\n[[draw]]\n"
+                        "vertices = [[0.5,-4], [9,-4], [0.5,9]]\n")
+        self.edgecase("render", "fam/four", "-o", "x.png", "--scale", "4", check=0)
+        self.assertEqual(grey(self.folder / "x.png"), [[0, 0, 255, 255, 255, 255, 255, 255]] * 4)
+        self.edgecase("render", "fam/four", "-o", "x.png", "--scale", "1", check=0)
+        self.assertEqual([len(row) for row in grey(self.folder / "x.png")], [2])
+        self.assertNotIn(grey(self.folder / "x.png")[0][0], (0, 255))
 
     def test_a_blit(self):
         self.write_case("fam/blit", BLIT)
@@ -135,7 +210,7 @@ class Render(Captures):
             self.assertEqual(sorted((s["y"], s["x"]) for s in picture["samples"]),
                              [divmod(i, SIDE) for i, v in enumerate(INSIDE) if v])
             self.edgecase("render", CASE, *words, "-o", "x.png", check=0)
-            self.assertEqual(struct.unpack(">II", (self.folder / "x.png").read_bytes()[16:24]), (8, 16))
+            self.assertEqual(struct.unpack(">II", (self.folder / "x.png").read_bytes()[16:24]), (256, 512))
         told = self.edgecase("explain", CASE, "--pixel", "0,0", "--layer", "1", check=0).stdout
         self.assertIn("    [.]. . . . . .\n     . # # # # # #", told)
 

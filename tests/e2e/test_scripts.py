@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/run-suite hands to 'edgecase run'."""
+"""What scripts/run-suite hands to 'edgecase run', what scripts/install-packages says, and what is installed."""
+import json
 import os
 import pathlib
 import shutil
@@ -8,7 +9,7 @@ import subprocess
 import tempfile
 import unittest
 
-from support import SOURCE
+from support import PROGRAM, SOURCE
 
 
 class RunSuite(unittest.TestCase):
@@ -16,7 +17,7 @@ class RunSuite(unittest.TestCase):
         self.root = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-e2e-"))
         self.addCleanup(shutil.rmtree, self.root, ignore_errors=True)
         (self.root / "sub").mkdir()
-        for name, text in (("scripts/install-packages", "exit 0"), ("scripts/build", "exit 0"),
+        for name, text in (("scripts/install-packages", "exit 7"), ("scripts/build", "exit 0"),
                            ("build/release/bin/edgecase", 'printf "%s\\n" "$0" "$PWD" "$@"')):
             path = self.root / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -47,6 +48,80 @@ class RunSuite(unittest.TestCase):
         self.assertEqual(self.words("mine.toml", folder="sub"),
                          ["run", "--device", "llvmpipe", "-o", "../out/suite", "mine.toml"])
         self.assertEqual(self.words("-o", "here", folder="sub"), ["run", "--device", "llvmpipe", "-o", "here"])
+
+    def test_nothing_is_installed_if_cmake_finds_all(self):
+        self.assertEqual(self.words(), ["run", "--device", "llvmpipe", "-o", "out/suite"])  # install-packages would fail
+        (self.root / "scripts/build").write_text('#!/bin/sh\n[ "$2" != --only-configure ]\n')
+        done = subprocess.run([self.root / "scripts/run-suite"], capture_output=True, timeout=60, check=False)
+        self.assertEqual((done.returncode, done.stdout), (7, b""))
+
+
+class InstallPackages(unittest.TestCase):
+    """On a machine with these commands alone (a PATH of its own)."""
+
+    def say(self, *commands, lists=("scripts/packages.txt",), **stubs):
+        with tempfile.TemporaryDirectory(prefix="edgecase-e2e-") as folder:
+            for name in ("env", "bash", "cut", "sed", "grep", "mktemp", "rm", "cat", *commands):
+                (pathlib.Path(folder) / name).symlink_to(shutil.which(name))
+            for name, text in stubs.items():
+                path = pathlib.Path(folder) / name.replace("_", "-")
+                path.write_text(f"#!/bin/sh\n{text}\n")
+                path.chmod(0o755)
+            return subprocess.run([SOURCE / "scripts/install-packages", *lists], env={"PATH": folder}, cwd=SOURCE,
+                                  capture_output=True, text=True, timeout=60, check=False)
+
+    def test_without_apt(self):
+        head = "error: something that building or running needs is missing, and there is no apt-get to install it; install:\n    "
+        for manager, command in (("dnf", "sudo dnf install gcc-c++ cmake ninja-build "),
+                                 ("pacman", "sudo pacman -S --needed gcc cmake ninja pkgconf "),
+                                 ("other", "the packages that Debian calls g++ cmake ninja-build ")):
+            done = self.say(**{manager: "exit 9"})
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertTrue(done.stderr.startswith(head + command), done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 2)
+
+    def test_without_root(self):
+        done = self.say(apt_get="exit 9", id="echo 1000", dpkg_query='[ "$4" != mold ] && echo installed')
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertEqual(done.stderr, "error: packages are missing and neither root nor sudo is at hand; as root, run:\n"
+                         "    apt-get install -y --no-install-recommends mold\n")
+        self.assertEqual(self.say(apt_get="exit 9", id="echo 1000", dpkg_query="echo installed").returncode, 0)
+
+    def test_the_table_lacks_no_package(self):
+        needed = [line.split()[0] for line in (SOURCE / "scripts/packages.txt").read_text().splitlines()
+                  if line[:1] not in ("", "#") and "(optional)" not in line]
+        self.assertEqual(self.say().stderr.split(" calls ")[1].split(), needed)
+
+
+class Installed(unittest.TestCase):
+    """What 'cmake --install' leaves, moved elsewhere."""
+
+    def test_a_moved_prefix_has_all(self):
+        root = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-e2e-"))
+        self.addCleanup(shutil.rmtree, root, ignore_errors=True)
+        build = pathlib.Path(PROGRAM).resolve().parents[1]
+        subprocess.run(["cmake", "--install", build, "--prefix", root / "here"], check=True, capture_output=True, timeout=120)
+        moved = (root / "here").rename(root / "elsewhere")
+        env = {k: v for k, v in os.environ.items() if not k.startswith("EDGECASE_")}
+
+        def edgecase(*words):
+            done = subprocess.run([moved / "bin/edgecase", *words], env=env, cwd=root, capture_output=True, text=True,
+                                  timeout=120, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            return done.stdout
+
+        files = {case["file"] for case in json.loads(edgecase("list", "--json"))}
+        self.assertEqual({f for f in files if not f.startswith(f"{moved}/share/edgecase/cases/suite/")}, set())
+        self.assertEqual(len(files), len(list((SOURCE / "cases/suite").rglob("*.toml"))))
+        self.assertIn("1 pass", edgecase("run", "ties/apex-up", "--renderer=reference", "-o", "out"))
+        edgecase("render", "ties/apex-up", "-o", "x.png")
+        self.assertEqual((root / "x.png").read_bytes()[:4], b"\x89PNG")
+        self.assertIn(f"{moved}/bin/../lib/edgecase/edgecase-image-io.so", edgecase("doctor", "--renderer=reference"))
+        for kept, source in (("share/edgecase/cases/expectations", "cases/expectations"), ("share/edgecase/schema", "docs/schema")):
+            self.assertEqual(sorted(p.name for p in (moved / kept).iterdir()), sorted(p.name for p in (SOURCE / source).iterdir()))
+        for page in ("man/man1/edgecase.1", "bash-completion/completions/edgecase", "zsh/site-functions/_edgecase",
+                     "fish/vendor_completions.d/edgecase.fish"):
+            self.assertGreater((moved / "share" / page).stat().st_size, 1000)
 
 
 if __name__ == "__main__":

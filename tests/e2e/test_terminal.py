@@ -6,6 +6,7 @@ import json
 import os
 import pty
 import re
+import select
 import shutil
 import struct
 import subprocess
@@ -120,6 +121,15 @@ class Explain(TerminalTest):
 class Table(ProgramTest):
     """Help, completion, manual page and docs/cli.md are made of, or held to, one table."""
 
+    def setUp(self):
+        super().setUp()
+        text = (self.suite / "fam/c1.toml").read_text()
+        self.write_case("fam/m", text.replace("[target]", "[matrix]\nrotation = [0, 90]\n[target]")
+                        .replace("[[draw]]", "[[draw]]\nrotate = \"rotation\""))
+        words = self.folder / "words"
+        words.write_text("#!/bin/sh\nprintf begin; IFS='|'; printf '=%s=end\\n' \"$*\"\n")
+        words.chmod(0o755)
+
     def commands(self):
         text = self.edgecase("--help", check=0).stdout.split("Examples:")[0]
         return re.findall(r"^  ([a-z]+) ", text, re.M)
@@ -137,7 +147,7 @@ class Table(ProgramTest):
         for command in commands:
             section = man.split(f".SS edgecase {command}\n")[1].split(".SS ")[0]
             page = docs.split(f"## `edgecase {command}`", 1)[1].split("\n## ", 1)[0]
-            bash = re.findall(rf"^ +{command}\) COMPREPLY=.*$", outputs["bash"], re.M)
+            bash = re.findall(rf"^ +{command}\) _edgecase_words .*$", outputs["bash"], re.M)
             zsh = outputs["zsh"].split(f"({command}) entries=(")[1].split(") ;;")[0]
             fish = "".join(x for x in outputs["fish"].splitlines(True) if f"from {command}'" in x)
             for option in self.options(command):
@@ -156,14 +166,46 @@ class Table(ProgramTest):
                 self.assertIn("Examples:", self.edgecase(command, "--help", check=0).stdout)
 
     def complete(self, *words):
-        script = ('source <("$0" completion bash); COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _edgecase; '
+        """What bash is told; it breaks the words itself, so the line alone counts."""
+        script = ('source <("$0" completion bash); COMP_LINE="$1"; COMP_POINT=${#COMP_LINE}; _edgecase; '
                   'printf "%s\\n" "${COMPREPLY[@]}"')
-        env = self.environment()
-        env["PATH"] = f"{os.path.dirname(PROGRAM)}:{env['PATH']}"
-        done = subprocess.run(["bash", "-c", script, PROGRAM, "edgecase", *words], env=env, cwd=self.folder,
-                              capture_output=True, text=True, timeout=60, check=True)
+        done = subprocess.run(["bash", "-c", script, PROGRAM, " ".join(("edgecase", *words))], env=self.shell_environment(),
+                              cwd=self.folder, capture_output=True, text=True, timeout=60, check=True)
         self.assertEqual(done.stderr, "")
         return done.stdout.split()
+
+    def shell_environment(self):
+        env = self.environment()
+        env["PATH"] = f"{os.path.dirname(PROGRAM)}:{env['PATH']}"
+        return env | {"TERM": "xterm", "HOME": str(self.folder), "ZDOTDIR": str(self.folder), "INPUTRC": "/dev/null",
+                      "XDG_CONFIG_HOME": str(self.folder), "XDG_DATA_HOME": str(self.folder)}
+
+    def typed(self, shell, start, line):
+        """The words of a command line after Tab, as a shell on a terminal has them: Ctrl-A puts a command before them."""
+        parent, child = pty.openpty()
+        fcntl.ioctl(child, termios.TIOCSWINSZ, struct.pack("HHHH", 30, 200, 0, 0))
+        with subprocess.Popen(shell, env=self.shell_environment(), cwd=self.folder, stdin=child, stdout=child, stderr=child,
+                              start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0)) as process:
+            os.close(child)
+            seen = b""
+
+            def read_until(mark, send):
+                nonlocal seen
+                seen = b""
+                os.write(parent, send)
+                while mark not in seen:
+                    ready, _, _ = select.select([parent], [], [], 60)
+                    self.assertTrue(ready, seen)
+                    seen += os.read(parent, 65536)
+                return seen.decode(errors="replace")
+
+            read_until(b"ready-8", (start + "; echo ready-7 | tr 7 8\r").encode())
+            os.write(parent, line.encode() + b"\t")
+            text = read_until(b"=end", b"\x01./words \x05\r")
+            process.kill()
+            process.wait()
+        os.close(parent)
+        return re.search(r"begin=(.*?)=end", text, re.S).group(1).split("|")
 
     def test_bash_completes(self):
         self.assertEqual(self.complete("co"), ["compare", "completion"])
@@ -173,10 +215,37 @@ class Table(ProgramTest):
         self.assertEqual(self.complete("completion", "z"), ["zsh"])
         self.assertEqual(self.complete("report", "ca"), ["cases"])
         self.assertEqual(self.complete("run", "--seed", ""), [])
+        # What readline keeps, since it breaks words at '=', ':' and '@', is not told again.
+        self.assertEqual(self.complete("run", "--profile=p"), ["practice"])
+        self.assertEqual(self.complete("run", "@rule:cover.i"), ["cover.inside"])
+        self.assertEqual(self.complete("run", "'@rule:cover.i"), ["@rule:cover.inside"])
+        self.assertEqual(self.complete("explain", "--rule", "cover.i"), ["cover.inside"])
+        self.assertEqual(self.complete("run", "!fam/c1"), ["!fam/c1"])
+        self.assertEqual(self.complete("lint", "fam/m:r"), ["rotation=0", "rotation=90"])
+        self.assertEqual(self.complete("lint", "fam/m:rotation=9"), ["90"])
+
+    TYPED = ((("run", "--profile=pr"), "--profile=practice"), (("run", "@rule:tie.t"), "@rule:tie.top-left"),
+             (("explain", "--rule", "tie.t"), "tie.top-left"), (("lint", "fam/m:rotation=9"), "fam/m:rotation=90"),
+             (("run", "--prof"), "--profile"), (("run", "--icd", "no"), "note.json"), (("lint", "./ca"), "./cases/"))
+
+    def check_shell(self, shell, start):
+        (self.folder / "note.json").write_text("{}")
+        for words, last in self.TYPED:
+            got = self.typed(shell, start, " ".join(("edgecase", *words)))
+            self.assertEqual(got, ["edgecase", *words[:-1], last])
+
+    def test_bash_on_a_terminal(self):
+        self.check_shell(["bash", "--norc", "--noprofile", "-i"], "bind 'set enable-bracketed-paste off'; source <(edgecase completion bash)")
+
+    def test_zsh_on_a_terminal(self):
+        self.check_shell(["zsh", "-f", "-i"], "autoload -Uz compinit; compinit -u -D; source <(edgecase completion zsh)")
+
+    def test_fish_on_a_terminal(self):
+        self.check_shell(["fish", "--no-config", "-i"], "edgecase completion fish | source")
 
     def test_scripts_are_of_their_shells(self):
         for shell, check in (("bash", ["-n"]), ("zsh", ["-n"]), ("fish", ["--no-execute"])):
-            if shutil.which(shell):
+            with self.subTest(shell):
                 script = self.edgecase("completion", shell, check=0).stdout
                 done = subprocess.run([shell, *check], input=script, capture_output=True, text=True, timeout=60,
                                       check=False)

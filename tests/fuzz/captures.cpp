@@ -19,7 +19,8 @@ struct Delivery {
     cases::Case c;
     std::vector<capture::PlaneSpec> planes;
     Delivery() {
-        std::string name = (std::filesystem::temp_directory_path() / "edgecase-fuzz-XXXXXX").string();
+        std::string name =
+            (std::filesystem::temp_directory_path() / "edgecase-fuzz-XXXXXX").string();
         path = ::mkdtemp(name.data());
         auto loaded = cases::load_text(
             "format = 1\ndescription = \"A triangle.\"\nrules = [\"cover.inside\"]\n[target]\n"

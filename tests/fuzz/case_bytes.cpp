@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bytes of a case, changed anywhere, are refused or read as a case.
-#include "cases/load/loader.hpp"
 #include "cases/wire/case_bytes.hpp"
+
+#include "cases/load/loader.hpp"
 #include "tests/fuzz/input.hpp"
 
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A case file of any bytes loads or is refused with errors; what loads goes through a worker's bytes
-// and back unchanged.
+// A case file of any bytes loads or is refused with errors; what loads goes through a worker's
+// bytes and back unchanged.
 #include "cases/load/loader.hpp"
 #include "cases/wire/case_bytes.hpp"
 #include "tests/fuzz/input.hpp"

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An expectation file of any bytes, of either format, parses or is refused; what parses can be asked.
+// An expectation file of any bytes, of either format, parses or is refused; what parses can be
+// asked.
 #include "run/expected/expectation_file.hpp"
+
 #include "tests/fuzz/input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -27,9 +27,9 @@ inline void require(bool holds) {
     }
 }
 
-// A valid message with the edits that the input holds, four bytes each: two of a place, one that says
-// what is done there, one new byte. A parser of bytes with a checksum or many lengths is not reached
-// by random bytes; by these it is.
+// A valid message with the edits that the input holds, four bytes each: two of a place, one that
+// says what is done there, one new byte. A parser of bytes with a checksum or many lengths is not
+// reached by random bytes; by these it is.
 inline std::string edited(std::string whole, std::string_view edits) {
     for (; edits.size() >= 4 && !whole.empty(); edits.remove_prefix(4)) {
         const auto byte = [&](size_t k) { return static_cast<unsigned char>(edits[k]); };

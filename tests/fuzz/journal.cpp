@@ -19,7 +19,8 @@ namespace {
 struct Folder {
     std::filesystem::path path;
     Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "edgecase-fuzz-XXXXXX").string();
+        std::string name =
+            (std::filesystem::temp_directory_path() / "edgecase-fuzz-XXXXXX").string();
         path = ::mkdtemp(name.data());
     }
     ~Folder() { std::filesystem::remove_all(path); }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Feeds a target every file of the folders that are named and, from each, mutations: the same ones in
-// every run. This is the smoke test where no libFuzzer is; it finds what a later change breaks.
+// Feeds a target every file of the folders that are named and, from each, mutations: the same ones
+// in every run. This is the smoke test where no libFuzzer is; it finds what a later change breaks.
 //   usage: fuzz_NAME MUTATIONS FOLDER...   (MUTATIONS: a file)
 #include <algorithm>
 #include <cstdio>

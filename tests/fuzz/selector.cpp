@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Selectors of any bytes, one a line, choose cases or are refused in one sentence.
+#include "cases/model/selector.hpp"
+
 #include <sstream>
 
-#include "cases/model/selector.hpp"
 #include "tests/fuzz/input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
