@@ -175,7 +175,7 @@ class Update(CompareTest):
         self.run_as("a", fault="flip-pixel@fam/c1,segv@fam/c3")
         self.update("--bug", "mesa#7", "--until", "2999-01-01")
         text = self.file.read_text()
-        self.assertRegex(text, r"\A# edgecase-expectations 2\n# device: Edgecase reference   driver: \S+ =1\.0   profile: direct3d\n"
+        self.assertRegex(text, r"\A# edgecase-expectations 2\n# device: Edgecase reference   driver: built in   profile: direct3d\n"
                                rf"fam/c1   fail   mesa#7   {FLIPPED}   until=2999-01-01   # 1 \w+ of 64 samples, \S+ \[\w+\]\.\n"
                                r"fam/c3   crash   mesa#7   signal=SIGSEGV   until=2999-01-01   # .*SIGSEGV.*\n\Z")
         self.run_suite("--expect", self.file, fault="flip-pixel@fam/c1,segv@fam/c3", check=0)
