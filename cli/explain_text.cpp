@@ -51,17 +51,30 @@ std::string shortened(const std::string& exact) {
     return exact.size() <= kLimit ? exact : exact.substr(0, kLimit) + "...";
 }
 
-std::string values_text(const std::vector<ref::ExpectedValue>& values) {
+// What any basis, bias and store may make of a value (ValueReference::range()).
+std::string accepted_text(ref::ValueReference& values, uint32_t triangle, cases::SampleId sample,
+                          const ref::ExpectedValue& v) {
+    if (!(v.factor > 0)) {
+        return {};
+    }
+    std::string text = fmt::format(", accepted within {:.4g} x {:.3g}", v.factor, v.budget);
+    const ref::ValueRange all =
+        v.part.empty() ? values.range(triangle, sample, v.quantity) : ref::ValueRange{};
+    return all.is_promised
+               ? text + fmt::format(", of all bases {:.9g} to {:.9g}", all.low, all.high)
+               : text;
+}
+
+std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::SampleId sample) {
     std::string text;
-    for (const ref::ExpectedValue& v : values) {
+    for (const ref::ExpectedValue& v : values.expected(triangle, sample)) {
         if (v.is_flat) {
             text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", to_text(v), v.nearest,
                                 v.also.empty() ? "exactly" : v.also);
         } else {
             text += fmt::format(
                 "        {:<14} {:.9g} = {}{}{}{}\n", to_text(v), v.nearest, shortened(v.exact),
-                v.factor > 0 ? fmt::format(", accepted within {:.4g} x {:.3g}", v.factor, v.budget)
-                             : "",
+                accepted_text(values, triangle, sample, v),
                 v.also.empty() ? "" : ", ", v.also);
         }
     }
@@ -215,7 +228,7 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     for (size_t i = 0; i < std::min(order.size(), kShown); ++i) {
         text += triangle_text(*order[i]);
         if (order[i]->decision.coverage != ref::Coverage::must_not) {
-            text += values_text(values.expected(order[i]->index, sample));
+            text += values_text(values, order[i]->index, sample);
         }
     }
     if (order.size() > kShown) {

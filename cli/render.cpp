@@ -53,10 +53,15 @@ Json values_json(Reference& r, uint32_t triangle, size_t index) {
                           {"exact", v.exact},
                           {"nearest", number(v.nearest)},
                           {"flat", v.is_flat}});
-        if (v.is_flat || v.factor > 0) {
-            const double margin = v.factor * v.budget;
-            values.back()["low"] = number(v.nearest - margin);
-            values.back()["high"] = number(v.nearest + margin);
+        // A part beside a value and a level of detail are told, and held to no bounds of their own.
+        const bool is_bounded = v.part.empty() && v.factor > 0;
+        const ref::ValueRange all = v.is_flat ? ref::ValueRange{true, v.nearest, v.nearest}
+                                    : is_bounded
+                                        ? r.values.range(triangle, r.id(index), v.quantity)
+                                        : ref::ValueRange{};
+        if (all.is_promised) {
+            values.back()["low"] = number(all.low);
+            values.back()["high"] = number(all.high);
         }
         if (!v.also.empty()) {
             values.back()["also"] = v.also;

@@ -10,6 +10,8 @@
 #include <optional>
 #include <span>
 
+#include "ref/number/rational.hpp"
+#include "ref/value/accept/reach.hpp"
 #include "ref/value/describe.hpp"
 #include "ref/value/reference.hpp"
 #include "ref/value/sample_values.hpp"
@@ -23,6 +25,39 @@ using value::is_plain_depth;
 using value::Kind;
 using value::nominal_depth;
 using value::Quantity;
+
+namespace {
+
+// The numbers that the attachment may hold of depths in `range`: clamped and, in fixed point,
+// rounded as judging allows (store_of() and may_store() of ref/value/accept/reach.hpp).
+void store_depth(const value::Store& store, cases::DepthFormat format, ValueRange& range) {
+    const auto clamped = [&](double z) {
+        return std::clamp(z, store.viewport.low, store.viewport.high);
+    };
+    const double low = clamped(range.low);
+    const double high = clamped(range.high);
+    range.low = store.must_clamp ? low : std::min(low, range.low);
+    range.high = store.must_clamp ? high : std::max(high, range.high);
+    if (store.steps <= 0) {
+        return;
+    }
+    const mpq_class least = mpq_class(range.low) * mpq_class(store.steps);
+    const mpq_class most = mpq_class(range.high) * mpq_class(store.steps);
+    const mpq_class rounding(store.rounding);
+    const bool is_neighbour = store.rounding >= 1;
+    const double first =
+        is_neighbour ? floor_of(least).get_d() : ceil_of(mpq_class(least - rounding)).get_d();
+    const double last =
+        is_neighbour ? ceil_of(most).get_d() : floor_of(mpq_class(most + rounding)).get_d();
+    const auto depth_of = [&](double code) {
+        const double inside = std::clamp(code, 0.0, store.steps);
+        return static_cast<double>(cases::depth_of_code(static_cast<uint32_t>(inside), format));
+    };
+    range.low = depth_of(first);
+    range.high = depth_of(last);
+}
+
+}  // namespace
 
 ValueRange ValueReference::range(uint32_t t, cases::SampleId sample, const QuantityId& id) {
     std::array<ValueRange, 4> out;
@@ -106,6 +141,9 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
         range.high = std::nextafter(std::nextafter(range.high, HUGE_VAL), HUGE_VAL);
         range.is_promised =
             range.is_promised && std::isfinite(range.low) && std::isfinite(range.high);
+        if (range.is_promised && all[only[k]].id.is_depth()) {
+            store_depth(value::store_of(balls, all[only[k]]), primitive.depth_format, range);
+        }
     }
 }
 
@@ -153,7 +191,9 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
             e.budget = v.budget.get_d();
             e.factor = budget_factor(impl_->profile);
             if (q.id.is_depth() && !is_plain_depth(primitive)) {
-                e.nearest = nominal_depth(primitive, basis, e.nearest, impl_->profile);
+                const mpq_class stored = nominal_depth(primitive, basis, v.value, impl_->profile);
+                e.exact = stored.get_str();
+                e.nearest = stored.get_d();
             }
         }
         out.push_back(std::move(e));

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "cases/model/rule_ids.hpp"
+#include "ref/number/rational.hpp"
 #include "ref/value/describe.hpp"
 #include "ref/value/reference.hpp"
 
@@ -44,14 +45,17 @@ ReasonKind depth_reason(const value::Primitive& primitive, double z) {
 
 }  // namespace
 
-// The depth that a device most likely stores, from the exact one of its plane.
-double value::nominal_depth(const Primitive& primitive, const Basis<mpq_class>& basis, double z,
-                            Profile profile) {
+mpq_class value::nominal_depth(const Primitive& primitive, const Basis<mpq_class>& basis,
+                               const mpq_class& z, Profile profile) {
     const auto path = value::make_depth_path<mpq_class>(primitive, profile);
-    double out = z + value::nominal_bias(path, basis);
-    out = std::clamp(out, path.viewport.low, path.viewport.high);
+    const mpq_class biased = z + value::nominal_bias(path, basis);
+    const mpq_class out = std::clamp(biased, mpq_class(path.viewport.low),
+                                     mpq_class(path.viewport.high));
     const double steps = cases::depth_steps(path.format);
-    return steps > 0 ? std::nearbyint(out * steps) / steps : out;
+    const mpq_class half(1, 2);
+    return steps > 0 ? mpq_class(floor_of(mpq_class(out * mpq_class(steps) + half))) /
+                           mpq_class(steps)
+                     : out;
 }
 
 void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Quantity& q,
@@ -164,7 +168,7 @@ void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const Fragme
                     reason = depth_reason(primitive, v.value.get_d());
                     expected =
                         fmt::format("{:.9g} or near it (plane {:.9g} within {:.4g} x {:.3g})",
-                                    nominal_depth(primitive, basis, v.value.get_d(), profile),
+                                    nominal_depth(primitive, basis, v.value, profile).get_d(),
                                     v.value.get_d(), budget_factor(profile), v.budget.get_d());
                 }
             }

@@ -96,9 +96,10 @@ inline ValueMismatch mismatch_of(const Quantity& q, ReasonKind reason, cases::Pr
     return m;
 }
 
-// The depth that a device most likely stores, from the exact one of its plane.
-double nominal_depth(const Primitive& primitive, const Basis<mpq_class>& basis, double z,
-                     cases::Profile profile);
+// The depth that a device most likely stores, from the exact one of its plane: with the bias of
+// nominal_bias(), clamped, and in fixed point the nearest step.
+mpq_class nominal_depth(const Primitive& primitive, const Basis<mpq_class>& basis,
+                        const mpq_class& z, cases::Profile profile);
 
 }  // namespace value
 

@@ -189,18 +189,18 @@ Range<T> bias_of(const DepthPath<T>& path, const Basis<T>& basis, const T& facto
     return o;
 }
 
-double nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>& basis) {
+mpq_class nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>& basis) {
     if (!path.bias) {
         return 0;
     }
     const Form<mpq_class>& form = basis.planes[kPlaneDepth].form;
-    const double m = std::max(std::fabs(form.x.get_d()), std::fabs(form.y.get_d()));
-    const double r = has_constant_unit(path.format, *path.bias) ? constant_unit(path.format)
-                                                                : path.unit.high.get_d();
-    const double o =
-        m * static_cast<double>(path.bias->slope) + r * static_cast<double>(path.bias->constant);
-    const auto clamp = static_cast<double>(path.bias->clamp);
-    return clamp > 0 ? std::min(o, clamp) : clamp < 0 ? std::max(o, clamp) : o;
+    const mpq_class m = larger(magnitude(form.x), magnitude(form.y));
+    const mpq_class r = has_constant_unit(path.format, *path.bias)
+                            ? mpq_class(constant_unit(path.format))
+                            : path.unit.high;
+    const mpq_class o = m * rational(path.bias->slope) + r * rational(path.bias->constant);
+    const mpq_class clamp = rational(path.bias->clamp);
+    return clamp > 0 ? smaller(o, clamp) : clamp < 0 ? larger(o, clamp) : o;
 }
 
 template DepthPath<Ball> make_depth_path<Ball>(const Primitive&, cases::Profile);

@@ -56,6 +56,6 @@ Range<T> clamped(const Range<T>& z, const Range<double>& viewport) {
 
 // The bias that most devices add, for pictures: m = max(|zx|, |zy|), and r is one step of 2^-n or
 // 2^(e-23).
-double nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>& basis);
+mpq_class nominal_bias(const DepthPath<mpq_class>& path, const Basis<mpq_class>& basis);
 
 }  // namespace ref::value

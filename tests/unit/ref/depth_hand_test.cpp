@@ -290,6 +290,62 @@ TEST(DepthHand, ClampIsExactAndAfterTheBias) {
     }
 }
 
+// What is told of a depth is what is accepted: a bias of 1000 2^-24 on 1/2, and a clamp.
+TEST(DepthHand, ToldDepthIsBiasedAndClamped) {
+    const auto told = [](const cases::Case& c, Profile profile) {
+        ValueReference values(c, Limits{}, profile);
+        for (const ExpectedValue& e : values.expected(0, {0, 0, 0})) {
+            if (e.quantity.is_depth()) {
+                return e;
+            }
+        }
+        return ExpectedValue{};
+    };
+    cases::Case c = case_of({half_plane(0.5)});
+    c.draws[0].depth.bias = cases::DepthBias{1000, 0, 0};
+    for (const Profile profile : cases::kProfiles) {
+        EXPECT_EQ(told(c, profile).exact, mpq_class(0.5 + 1000 * 0x1p-24).get_str());
+        EXPECT_DOUBLE_EQ(told(c, profile).nearest, 0.5 + 1000 * 0x1p-24);
+    }
+    c.draws[0].viewport.max_depth = 0.25F;
+    c.draws[0].depth.clamp = true;
+    c.draws[0].depth.bias->constant = 0x1p24F;
+    EXPECT_EQ(told(c, Profile::direct3d).exact, "1/4");
+    c.target.depth_format = DepthFormat::d16_unorm;  // 16383.75 steps
+    EXPECT_EQ(told(c, Profile::direct3d).exact, mpq_class(16384, 65535).get_str());
+}
+
+// The bounds that are told hold exactly the stored depths that are accepted, in every format.
+TEST(DepthHand, ToldRangeIsWhatIsAccepted) {
+    cases::Case c = case_of({half_plane(0.25)}, DepthFormat::d16_unorm);
+    for (const Profile profile : {Profile::practice, Profile::direct3d}) {
+        for (const bool is_biased : {false, true}) {
+            c.draws[0].depth.bias.reset();
+            if (is_biased) {
+                c.draws[0].depth.bias = cases::DepthBias{7, 0, 0};
+            }
+            ValueReference values(c, Limits{}, profile);
+            const ValueRange range = values.range(0, {0, 0, 0}, QuantityId{});
+            ASSERT_TRUE(range.is_promised);
+            for (uint32_t code = 16370; code < 16410; ++code) {
+                const double depth = cases::depth_of_code(code, DepthFormat::d16_unorm);
+                EXPECT_EQ(depth >= range.low && depth <= range.high, accepts(c, depth, profile))
+                    << code;
+            }
+        }
+    }
+    c = case_of({half_plane(0.5)});
+    c.draws[0].viewport.max_depth = 0.25F;
+    c.draws[0].depth.clamp = true;
+    c.draws[0].depth.bias = cases::DepthBias{0x1p24F, 0, 0};
+    for (const Profile profile : cases::kProfiles) {
+        ValueReference values(c, Limits{}, profile);
+        const ValueRange range = values.range(0, {0, 0, 0}, QuantityId{});
+        EXPECT_EQ(range.low, 0.25);
+        EXPECT_EQ(range.high, 0.25);
+    }
+}
+
 // z = 1/4 is 16383.75 steps of D16: 16383 or 16384, and within 0.6 only the latter.
 TEST(DepthHand, EitherNeighbourIsStored) {
     const cases::Case c = case_of({half_plane(0.25)}, DepthFormat::d16_unorm);
