@@ -72,10 +72,9 @@ std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::S
             text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", to_text(v), v.nearest,
                                 v.also.empty() ? "exactly" : v.also);
         } else {
-            text += fmt::format(
-                "        {:<14} {:.9g} = {}{}{}{}\n", to_text(v), v.nearest, shortened(v.exact),
-                accepted_text(values, triangle, sample, v),
-                v.also.empty() ? "" : ", ", v.also);
+            text += fmt::format("        {:<14} {:.9g} = {}{}{}{}\n", to_text(v), v.nearest,
+                                shortened(v.exact), accepted_text(values, triangle, sample, v),
+                                v.also.empty() ? "" : ", ", v.also);
         }
     }
     return text;

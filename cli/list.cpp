@@ -1,17 +1,14 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands that look at case files only: "list", "lint" and "explain".
+// The commands that tell what case files say: "list" and "explain".
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cases/base/counted.hpp"
-#include "cases/base/parallel.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
@@ -19,12 +16,9 @@
 #include "cli/explain_text.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
-#include "ref/expectation/expectation.hpp"
+#include "ref/exercise/exercise.hpp"
 #include "report/record/run.hpp"
 #include "report/text/wrap.hpp"
-#include "run/expected/expectation_file.hpp"
-#include "run/judge.hpp"
-#include "run/process/pool.hpp"
 
 namespace cli {
 
@@ -85,58 +79,6 @@ nlohmann::ordered_json to_json(const cases::Case& c) {
             {"notes", c.notes}};
 }
 
-// What is wrong with one case beyond its file's form: its picture, its rules, its control samples.
-cases::Errors check_case(const cases::Case& c) {
-    cases::Errors errors;
-    if (const std::string wrong = run::check_before_running(c); !wrong.empty()) {
-        errors.push_back({c.expected_hits ? c.expected_hits->where : c.where, c.id + ": " + wrong});
-    }
-    for (const std::string& rule : c.rules) {
-        if (cases::find_rule(rule) == nullptr) {
-            errors.push_back({c.where, c.id + ": there is no rule '" + rule + "'"});
-        }
-    }
-    if (c.blit) {
-        return errors;  // the loader refuses empty regions
-    }
-    for (const cases::Profile profile : cases::kProfiles) {
-        if (ref::expect(c, ref::Limits{}, profile).must_samples == 0) {
-            errors.push_back(
-                {c.where, c.id + ": at profile " + std::string(cases::to_string(profile)) +
-                              " no sample must be covered, so a device that draws nothing "
-                              "would pass; add a triangle that must be seen"});
-            break;
-        }
-    }
-    return errors;
-}
-
-// Expectation files beside the suite: their form, and that every line matches a case.
-cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
-    cases::Errors errors;
-    const std::vector<std::string> ids = suite.ids();
-    std::error_code none;
-    const auto folder =
-        std::filesystem::absolute(suite.root).lexically_normal().parent_path() / "expectations";
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-        if (entry.path().extension() != ".txt") {
-            continue;
-        }
-        ++count;
-        const auto file = run::load_expectations(entry.path());
-        if (!file) {
-            errors.insert(errors.end(), file.error().begin(), file.error().end());
-            continue;
-        }
-        if (const auto resolved = run::resolve_expectations({*file}, ids, true); !resolved) {
-            errors.insert(errors.end(), resolved.error().begin(), resolved.error().end());
-        }
-        const cases::Errors past = run::past_lines(*file);
-        errors.insert(errors.end(), past.begin(), past.end());
-    }
-    return errors;
-}
-
 }  // namespace
 
 int list_command(const Program& program, const ListOptions& options) {
@@ -168,57 +110,6 @@ int list_command(const Program& program, const ListOptions& options) {
         const std::string text =
             all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
         say(text + "\n");
-    }
-    return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
-}
-
-int lint_command(const Program& program, const LintOptions& options) {
-    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
-    if (!suite) {
-        const int code = report_stop(suite.error());
-        if (!options.quiet && code == report::kExitInvalidFile) {
-            std::printf("the suite cannot be read, %s\n",
-                        counted(suite.error().lines.size(), "error").c_str());
-        }
-        return code;
-    }
-    std::vector<cases::Errors> found(suite->selected.size());
-    run::Pool pool(cases::cores());
-    for (size_t k = 0; k < found.size(); ++k) {
-        pool.submit(
-            [&, k] {
-                const cases::Case& c = suite->cases[suite->selected[k]];
-                try {
-                    found[k] = check_case(c);
-                } catch (const std::exception& e) {
-                    found[k] = {{c.where, c.id + ": the reference failed: " + e.what()}};
-                }
-            },
-            [] {});
-    }
-    while (pool.outstanding() > 0) {
-        pool.wait();
-        pool.collect();
-    }
-    // Expectation files are about the suite, so they are none of a selection's business.
-    size_t files = 0;
-    if (options.suite.selectors.empty()) {
-        found.push_back(check_expectation_files(*suite, files));
-    }
-    size_t errors = 0;
-    for (const cases::Errors& list : found) {
-        for (const cases::Error& error : list) {
-            complain(cases::to_string(error));
-            ++errors;
-        }
-    }
-    if (!options.quiet) {
-        const std::string beside = files == 0 ? "" : " and " + counted(files, "expectation file");
-        std::printf("%s%s checked, %s\n", counted(suite->selected.size(), "case").c_str(),
-                    beside.c_str(), counted(errors, "error").c_str());
-    }
-    if (errors != 0) {
-        return report::kExitInvalidFile;
     }
     return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
 }

@@ -55,10 +55,9 @@ Json values_json(Reference& r, uint32_t triangle, size_t index) {
                           {"flat", v.is_flat}});
         // A part beside a value and a level of detail are told, and held to no bounds of their own.
         const bool is_bounded = v.part.empty() && v.factor > 0;
-        const ref::ValueRange all = v.is_flat ? ref::ValueRange{true, v.nearest, v.nearest}
-                                    : is_bounded
-                                        ? r.values.range(triangle, r.id(index), v.quantity)
-                                        : ref::ValueRange{};
+        const ref::ValueRange all = v.is_flat    ? ref::ValueRange{true, v.nearest, v.nearest}
+                                    : is_bounded ? r.values.range(triangle, r.id(index), v.quantity)
+                                                 : ref::ValueRange{};
         if (all.is_promised) {
             values.back()["low"] = number(all.low);
             values.back()["high"] = number(all.high);

@@ -171,6 +171,8 @@ void define_others(CLI::App& app, AllOptions& all) {
         app.add_subcommand("lint", "check case and expectation files; needs no Vulkan");
     add_suite(lint, all.lint.suite);
     lint->add_flag("-q,--quiet", all.lint.quiet, "print errors only");
+    lint->add_flag("-v,--verbose", all.lint.verbose,
+                   "tell which samples of each case exercise its rules");
 
     CLI::App* explain =
         app.add_subcommand("explain", "why a sample must, must not or may be covered");

@@ -73,7 +73,7 @@ struct ListOptions {
 
 struct LintOptions {
     SuiteOptions suite;
-    bool quiet = false;
+    bool quiet = false, verbose = false;
 };
 
 struct ExplainOptions {

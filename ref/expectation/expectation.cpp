@@ -11,6 +11,7 @@
 #include "ref/coverage/setup.hpp"
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/expectation/narrowing.hpp"
+#include "ref/expectation/onlooker.hpp"
 #include "ref/expectation/scan_all.hpp"
 
 namespace ref {
@@ -125,7 +126,8 @@ std::vector<fast::Span> scan_all(const cases::Case& c,
     return spans;
 }
 
-Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile) {
+Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile,
+                   Onlooker* onlooker) {
     Expectation out;
     out.limits = limits;
     out.profile = profile;
@@ -153,12 +155,25 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                 SampleExpectation& sample = out.samples[at];
                 const std::span<const Hit> hits = is_touched ? table.of(k) : std::span<const Hit>();
                 add_fragments(out, c, hits);
-                if (hits.empty()) {
+                if (hits.empty() && onlooker == nullptr) {
                     sample.writers_begin = static_cast<uint32_t>(out.writers.size());
                     continue;
                 }
-                sample = narrowing.judge(sample_position(i, j, s, c.target), s, hits, out.writers,
-                                         out.depth_writers);
+                const FixedPoint p = sample_position(i, j, s, c.target);
+                JudgeReasons reasons;
+                sample = narrowing.judge(p, s, hits, out.writers, out.depth_writers,
+                                         onlooker != nullptr ? &reasons : nullptr);
+                if (onlooker != nullptr &&
+                    !onlooker->look({at,
+                                     {i, j, s, row / c.target.height},
+                                     p,
+                                     hits,
+                                     sample.hits,
+                                     std::span(out.writers).subspan(sample.writers_begin),
+                                     reasons},
+                                    setups)) {
+                    onlooker = nullptr;
+                }
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
             }

@@ -66,9 +66,13 @@ struct Expectation {
     uint64_t either_samples = 0;  // samples where more than one answer is allowed
 };
 
-// Computes the expectation of a case. A case that the loader accepted always has one.
+class Onlooker;  // onlooker.hpp
+
+// Computes the expectation of a case. A case that the loader accepted always has one. An onlooker
+// sees each sample as it is judged.
 // Source: docs/design.md "The reference"; Vulkan specification, "Basic Polygon Rasterization".
-Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile);  // fast
+Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile,
+                   Onlooker* onlooker = nullptr);  // fast
 
 namespace exact {
 // The oracle computes the same from rationals alone, slowly and in the obvious way.

@@ -102,19 +102,28 @@ std::string to_text(int64_t fixed) {
     return to_text(exact_pixels(fixed));
 }
 
-bool TriangleExplanation::has(ReasonKind kind) const {
+namespace {
+
+bool has_reason(const Decision& decision, ReasonKind kind) {
     return std::any_of(decision.reasons.begin(), decision.reasons.end(),
                        [&](const Reason& r) { return r.kind == kind; });
 }
 
-bool TriangleExplanation::is_tie() const {
-    return why() == ReasonKind::top_left_in || why() == ReasonKind::top_left_out;
+}  // namespace
+
+bool is_suppressed(const Decision& decision) {
+    return decision.coverage == Coverage::must_not && !has_reason(decision, ReasonKind::outside) &&
+           !has_reason(decision, ReasonKind::outside_hull) &&
+           !has_reason(decision, ReasonKind::no_area) &&
+           !has_reason(decision, ReasonKind::top_left_out);
 }
 
-bool TriangleExplanation::is_suppressed() const {
-    return decision.coverage == Coverage::must_not && !has(ReasonKind::outside) &&
-           !has(ReasonKind::outside_hull) && !has(ReasonKind::no_area) &&
-           !has(ReasonKind::top_left_out);
+bool TriangleExplanation::has(ReasonKind kind) const {
+    return has_reason(decision, kind);
+}
+
+bool TriangleExplanation::is_tie() const {
+    return why() == ReasonKind::top_left_in || why() == ReasonKind::top_left_out;
 }
 
 Explainer::Explainer(const cases::Case& c, const Limits& limits, cases::Profile profile)

@@ -39,6 +39,9 @@ struct EdgeExplanation {
     EdgeKind kind = EdgeKind::top;
 };
 
+// True if the triangle would cover the sample but for the state of its draw, a plane or a distance.
+bool is_suppressed(const Decision& decision);
+
 struct TriangleExplanation {
     uint32_t index = 0;  // into assemble(case)
     cases::Triangle triangle;
@@ -57,9 +60,7 @@ struct TriangleExplanation {
     bool has(ReasonKind kind) const;
     // True if an edge on which the sample lies decides.
     bool is_tie() const;
-    // True if the triangle would cover the sample but for the state of its draw, a plane or a
-    // distance.
-    bool is_suppressed() const;
+    bool is_suppressed() const { return ref::is_suppressed(decision); }
 };
 
 struct SetExplanation {
@@ -85,8 +86,10 @@ class Explainer {
     // Layer, pixel and sample must lie inside the target.
     SampleExplanation explain(cases::SampleId sample);
 
-  private:
+    // Decides triangle t alone at a sample, whose position is p.
     Decision decide(uint32_t t, const FixedPoint& p, cases::SampleId sample);
+
+  private:
     TriangleExplanation explain_triangle(uint32_t t, const FixedPoint& p, Decision decision);
 
     const cases::Case& case_;

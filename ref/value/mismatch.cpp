@@ -49,13 +49,13 @@ mpq_class value::nominal_depth(const Primitive& primitive, const Basis<mpq_class
                                const mpq_class& z, Profile profile) {
     const auto path = value::make_depth_path<mpq_class>(primitive, profile);
     const mpq_class biased = z + value::nominal_bias(path, basis);
-    const mpq_class out = std::clamp(biased, mpq_class(path.viewport.low),
-                                     mpq_class(path.viewport.high));
+    const mpq_class out =
+        std::clamp(biased, mpq_class(path.viewport.low), mpq_class(path.viewport.high));
     const double steps = cases::depth_steps(path.format);
     const mpq_class half(1, 2);
-    return steps > 0 ? mpq_class(floor_of(mpq_class(out * mpq_class(steps) + half))) /
-                           mpq_class(steps)
-                     : out;
+    return steps > 0
+               ? mpq_class(floor_of(mpq_class(out * mpq_class(steps) + half))) / mpq_class(steps)
+               : out;
 }
 
 void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Quantity& q,

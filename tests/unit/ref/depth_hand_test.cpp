@@ -337,7 +337,8 @@ TEST(DepthHand, ToldRangeIsWhatIsAccepted) {
     c = case_of({half_plane(0.5)});
     c.draws[0].viewport.max_depth = 0.25F;
     c.draws[0].depth.clamp = true;
-    c.draws[0].depth.bias = cases::DepthBias{0x1p24F, 0, 0};
+    // 1/8 after the viewport; r is 2^-26 or, just below 1/8, 2^-27: the bias is 1/2 at least.
+    c.draws[0].depth.bias = cases::DepthBias{0x1p26F, 0, 0};
     for (const Profile profile : cases::kProfiles) {
         ValueReference values(c, Limits{}, profile);
         const ValueRange range = values.range(0, {0, 0, 0}, QuantityId{});

@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// "edgecase lint": what is wrong with case files, and what they test.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cases/base/counted.hpp"
+#include "cases/base/parallel.hpp"
+#include "cases/load/loader.hpp"
+#include "cases/model/rule.hpp"
+#include "cli/commands.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
+#include "ref/exercise/exercise.hpp"
+#include "report/record/run.hpp"
+#include "run/expected/expectation_file.hpp"
+#include "run/judge.hpp"
+#include "run/process/pool.hpp"
+
+namespace cli {
+
+using cases::counted;
+
+namespace {
+
+// So many cases are told one by one without being asked.
+constexpr size_t kFew = 16;
+// The fewest subpixel bits that a device may have [Vulkan, "Required Limits"].
+constexpr int kFewestSubpixelBits = 4;
+
+// The cases of a file, which claim the same rules, and which of these some sample exercises.
+struct File {
+    const cases::Case* first = nullptr;
+    std::vector<size_t> cases;  // of those linted
+    bool is_whole = false;      // all cases of the file are linted
+    std::vector<std::atomic<bool>> exercised;
+
+    explicit File(const cases::Case& c) : first(&c), exercised(c.rules.size()) {}
+    // The claims of which no sample is known yet.
+    std::vector<std::string> open_rules() const {
+        std::vector<std::string> out;
+        for (size_t k = 0; k < exercised.size(); ++k) {
+            if (!exercised[k]) {
+                out.push_back(first->rules[k]);
+            }
+        }
+        return out;
+    }
+    void note(const ref::Exercise& found) {
+        for (const ref::RuleShare& share : found.rules) {
+            for (size_t k = 0; k < exercised.size(); ++k) {
+                if (share.samples > 0 && share.rule == first->rules[k]) {
+                    exercised[k] = true;
+                }
+            }
+        }
+    }
+};
+
+std::map<std::string, File> files_of(const LoadedSuite& suite) {
+    std::map<std::string, File> files;
+    for (const size_t k : suite.selected) {
+        const cases::Case& c = suite.cases[k];
+        files.try_emplace(c.where.file, c).first->second.cases.push_back(k);
+    }
+    std::map<std::string, size_t> counts;
+    for (const cases::Case& c : suite.cases) {
+        ++counts[c.where.file];
+    }
+    for (auto& [name, file] : files) {
+        file.is_whole = file.cases.size() == counts[name];
+    }
+    return files;
+}
+
+// What was found of one case.
+struct Checked {
+    cases::Errors errors;
+    ref::Exercise exercise;
+};
+
+// What is wrong with one case beyond its file's form: its picture, its rules, its control samples.
+cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
+    cases::Errors errors;
+    if (const std::string wrong = run::check_before_running(c); !wrong.empty()) {
+        errors.push_back({c.expected_hits ? c.expected_hits->where : c.where, c.id + ": " + wrong});
+    }
+    for (const std::string& rule : c.rules) {
+        if (cases::find_rule(rule) == nullptr) {
+            errors.push_back({c.where, c.id + ": there is no rule '" + rule + "'"});
+        }
+    }
+    if (c.blit) {
+        return errors;  // the loader refuses empty regions
+    }
+    for (const cases::Profile profile : cases::kProfiles) {
+        if (exercise.must_samples.at(static_cast<size_t>(profile)) == 0) {
+            errors.push_back(
+                {c.where, c.id + ": at profile " + std::string(cases::to_string(profile)) +
+                              " no sample must be covered, so a device that draws nothing "
+                              "would pass; add a triangle that must be seen"});
+            break;
+        }
+    }
+    return errors;
+}
+
+// Does `work` for 0 .. count - 1 on all cores.
+void for_each_on_threads(size_t count, const std::function<void(size_t)>& work) {
+    run::Pool pool(cases::cores());
+    for (size_t k = 0; k < count; ++k) {
+        pool.submit([&work, k] { work(k); }, [] {});
+    }
+    while (pool.outstanding() > 0) {
+        pool.wait();
+        pool.collect();
+    }
+}
+
+// The claims of whole files that no sample exercises, neither with the reference's subpixel bits
+// nor with the fewest, with which more samples are near edges.
+cases::Errors check_claims(const LoadedSuite& suite, std::map<std::string, File>& files) {
+    std::vector<File*> open;
+    for (auto& [name, file] : files) {
+        if (file.is_whole && !file.open_rules().empty()) {
+            open.push_back(&file);
+        }
+    }
+    for_each_on_threads(open.size(), [&](size_t k) {
+        for (const size_t c : open[k]->cases) {
+            try {
+                open[k]->note(ref::exercise(suite.cases[c], ref::Limits{kFewestSubpixelBits},
+                                            open[k]->open_rules(), ref::Count::some));
+            } catch (const std::exception&) {
+                return;  // told of the case with the usual bits
+            }
+        }
+    });
+    cases::Errors errors;
+    for (const File* file : open) {
+        for (const std::string& rule : file->open_rules()) {
+            if (cases::find_rule(rule) == nullptr) {
+                continue;  // an error of its own
+            }
+            errors.push_back({file->first->where,
+                              fmt::format("no sample exercises the rule {}; one does {}, so take "
+                                          "the rule away or add a triangle",
+                                          rule, ref::exercise_of(rule))});
+        }
+    }
+    return errors;
+}
+
+// Expectation files beside the suite: their form, and that every line matches a case.
+cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
+    cases::Errors errors;
+    const std::vector<std::string> ids = suite.ids();
+    std::error_code none;
+    const auto folder =
+        std::filesystem::absolute(suite.root).lexically_normal().parent_path() / "expectations";
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+        if (entry.path().extension() != ".txt") {
+            continue;
+        }
+        ++count;
+        const auto file = run::load_expectations(entry.path());
+        if (!file) {
+            errors.insert(errors.end(), file.error().begin(), file.error().end());
+            continue;
+        }
+        if (const auto resolved = run::resolve_expectations({*file}, ids, true); !resolved) {
+            errors.insert(errors.end(), resolved.error().begin(), resolved.error().end());
+        }
+        const cases::Errors past = run::past_lines(*file);
+        errors.insert(errors.end(), past.begin(), past.end());
+    }
+    return errors;
+}
+
+std::string as_warning(const cases::Error& error) {
+    std::string text = cases::to_string(error);
+    constexpr std::string_view kError = ": error: ";
+    if (const size_t at = text.find(kError); at != std::string::npos) {
+        text.replace(at, kError.size(), ": warning: ");
+    }
+    return text;
+}
+
+void tell(const cases::Case& c, const ref::Exercise& exercise) {
+    const char* const unit = c.blit ? "texels" : "samples";
+    std::string text = c.id + "\n";
+    for (const ref::RuleShare& share : exercise.rules) {
+        text +=
+            fmt::format("    {}: {} of {} {}\n", share.rule, share.samples, exercise.samples, unit);
+    }
+    if (exercise.free_samples > 0) {
+        text +=
+            fmt::format("    free: {} of {} samples\n", exercise.free_samples, exercise.samples);
+    }
+    say(text);
+}
+
+}  // namespace
+
+int lint_command(const Program& program, const LintOptions& options) {
+    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    if (!suite) {
+        const int code = report_stop(suite.error());
+        if (!options.quiet && code == report::kExitInvalidFile) {
+            std::printf("the suite cannot be read, %s\n",
+                        counted(suite.error().lines.size(), "error").c_str());
+        }
+        return code;
+    }
+    std::map<std::string, File> files = files_of(*suite);
+    const size_t count = suite->selected.size();
+    const bool is_told = !options.quiet && (options.verbose || count <= kFew);
+    std::vector<Checked> checked(count);
+    for_each_on_threads(count, [&](size_t k) {
+        const cases::Case& c = suite->cases[suite->selected[k]];
+        File& file = files.at(c.where.file);
+        Checked& out = checked[k];
+        try {
+            const std::vector<std::string> rules = is_told ? c.rules : file.open_rules();
+            out.exercise = ref::exercise(c, ref::Limits{}, rules,
+                                         is_told ? ref::Count::all : ref::Count::some);
+            file.note(out.exercise);
+            out.errors = check_case(c, out.exercise);
+        } catch (const std::exception& e) {
+            out.errors = {{c.where, c.id + ": the reference failed: " + e.what()}};
+        }
+    });
+    cases::Errors errors;
+    const auto add = [&](const cases::Errors& more) {
+        errors.insert(errors.end(), more.begin(), more.end());
+    };
+    for (size_t k = 0; k < count; ++k) {
+        if (is_told) {
+            tell(suite->cases[suite->selected[k]], checked[k].exercise);
+        }
+        add(checked[k].errors);
+    }
+    const cases::Errors warnings = check_claims(*suite, files);
+    // Expectation files are about the suite, so they are none of a selection's business.
+    size_t expectation_files = 0;
+    if (options.suite.selectors.empty()) {
+        add(check_expectation_files(*suite, expectation_files));
+    }
+    for (const cases::Error& error : errors) {
+        complain(cases::to_string(error));
+    }
+    if (is_told) {
+        for (const cases::Error& warning : warnings) {
+            complain(as_warning(warning));
+        }
+    }
+    if (!options.quiet) {
+        const std::string beside =
+            expectation_files == 0 ? "" : " and " + counted(expectation_files, "expectation file");
+        std::string warned;
+        if (!warnings.empty()) {
+            warned =
+                ", " + counted(warnings.size(), "warning") + (is_told ? "" : " (-v tells all)");
+        }
+        std::printf("%s%s checked, %s%s\n", counted(count, "case").c_str(), beside.c_str(),
+                    counted(errors.size(), "error").c_str(), warned.c_str());
+    }
+    if (!errors.empty()) {
+        return report::kExitInvalidFile;
+    }
+    return suite->selected.empty() ? report::kExitNothingSelected : report::kExitOk;
+}
+
+}  // namespace cli

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/exercise/exercise.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "cases/model/rule.hpp"
+#include "ref/blit/blit.hpp"
+#include "ref/exercise/exercise_table.hpp"
+#include "ref/expectation/expectation.hpp"
+#include "ref/expectation/onlooker.hpp"
+
+namespace ref {
+
+namespace {
+
+using cases::Profile;
+
+// A rule that the case claims, and the samples found so far.
+class Claim {
+  public:
+    Claim(const ExerciseRow* row, size_t samples, Count count)
+        : row_(row), is_counting_(count == Count::all), found_(is_counting_ ? samples : 0) {}
+    const ExerciseRow& row() const { return *row_; }
+    bool is_done() const { return !is_counting_ && count_ > 0; }
+    bool has(size_t index) const { return is_counting_ && found_[index]; }
+    void add(size_t index) {
+        if (is_counting_ && !found_[index]) {
+            found_[index] = true;
+        }
+        ++count_;
+    }
+    uint64_t count() const { return count_; }
+
+  private:
+    const ExerciseRow* row_;
+    bool is_counting_;
+    std::vector<bool> found_;
+    uint64_t count_ = 0;
+};
+
+// Runs the tests of one profile.
+class Looks : public Onlooker {
+  public:
+    Looks(CaseFacts& facts, std::vector<Claim>& claims, Profile profile) : facts_(facts) {
+        for (Claim& claim : claims) {
+            for (const Way& way : claim.row().ways) {
+                if (way.test != nullptr && way.profile == profile && !claim.is_done()) {
+                    looks_.push_back({&claim, &way});
+                }
+            }
+        }
+    }
+    bool is_needed() const { return !looks_.empty(); }
+    bool look(const JudgedSample& sample, TriangleSetups& setups) override {
+        const View view{facts_, sample, setups};
+        std::erase_if(looks_, [](const Test& test) { return test.claim->is_done(); });
+        for (const Test& test : looks_) {
+            if (!test.claim->is_done() && !test.claim->has(sample.index) &&
+                test.way->test(view, test.claim->row().rule)) {
+                test.claim->add(sample.index);
+            }
+        }
+        return !looks_.empty();
+    }
+
+  private:
+    struct Test {
+        Claim* claim;
+        const Way* way;
+    };
+    CaseFacts& facts_;
+    std::vector<Test> looks_;
+};
+
+std::span<const uint32_t> part_of(const std::vector<uint32_t>& all, uint32_t begin,
+                                  uint32_t count) {
+    return std::span(all).subspan(count == 0 ? 0 : begin, count);
+}
+
+// Whether a sample has the same hits, writers and depths in two expectations.
+bool is_same(const Expectation& a, const Expectation& b, size_t index) {
+    const SampleExpectation& one = a.samples[index];
+    const SampleExpectation& other = b.samples[index];
+    return one.hits == other.hits && one.depth_may_be_clear == other.depth_may_be_clear &&
+           std::ranges::equal(part_of(a.writers, one.writers_begin, one.writers_count),
+                              part_of(b.writers, other.writers_begin, other.writers_count)) &&
+           std::ranges::equal(part_of(a.depth_writers, one.depth_begin, one.depth_count),
+                              part_of(b.depth_writers, other.depth_begin, other.depth_count));
+}
+
+void look_without(const cases::Case& c, const Limits& limits, const Expectation& expected,
+                  Claim& claim) {
+    for (const Way& way : claim.row().ways) {
+        if (way.take_away == nullptr || claim.is_done()) {
+            continue;
+        }
+        cases::Case other = c;
+        way.take_away(other);
+        const Expectation without = expect(other, limits, Profile::direct3d);
+        for (size_t k = 0; k < expected.samples.size() && !claim.is_done(); ++k) {
+            if (!claim.has(k) && expected.samples[k].hits.is_decided() &&
+                !is_same(expected, without, k)) {
+                claim.add(k);
+            }
+        }
+    }
+}
+
+void look_at_texels(const cases::Case& c, std::vector<Claim>& claims) {
+    const BlitReference reference(c);
+    for (Claim& claim : claims) {
+        const ExerciseRow& row = claim.row();
+        for (const Way& way : row.ways) {
+            if (way.texels == Way::Texels::none || !row.is_about(*c.blit)) {
+                continue;
+            }
+            for (uint32_t y = 0; y < c.target.height && !claim.is_done(); ++y) {
+                for (uint32_t x = 0; x < c.target.width && !claim.is_done(); ++x) {
+                    if (reference.is_inside(x, y) == (way.texels == Way::Texels::inside)) {
+                        claim.add(size_t{y} * c.target.width + x);
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+std::string_view exercise_of(std::string_view rule) {
+    const ExerciseRow* row = find_exercise(rule);
+    return row == nullptr ? std::string_view{} : row->how;
+}
+
+Exercise exercise(const cases::Case& c, const Limits& limits, std::span<const std::string> rules,
+                  Count count) {
+    Exercise out;
+    out.samples = uint64_t{c.target.width} * c.target.rows() * c.target.samples;
+    std::vector<Claim> claims;
+    for (const std::string& rule : rules) {
+        if (const ExerciseRow* row = find_exercise(rule)) {
+            claims.emplace_back(row, out.samples, count);
+        }
+    }
+    if (c.blit) {
+        look_at_texels(c, claims);
+    } else {
+        CaseFacts facts(c, limits);
+        for (size_t k = 0; k < std::size(cases::kProfiles); ++k) {
+            Looks looks(facts, claims, cases::kProfiles[k]);
+            const Expectation expected =
+                expect(c, limits, cases::kProfiles[k], looks.is_needed() ? &looks : nullptr);
+            out.must_samples[k] = expected.must_samples;
+            if (cases::kProfiles[k] == Profile::direct3d) {
+                out.free_samples = expected.either_samples;
+                for (Claim& claim : claims) {
+                    look_without(c, limits, expected, claim);
+                }
+            }
+        }
+    }
+    for (const Claim& claim : claims) {
+        out.rules.push_back({claim.row().rule, claim.count()});
+    }
+    return out;
+}
+
+}  // namespace ref
