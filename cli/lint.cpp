@@ -186,15 +186,6 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
     return errors;
 }
 
-std::string as_warning(const cases::Error& error) {
-    std::string text = cases::to_string(error);
-    constexpr std::string_view kError = ": error: ";
-    if (const size_t at = text.find(kError); at != std::string::npos) {
-        text.replace(at, kError.size(), ": warning: ");
-    }
-    return text;
-}
-
 void tell(const cases::Case& c, const ref::Exercise& exercise) {
     const char* const unit = c.blit ? "texels" : "samples";
     std::string text = c.id + "\n";
@@ -249,7 +240,7 @@ int lint_command(const Program& program, const LintOptions& options) {
         }
         add(checked[k].errors);
     }
-    const cases::Errors warnings = check_claims(*suite, files);
+    add(check_claims(*suite, files));
     // Expectation files are about the suite, so they are none of a selection's business.
     size_t expectation_files = 0;
     if (options.suite.selectors.empty()) {
@@ -258,21 +249,11 @@ int lint_command(const Program& program, const LintOptions& options) {
     for (const cases::Error& error : errors) {
         complain(cases::to_string(error));
     }
-    if (is_told) {
-        for (const cases::Error& warning : warnings) {
-            complain(as_warning(warning));
-        }
-    }
     if (!options.quiet) {
         const std::string beside =
             expectation_files == 0 ? "" : " and " + counted(expectation_files, "expectation file");
-        std::string warned;
-        if (!warnings.empty()) {
-            warned =
-                ", " + counted(warnings.size(), "warning") + (is_told ? "" : " (-v tells all)");
-        }
-        std::printf("%s%s checked, %s%s\n", counted(count, "case").c_str(), beside.c_str(),
-                    counted(errors.size(), "error").c_str(), warned.c_str());
+        std::printf("%s%s checked, %s\n", counted(count, "case").c_str(), beside.c_str(),
+                    counted(errors.size(), "error").c_str());
     }
     if (!errors.empty()) {
         return report::kExitInvalidFile;

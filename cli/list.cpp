@@ -16,7 +16,7 @@
 #include "cli/explain_text.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
-#include "ref/exercise/exercise.hpp"
+#include "ref/expectation/expectation.hpp"
 #include "report/record/run.hpp"
 #include "report/text/wrap.hpp"
 
@@ -50,6 +50,9 @@ void print_long(const cases::Case& c) {
     say(fmt::format("    file: {}:{}\n    target: {} x {}, {}{}, {}\n", c.where.file, c.where.line,
                     c.target.width, c.target.height, layers, counted(c.target.samples, "sample"),
                     drawn));
+    const uint64_t free = c.blit ? 0 : ref::expect(c, {}, cases::Profile::direct3d).either_samples;
+    say(fmt::format("    free: {} of {} samples at profile direct3d\n", free,
+                    uint64_t{c.target.width} * c.target.rows() * c.target.samples));
     for (const std::string& link : c.links) {
         say("    link: " + link + "\n");
     }

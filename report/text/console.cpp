@@ -9,6 +9,7 @@
 #include <cctype>
 #include <vector>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "report/text/causes.hpp"
 #include "report/text/sentences.hpp"
@@ -167,6 +168,31 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
     return text;
 }
 
+// "free: 64 of 256 samples at profile vulkan, ...": those with which nothing is tested.
+std::string free_text(const Run& run) {
+    uint64_t free = 0, samples = 0, count = 0;
+    const CaseRecord* most = nullptr;
+    for (const CaseRecord& r : run.cases) {
+        free += r.either_samples;
+        samples += r.compared_samples;
+        count += r.either_samples > 0 ? 1 : 0;
+        if (r.either_samples > (most == nullptr ? 0 : most->either_samples)) {
+            most = &r;
+        }
+    }
+    if (samples == 0) {
+        return {};
+    }
+    std::string text = fmt::format("free: {} of {} samples at profile {}", free, samples,
+                                   cases::to_string(run.profile));
+    if (most != nullptr) {
+        text +=
+            fmt::format(", in {}; most in {}: {} of {}", cases::counted(count, "case"),
+                        cases::printable(most->id), most->either_samples, most->compared_samples);
+    }
+    return text + '\n';
+}
+
 }  // namespace
 
 std::string console_header(const Run& run, const ConsoleStyle& style) {
@@ -229,6 +255,9 @@ std::string console_summary(const Run& run, const std::string& report_path,
         text += fmt::format("largest accepted error {}{}{} in {}\n", accepted_text(run, *worst),
                             worst->worst_quantity.empty() ? "" : ", ",
                             cases::printable(worst->worst_quantity), cases::printable(worst->id));
+    }
+    if (style.verbose) {
+        text += free_text(run);
     }
     const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
     text += report_path.empty()

@@ -295,11 +295,11 @@ class Listing(ProgramTest):
 
     def test_lint_tells_what_a_case_tests(self):
         self.write_case("fam/c3", (self.suite / "fam/c3.toml").read_text().replace('"cover.inside"', '"cover.inside", "depth.compare"'))
-        done = self.edgecase("lint", "fam/c3", check=0)
+        done = self.edgecase("lint", "fam/c3", check=3)
         self.assertEqual(done.stdout, "fam/c3\n    cover.inside: 30 of 64 samples\n    depth.compare: 0 of 64 samples\n"
-                         "    cover.shared-edge: 6 of 64 samples\n1 case checked, 0 errors, 1 warning\n")
-        self.assertIn("warning: no sample exercises the rule depth.compare; one does where the depth test", done.stderr)
-        self.assertEqual(self.edgecase("lint", "fam/c3", "-q", check=0).stdout, "")
+                         "    cover.shared-edge: 6 of 64 samples\n1 case checked, 1 error\n")
+        self.assertIn("error: no sample exercises the rule depth.compare; one does where the depth test", done.stderr)
+        self.assertEqual(self.edgecase("lint", "fam/c3", "-q", check=3).stdout, "")
 
     def test_lint_finds_a_wrong_picture(self):
         picture = "\\n".join(["........"] * 8)
