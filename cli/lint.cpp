@@ -14,17 +14,17 @@
 #include <vector>
 
 #include "cases/base/counted.hpp"
-#include "cases/base/parallel.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cli/commands.hpp"
+#include "cli/prepare/on_threads.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
+#include "cli/strength.hpp"
 #include "ref/exercise/exercise.hpp"
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
 #include "run/judge.hpp"
-#include "run/process/pool.hpp"
 
 namespace cli {
 
@@ -114,18 +114,6 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
     return errors;
 }
 
-// Does `work` for 0 .. count - 1 on all cores.
-void for_each_on_threads(size_t count, const std::function<void(size_t)>& work) {
-    run::Pool pool(cases::cores());
-    for (size_t k = 0; k < count; ++k) {
-        pool.submit([&work, k] { work(k); }, [] {});
-    }
-    while (pool.outstanding() > 0) {
-        pool.wait();
-        pool.collect();
-    }
-}
-
 // The claims of whole files that no sample exercises, neither with the reference's subpixel bits
 // nor with the fewest, with which more samples are near edges.
 cases::Errors check_claims(const LoadedSuite& suite, std::map<std::string, File>& files) {
@@ -203,6 +191,11 @@ void tell(const cases::Case& c, const ref::Exercise& exercise) {
 }  // namespace
 
 int lint_command(const Program& program, const LintOptions& options) {
+    if (options.strength && options.suite.selectors.empty()) {
+        return report_stop({report::kExitUsage,
+                            {"--strength draws each case with each fault, which takes long for a "
+                             "whole suite; name the cases"}});
+    }
     const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
     if (!suite) {
         const int code = report_stop(suite.error());
@@ -245,6 +238,9 @@ int lint_command(const Program& program, const LintOptions& options) {
     size_t expectation_files = 0;
     if (options.suite.selectors.empty()) {
         add(check_expectation_files(*suite, expectation_files));
+    }
+    if (options.strength && errors.empty()) {
+        add(tell_strength(*suite, options.quiet));
     }
     for (const cases::Error& error : errors) {
         complain(cases::to_string(error));

@@ -15,7 +15,9 @@ inline constexpr Examples kExamples[] = {
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
-    {"lint", "  edgecase lint my-case.toml                is a file of your own well formed\n"},
+    {"lint",
+     "  edgecase lint my-case.toml                is a file of your own well formed\n"
+     "  edgecase lint --strength my-case.toml     which known faults does it catch\n"},
     {"explain",
      "  edgecase explain 'ties/diagonal-edge:rotation=0' --pixel 3,3\n"
      "  edgecase explain --rule tie.top-left      what a rule demands\n"},

@@ -170,6 +170,8 @@ void define_others(CLI::App& app, AllOptions& all) {
     CLI::App* lint =
         app.add_subcommand("lint", "check case and expectation files; needs no Vulkan");
     add_suite(lint, all.lint.suite);
+    lint->add_flag("--strength", all.lint.strength,
+                   "tell which faults of the software device the cases catch");
     lint->add_flag("-q,--quiet", all.lint.quiet, "print errors only");
     lint->add_flag("-v,--verbose", all.lint.verbose,
                    "tell which samples of each case exercise its rules");

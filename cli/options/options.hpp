@@ -73,6 +73,7 @@ struct ListOptions {
 
 struct LintOptions {
     SuiteOptions suite;
+    bool strength = false;
     bool quiet = false, verbose = false;
 };
 

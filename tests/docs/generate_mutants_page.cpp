@@ -3,7 +3,8 @@
 //
 // Prints docs/mutants.md: every fault of the mutants' device and what catches it, every legal
 // device and that nothing is found wrong about it, every family and what it alone catches. From
-// the recorded runs (tests/mutants/*.tsv), the tables of faults and the list of legal devices.
+// the recorded runs (rasterizers/strength/*.tsv), the tables of faults and the list of legal
+// devices.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,14 +17,15 @@
 #include <sstream>
 
 #include "mutants/judge.hpp"
-#include "mutants/recorded.hpp"
+#include "mutants/lead.hpp"
+#include "rasterizers/strength/recorded.hpp"
 #include "tests/docs/wrapped.hpp"
 
 namespace {
 
-using mutants::FaultInfo;
-using mutants::Kill;
-using mutants::Matrix;
+using software::FaultInfo;
+using software::Kill;
+using software::Matrix;
 
 std::string contents(const std::filesystem::path& path) {
     std::ifstream in(path);
@@ -36,11 +38,9 @@ std::string contents(const std::filesystem::path& path) {
 class Sources {
   public:
     explicit Sources(const std::filesystem::path& folder) {
-        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
             const std::string name = entry.path().filename().string();
-            const bool is_table = name.starts_with("fault") || name.starts_with("expected") ||
-                                  name.starts_with("matrix") || name.ends_with("_test.cpp");
-            if (entry.path().extension() == ".cpp" && !is_table) {
+            if (entry.path().extension() == ".cpp" && !name.starts_with("fault")) {
                 texts_[name] = contents(entry.path());
             }
         }
@@ -86,8 +86,8 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
     bool is_complete = true;
     std::string table;
     size_t found = 0, count = 0;
-    for (const FaultInfo& info : mutants::all_faults()) {
-        const std::vector<Kill> kills = mutants::kills_of(matrix, info.fault);
+    for (const FaultInfo& info : software::all_faults()) {
+        const std::vector<Kill> kills = software::kills_of(matrix, info.fault);
         const std::string where = sources.of(info);
         if (kills.size() < 2 || where.empty()) {
             fmt::print(stderr, "error: {} is {}\n", info.name,
@@ -104,12 +104,12 @@ bool print_faults(const Matrix& matrix, const Sources& sources) {
         ++count;
         table += fmt::format("| `{}` | {} | {} | {} | {}`{}` | {} | {} | {} |\n", info.name,
                              info.change, where, code_words(info.rules), is_found ? "" : "! ", top,
-                             cases::to_string(mutants::loosest(kills)), kills.size(), cases);
+                             cases::to_string(software::loosest(kills)), kills.size(), cases);
     }
     const auto count_of = [&](auto&& is_counted) {
-        return std::count_if(mutants::all_faults().begin(), mutants::all_faults().end(),
+        return std::count_if(software::all_faults().begin(), software::all_faults().end(),
                              [&](const FaultInfo& info) {
-                                 return is_counted(mutants::kills_of(matrix, info.fault).size());
+                                 return is_counted(software::kills_of(matrix, info.fault).size());
                              });
     };
     fmt::print(
@@ -138,7 +138,7 @@ bool print_legal(const Matrix& matrix) {
     for (const mutants::LegalDevice& device : devices) {
         const auto result =
             std::find_if(matrix.legal.begin(), matrix.legal.end(),
-                         [&](const mutants::LegalResult& r) { return r.device == device.name; });
+                         [&](const software::LegalResult& r) { return r.device == device.name; });
         if (result == matrix.legal.end() || result->alarms > 0) {
             fmt::print(stderr, "error: the legal device {} {}\n", device.name,
                        result == matrix.legal.end() ? "was not run" : "has false alarms");
@@ -169,9 +169,9 @@ void print_families(const Matrix& matrix) {
         std::vector<std::string> needed;  // one of two that catch it at all
     };
     std::map<std::string, Family> families;
-    for (const FaultInfo& info : mutants::all_faults()) {
-        const std::vector<Kill> kills = mutants::kills_of(matrix, info.fault);
-        const cases::Profile level = mutants::loosest(kills);
+    for (const FaultInfo& info : software::all_faults()) {
+        const std::vector<Kill> kills = software::kills_of(matrix, info.fault);
+        const cases::Profile level = software::loosest(kills);
         const auto at_level = std::count_if(kills.begin(), kills.end(),
                                             [&](const Kill& kill) { return kill.level == level; });
         for (const Kill& kill : kills) {
@@ -211,24 +211,28 @@ void print_families(const Matrix& matrix) {
 
 int main(int argc, char** argv) try {
     if (argc != 2) {
-        std::fputs("usage: generate_mutants_page FOLDER\n", stderr);
+        std::fputs("usage: generate_mutants_page ROOT\n", stderr);
         return 2;
     }
-    const Matrix matrix = mutants::read_matrix(argv[1]);
+    const std::filesystem::path rasterizers = std::filesystem::path(argv[1]) / "rasterizers";
+    const Matrix matrix = software::read_matrix(rasterizers / "strength");
     fmt::print(
         "# What the suite catches of a broken rasterizer\n\n"
-        "Generated from `tests/mutants` by `scripts/generate-docs`; do not edit.\n\n{}\n",
+        "Generated from `rasterizers/` by `scripts/generate-docs`; do not edit.\n\n{}\n",
         wrapped(fmt::format(
-            "[tests/mutants](../tests/mutants/README.md) holds a rasterizer of its own, written as "
-            "drivers are, that shares no arithmetic with the reference. It can be given one fault "
+            "`rasterizers/software/` is a rasterizer of its own, written as drivers are, that "
+            "shares no "
+            "arithmetic with the reference. It can be given one fault "
             "at a time that an author could make, and it can be given each choice that the "
             "specifications leave open. Below is what a run of {} cases from {} case files found; "
             "`cmake --build --preset release --target record_mutants` runs the whole suite and "
-            "rewrites what this page is made of. The tests run each fault again on two of its "
+            "rewrites what this page is made of ([tests/mutants](../tests/mutants/README.md)); "
+            "`edgecase lint --strength` asks the same of your own case. The tests run each fault "
+            "again on two of its "
             "cases, and each legal device on a share of the suite. "
             "[breaking-layer.md](breaking-layer.md) has the same of a real driver with faults.",
             matrix.leaves, matrix.files)));
-    const bool all_caught = print_faults(matrix, Sources(argv[1]));
+    const bool all_caught = print_faults(matrix, Sources(rasterizers / "software"));
     const bool all_legal = print_legal(matrix);
     print_families(matrix);
     return all_caught && all_legal ? 0 : 3;

@@ -301,6 +301,20 @@ class Listing(ProgramTest):
         self.assertIn("error: no sample exercises the rule depth.compare; one does where the depth test", done.stderr)
         self.assertEqual(self.edgecase("lint", "fam/c3", "-q", check=3).stdout, "")
 
+    def test_lint_tells_which_faults_a_case_catches(self):
+        self.assertIn("name the cases", self.edgecase("lint", "--strength", check=2).stderr)
+        told = self.edgecase("lint", "--strength", "fam/c3", check=0).stdout
+        self.assertRegex(told, r"(?m)^\S+/c3\.toml catches \d+ of \d+ known faults$")
+        self.assertRegex(told, r"    draws_nothing: Nothing is drawn\.\n        cover\.inside \[vulkan\]; \d+ other families")
+        self.assertIn("    ties_right_too: ", told)  # the diagonal runs through samples
+        counts = [int(n) for n in re.findall(r"; (\d+) other famil", told)]
+        self.assertEqual(counts, sorted(counts))
+        self.write_case("fam/c3", re.sub("vertices = .*", "vertices = [[1.25,1], [7.25,1], [1.25,7.25]]",
+                                       CASE.format(n=3).replace(', "cover.shared-edge"', "")))
+        told = self.edgecase("lint", "--strength", "fam/c3", check=0).stdout
+        self.assertIn("    draws_nothing: ", told)
+        self.assertNotIn("ties_right_too", told)  # no sample lies on an edge
+
     def test_lint_finds_a_wrong_picture(self):
         picture = "\\n".join(["........"] * 8)
         self.write_case("fam/c3", (self.suite / "fam/c3.toml").read_text() + f'[expect]\nhits = "{picture}"\n')

@@ -4,7 +4,7 @@
 // The blend unit of the software device (integers and binary32) and the reference's (exact
 // rationals) share no code. Over every format, factor and operation the reference allows what any
 // legal unit stores, and refuses units with a fault.
-#include "mutants/blend_unit.hpp"
+#include "rasterizers/software/target/blend_unit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "cases/model/profile.hpp"
+#include "mutants/software.hpp"
 #include "ref/color/blend.hpp"
 
 namespace mutants {

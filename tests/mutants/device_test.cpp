@@ -3,13 +3,14 @@
 //
 // The software device by itself, against counts that were worked out by hand or by an exact
 // rational model, so that its verdict counts when it and the reference disagree.
-#include "mutants/device.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <random>
+
+#include "mutants/software.hpp"
+#include "rasterizers/software/render.hpp"
 
 namespace mutants {
 namespace {

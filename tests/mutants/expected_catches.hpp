@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "cases/model/profile.hpp"
-#include "mutants/fault.hpp"
+#include "mutants/software.hpp"
+#include "rasterizers/software/choice/fault.hpp"
 
 namespace mutants {
 

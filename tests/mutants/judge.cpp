@@ -183,18 +183,6 @@ void for_each_parallel(size_t count, const std::function<void(size_t)>& work) {
     run();
 }
 
-capture::Capture captured(const cases::Case& c, const Device& device) {
-    capture::Capture out = render(c, device);
-    rasterizers::drop_unattached(out);
-    return out;
-}
-
-diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                      const capture::Capture& capture) {
-    return c.blit ? diff::compare_blit(c, expectation.profile, capture)
-                  : diff::compare(c, expectation, capture);
-}
-
 diff::Verdict judge(const cases::Case& c, const Device& device, cases::Profile profile) {
     const ref::Expectation expectation = ref::expect(c, {device.subpixel_bits}, profile);
     return compare(c, expectation, captured(c, device));

@@ -12,7 +12,9 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
-#include "mutants/device.hpp"
+#include "mutants/software.hpp"
+#include "rasterizers/software/choice/device.hpp"
+#include "rasterizers/strength/strength.hpp"
 #include "ref/expectation/expectation.hpp"
 
 namespace mutants {
@@ -33,11 +35,6 @@ std::string describe(const cases::Case& c, const diff::Verdict& verdict);
 // Calls work(k) for k = 0 .. count-1 on all processors, in no order.
 void for_each_parallel(size_t count, const std::function<void(size_t)>& work);
 
-// What the case's attachments hold after drawing.
-capture::Capture captured(const cases::Case& c, const Device& device);
-// Its verdict, draws or blit.
-diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
-                      const capture::Capture& capture);
 // Draws and judges one case.
 diff::Verdict judge(const cases::Case& c, const Device& device, cases::Profile profile);
 

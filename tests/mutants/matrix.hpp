@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "capture/capture.hpp"
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
-#include "mutants/fault.hpp"
+#include "mutants/software.hpp"
+#include "rasterizers/software/choice/fault.hpp"
 
 namespace mutants {
 
@@ -29,15 +29,8 @@ struct MatrixRow {
     size_t file_count() const;
 };
 
-// False where a fault's code path is not run at all: no colour, stencil, resolve, distance,
-// samples.
-bool can_matter(Fault fault, const cases::Case& c);
-
 // Few samples and few triangles: a fault shows in them within a millisecond.
 bool is_small(const cases::Case& c);
-
-// True if two renderings of a case have the same bits in every plane: they have the same verdict.
-bool same_bits(const capture::Capture& a, const capture::Capture& b);
 
 std::string family_of(const cases::Case& c);
 // The id without its matrix part.

@@ -18,8 +18,9 @@
 #include "cases/model/rule.hpp"
 #include "mutants/expected_catches.hpp"
 #include "mutants/judge.hpp"
+#include "mutants/lead.hpp"
 #include "mutants/matrix.hpp"
-#include "mutants/recorded.hpp"
+#include "rasterizers/strength/recorded.hpp"
 #include "report/text/sentences.hpp"
 #include "share.hpp"
 
@@ -39,7 +40,7 @@ namespace mutants {
 namespace {
 
 const Matrix& recorded() {
-    static const Matrix matrix = read_matrix(EDGECASE_SOURCE_DIR "/tests/mutants");
+    static const Matrix matrix = read_matrix(EDGECASE_SOURCE_DIR "/rasterizers/strength");
     return matrix;
 }
 

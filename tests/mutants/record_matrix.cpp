@@ -32,8 +32,9 @@
 #include <vector>
 
 #include "mutants/judge.hpp"
+#include "mutants/lead.hpp"
 #include "mutants/matrix.hpp"
-#include "mutants/recorded.hpp"
+#include "rasterizers/strength/recorded.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "report/text/sentences.hpp"
 

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rasterizers/software/assembly.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace software {
+
+namespace {
+
+// The state machine of an input assembler.
+class Assembler {
+  public:
+    Assembler(const cases::Draw& draw, Fault fault)
+        : topology_(draw.topology),
+          is_last_((draw.provoking == cases::ProvokingVertex::last) !=
+                   (fault == Fault::provoking_mode_ignored &&
+                    draw.provoking == cases::ProvokingVertex::last)),
+          fault_(fault) {}
+
+    void restart() {
+        if (fault_ == Fault::restart_ignored) {
+            return;
+        }
+        if (fault_ == Fault::restart_keeps_one && count_ > 0) {
+            window_[0] = window_[std::min<uint32_t>(count_, 2) - 1];
+            count_ = 1;
+            odd_ = false;
+            return;
+        }
+        count_ = 0;
+        odd_ = false;
+        run_ = 0;
+        if (fault_ == Fault::primitive_id_restarts) {
+            next_id_ = 0;
+        }
+    }
+
+    void push(uint32_t vertex) {
+        if (count_ < 2) {
+            window_[count_] = vertex;
+            ++count_;
+            return;
+        }
+        const uint32_t a = window_[0];
+        const uint32_t b = window_[1];
+        switch (topology_) {
+            case cases::Topology::triangle_list:
+                emit({a, b, vertex}, a, vertex);
+                count_ = 0;
+                break;
+            case cases::Topology::triangle_strip:
+                if (odd_ && fault_ != Fault::strip_parity) {
+                    emit({a, vertex, b}, a, fault_ == Fault::provoking_strip_odd ? b : vertex);
+                } else {
+                    emit({a, b, vertex}, a, vertex);
+                }
+                odd_ = fault_ == Fault::strip_batch_parity && run_ % 9 == 0 ? false : !odd_;
+                window_ = {b, vertex};
+                break;
+            case cases::Topology::triangle_fan:  // window: hub, last rim vertex
+                emit({b, vertex, a}, fault_ == Fault::fan_hub_provoking ? a : b,
+                     fault_ == Fault::provoking_fan_last_hub ? a : vertex);
+                if (fault_ == Fault::fan_batch_hub && run_ % 9 == 0) {
+                    window_[0] = b;
+                }
+                window_[1] = vertex;
+                break;
+        }
+    }
+
+    std::vector<Primitive> take() { return std::move(out_); }
+
+  private:
+    void emit(std::array<uint32_t, 3> vertex, uint32_t first, uint32_t last) {
+        const uint32_t provoking = is_last_ || fault_ == Fault::provoking_last ? last : first;
+        if (is_last_ && fault_ == Fault::provoking_turns) {
+            std::swap(vertex[0], vertex[2]);
+        }
+        out_.push_back({vertex, provoking, next_id_});
+        ++next_id_;
+        ++run_;
+    }
+
+    cases::Topology topology_;
+    bool is_last_;  // mode of the draw
+    Fault fault_;
+    std::array<uint32_t, 2> window_{};
+    uint32_t count_ = 0;  // vertices in the window
+    bool odd_ = false;
+    uint32_t next_id_ = 0;
+    uint32_t run_ = 0;  // triangles since the start or the last restart
+    std::vector<Primitive> out_;
+};
+
+}  // namespace
+
+std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault) {
+    Assembler assembler(draw, fault);
+    const auto vertex_count = static_cast<uint32_t>(draw.positions.size());
+    if (draw.indices && fault != Fault::indices_ignored) {
+        for (const uint32_t index : *draw.indices) {
+            if (index == cases::kRestartIndex && draw.primitive_restart) {
+                assembler.restart();
+            } else if (index < vertex_count) {
+                assembler.push(index);
+            }
+        }
+    } else {
+        for (uint32_t v = 0; v < vertex_count; ++v) {
+            assembler.push(v);
+        }
+    }
+    std::vector<Primitive> primitives = assembler.take();
+    if (fault == Fault::batch_tail_lost && !primitives.empty()) {
+        primitives.pop_back();
+    }
+    if (fault == Fault::primitives_paired) {
+        for (size_t k = 0; k + 1 < primitives.size(); k += 2) {
+            std::swap(primitives[k], primitives[k + 1]);
+        }
+    }
+    if (fault == Fault::primitives_reversed) {
+        std::reverse(primitives.begin(), primitives.end());
+    }
+    return primitives;
+}
+
+}  // namespace software

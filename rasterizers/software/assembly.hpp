@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "rasterizers/software/choice/fault.hpp"
+
+namespace software {
+
+// Three vertex numbers in the order that the topology gives them, and where flat values come from.
+struct Primitive {
+    std::array<uint32_t, 3> vertex{};
+    uint32_t provoking = 0;  // vertex number
+    uint32_t id = 0;         // gl_PrimitiveID
+};
+
+// The triangles of a draw, as an input assembler walks the index stream: a window of the last
+// vertices and a parity bit for strips, hub and last rim vertex for fans.
+std::vector<Primitive> assemble_primitives(const cases::Draw& draw, Fault fault);
+
+}  // namespace software

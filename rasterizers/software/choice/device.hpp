@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A software device: what a specification leaves free is a field of Device; what an author may get
+// wrong is a Fault.
+#pragma once
+
+#include <cstdint>
+
+#include "rasterizers/software/choice/fault.hpp"
+
+namespace software {
+
+enum class Rounding : uint8_t { nearest_even, half_up, floor, ceil, truncate };
+
+// Which edges of a clockwise (on screen) triangle own a sample that lies on them. The last two
+// decide by the vertical edge first: a left (top) edge is the exactly vertical (horizontal) one.
+enum class TieRule : uint8_t { top_left, top_right, bottom_left, bottom_right, left_top };
+
+// How a value is computed at a fragment from the three vertices' values.
+enum class PlaneForm : uint8_t {
+    origin,       // a0 + x dadx + y dady, a0 at framebuffer (0,0); llvmpipe
+    vertex,       // relative to the first vertex
+    barycentric,  // sum of edge functions times values
+};
+
+// From which positions the planes are set up.
+enum class PlaneBasis : uint8_t { unsnapped, snapped };
+
+enum class ClipMethod : uint8_t {
+    geometric,   // against all six planes
+    guard_band,  // near, far and a wide band; the viewport's rectangle is a scissor
+};
+
+// Where an input decorated with Centroid is evaluated in a pixel that is covered in part.
+enum class Centroid : uint8_t { first_sample, mean };  // Direct3D's; the mean of what is covered
+
+// How a number becomes a code of UNORM. Down is left to a device by Vulkan, not by Direct3D; sRGB
+// and what was blended in binary32 are rounded to nearest all the same.
+enum class UnormRounding : uint8_t { nearest, nearest_even, down };
+// What blends targets of 8 bits of fixed point; all others are blended in binary32.
+enum class BlendMath : uint8_t { fixed, binary32 };
+// A product of 8-bit numbers over 255: (x y + 127) / 255, or t = x y + 128, (t + (t >> 8)) >> 8.
+enum class FixedMultiply : uint8_t { divide, shifts };
+
+// Where a linear filter that reaches beyond the blitted region is clamped.
+enum class BlitEdge : uint8_t { image, region };
+
+// What a device is free to choose. The default is llvmpipe's way.
+struct Device {
+    int subpixel_bits = 8;  // 4..12
+    Rounding rounding = Rounding::nearest_even;
+    TieRule ties = TieRule::top_left;
+    PlaneForm planes = PlaneForm::origin;
+    PlaneBasis basis = PlaneBasis::unsnapped;
+    ClipMethod clip = ClipMethod::geometric;
+    bool piece_planes = true;  // clipped triangles: planes of each piece, not of the whole triangle
+    bool tests_distances = false;  // clip distances at each sample, not by cutting the polygon
+    bool fused = false;            // a * b + c rounded once
+    bool reciprocal_w = false;     // x * (1/w) instead of x / w
+    Centroid centroid = Centroid::first_sample;
+    bool inputs_follow_samples = true;  // with sample shading inputs are evaluated at the sample
+    bool corner_inputs = false;         // with several samples undecorated ones near a corner
+    bool facing_unsnapped = false;      // the sign of the area comes from unsnapped positions
+    bool odd_quads = false;             // quads of derivatives begin at odd pixels
+    UnormRounding unorm = UnormRounding::nearest;
+    BlendMath blend = BlendMath::fixed;
+    FixedMultiply multiply = FixedMultiply::shifts;
+    bool half_toward_zero = false;       // binary16 is rounded towards zero
+    bool resolve_truncates = false;      // averages of codes are rounded down
+    bool srgb_resolved_encoded = false;  // averages of sRGB are taken of the codes
+    BlitEdge blit_edge = BlitEdge::image;
+    bool blit_steps = false;  // coordinates of a blit are summed up from texel to texel
+    Fault fault = Fault::none;
+};
+
+}  // namespace software

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rasterizers/software/depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace software {
+
+namespace {
+
+double steps_of(cases::DepthFormat format) {
+    return format == cases::DepthFormat::d24_unorm ? 16777215.0 : 65535.0;
+}
+
+float unit(const cases::DepthBias& bias, cases::DepthFormat format, float largest_z,
+           const Device& device) {
+    using Representation = cases::DepthBiasRepresentation;
+    if (bias.representation == Representation::floating) {
+        return 1;
+    }
+    const float scale = device.fault == Fault::bias_unit_doubled ? 4 : 1;
+    if (format == cases::DepthFormat::d16_unorm) {
+        return scale * 0x1p-16F;
+    }
+    if (format == cases::DepthFormat::d24_unorm ||
+        bias.representation == Representation::force_unorm) {
+        return scale * 0x1p-24F;
+    }
+    const int exponent = largest_z > 0 ? std::max(std::ilogb(largest_z), -126) : -126;
+    const int bits = device.fault == Fault::bias_exponent ? 24 : 23;
+    return std::ldexp(1.0F, exponent - bits);
+}
+
+}  // namespace
+
+float depth_bias(const cases::Draw& draw, cases::DepthFormat format, float dzdx, float dzdy,
+                 float largest_z, const Device& device) {
+    if (!draw.depth.bias || device.fault == Fault::bias_ignored) {
+        return 0;
+    }
+    const cases::DepthBias& bias = *draw.depth.bias;
+    float slope = std::max(std::fabs(dzdx), std::fabs(dzdy));
+    if (device.fault == Fault::bias_slope_x_only) {
+        slope = std::fabs(dzdx);
+    } else if (device.fault == Fault::bias_slope_signed) {
+        slope = std::fabs(dzdx) > std::fabs(dzdy) ? dzdx : dzdy;
+    } else if (device.fault == Fault::bias_slope_sum) {
+        slope = std::fabs(dzdx) + std::fabs(dzdy);
+    }
+    float o = slope * bias.slope + unit(bias, format, largest_z, device) * bias.constant;
+    if (device.fault == Fault::bias_sign) {
+        o = -o;
+    }
+    if (device.fault == Fault::bias_clamp_ignored) {
+        return o;
+    }
+    if (device.fault == Fault::bias_clamp_both_ends && std::fabs(bias.clamp) > 0) {
+        return std::clamp(o, -std::fabs(bias.clamp), std::fabs(bias.clamp));
+    }
+    return bias.clamp > 0 ? std::min(o, bias.clamp) : bias.clamp < 0 ? std::max(o, bias.clamp) : o;
+}
+
+float stored_depth(float z, cases::DepthFormat format, const Device& device) {
+    if (format == cases::DepthFormat::d32_float) {
+        return z;
+    }
+    const double steps = steps_of(format);
+    const double scale = device.fault == Fault::depth_store_scale ? steps + 1 : steps;
+    const double code = std::clamp(std::nearbyint(static_cast<double>(z) * scale), 0.0, steps);
+    return static_cast<float>(code / steps);
+}
+
+float fragment_depth(float z, float bias, const cases::Draw& draw, cases::DepthFormat format,
+                     const Device& device) {
+    float low = std::min(draw.viewport.min_depth, draw.viewport.max_depth);
+    float high = std::max(draw.viewport.min_depth, draw.viewport.max_depth);
+    if (device.fault == Fault::depth_clamp_unit) {
+        low = 0;
+        high = 1;
+    } else if (device.fault == Fault::depth_clamp_unordered) {
+        low = draw.viewport.min_depth;
+        high = draw.viewport.max_depth;
+    }
+    const auto clamp = [&](float v) { return std::min(std::max(v, low), high); };
+    if (device.fault == Fault::depth_clamp_before_bias && draw.depth.clamp) {
+        z = clamp(z) + bias;
+    } else {
+        z += bias;
+        if (draw.depth.clamp && device.fault != Fault::depth_clamp_ignored) {
+            z = clamp(z);
+        }
+    }
+    return stored_depth(z, format, device);
+}
+
+bool passes_depth_test(const cases::Draw& draw, float z, float stored, const Device& device) {
+    using cases::CompareOp;
+    if (device.fault == Fault::depth_test_ignored) {
+        return true;
+    }
+    if (device.fault == Fault::depth_operands_swapped) {
+        std::swap(z, stored);
+    }
+    switch (draw.depth.compare) {
+        case CompareOp::never:
+            return false;
+        case CompareOp::less:
+            return device.fault == Fault::depth_less_or_equal ? z <= stored : z < stored;
+        case CompareOp::equal:
+            return z >= stored && z <= stored;
+        case CompareOp::less_or_equal:
+            return z <= stored;
+        case CompareOp::greater:
+            return z > stored;
+        case CompareOp::not_equal:
+            return z < stored || z > stored;
+        case CompareOp::greater_or_equal:
+            return z >= stored;
+        case CompareOp::always:
+            break;
+    }
+    return true;
+}
+
+}  // namespace software

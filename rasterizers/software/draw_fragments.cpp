@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The part of a draw that works on samples: what is left of them, and what is written.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "rasterizers/software/depth.hpp"
+#include "rasterizers/software/draw_command.hpp"
+#include "rasterizers/software/multisample.hpp"
+#include "rasterizers/software/probes.hpp"
+#include "rasterizers/software/snapping.hpp"
+
+namespace software {
+
+// With a guard band the viewport's rectangle is a scissor for each sample.
+bool DrawCommand::inside_viewport(int64_t i, int64_t j, uint32_t s) const {
+    if (device_.clip != ClipMethod::guard_band) {
+        return true;
+    }
+    const double unit = std::ldexp(1.0, -device_.subpixel_bits);
+    const double x = static_cast<double>(i) + static_cast<double>(samples_[s].x) * unit;
+    const double y = static_cast<double>(j) + static_cast<double>(samples_[s].y) * unit;
+    const cases::Viewport& view = draw_.viewport;
+    const double left = static_cast<double>(view.x);
+    const double right = left + static_cast<double>(view.width);
+    double top = static_cast<double>(view.y);
+    double bottom = top + static_cast<double>(view.height);
+    if (bottom < top) {
+        std::swap(top, bottom);
+    }
+    return x >= left && x < right && y >= top && y < bottom;
+}
+
+// With clip distances tested at each sample.
+bool DrawCommand::is_distance_clipped(const TrianglePlanes& planes, int64_t i, int64_t j,
+                                      uint32_t s) const {
+    if (!tests_distances(device_)) {
+        return false;
+    }
+    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
+    const float x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
+    const float y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
+    for (int k = 0; k < static_cast<int>(draw_.distances.clip_count); ++k) {
+        const float c = planes.distance(k, x, y);
+        if (device_.fault == Fault::distance_plane_never ? !(c > 0) : !(c >= 0)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void DrawCommand::cover(const Primitive& primitive, const TrianglePlanes& planes,
+                        const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s) {
+    if (!inside_viewport(i, j, s) || is_distance_clipped(planes, i, j, s)) {
+        return;
+    }
+    if (samples_.size() == 1) {
+        shade(primitive, planes, first, front, i, j, s, 1U);
+    } else {
+        covered_[{j, i, &planes}] |= 1U << s;
+    }
+}
+
+void DrawCommand::shade_covered(const Primitive& primitive, const WindowVertex& first, bool front) {
+    for (const auto& [where, covered] : covered_) {
+        const auto& [j, i, planes] = where;
+        for (uint32_t s = 0; s < samples_.size(); ++s) {
+            if (((covered >> s) & 1U) != 0) {
+                shade(primitive, *planes, first, front, i, j, s, covered);
+            }
+        }
+    }
+    covered_.clear();
+}
+
+void DrawCommand::shade(const Primitive& primitive, const TrianglePlanes& planes,
+                        const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
+                        uint32_t covered) {
+    const uint32_t layers = out_.target.layers;
+    uint32_t layer = draw_.layer;
+    switch (device_.fault) {
+        case Fault::layer_ignored:
+            layer = 0;
+            break;
+        case Fault::layer_off_by_one:
+            layer = (layer + 1) % layers;
+            break;
+        case Fault::layer_of_viewport:
+            layer = std::min(draw_.viewport_index, layers - 1);
+            break;
+        case Fault::all_layers_written:
+            for (uint32_t k = 0; k < layers; ++k) {
+                shade_in(k, primitive, planes, first, front, i, j, s, covered);
+            }
+            return;
+        default:
+            break;
+    }
+    shade_in(layer, primitive, planes, first, front, i, j, s, covered);
+}
+
+size_t DrawCommand::index_in(uint32_t layer, int64_t i, int64_t j, uint32_t s) const {
+    const cases::Target& target = out_.target;
+    const size_t row = size_t{layer} * target.height + static_cast<size_t>(j);
+    return (row * target.width + static_cast<size_t>(i)) * target.samples + s;
+}
+
+void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
+                           const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
+                           uint32_t covered) {
+    const Fault fault = device_.fault;
+    const Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
+    if (!invocation.is_written) {
+        return;
+    }
+    const size_t at = index_in(layer, i, j, s);
+    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
+    const float sample_x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
+    const float sample_y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
+    float z = planes.depth(sample_x, sample_y);
+    if (fault == Fault::values_at_corner) {
+        z = planes.depth(static_cast<float>(i), static_cast<float>(j));
+    } else if (fault == Fault::depth_at_centre) {
+        z = planes.depth(static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F);
+    }
+    const float largest = fault == Fault::bias_exponent_of_sample ? std::fabs(z) : largest_z_;
+    const cases::DepthFormat format = out_.target.depth_format;
+    const float bias =
+        depth_bias(draw_, format, planes.depth_dx(), planes.depth_dy(), largest, device_);
+    z = fragment_depth(z, bias, draw_, format, device_);
+    const size_t tested = fault == Fault::layer_depth_of_first ? index_in(0, i, j, s) : at;
+    const bool passes = passes_depth_test(draw_, z, out_.depth[tested], device_);
+    if ((passes && (draw_.depth.write || fault == Fault::depth_write_ignored)) ||
+        fault == Fault::depth_write_before_test) {
+        out_.depth[at] = z;
+    }
+    attachments_.stencil.test(at, draw_, front, passes);
+    if (!passes) {
+        return;
+    }
+    out_.hits[at] += front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);
+    const bool of_piece = fault == Fault::clip_flat_piece;
+    const uint32_t id =
+        fault == Fault::primitive_id_skips_culled ? primitive.id - culled_ : primitive.id;
+    out_.writers[at] = {number_, id, of_piece ? first.source : primitive.provoking,
+                        capture::kClearId};
+
+    const float corner = fault == Fault::values_at_corner ? -0.5F : 0.0F;
+    const float x = invocation.centre.x + corner;
+    const float y = invocation.centre.y + corner;
+    const float corner_xy = fault == Fault::frag_coord_corner ? -0.5F : 0.0F;
+    const float inverse_w = planes.inverse_w(x, y);
+    const glm::vec4 older_frag_coord = out_.frag_coord[at];
+    out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy, invocation.frag_coord.y + corner_xy,
+                           planes.depth(x, y),
+                           fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
+    out_.frag_coord[at] = attachments_.color.beside(number_, out_.frag_coord[at], older_frag_coord);
+
+    for (size_t a = 0; a < draw_.attributes.size(); ++a) {
+        bool flat = draw_.attributes[a].interpolation == cases::Interpolation::flat;
+        if (fault == Fault::flat_smooth) {
+            flat = false;
+        }
+        if (fault == Fault::smooth_flat &&
+            draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
+            flat = true;
+        }
+        const bool is_sample = draw_.attributes[a].auxiliary == cases::Auxiliary::sample;
+        const bool is_centroid = draw_.attributes[a].auxiliary == cases::Auxiliary::centroid;
+        Place place{x, y};
+        if (samples_.size() > 1 && (is_sample || is_centroid)) {
+            place = is_sample ? invocation.sample : invocation.centroid;
+        }
+        glm::vec4 value = flat
+                              ? first.values[a]
+                              : probe(draw_, device_, planes, samples_, a, i, j, place, invocation);
+        if (fault == Fault::one_over_w_cached && !flat &&
+            draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
+            value *= planes.inverse_w(place.x, place.y) / inverse_w;
+        }
+        switch (draw_.attributes[a].source) {
+            case cases::Source::sample_mask_in:
+                value = glm::vec4(static_cast<float>(invocation.mask_in), 0, 0, 0);
+                break;
+            case cases::Source::sample_id:
+                value = glm::vec4(static_cast<float>(invocation.sample_id), 0, 0, 0);
+                break;
+            case cases::Source::sample_position:
+                value = {invocation.sample_position.x, invocation.sample_position.y, 0, 0};
+                break;
+            case cases::Source::vertex:
+            case cases::Source::barycentric:
+                break;
+        }
+        if (fault == Fault::values_clamped) {
+            value = glm::clamp(value, 0.0F, 1.0F);
+        }
+        if (fault == Fault::components_rotated) {
+            value = {value.y, value.z, value.w, value.x};
+        }
+        if (fault == Fault::values_half && !flat) {
+            for (int k = 0; k < 4; ++k) {
+                value[k] = to_half_precision(value[k]);
+            }
+        }
+        const size_t location =
+            fault == Fault::attributes_swapped && draw_.attributes.size() > 1 && a < 2 ? 1 - a : a;
+        out_.attributes[location][at] = value;
+    }
+    write_color(at, primitive.id);
+}
+
+void DrawCommand::write_color(size_t at, uint32_t primitive) {
+    const int32_t attribute = draw_.color.attribute;
+    attachments_.color.write(
+        at, number_, primitive,
+        attribute < 0 ? draw_.color.value : out_.attributes[static_cast<size_t>(attribute)][at]);
+}
+
+}  // namespace software

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The part of a draw that works on vertices and whole triangles: projection, facing, culling.
+#include <algorithm>
+#include <cmath>
+
+#include "rasterizers/software/draw_command.hpp"
+#include "rasterizers/software/snapping.hpp"
+
+namespace software {
+
+WindowVertex DrawCommand::project(const ClipVertex& v) const {
+    const auto mad = [&](float a, float b, float c) {
+        return device_.fused ? std::fma(a, b, c) : a * b + c;
+    };
+    const glm::vec4& p = v.position;
+    const cases::Viewport& view = draw_.viewport;
+    WindowVertex out;
+    out.values = v.values;
+    out.source = v.source;
+    out.distance = v.distance;
+    out.w = p.w;
+    out.inv_w = 1.0F / p.w;
+    const auto divide = [&](float a) { return device_.reciprocal_w ? a * out.inv_w : a / p.w; };
+
+    float height = view.height;
+    float top = view.y;
+    if (device_.fault == Fault::height_sign_ignored && height < 0) {
+        top += height;
+        height = -height;
+    }
+    out.x = mad(divide(p.x), view.width * 0.5F, view.x + view.width * 0.5F);
+    out.y = mad(divide(p.y), height * 0.5F, top + height * 0.5F);
+    out.z = mad(divide(p.z), view.max_depth - view.min_depth, view.min_depth);
+    if (draw_.depth.negative_one_to_one && device_.fault != Fault::depth_scale_ignored) {
+        out.z = mad(divide(p.z), (view.max_depth - view.min_depth) * 0.5F,
+                    (view.max_depth + view.min_depth) * 0.5F);
+    }
+    switch (device_.fault) {
+        case Fault::depth_range_ignored:
+            out.z = divide(p.z);
+            break;
+        case Fault::depth_before_divide:
+            out.z = mad(p.z, view.max_depth - view.min_depth, view.min_depth);
+            break;
+        case Fault::half_pixel_shift:
+            out.x += 0.5F;
+            out.y += 0.5F;
+            break;
+        case Fault::viewport_nudge:
+            out.x += 0x1p-8F;
+            break;
+        case Fault::position_half:
+            out.x = to_half_precision(out.x);
+            out.y = to_half_precision(out.y);
+            break;
+        default:
+            break;
+    }
+    out.sx = to_fixed(out.x, device_);
+    out.sy = to_fixed(out.y, device_);
+    return out;
+}
+
+bool DrawCommand::is_front(int64_t area, const std::array<ClipVertex, 3>& whole) const {
+    bool clockwise = area > 0;
+    if (device_.fault == Fault::face_unclipped_w) {
+        int negative = 0;
+        for (const ClipVertex& v : whole) {
+            negative += v.position.w < 0 ? 1 : 0;
+        }
+        clockwise = clockwise != (negative % 2 == 1);
+    }
+    const bool front = clockwise == (draw_.front_face == cases::FrontFace::clockwise);
+    return device_.fault == Fault::front_face_inverted ? !front : front;
+}
+
+bool DrawCommand::is_culled(bool front) const {
+    switch (draw_.cull) {
+        case cases::CullMode::none:
+            return false;
+        case cases::CullMode::front:
+            return device_.fault == Fault::cull_inverted ? !front : front;
+        case cases::CullMode::back:
+            return device_.fault == Fault::cull_inverted ? front : !front;
+        case cases::CullMode::front_and_back:
+            return true;
+    }
+    return false;
+}
+
+// Which vertex's data a reader of vertex v gets.
+uint32_t DrawCommand::cached_vertex(uint32_t v) {
+    if (device_.fault != Fault::vertex_cache_aliased) {
+        return v;
+    }
+    uint32_t& entry = vertex_cache_[v % vertex_cache_.size()];
+    if (entry == UINT32_MAX) {
+        entry = v;
+    }
+    return entry;
+}
+
+// What the distances of vertex v are for a primitive.
+glm::vec4 DrawCommand::distances_of(uint32_t v, const Primitive& primitive, size_t k) const {
+    const std::vector<glm::vec4>& all = draw_.distances.clip;
+    if (all.empty()) {
+        return glm::vec4(0.0F);
+    }
+    if (device_.fault == Fault::distance_by_order) {
+        // Right for lists without indices only.
+        return all[(3 * size_t{primitive.id} + k) % all.size()];
+    }
+    const glm::vec4& d = all[v];
+    return device_.fault == Fault::distance_rotated ? glm::vec4(d.y, d.z, d.w, d.x) : d;
+}
+
+bool DrawCommand::is_distance_culled(const Primitive& primitive) const {
+    const cases::ClipDistances& d = draw_.distances;
+    const auto is_out = [&](uint32_t v, uint32_t k) {
+        const float c = d.cull[v][static_cast<glm::vec4::length_type>(k)];
+        return device_.fault == Fault::cull_distance_zero ? c <= 0 : c < 0;
+    };
+    bool is_mixed = d.cull_count > 0;
+    for (const uint32_t v : primitive.vertex) {
+        bool is_out_of_some = false;
+        for (uint32_t k = 0; k < d.cull_count; ++k) {
+            is_out_of_some = is_out_of_some || is_out(v, k);
+        }
+        is_mixed = is_mixed && is_out_of_some;
+    }
+    bool is_culled = false;
+    for (uint32_t k = 0; k < d.cull_count; ++k) {
+        const auto count = std::count_if(primitive.vertex.begin(), primitive.vertex.end(),
+                                         [&](uint32_t v) { return is_out(v, k); });
+        switch (device_.fault) {
+            case Fault::cull_distance_any:
+                is_culled = is_culled || count > 0;
+                break;
+            case Fault::cull_distance_provoking:
+                is_culled = is_culled || is_out(primitive.provoking, k);
+                break;
+            default:
+                is_culled = is_culled || count == 3;
+                break;
+        }
+    }
+    if (device_.fault == Fault::cull_distance_mixed) {
+        return is_mixed;
+    }
+    return is_culled && device_.fault != Fault::cull_distance_ignored;
+}
+
+}  // namespace software

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rasterizers/software/target/resolve_unit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "rasterizers/software/target/blend_unit.hpp"
+#include "rasterizers/software/target/store.hpp"
+
+namespace software {
+
+namespace {
+
+using cases::Resolve;
+
+template <class T>
+T select(std::span<const T> samples, Resolve mode, Fault fault) {
+    if (fault == Fault::resolve_min_max_exchanged) {
+        mode = mode == Resolve::min ? Resolve::max : mode == Resolve::max ? Resolve::min : mode;
+    } else if (fault == Fault::resolve_always_zero && mode != Resolve::average) {
+        mode = Resolve::sample_zero;
+    }
+    switch (mode) {
+        case Resolve::min:
+            return *std::min_element(samples.begin(), samples.end());
+        case Resolve::max:
+            return *std::max_element(samples.begin(), samples.end());
+        default:
+            return fault == Fault::resolve_last_sample ? samples.back() : samples.front();
+    }
+}
+
+uint32_t average_whole(std::span<const uint32_t> samples, const Device& device) {
+    uint64_t sum = 0;
+    for (const uint32_t code : samples) {
+        sum += code;
+    }
+    const uint64_t n = samples.size();
+    return static_cast<uint32_t>((sum + (device.resolve_truncates ? 0 : n / 2)) / n);
+}
+
+float average_floats(std::span<const float> samples) {
+    float sum = 0;
+    for (const float v : samples) {
+        sum += v;
+    }
+    return sum * (1.0F / static_cast<float>(samples.size()));
+}
+
+// Those samples of a pixel that the device takes for an average.
+template <class T>
+std::vector<T> averaged(std::span<const T> samples, const T& clear, Fault fault) {
+    std::vector<T> out(samples.begin(), samples.end());
+    switch (fault) {
+        case Fault::resolve_one_sample:
+            out.resize(1);
+            break;
+        case Fault::resolve_sample_lost:
+            out.pop_back();
+            break;
+        case Fault::resolve_weights: {  // each mean with the next sample
+            out.assign({samples.back()});
+            for (size_t s = 1; s < samples.size(); ++s) {
+                out.insert(out.end(), out.size(), samples[samples.size() - 1 - s]);
+            }
+            break;
+        }
+        case Fault::resolve_drawn_only: {  // samples that still hold the clear value do not count
+            std::erase(out, clear);
+            if (out.empty()) {
+                out.push_back(clear);
+            }
+            break;
+        }
+        default:
+            break;
+    }
+    return out;
+}
+
+uint32_t average_channel(std::span<const uint32_t> codes, Channel channel, const Device& device) {
+    if (channel.number == Number::unorm || channel.number == Number::uint) {
+        return average_whole(codes, device);
+    }
+    if (channel.number == Number::srgb && device.srgb_resolved_encoded) {
+        return average_whole(codes, device);
+    }
+    std::vector<float> values;
+    for (const uint32_t code : codes) {
+        values.push_back(load_channel(code, channel, device));
+    }
+    return store_channel(average_floats(values), channel, device);
+}
+
+// First sample of the pixel that the device reads for a pixel.
+size_t source_of(const cases::Target& target, size_t pixel, Fault fault) {
+    if (fault == Fault::resolve_shifted && pixel % target.width + 1 < target.width) {
+        ++pixel;
+    }
+    return pixel * target.samples;
+}
+
+bool is_left_out(const cases::Target& target, size_t pixel, Fault fault) {
+    if (fault == Fault::resolve_row_lost) {
+        return pixel / target.width + 1 == target.height;
+    }
+    return fault == Fault::resolve_ignored;
+}
+
+capture::ColorCodes resolve_color(std::span<const capture::ColorCodes> samples,
+                                  const capture::ColorCodes& clear, const cases::Target& target,
+                                  const Device& device) {
+    const FormatLayout layout = layout_of(target.color->format);
+    const bool is_average = target.color_resolve == Resolve::average ||
+                            device.fault == Fault::resolve_averages_integers;
+    if (!is_average) {
+        return select(samples, target.color_resolve, device.fault);
+    }
+    const std::vector<capture::ColorCodes> taken = averaged(samples, clear, device.fault);
+    capture::ColorCodes out{};
+    for (size_t k = 0; k < 4; ++k) {
+        if (layout.channels[k].bits == 0) {
+            continue;
+        }
+        std::vector<uint32_t> codes;
+        for (const capture::ColorCodes& sample : taken) {
+            codes.push_back(sample[k]);
+        }
+        out[k] = average_channel(codes, layout.channels[k], device);
+    }
+    return out;
+}
+
+float resolve_depth(std::span<const float> samples, float clear, const cases::Target& target,
+                    const Device& device) {
+    if (target.depth_resolve != Resolve::average) {
+        return select(samples, target.depth_resolve, device.fault);
+    }
+    const std::vector<float> taken = averaged(samples, clear, device.fault);
+    if (target.depth_format == cases::DepthFormat::d32_float) {
+        return average_floats(taken);
+    }
+    const double steps =
+        target.depth_format == cases::DepthFormat::d24_unorm ? 16777215.0 : 65535.0;
+    std::vector<uint32_t> codes;
+    for (const float z : taken) {
+        codes.push_back(static_cast<uint32_t>(std::nearbyint(static_cast<double>(z) * steps)));
+    }
+    return static_cast<float>(average_whole(codes, device) / steps);
+}
+
+}  // namespace
+
+StencilAttachment::StencilAttachment(const cases::Target& target, const Device& device)
+    : device_(device), samples_(target.samples) {
+    if (target.has_stencil) {
+        values_.assign(size_t{target.width} * target.rows() * target.samples, 0);
+    }
+}
+
+void StencilAttachment::test(size_t index, const cases::Draw& draw, bool front, bool passes) {
+    if (values_.empty() || (!passes && device_.fault != Fault::stencil_before_depth)) {
+        return;
+    }
+    bool up = front;
+    if (device_.fault == Fault::stencil_faces_exchanged) {
+        up = !front;
+    } else if (device_.fault == Fault::stencil_front_only) {
+        up = true;
+    } else if (device_.fault == Fault::stencil_own_facing) {  // front is clockwise, always
+        up = front == (draw.front_face == cases::FrontFace::clockwise);
+    }
+    const auto update = [&](uint32_t& value) {
+        const bool saturates = device_.fault == Fault::stencil_saturates;
+        const uint32_t old = value;
+        uint32_t next = up ? old + 1 : old - 1;
+        if (saturates && (up ? old == 255 : old == 0)) {
+            next = old;
+        }
+        const uint32_t mask = device_.fault == Fault::stencil_seven_bits ? 0x7fU : 0xffU;
+        value = (old & ~mask) | (next & mask);
+    };
+    const size_t first = index - index % samples_;
+    switch (device_.fault) {
+        case Fault::stencil_per_pixel:  // whichever sample is drawn, all of the pixel count
+            for (size_t s = 0; s < samples_; ++s) {
+                update(values_[first + s]);
+            }
+            break;
+        case Fault::stencil_sample_zero:
+            update(values_[first]);
+            break;
+        case Fault::stencil_never_written:
+            break;
+        default:
+            update(values_[index]);
+            break;
+    }
+}
+
+void resolve(capture::Capture& capture, const Device& device) {
+    const cases::Target& target = capture.target;
+    const size_t pixels = size_t{target.width} * target.height;
+    const bool has_color = capture::resolves_color(target);
+    const bool has_depth = capture::resolves_depth(target);
+    capture.resolved_color.assign(has_color ? pixels : 0, {});
+    capture.resolved_depth.assign(has_depth ? pixels : 0, 0);
+    capture::ColorCodes clear{};
+    if (has_color) {
+        const BlendUnit unit(target.color->format, device);
+        clear = unit.read_back(unit.cleared(target.color->clear));
+    }
+    for (size_t pixel = 0; pixel < pixels; ++pixel) {
+        const size_t first = source_of(target, pixel, device.fault);
+        if (is_left_out(target, pixel, device.fault)) {
+            continue;
+        }
+        if (has_color) {
+            capture.resolved_color[pixel] = resolve_color(
+                std::span(capture.color).subspan(first, target.samples), clear, target, device);
+        }
+        if (has_depth) {
+            capture.resolved_depth[pixel] =
+                resolve_depth(std::span(capture.depth).subspan(first, target.samples),
+                              target.depth_clear, target, device);
+        }
+    }
+}
+
+}  // namespace software

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rasterizers/software/target/store.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace software {
+
+namespace {
+
+using cases::ColorFormat;
+
+float steps_of(uint32_t bits) {
+    return static_cast<float>((1U << bits) - 1);
+}
+
+float clamp_to_unit(float v) {
+    return v > 0 ? v < 1 ? v : 1.0F : 0.0F;  // NaN: 0
+}
+
+// Khronos Data Format Specification, sRGB transfer functions.
+float encode_srgb(float linear) {
+    return linear <= 0.0031308F ? linear * 12.92F : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
+}
+
+float decode_srgb(float encoded) {
+    return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
+}
+
+uint32_t to_code(float v, uint32_t bits, const Device& device) {
+    const float steps = steps_of(bits);
+    if (device.fault == Fault::store_wraps) {
+        const double whole = std::floor(static_cast<double>(v) * static_cast<double>(steps) + 0.5);
+        return static_cast<uint32_t>(static_cast<int64_t>(whole)) & ((1U << bits) - 1);
+    }
+    v = clamp_to_unit(v);
+    if (device.fault == Fault::store_through_8_bits && bits < 8) {
+        const auto eight = static_cast<uint32_t>(v * 255.0F + 0.5F);
+        return eight >> (8 - bits);
+    }
+    if (device.fault == Fault::store_scale) {
+        return static_cast<uint32_t>(std::fmin(v * (steps + 1), steps));
+    }
+    const float scaled = v * steps;
+    if (device.fault == Fault::store_truncates) {
+        return static_cast<uint32_t>(scaled);
+    }
+    switch (device.unorm) {
+        case UnormRounding::nearest:
+            break;
+        case UnormRounding::nearest_even:
+            return static_cast<uint32_t>(std::nearbyint(scaled));
+        case UnormRounding::down:
+            return static_cast<uint32_t>(scaled);
+    }
+    return static_cast<uint32_t>(std::floor(scaled + 0.5F));
+}
+
+}  // namespace
+
+FormatLayout layout_of(ColorFormat format) {
+    const std::array<uint8_t, 4> in_order = {0, 1, 2, 3};
+    const auto all = [&](Number number, uint32_t bits) {
+        const Channel c{number, bits};
+        return FormatLayout{{c, c, c, c}, in_order};
+    };
+    const auto red_only = [&](Number number) {
+        return FormatLayout{{Channel{number, 32}, {number, 0}, {number, 0}, {number, 0}}, in_order};
+    };
+    switch (format) {
+        case ColorFormat::rgba8_unorm:
+            break;
+        case ColorFormat::bgra8_unorm: {
+            FormatLayout out = all(Number::unorm, 8);
+            out.position = {2, 1, 0, 3};
+            return out;
+        }
+        case ColorFormat::rgba8_srgb: {
+            FormatLayout out = all(Number::srgb, 8);
+            out.channels[3].number = Number::unorm;  // alpha is linear
+            return out;
+        }
+        case ColorFormat::rgb10a2_unorm: {
+            FormatLayout out = all(Number::unorm, 10);
+            out.channels[3].bits = 2;
+            return out;
+        }
+        case ColorFormat::r5g6b5_unorm: {
+            FormatLayout out = all(Number::unorm, 5);
+            out.channels[1].bits = 6;
+            out.channels[3].bits = 0;
+            return out;
+        }
+        case ColorFormat::rgba16_unorm:
+            return all(Number::unorm, 16);
+        case ColorFormat::rgba16_float:
+            return all(Number::half, 16);
+        case ColorFormat::rg16_float: {
+            FormatLayout out = all(Number::half, 16);
+            out.channels[2].bits = out.channels[3].bits = 0;
+            return out;
+        }
+        case ColorFormat::rgba32_float:
+            return all(Number::binary32, 32);
+        case ColorFormat::r32_float:
+            return red_only(Number::binary32);
+        case ColorFormat::r32_uint:
+            return red_only(Number::uint);
+        case ColorFormat::rgba8_uint:
+            return all(Number::uint, 8);
+    }
+    return all(Number::unorm, 8);
+}
+
+uint32_t store_channel(float v, Channel channel, const Device& device) {
+    if (channel.number == Number::half || channel.number == Number::binary32) {
+        if (device.fault == Fault::float_store_clamped) {
+            v = clamp_to_unit(v);
+        }
+    }
+    switch (channel.number) {
+        case Number::unorm:
+            return to_code(v, channel.bits, device);
+        case Number::srgb:  // to nearest: an encoded 1 may be a little less in binary32
+            if (device.unorm == UnormRounding::down) {
+                Device nearest = device;
+                nearest.unorm = UnormRounding::nearest;
+                return store_channel(v, channel, nearest);
+            }
+            if (device.fault == Fault::srgb_not_encoded) {
+                return to_code(v, channel.bits, device);
+            }
+            if (device.fault == Fault::srgb_gamma) {
+                return to_code(std::pow(clamp_to_unit(v), 1.0F / 2.2F), channel.bits, device);
+            }
+            return to_code(encode_srgb(clamp_to_unit(v)), channel.bits, device);
+        case Number::half:
+            return to_half(v, device);
+        case Number::binary32:
+            return std::bit_cast<uint32_t>(
+                device.fault == Fault::float_store_half ? from_half(to_half(v, device)) : v);
+        case Number::uint:
+            break;
+    }
+    const uint32_t code = v > 0 ? static_cast<uint32_t>(v) : 0U;
+    const bool is_narrow = channel.bits == 8 || device.fault == Fault::integer_8_bits;
+    return is_narrow ? code & 0xffU : code;
+}
+
+float load_channel(uint32_t code, Channel channel, const Device& device) {
+    switch (channel.number) {
+        case Number::unorm:
+            return static_cast<float>(code) / steps_of(channel.bits);
+        case Number::srgb: {
+            const float encoded = static_cast<float>(code) / steps_of(channel.bits);
+            return device.fault == Fault::srgb_not_decoded ? encoded : decode_srgb(encoded);
+        }
+        case Number::half:
+            return from_half(static_cast<uint16_t>(code));
+        case Number::binary32:
+            return std::bit_cast<float>(code);
+        case Number::uint:
+            break;
+    }
+    return static_cast<float>(code);
+}
+
+uint16_t to_half(float v, const Device& device) {
+    const uint32_t bits = std::bit_cast<uint32_t>(v);
+    const auto sign = static_cast<uint16_t>(bits >> 16 & 0x8000U);
+    const int exponent = static_cast<int>(bits >> 23 & 0xffU) - 127;
+    uint32_t fraction = bits & 0x7fffffU;
+    if (exponent == 128) {  // infinity or NaN
+        return static_cast<uint16_t>(sign | (fraction != 0 ? 0x7e00U : 0x7c00U));
+    }
+    if (device.fault == Fault::half_exponent_wraps) {
+        const uint32_t biased = static_cast<uint32_t>(exponent + 15) & 0x1fU;
+        return static_cast<uint16_t>(sign | (exponent < -14 ? 0U : biased << 10 | fraction >> 13));
+    }
+    if (exponent > 15) {
+        return static_cast<uint16_t>(sign | (device.half_toward_zero ? 0x7bffU : 0x7c00U));
+    }
+    if (exponent < -25) {
+        return sign;
+    }
+    // 10 bits of the fraction are kept, fewer of numbers below 2^-14.
+    uint32_t lost = 13;
+    uint32_t base = 0;
+    if (exponent >= -14) {
+        base = static_cast<uint32_t>(exponent + 15) << 10;
+    } else {
+        fraction |= 0x800000U;
+        lost += static_cast<uint32_t>(-14 - exponent);
+    }
+    uint32_t code = base + (fraction >> lost);
+    const uint32_t rest = fraction & ((1U << lost) - 1);
+    const uint32_t middle = 1U << (lost - 1);
+    const bool is_up = rest > middle || (rest == middle && (code & 1U) != 0);
+    // A carry runs on into the exponent, and from the largest number to infinity.
+    code += is_up && !device.half_toward_zero ? 1U : 0U;
+    return static_cast<uint16_t>(sign | code);
+}
+
+float from_half(uint16_t bits) {
+    const int exponent = bits >> 10 & 0x1f;
+    const int fraction = bits & 0x3ff;
+    const float sign = (bits & 0x8000) != 0 ? -1.0F : 1.0F;
+    if (exponent == 31) {
+        return fraction != 0 ? std::nanf("") : sign * HUGE_VALF;
+    }
+    return exponent == 0 ? sign * std::ldexp(static_cast<float>(fraction), -24)
+                         : sign * std::ldexp(static_cast<float>(fraction + 1024), exponent - 25);
+}
+
+}  // namespace software

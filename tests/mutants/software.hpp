@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The software device (rasterizers/software) and what judges it (rasterizers/strength) by their
+// names alone.
+#pragma once
+
+namespace software {}
+
+namespace mutants {
+using namespace software;
+}  // namespace mutants
