@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "capture/image/image.hpp"
@@ -69,9 +70,20 @@ Json values_json(Reference& r, uint32_t triangle, size_t index) {
     return values;
 }
 
-std::string to_json(Reference& r) {
+void put_json(Reference& r, const Put& put) {
     const ref::Expectation& e = r.expectation;
-    Json samples = Json::array();
+    JsonList samples({{"schema", "edgecase-reference-1"},
+                      {"id", r.c.id},
+                      {"profile", std::string(cases::to_string(e.profile))},
+                      {"subpixel_bits", e.limits.subpixel_bits},
+                      {"width", r.c.target.width},
+                      {"height", r.c.target.height},
+                      {"samples_per_pixel", r.c.target.samples},
+                      {"layers", r.c.target.layers},
+                      {"must_samples", e.must_samples},
+                      {"either_samples", e.either_samples},
+                      {"note", "samples that must not be covered are left out"}},
+                     "samples", put);
     for (size_t index = 0; index < e.samples.size(); ++index) {
         const ref::SampleExpectation& s = e.samples[index];
         if (s.hits.total_max == 0) {
@@ -88,29 +100,17 @@ std::string to_json(Reference& r) {
                                {"provoking_vertex", triangle.provoking},
                                {"values", values_json(r, t, index)}});
         }
-        samples.push_back({{"x", id.x},
-                           {"y", id.y},
-                           {"sample", id.sample},
-                           {"layer", id.layer},
-                           {"class", class_name(s.hits)},
-                           {"front", {s.hits.front_min, s.hits.front_max}},
-                           {"back", {s.hits.back_min, s.hits.back_max}},
-                           {"total", {s.hits.total_min, s.hits.total_max}},
-                           {"writers", std::move(writers)}});
+        samples.add({{"x", id.x},
+                     {"y", id.y},
+                     {"sample", id.sample},
+                     {"layer", id.layer},
+                     {"class", class_name(s.hits)},
+                     {"front", {s.hits.front_min, s.hits.front_max}},
+                     {"back", {s.hits.back_min, s.hits.back_max}},
+                     {"total", {s.hits.total_min, s.hits.total_max}},
+                     {"writers", std::move(writers)}});
     }
-    const Json all = {{"schema", "edgecase-reference-1"},
-                      {"id", r.c.id},
-                      {"profile", std::string(cases::to_string(e.profile))},
-                      {"subpixel_bits", e.limits.subpixel_bits},
-                      {"width", r.c.target.width},
-                      {"height", r.c.target.height},
-                      {"samples_per_pixel", r.c.target.samples},
-                      {"layers", r.c.target.layers},
-                      {"must_samples", e.must_samples},
-                      {"either_samples", e.either_samples},
-                      {"note", "samples that must not be covered are left out"},
-                      {"samples", std::move(samples)}};
-    return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    samples.end();
 }
 
 // Channels a sample: fewest and most hits, then the exact values of the last writer rounded to
@@ -176,9 +176,11 @@ capture::Image coverage_image(const Reference& r) {
 Drawing allowed_picture(const cases::Case& c, const RenderOptions& options) {
     ref::Limits limits;
     limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
-    Reference r{c, ref::expect(c, limits, options.profile),
-                ref::ValueReference(c, limits, options.profile)};
-    return {to_json(r), values_image(r), coverage_image(r)};
+    const auto r =
+        std::make_shared<Reference>(Reference{c, ref::expect(c, limits, options.profile),
+                                              ref::ValueReference(c, limits, options.profile)});
+    return {[r](const Put& put) { put_json(*r, put); }, [r] { return values_image(*r); },
+            [r] { return coverage_image(*r); }};
 }
 
 OrStop<Drawing> picture_of(const cases::Case& c, const RenderOptions& options) {
@@ -220,11 +222,11 @@ int render_command(const Program& program, const RenderOptions& options) {
     }
     const cases::Expected<void> written =
         extension == ".json"
-            ? write_text(options.output, drawing->json)
+            ? write_pieces(options.output, drawing->json)
             : capture::write_image(
-                  options.output, is_picture
-                                      ? enlarged(drawing->picture, c->target.samples, options.scale)
-                                      : drawing->values);
+                  options.output,
+                  is_picture ? enlarged(drawing->picture(), c->target.samples, options.scale)
+                             : drawing->values());
     if (!written) {
         return report_stop({report::kExitInternal, {cases::to_string(written.error())}});
     }

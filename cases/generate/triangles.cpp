@@ -19,6 +19,8 @@ constexpr std::array<std::string_view, 6> kClasses = {"on-grid", "off-grid", "sl
 constexpr int64_t kFiner = 251;     // off-grid positions: a prime number of parts a grid step
 constexpr int64_t kHugeReach = 16;  // rectangles beyond each side
 constexpr int64_t kMaxTriangles = 65536;
+// Of the classes whose triangles are as large as the rectangle, and so lie over each other.
+constexpr int64_t kMaxLarge = 4096;
 constexpr int64_t kWithoutGrid = 256;  // the lattice's denominator if grid = 0
 
 using Triangle = std::array<LatticePoint, 3>;
@@ -122,8 +124,10 @@ void push_out(std::array<ExactVertex, 3>& t, Random& random) {
 }  // namespace
 
 std::optional<Generated> generate_triangles(GeneratorKeys& keys) {
-    const int64_t count = keys.integer("count", 1, kMaxTriangles, std::nullopt);
     const auto kind = static_cast<Class>(keys.word("class", kClasses, 0));
+    const bool is_small = kind == Class::tiny || kind == Class::sliver;
+    const int64_t count =
+        keys.integer("count", 1, is_small ? kMaxTriangles : kMaxLarge, std::nullopt);
     const GeneratorKeys::Rectangle r = keys.rectangle();
     const int64_t given_grid = keys.grid();
     const std::optional<GeneratorKeys::WRange> w = keys.w_range();

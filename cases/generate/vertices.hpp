@@ -18,8 +18,8 @@ namespace cases {
 
 enum class Space : uint8_t { pixels, ndc, clip };
 
-inline constexpr size_t kMaxVertices = size_t{1} << 20U;  // a draw
-inline constexpr size_t kMaxIndices = size_t{1} << 22U;   // a draw
+inline constexpr size_t kMaxVertices = size_t{1} << 20U;  // of all draws
+inline constexpr size_t kMaxIndices = size_t{1} << 22U;   // of all draws
 
 // x, y, z, w in the draw's space. pixels: x and y in framebuffer pixels, z in the viewport's 0..1
 // before the depth range; ndc: after the division by w; clip: before it.

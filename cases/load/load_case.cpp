@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cases/generate/vertices.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/load/matrix.hpp"
 #include "cases/load/parts.hpp"
@@ -175,11 +176,23 @@ class CaseLoader {
                                                      draws->array.size()));
             return;
         }
+        size_t vertices = 0;
+        size_t indices = 0;
         for (const TomlValue& table : draws->array) {
             if (!context_.table(table, "draw")) {
                 continue;
             }
             c_.draws.push_back(load_draw(context_, table, c_.target, c_.draws.size(), c_.notes));
+            const Draw& draw = c_.draws.back();
+            vertices += draw.positions.size();
+            indices += draw.indices ? draw.indices->size() : 0;
+            if (vertices > kMaxVertices || indices > kMaxIndices) {
+                context_.error(table.where,
+                               fmt::format("the draws up to this one have {} vertices and {} "
+                                           "indices; the most are {} and {} in a case",
+                                           vertices, indices, kMaxVertices, kMaxIndices));
+                return;  // what follows may be as large
+            }
         }
         check_layers(*draws);
     }

@@ -14,7 +14,8 @@ namespace cases {
 
 namespace {
 
-constexpr uint64_t kMaxPixels = uint64_t{1} << 26;
+// Of all layers. A run takes some 320 bytes a sample, so 5 GiB for the most.
+constexpr uint64_t kMaxTargetSamples = uint64_t{1} << 24;
 constexpr uint32_t kMaxSamples = 16;
 constexpr int64_t kSixteenths = 16;  // the standard grid of sample locations, a pixel
 
@@ -140,11 +141,10 @@ Target load_target(LeafContext& context, const TomlValue& table) {
     }
     target.width = size->front();
     target.height = size->back();
-    if (uint64_t{target.width} * target.height * target.layers * target.samples > kMaxPixels) {
+    if (uint64_t{target.width} * target.height * target.layers * target.samples >
+        kMaxTargetSamples) {
         context.error(table.find("size")->where,
-                      target.samples == 1
-                          ? "the target has more than 2^26 pixels; make it smaller"
-                          : "the target has more than 2^26 samples; make it smaller");
+                      "the target has more than 2^24 samples; make it smaller");
     }
     return target;
 }

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cases/format/color_format.hpp"
@@ -26,8 +27,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
-std::string dump(const Json& json) {
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string dump(const Json& json, int indent = -1) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 // A binary32 with its bits; JSON has no NaN and no infinity.
@@ -71,9 +72,17 @@ bool is_hit(const capture::Capture& capture, size_t index) {
     return capture.hits[index].x + capture.hits[index].y > 0;
 }
 
-std::string drawing_json(const cases::Case& c, const capture::Capture& capture,
-                         const std::string& renderer) {
-    Json samples = Json::array();
+void drawing_json(const cases::Case& c, const capture::Capture& capture,
+                  const std::string& renderer, const Put& put) {
+    JsonList samples({{"schema", "edgecase-drawing-1"},
+                      {"id", c.id},
+                      {"renderer", renderer},
+                      {"width", c.target.width},
+                      {"height", c.target.height},
+                      {"layers", c.target.layers},
+                      {"samples_per_pixel", c.target.samples},
+                      {"note", "samples that were not hit are left out"}},
+                     "samples", put);
     for (size_t index = 0; index < capture.sample_count(); ++index) {
         if (!is_hit(capture, index)) {
             continue;
@@ -92,17 +101,9 @@ std::string drawing_json(const cases::Case& c, const capture::Capture& capture,
         sample["draw"] = capture.writers[index].draw;
         sample["primitive"] = capture.writers[index].primitive;
         sample["values"] = std::move(values);
-        samples.push_back(std::move(sample));
+        samples.add(sample);
     }
-    return dump({{"schema", "edgecase-drawing-1"},
-                 {"id", c.id},
-                 {"renderer", renderer},
-                 {"width", c.target.width},
-                 {"height", c.target.height},
-                 {"layers", c.target.layers},
-                 {"samples_per_pixel", c.target.samples},
-                 {"note", "samples that were not hit are left out"},
-                 {"samples", std::move(samples)}});
+    samples.end();
 }
 
 capture::Image drawing_values(const cases::Case& c, const capture::Capture& capture) {
@@ -140,6 +141,21 @@ capture::Image drawing_picture(const cases::Case& c, const capture::Capture& cap
 }
 
 }  // namespace
+
+JsonList::JsonList(const Json& object, const std::string& name, const Put& put) : put_(put) {
+    std::string text = dump(object, 1);
+    text.resize(text.find_last_not_of("\n}") + 1);
+    put_(text + fmt::format(",\n \"{}\": [", name));
+}
+
+void JsonList::add(const Json& entry) {
+    put_(fmt::format("{}\n  {}", is_empty_ ? "" : ",", dump(entry)));
+    is_empty_ = false;
+}
+
+void JsonList::end() {
+    put_("\n ]\n}\n");
+}
 
 capture::Image enlarged(const capture::Image& picture, uint32_t samples, uint32_t scale) {
     constexpr uint32_t kSide = 512;
@@ -180,53 +196,79 @@ OrStop<Drawing> draw_picture(const cases::Case& c, const std::string& renderer) 
                 Stop{report::kExitUsage, {"'" + renderer + "' cannot draw the case: " + reason}});
         }
     }
-    const capture::Capture capture = algorithm != nullptr
-                                         ? rasterizers::draw_by_algorithm(whole, *algorithm)
-                                         : rasterizers::draw_by_reference(whole);
-    return Drawing{drawing_json(c, capture, renderer), drawing_values(c, capture),
-                   drawing_picture(c, capture)};
+    const auto capture = std::make_shared<const capture::Capture>(
+        algorithm != nullptr ? rasterizers::draw_by_algorithm(whole, *algorithm)
+                             : rasterizers::draw_by_reference(whole));
+    return Drawing{
+        [&c, capture, renderer](const Put& put) { drawing_json(c, *capture, renderer, put); },
+        [&c, capture] { return drawing_values(c, *capture); },
+        [&c, capture] { return drawing_picture(c, *capture); }};
 }
 
-Drawing blit_picture(const cases::Case& c, cases::Profile profile) {
-    const ref::BlitReference reference(c);
-    const cases::ColorFormat format = c.target.color->format;
-    Drawing out;
-    out.values = {c.target.width, c.target.height, {"R", "G", "B", "A"}, {}};
-    out.picture = {c.target.width, c.target.height, {"R", "G", "B"}, {}};
-    Json texels = Json::array();
-    for (uint32_t y = 0; y < c.target.height; ++y) {
-        for (uint32_t x = 0; x < c.target.width; ++x) {
-            const cases::TexelCodes codes = reference.nominal(x, y);
-            for (uint32_t k = 0; k < 4; ++k) {
-                const cases::ComponentFormat component = cases::component_of(format, k);
-                const double v = component.bits == 0
-                                     ? 0.0
-                                     : ref::color::Component(component).number(codes.at(k));
-                out.values.pixels.push_back(static_cast<float>(v));
-                if (k < 3) {
-                    const double largest = std::ldexp(1.0, static_cast<int>(component.bits)) - 1;
-                    const bool is_whole = component.kind == cases::ComponentKind::uint;
-                    out.picture.pixels.push_back(static_cast<float>(is_whole ? v / largest : v));
-                }
-            }
-            if (reference.is_inside(x, y)) {
-                texels.push_back({{"x", x},
-                                  {"y", y},
-                                  {"codes", codes},
-                                  {"others_allowed", reference.has_freedom(x, y, profile)}});
-            }
-        }
-    }
-    out.json = dump({{"schema", "edgecase-blit-1"},
+namespace {
+
+// The number of a component, from its code.
+double number_of(cases::ColorFormat format, const cases::TexelCodes& codes, uint32_t k) {
+    const cases::ComponentFormat component = cases::component_of(format, k);
+    return component.bits == 0 ? 0.0 : ref::color::Component(component).number(codes.at(k));
+}
+
+void blit_json(const cases::Case& c, const ref::BlitReference& reference, cases::Profile profile,
+               const Put& put) {
+    JsonList texels({{"schema", "edgecase-blit-1"},
                      {"id", c.id},
                      {"profile", std::string(cases::to_string(profile))},
-                     {"format", cases::name_of(format)},
+                     {"format", cases::name_of(c.target.color->format)},
                      {"width", c.target.width},
                      {"height", c.target.height},
                      {"clear_codes", reference.clear_codes()},
-                     {"note", "texels outside the destination region keep the clear codes"},
-                     {"texels", std::move(texels)}});
+                     {"note", "texels outside the destination region keep the clear codes"}},
+                    "texels", put);
+    for (uint32_t y = 0; y < c.target.height; ++y) {
+        for (uint32_t x = 0; x < c.target.width; ++x) {
+            if (reference.is_inside(x, y)) {
+                texels.add({{"x", x},
+                            {"y", y},
+                            {"codes", reference.nominal(x, y)},
+                            {"others_allowed", reference.has_freedom(x, y, profile)}});
+            }
+        }
+    }
+    texels.end();
+}
+
+// The numbers of the first components; those of integers in 0..1 if the image is to look at.
+capture::Image blit_image(const cases::Case& c, const ref::BlitReference& reference,
+                          std::vector<std::string> channels, bool is_to_look_at) {
+    const cases::ColorFormat format = c.target.color->format;
+    capture::Image out{c.target.width, c.target.height, std::move(channels), {}};
+    for (uint32_t y = 0; y < c.target.height; ++y) {
+        for (uint32_t x = 0; x < c.target.width; ++x) {
+            const cases::TexelCodes codes = reference.nominal(x, y);
+            for (uint32_t k = 0; k < out.channels.size(); ++k) {
+                const cases::ComponentFormat component = cases::component_of(format, k);
+                const bool is_whole = component.kind == cases::ComponentKind::uint;
+                const double largest = is_to_look_at && is_whole
+                                           ? std::ldexp(1.0, static_cast<int>(component.bits)) - 1
+                                           : 1.0;
+                out.pixels.push_back(static_cast<float>(number_of(format, codes, k) / largest));
+            }
+        }
+    }
     return out;
+}
+
+}  // namespace
+
+Drawing blit_picture(const cases::Case& c, cases::Profile profile) {
+    const auto reference = std::make_shared<const ref::BlitReference>(c);
+    return {[&c, reference, profile](const Put& put) { blit_json(c, *reference, profile, put); },
+            [&c, reference] {
+                return blit_image(c, *reference, {"R", "G", "B", "A"}, false);
+            },
+            [&c, reference] {
+                return blit_image(c, *reference, {"R", "G", "B"}, true);
+            }};
 }
 
 }  // namespace cli

@@ -4,20 +4,38 @@
 // Pictures of what was drawn, or blitted, without any device: for the command "render".
 #pragma once
 
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "capture/capture.hpp"
 #include "capture/image/image.hpp"
 #include "cases/model/case.hpp"
+#include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 
 namespace cli {
 
-// One picture in the three forms that "render" writes.
+// One picture in the three forms that "render" writes; each is made when it is asked for, and may
+// refer to the case.
 struct Drawing {
-    std::string json;
-    capture::Image values;   // as many channels as there are values
-    capture::Image picture;  // to look at: R, G, B in 0..1, the samples of a pixel in turn
+    std::function<void(const Put& put)> json;
+    std::function<capture::Image()> values;   // as many channels as there are values
+    std::function<capture::Image()> picture;  // to look at: R, G, B in 0..1, the samples of a
+                                              // pixel in turn
+};
+
+// A JSON object whose last member, `name`, is a list: put entry by entry, a line each.
+class JsonList {
+  public:
+    // The object without that member, which is not empty.
+    JsonList(const nlohmann::ordered_json& object, const std::string& name, const Put& put);
+    void add(const nlohmann::ordered_json& entry);
+    void end();
+
+  private:
+    const Put& put_;
+    bool is_empty_ = true;
 };
 
 // The picture with pixels of `scale` x `scale` (0: so many that the longer side has nearly 512),

@@ -7,7 +7,8 @@
 
 namespace cli {
 
-// Does `work` for 0 .. count - 1 on all cores, in no order; the work does not throw.
+// Does `work` for 0 .. count - 1 on all cores, in no order, with a line of progress on a
+// terminal; the work does not throw.
 void for_each_on_threads(size_t count, const std::function<void(size_t)>& work);
 
 }  // namespace cli

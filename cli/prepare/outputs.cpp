@@ -39,11 +39,35 @@ cases::Error system_error(const std::string& file) {
     return {{}, "'" + file + "' cannot be written: " + std::strerror(errno)};
 }
 
+// Tells the pieces to a descriptor, some at once; false (with errno): one could not be written.
+bool write_pieces_to(int fd, const std::function<void(const Put&)>& tell) {
+    constexpr size_t kAtOnce = size_t{1} << 16U;
+    std::string waiting;
+    bool good = true;
+    int error = 0;
+    const auto flush = [&] {
+        if (good && !run::write_all(fd, waiting)) {
+            good = false;
+            error = errno;
+        }
+        waiting.clear();
+    };
+    tell([&](std::string_view piece) {
+        waiting += piece;
+        if (waiting.size() >= kAtOnce) {
+            flush();
+        }
+    });
+    flush();
+    errno = error;
+    return good;
+}
+
 // Writes to `path` what errors call `name`.
-cases::Expected<void> write_as(const std::string& path, const std::string& text,
+cases::Expected<void> write_as(const std::string& path, const std::function<void(const Put&)>& tell,
                                const std::string& name) {
     run::Fd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (!fd.is_open() || !run::write_all(fd.get(), text)) {
+    if (!fd.is_open() || !write_pieces_to(fd.get(), tell)) {
         return tl::unexpected(system_error(name));
     }
     if (::close(fd.release()) != 0) {  // some file systems tell of a full disk only now
@@ -54,22 +78,29 @@ cases::Expected<void> write_as(const std::string& path, const std::string& text,
 
 }  // namespace
 
-cases::Expected<void> write_text(const std::string& file, const std::string& text) {
+cases::Expected<void> write_pieces(const std::string& file,
+                                   const std::function<void(const Put&)>& tell) {
     if (file == "-") {
         std::fflush(stdout);
-        if (!run::write_all(STDOUT_FILENO, text)) {
+        if (!write_pieces_to(STDOUT_FILENO, tell)) {
             return tl::unexpected(system_error("standard output"));
         }
         return {};
     }
-    return write_as(file, text, file);
+    return write_as(file, tell, file);
+}
+
+cases::Expected<void> write_text(const std::string& file, const std::string& text) {
+    return write_pieces(file, [&text](const Put& put) { put(text); });
 }
 
 cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text) {
     const std::filesystem::path other = file.string() + ".new";
     std::error_code error;
     std::filesystem::remove(other, error);  // what an interrupted program left, or a link
-    if (auto written = write_as(other.string(), text, file.string()); !written) {
+    if (auto written = write_as(
+            other.string(), [&text](const Put& put) { put(text); }, file.string());
+        !written) {
         std::filesystem::remove(other, error);
         return written;
     }
@@ -230,11 +261,14 @@ report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose) {
     return style;
 }
 
-std::string progress_line(size_t done, size_t total, size_t unexpected, double seconds,
-                          size_t width) {
+std::string progress_line(size_t done, size_t total, std::optional<size_t> unexpected,
+                          double seconds, size_t width) {
     const size_t percent = total == 0 ? 100 : done * 100 / total;
     std::string text = "[" + std::to_string(done) + "/" + std::to_string(total) + "] " +
-                       std::to_string(percent) + "%  " + std::to_string(unexpected) + " unexpected";
+                       std::to_string(percent) + "%";
+    if (unexpected) {
+        text += "  " + std::to_string(*unexpected) + " unexpected";
+    }
     if (done > 0 && seconds > 0) {
         const double rate = static_cast<double>(done) / seconds;
         const auto left = static_cast<uint64_t>(static_cast<double>(total - done) / rate) + 1;
@@ -260,7 +294,7 @@ Progress::Progress(ProgressStyle style, size_t total)
     }
 }
 
-void Progress::show(size_t done, size_t unexpected) {
+void Progress::show(size_t done, std::optional<size_t> unexpected) {
     const double now = steady_seconds();
     const double interval = kind_ == Kind::line ? 0.2 : 10.0;
     if (kind_ == Kind::none || now - last_ < interval) {
@@ -277,8 +311,8 @@ void Progress::show(size_t done, size_t unexpected) {
         shown_ = true;
     } else {
         const size_t percent = total_ == 0 ? 100 : done * 100 / total_;
-        std::fprintf(stderr, "%zu of %zu cases (%zu%%), %zu unexpected\n", done, total_, percent,
-                     unexpected);
+        std::fprintf(stderr, "%zu of %zu cases (%zu%%)%s\n", done, total_, percent,
+                     unexpected ? fmt::format(", {} unexpected", *unexpected).c_str() : "");
     }
 }
 

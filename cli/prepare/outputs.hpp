@@ -6,7 +6,10 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cases/base/error.hpp"
@@ -25,6 +28,10 @@ struct ReportFiles {
 // Writes text to a file or "-". Error: one sentence with the file and errno's reason, also for a
 // full disk.
 cases::Expected<void> write_text(const std::string& file, const std::string& text);
+// The same of a text that is too long to be held at once: `tell` puts piece after piece.
+using Put = std::function<void(std::string_view piece)>;
+cases::Expected<void> write_pieces(const std::string& file,
+                                   const std::function<void(const Put& put)>& tell);
 // Puts a whole file in the place of what had its name, be it a link: never a half-written one.
 cases::Expected<void> replace_text(const std::filesystem::path& file, const std::string& text);
 
@@ -60,15 +67,15 @@ report::ConsoleStyle console_style(std::FILE* stream, When when, bool verbose);
 
 // Progress as one line: "[120/3538] 3%  2 unexpected  410/s  8 s left", cut to `width` columns.
 // `seconds` is how long the run has lasted.
-std::string progress_line(size_t done, size_t total, size_t unexpected, double seconds,
-                          size_t width);
+std::string progress_line(size_t done, size_t total, std::optional<size_t> unexpected,
+                          double seconds, size_t width);
 
 // One line on a terminal at most five times a second, or one line every ten seconds elsewhere;
 // nothing in continuous integration.
 class Progress {
   public:
     Progress(ProgressStyle style, size_t total);
-    void show(size_t done, size_t unexpected);
+    void show(size_t done, std::optional<size_t> unexpected);
     // Removes the line, so that something else can be printed.
     void clear();
 

@@ -84,11 +84,9 @@ diff::Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
 
 bool same_bits(const capture::Capture& a, const capture::Capture& b) {
     bool same = true;
-    capture::for_each_plane(
-        [&same](const capture::Plane&, const auto& one, const auto& other) {
-            same = same && same_bits(one, other);
-        },
-        a, a, b);
+    capture::for_each_plane([&same](const capture::Plane&, const auto& one,
+                                    const auto& other) { same = same && same_bits(one, other); },
+                            a, a, b);
     return same;
 }
 

@@ -3,9 +3,11 @@
 """Words that are wrong get a sentence, the nearest right one, and the documented exit code."""
 import json
 import re
+import resource
+import subprocess
 import unittest
 
-from support import CASE, SOURCE, ProgramTest
+from support import CASE, PROGRAM, SOURCE, ProgramTest
 
 LAYERED = CASE.format(n=99).replace("size = [8, 8]", "size = [8, 8]\nlayers = 2").replace("[[draw]]", "[[draw]]\nlayer = 1")
 COMMANDS = ["run", "list", "lint", "explain", "render", "export", "diff", "doctor", "bench", "report", "compare", "expect", "completion", "man", "version"]
@@ -336,6 +338,13 @@ class Listing(ProgramTest):
         refused = self.edgecase("explain", "fam/layered", "--pixel", "2,2", "--layer", "2", check=2).stderr
         self.assertIn("pixel 2,2 sample 0 layer 2 is outside the target of 8 x 8 pixels with 1 sample and 2 layers",
                       refused)
+
+    def test_render_of_a_large_target_takes_little_memory(self):
+        self.write_case("fam/large", CASE.format(n=0).replace("[8, 8]", "[2048, 2048]").replace("vertices = ", "vertices = [[0,0], [2048,0], [0,2048]] #"))
+        limit = 1 << 30  # the picture needs 460 MB; with the values of all samples it took 6 GB
+        done = subprocess.run([PROGRAM, "render", "fam/large", "-o", "large.png"], cwd=self.folder, capture_output=True, text=True,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_render_layers(self):
         self.write_case("fam/layered", LAYERED)

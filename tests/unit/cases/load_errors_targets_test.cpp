@@ -23,7 +23,7 @@ const Row kRows[] = {
     {target(R"~(size = [8, 2.5])~"),
      R"~(f:5:12: error: the target's height is not an integer from 1 to 16384)~"},
     {target(R"~(size = [16384, 16384])~"),
-     R"~(f:5:8: error: the target has more than 2^26 pixels; make it smaller)~"},
+     R"~(f:5:8: error: the target has more than 2^24 samples; make it smaller)~"},
     {target(R"~(size = [8, 8]
 samples = 6)~"),
      R"~(f:6:11: error: 6 samples have no standard locations; write 1, 2, 4, 8 or 16)~"},
@@ -44,7 +44,7 @@ layer = 2)~"),
      R"~(f:6:1: error: [target] has no key "layer"; did you mean "layers"?)~"},
     {target(R"~(size = [4096, 4096]
 layers = 5)~"),
-     R"~(f:5:8: error: the target has more than 2^26 pixels; make it smaller)~"},
+     R"~(f:5:8: error: the target has more than 2^24 samples; make it smaller)~"},
     {target(R"~(size = [8, 8]
 samples = 4
 layers = 2
@@ -59,7 +59,7 @@ depth_resolve = "min")~"),
      R"~(f:8:17: error: depth_resolve does not go with several layers; leave out layers)~"},
     {target(R"~(size = [8192, 8192]
 samples = 2)~"),
-     R"~(f:5:8: error: the target has more than 2^26 samples; make it smaller)~"},
+     R"~(f:5:8: error: the target has more than 2^24 samples; make it smaller)~"},
     {target(R"~(size = [8, 8]
 samples = 2
 sample_locations = [[1, 2]])~"),
