@@ -342,7 +342,7 @@ class Listing(ProgramTest):
     def test_render_of_a_large_target_takes_little_memory(self):
         self.write_case("fam/large", CASE.format(n=0).replace("[8, 8]", "[2048, 2048]").replace("vertices = ", "vertices = [[0,0], [2048,0], [0,2048]] #"))
         limit = 1 << 30  # the picture needs 460 MB; with the values of all samples it took 6 GB
-        done = subprocess.run([PROGRAM, "render", "fam/large", "-o", "large.png"], cwd=self.folder, capture_output=True, text=True,
+        done = subprocess.run([PROGRAM, "render", "fam/large", "-o", "large.png"], env=self.environment(""), cwd=self.folder, capture_output=True, text=True,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
