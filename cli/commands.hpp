@@ -4,12 +4,25 @@
 // One function a command; each returns an exit code of report/record/run.hpp.
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "cli/options/options.hpp"
 #include "cli/options/program.hpp"
+#include "report/record/run.hpp"
 
 namespace cli {
 
 int run_command(const Program& program, const RunOptions& options);
+// A run that tells its results in words of its own: nothing else goes to standard output.
+struct RunTeller {
+    std::function<bool(const std::string& id)> takes;  // which of the selected cases are run
+    std::function<void(const std::vector<std::string>& ids)> begin;  // drawing begins
+    std::function<bool(const report::CaseRecord&)> end;  // of one case; false ends the run
+};
+int run_with(const Program& program, const RunOptions& options, const RunTeller& teller);
+int gtest_command(const Program& program, const GtestOptions& options);
 int list_command(const Program& program, const ListOptions& options);
 int lint_command(const Program& program, const LintOptions& options);
 int explain_command(const Program& program, const ExplainOptions& options);

@@ -3,6 +3,8 @@
 //
 // The command "run": select, ask the device, draw and judge, write the reports.
 #include <algorithm>
+#include <cstdio>
+#include <memory>
 #include <variant>
 
 #include "cases/base/regex.hpp"
@@ -115,7 +117,7 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
 }
 
 int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
-                 run::WorkerClient worker, run::SignalFd& signals) {
+                 run::WorkerClient worker, run::SignalFd& signals, const RunTeller* teller) {
     const bool resumed = !p.header.device.name.empty();
     const RunOptions& options = p.options;
     check_pictures(p.plan);
@@ -160,7 +162,10 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         return report_stop(journal.error());
     }
 
-    std::FILE* console = console_beside(options.json, options.junit, options.html);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> nowhere(
+        teller != nullptr ? std::fopen("/dev/null", "w") : nullptr, &std::fclose);
+    std::FILE* console =
+        nowhere ? nowhere.get() : console_beside(options.json, options.junit, options.html);
     report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     style.folder = shell_quote(p.folder.string());
     if (!options.quiet) {
@@ -192,7 +197,14 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
             std::fflush(console);
         }
     };
-    const auto on_record = [&](const CaseRecord& record) { print(unexpected.add(record)); };
+    const auto on_record = [&](const CaseRecord& record) {
+        print(unexpected.add(record));
+        return teller != nullptr ? teller->end(record)
+                                 : !options.fail_fast || report::is_expected(record.status);
+    };
+    if (teller != nullptr) {
+        teller->begin(ids);
+    }
     const run::Clock::time_point begin = run::Clock::now();
     run::RunLoop loop(config, p.plan, *journal, signals, on_record,
                       [&](size_t done) { progress.show(done, unexpected.count()); });
@@ -217,9 +229,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                     {failure, "the run stopped early", {}, "interrupted" + resume});
 }
 
-}  // namespace
-
-int run_command(const Program& program, const RunOptions& options) {
+int run_told(const Program& program, const RunOptions& options, const RunTeller* teller) {
     run::SignalFd signals;
     const bool resumes = !options.resume.empty();
     // The driver's start takes as long as reading the suite, so both are done at once. What is
@@ -233,6 +243,17 @@ int run_command(const Program& program, const RunOptions& options) {
     if (!prepared) {
         return report_stop(prepared.error());
     }
+    if (teller != nullptr) {
+        std::erase_if(prepared->plan,
+                      [&](const run::PlannedCase& c) { return !teller->takes(c.data.id); });
+        std::erase_if(prepared->header.cases,
+                      [&](const CaseRecord& record) { return !teller->takes(record.id); });
+        if (prepared->plan.empty()) {
+            return report_stop(stop_with(report::kExitNothingSelected,
+                                         "no selected case is one of the tests that are asked for; "
+                                         "'edgecase gtest --gtest_list_tests' lists their names"));
+        }
+    }
     run::LoopConfig config = loop_config(program, prepared->options);
     if (!prepared->options.debugger.empty()) {
         if (auto set = set_debugger(program, prepared->options, prepared->plan, config); !set) {
@@ -245,7 +266,17 @@ int run_command(const Program& program, const RunOptions& options) {
     if (!*worker) {
         return report_stop(worker->error());
     }
-    return run_prepared(program, *prepared, config, std::move(**worker), signals);
+    return run_prepared(program, *prepared, config, std::move(**worker), signals, teller);
+}
+
+}  // namespace
+
+int run_command(const Program& program, const RunOptions& options) {
+    return run_told(program, options, nullptr);
+}
+
+int run_with(const Program& program, const RunOptions& options, const RunTeller& teller) {
+    return run_told(program, options, &teller);
 }
 
 }  // namespace cli

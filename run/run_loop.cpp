@@ -56,7 +56,8 @@ RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, repor
       on_record_(std::move(on_record)),
       on_progress_(std::move(on_progress)),
       schedule_(all_bytes(cases), config_.schedule),
-      pool_(cases::cores()) {}
+      pool_(cases::cores()),
+      is_finished_(cases.size(), false) {}
 
 RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& device) {
     device_ = device;
@@ -73,7 +74,7 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
             schedule_.add(k);
         }
     }
-    while (settled_ < cases_.size() && end_.failure.empty()) {
+    while (settled_ < cases_.size() && end_.failure.empty() && !is_stopped_) {
         for (Slot& slot : slots_) {
             feed(slot);
         }
@@ -99,6 +100,11 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
                          [slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
     for (auto& [k, record] : std::exchange(held_, {})) {  // only if the run ends early
         finish(k, std::move(record));
+    }
+    for (size_t k = 0; is_stopped_ && k < cases_.size(); ++k) {
+        if (!is_finished_[k]) {
+            finish(k, fresh_record(k, Status::skip, "the run ended before this case was judged"));
+        }
     }
     return end_;
 }
@@ -400,7 +406,8 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     }
     check(journal_.write_end(record));
     ++settled_;
-    on_record_(record);
+    is_finished_[k] = true;
+    is_stopped_ = !on_record_(record) || is_stopped_;
 }
 
 }  // namespace run

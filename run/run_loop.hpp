@@ -47,8 +47,9 @@ struct LoopConfig {
 
 class RunLoop {
   public:
-    // Called with each final record, in the order of settling.
-    using OnRecord = std::function<void(const report::CaseRecord&)>;
+    // Called with each final record, in the order of settling; false ends the run, and the cases
+    // that have no result by then are skipped.
+    using OnRecord = std::function<bool(const report::CaseRecord&)>;
     // Called at least five times a second: cases settled.
     using OnProgress = std::function<void(size_t)>;
 
@@ -107,8 +108,10 @@ class RunLoop {
     std::map<size_t, double> seconds_;
     vk_harness::DeviceInfo device_;
     size_t settled_ = 0;
-    uint32_t start_failures_ = 0;  // in a row
-    std::future<void> ending_;     // of the workers, waited for at the end of the loop's life
+    std::vector<bool> is_finished_;  // [k] has its final record
+    bool is_stopped_ = false;        // by on_record_
+    uint32_t start_failures_ = 0;    // in a row
+    std::future<void> ending_;       // of the workers, waited for at the end of the loop's life
     End end_;
 };
 

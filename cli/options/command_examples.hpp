@@ -12,6 +12,10 @@ struct Examples {
     const char* text;
 };
 inline constexpr Examples kExamples[] = {
+    {"gtest",
+     "  edgecase gtest --gtest_list_tests\n"
+     "  edgecase gtest --gtest_filter='edgecase.ties/apex-up'\n"
+     "  gtest-runner run --gtest edgecase --output out -- gtest --profile vulkan\n"},
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
@@ -65,6 +69,7 @@ struct Group {
 };
 inline constexpr Group kGroups[] = {
     {"run", "Checking a device"},
+    {"gtest", "Checking a device"},
     {"report", "Checking a device"},
     {"compare", "Checking a device"},
     {"expect", "Checking a device"},

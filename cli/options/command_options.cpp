@@ -60,14 +60,17 @@ const std::map<std::string, std::string>& drawing_names() {
     return kNames;
 }
 
-// What run and diff have in common.
-void add_expectations(CLI::App* app, RunOptions& o) {
-    app->add_option("--expect", o.expect, "an expectation file, instead of those beside the suite")
+// What run, gtest and diff have in common.
+void add_expect(CLI::App* app, RunOptions& o, const char* what) {
+    app->add_option("--expect", o.expect, what)
         ->type_name("FILE")
         ->type_size(1)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Judging");
+}
+void add_expectations(CLI::App* app, RunOptions& o) {
+    add_expect(app, o, "an expectation file, instead of those beside the suite");
     app->add_flag("--no-expect", o.no_expect, "no expectation files")->group("Judging");
 }
 void add_outputs(CLI::App* app, RunOptions& o, const char* folder, bool tells_ci) {
@@ -131,8 +134,30 @@ void define_run(CLI::App& app, RunOptions& o) {
     add_value(run, "--debugger", o.debugger,
               "run the worker of one case under 'gdb', 'lldb' or other words, on this terminal",
               "WORDS", "Isolation");
+    run->add_flag("--fail-fast", o.fail_fast,
+                  "end at the first unexpected result; the cases without one are skipped")
+        ->group("Isolation");
     add_value(run, "--resume", o.resume, "go on with an interrupted run", "DIR", "Isolation");
     add_outputs(run, o, "where the reports go [out/<time>-<device>]", true);
+}
+
+void define_gtest(CLI::App& app, GtestOptions& o) {
+    CLI::App* gtest =
+        app.add_subcommand("gtest", "draw cases as a GoogleTest program does, for deqp-runner");
+    add_suite(gtest, o.run.suite);
+    gtest->add_flag("--gtest_list_tests", o.list, "list the tests, draw nothing")
+        ->group("Selection");
+    add_value(gtest, "--gtest_filter", o.filter,
+              "tests to draw, separated by ':', '*' and '?' as in GoogleTest [*]", "NAMES",
+              "Selection");
+    add_device(gtest, o.run.device);
+    gtest->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")
+        ->group("Device");
+    add_profile(gtest, o.run.profile);
+    add_expect(gtest, o.run, "an expectation file: what ends as it says is OK [none]");
+    add_value(gtest, "-o,--output", o.run.output,
+              "keep the reports, in a new folder below DIR for each process [not kept]", "DIR",
+              "Output");
 }
 
 // Rendering by others: what they get, and how it is judged.
@@ -294,6 +319,7 @@ void define(CLI::App& app, AllOptions& all) {
     app.require_subcommand(0, 1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     define_run(app, all.run);
+    define_gtest(app, all.gtest);
     define_others(app, all);
     for (CLI::App* command : app.get_subcommands({})) {
         command->set_help_flag("-h,--help", "this help");

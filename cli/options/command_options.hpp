@@ -12,6 +12,7 @@ namespace cli {
 
 struct AllOptions {
     RunOptions run;
+    GtestOptions gtest;
     ListOptions list;
     LintOptions lint;
     ExplainOptions explain;

@@ -44,7 +44,7 @@ struct RunOptions {
     SuiteOptions suite;
     DeviceOptions device;
     std::string failed_in, resume;
-    bool quick = false;
+    bool quick = false, fail_fast = false;
     Shard shard;
     bool shuffle = false;
     uint64_t seed = 1;
@@ -64,6 +64,13 @@ struct RunOptions {
     When color = When::automatic;
     ProgressStyle progress = ProgressStyle::automatic;
     Ci ci = Ci::automatic;
+};
+
+// Cases as a GoogleTest program: what deqp-runner and others start.
+struct GtestOptions {
+    RunOptions run;
+    bool list = false;
+    std::string filter = "*";
 };
 
 struct ListOptions {

@@ -10,7 +10,7 @@ import unittest
 from support import CASE, PROGRAM, SOURCE, ProgramTest
 
 LAYERED = CASE.format(n=99).replace("size = [8, 8]", "size = [8, 8]\nlayers = 2").replace("[[draw]]", "[[draw]]\nlayer = 1")
-COMMANDS = ["run", "list", "lint", "explain", "render", "export", "diff", "doctor", "bench", "report", "compare", "expect", "completion", "man", "version"]
+COMMANDS = ["run", "gtest", "list", "lint", "explain", "render", "export", "diff", "doctor", "bench", "report", "compare", "expect", "completion", "man", "version"]
 
 
 class Usage(ProgramTest):
@@ -234,7 +234,7 @@ class Usage(ProgramTest):
         for command in COMMANDS:
             text = self.edgecase(command, "--help", check=0).stdout.split("Examples:")[0]
             section = manual.split(f"## `edgecase {command}`", 1)[1].split("\n## ", 1)[0]
-            for option in set(re.findall(r"--[a-z][a-z-]+", text)) - {"--help"}:
+            for option in set(re.findall(r"--[a-z][a-z_-]+", text)) - {"--help"}:
                 self.assertIn(f"`{option}", section, f"docs/cli.md, {command}")
 
 

@@ -136,7 +136,7 @@ class Table(ProgramTest):
 
     def options(self, command):
         text = self.edgecase(command, "--help", check=0).stdout.split("Examples:")[0]
-        return sorted(set(re.findall(r"--[a-z][a-z-]+", text)) - {"--help"})
+        return sorted(set(re.findall(r"--[a-z][a-z_-]+", text)) - {"--help"})
 
     def test_nothing_is_missing_anywhere(self):
         outputs = {shell: self.edgecase("completion", shell, check=0).stdout for shell in ("bash", "zsh", "fish")}

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "gtest": cases as the tests of a GoogleTest program, so that deqp-runner, which Mesa's
+// continuous integration uses, can list, draw and judge them without a patch. docs/ci/README.md
+// tells what of that program's habits the names and the order of the lines follow from.
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
+#include "report/text/sentences.hpp"
+
+namespace cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using report::CaseRecord;
+using report::Status;
+
+constexpr const char* kGroup = "edgecase.";
+
+// "a/b:x=0.5,y=1" -> "edgecase.a/b@x=0~5&y=1". A filter separates names by ':', a baseline ends
+// them at ',', and in a list of tests what ends with '.' is a group; no id has the signs that stand
+// for these.
+std::string test_of(const std::string& id) {
+    std::string name = id;
+    std::replace(name.begin(), name.end(), ':', '@');
+    std::replace(name.begin(), name.end(), ',', '&');
+    std::replace(name.begin(), name.end(), '.', '~');
+    return name;
+}
+std::string name_of(const std::string& id) {
+    return kGroup + test_of(id);
+}
+
+// --gtest_filter: names and globs separated by ':'; a pattern that begins with '-' and those after
+// it exclude.
+class Filter {
+  public:
+    explicit Filter(const std::string& text) {
+        bool excludes = false;
+        for (size_t begin = 0; begin <= text.size();) {
+            const size_t end = std::min(text.find(':', begin), text.size());
+            std::string pattern = text.substr(begin, end - begin);
+            if (pattern.starts_with('-')) {
+                excludes = true;
+                pattern.erase(0, 1);
+            }
+            (excludes ? without_ : with_).add(pattern);
+            begin = end + 1;
+        }
+        if (text.starts_with('-')) {
+            with_.add("*");
+        }
+    }
+    bool takes(const std::string& id) const {
+        const std::string name = name_of(id);
+        return with_.has(name) && !without_.has(name);
+    }
+
+  private:
+    struct Patterns {
+        std::set<std::string> names;
+        std::vector<std::string> globs;
+        void add(const std::string& pattern) {
+            if (pattern.find_first_of("*?") == std::string::npos) {
+                names.insert(pattern);
+            } else {
+                globs.push_back(pattern);
+            }
+        }
+        bool has(const std::string& name) const {
+            return names.contains(name) ||
+                   std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) {
+                       return ::fnmatch(glob.c_str(), name.c_str(), FNM_NOESCAPE) == 0;
+                   });
+        }
+    };
+    Patterns with_, without_;
+};
+
+int list_tests(const Program& program, const GtestOptions& options, const Filter& filter) {
+    const OrStop<LoadedSuite> suite = load_and_select(program, options.run.suite);
+    if (!suite) {
+        return report_stop(suite.error());
+    }
+    say(std::string(kGroup) + "\n");
+    for (const size_t k : suite->selected) {
+        if (filter.takes(suite->cases[k].id)) {
+            say("  " + test_of(suite->cases[k].id) + "\n");
+        }
+    }
+    return report::kExitOk;
+}
+
+// Writes the lines of a GoogleTest program, in the order of the selection. A test's "RUN" comes as
+// soon as the one before it has ended: a runner's time limit then blames the right one.
+class Teller {
+  public:
+    void begin(const std::vector<std::string>& ids) {
+        ids_ = ids;
+        say(fmt::format("[==========] Running {} tests from 1 test suite.\n", ids_.size()));
+        say_next();
+    }
+    // False: the case killed its worker, so that this program ends as if the driver were part of
+    // it: with a test that began and never ended, which runners call a crash. They draw the rest.
+    bool end(const CaseRecord& record) {
+        waiting_.emplace(record.id, record);
+        while (!is_dead_ && next_ < ids_.size()) {
+            const auto found = waiting_.find(ids_[next_]);
+            if (found == waiting_.end()) {
+                break;
+            }
+            tell(found->second);
+            waiting_.erase(found);
+        }
+        return !is_dead_;
+    }
+
+  private:
+    void say_next() const {
+        if (next_ < ids_.size()) {
+            say("[ RUN      ] " + name_of(ids_[next_]) + "\n");
+        }
+        std::fflush(stdout);
+    }
+    void tell(const CaseRecord& record) {
+        const std::string why = "    " + report::what_happened(record) + "\n    " +
+                                report::why_it_happened(record) + "\n    rerun: " + record.rerun +
+                                "\n" +
+                                (record.explain.empty() ? "" : "    " + record.explain + "\n");
+        if (record.status == Status::crash || record.status == Status::timeout ||
+            record.status == Status::device_lost) {
+            is_dead_ = true;  // a line on standard output might be read as the test's end
+            std::fputs((name_of(record.id) + ":\n" + why).c_str(), stderr);
+            return;
+        }
+        const bool is_judged = record.status == Status::pass || record.status == Status::xfail;
+        const bool is_fine = report::is_expected(record.status);
+        say(fmt::format("{} {} ({:.0f} ms)\n",
+                        is_judged ? "[       OK ]"
+                        : is_fine ? "[  SKIPPED ]"
+                                  : "[  FAILED  ]",
+                        name_of(record.id), record.seconds * 1000));
+        if (!is_fine) {
+            say(why);
+        }
+        ++next_;
+        say_next();
+    }
+
+    std::vector<std::string> ids_;
+    std::map<std::string, CaseRecord> waiting_;
+    size_t next_ = 0;
+    bool is_dead_ = false;
+};
+
+}  // namespace
+
+int gtest_command(const Program& program, const GtestOptions& options) {
+    const Filter filter(options.filter);
+    if (options.list) {
+        return list_tests(program, options, filter);
+    }
+    RunOptions run = options.run;
+    run.no_expect = run.expect.empty();
+    run.jobs = 1;     // a runner starts as many of these processes as it wants
+    run.retries = 0;  // it also draws again what fails
+    run.quiet = true;
+    run.progress = ProgressStyle::none;
+    run.ci = Ci::none;
+    const bool keeps = !run.output.empty();
+    std::error_code error;
+    const fs::path parent = keeps ? fs::path(run.output) : fs::temp_directory_path(error);
+    fs::create_directories(parent, error);
+    std::string folder = (parent / "edgecase-gtest-XXXXXX").string();
+    if (::mkdtemp(folder.data()) == nullptr) {
+        return report_stop(stop_with(report::kExitUsage,
+                                     "no folder can be made in '" + parent.string() +
+                                         "'; choose another with -o or TMPDIR"));
+    }
+    run.output = folder;
+    run.capture = keeps ? run.capture : run::KeepPictures::none;
+    Teller teller;
+    const int code = run_with(program, run,
+                              {[&](const std::string& id) { return filter.takes(id); },
+                               [&](const std::vector<std::string>& ids) { teller.begin(ids); },
+                               [&](const CaseRecord& record) { return teller.end(record); }});
+    if (!keeps) {
+        fs::remove_all(folder, error);
+    }
+    // To a runner of tests, one that cannot be drawn here is no failure.
+    return code == report::kExitAllSkipped ? int{report::kExitOk} : code;
+}
+
+}  // namespace cli
