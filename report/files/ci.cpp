@@ -141,17 +141,14 @@ std::string to_github_summary(const Run& run) {
         return text;
     }
     text +=
-        "\n### Unexpected results by cause\n\n"
-        "| status | rule | kind | broken profile | family | cases | the smallest |\n"
-        "| --- | --- | --- | --- | --- | ---: | --- |\n";
+        "\n### Causes of unexpected results\n\n"
+        "| | cause | breaks | smallest case |\n"
+        "| ---: | --- | --- | --- |\n";
     size_t told = 0;
     for (const Cause& cause : list) {
-        const CaseRecord& first = smallest_case(cause);
-        const std::string row =
-            fmt::format("| {} | {} | {} | {} | {} | {} | {}: {} |\n", cell(to_string(cause.status)),
-                        cell(cause.rule), cell(cause.kind),
-                        cause.rule.empty() ? "" : cases::to_string(cause.level), cell(cause.family),
-                        cause.cases.size(), cell(first.id), cell(why_it_happened(first)));
+        const std::string row = fmt::format(
+            "| {} | {} | {} | {} |\n", told + 1, cell(cause_title(cause)),
+            cause.rule.empty() ? "" : cases::to_string(cause.level), cell(smallest_case(cause).id));
         if (text.size() + row.size() > kMaxSummary / 2) {
             break;
         }
@@ -161,12 +158,19 @@ std::string to_github_summary(const Run& run) {
     if (told < list.size()) {
         text += fmt::format("\n+{} more causes, see the report.\n", list.size() - told);
     }
-    text += "\n### Commands that repeat the smallest case of each\n\n";
-    for (size_t k = 0; k < std::min({told, list.size(), kMaxCommands}); ++k) {
-        const std::string block = command_block(smallest_case(list[k]));
+    text += "\n### What shows and repeats them\n";
+    for (size_t k = 0; k < std::min(told, kMaxCommands); ++k) {
+        const CaseRecord& first = smallest_case(list[k]);
+        const std::string block = fmt::format(
+            "\n**{}. {}**: {}\n\n{}", k + 1, cell(cause_title(list[k])),
+            cell(what_happened(first) + "; " + why_it_happened(first)), command_block(first));
         if (text.size() + block.size() <= kMaxSummary) {
             text += block;
         }
+    }
+    if (told > kMaxCommands) {
+        text +=
+            fmt::format("\nThe commands of the other {} are in the report.\n", told - kMaxCommands);
     }
     return text;
 }

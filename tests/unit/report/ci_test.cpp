@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/files/ci.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,6 +147,32 @@ TEST(github, bytes_of_drivers_cannot_make_commands_or_markup) {
     }
     EXPECT_EQ(lines_with(summary, "::"), 0U);
     EXPECT_EQ(summary.find('\x1b'), std::string::npos);
+}
+
+// A table is read at a glance, and a command next to what it repeats.
+TEST(github, the_summary_has_short_cells_and_commands_under_their_cause) {
+    report::Run run = test::sample_run();
+    for (CaseRecord& r : run.cases) {
+        r.reason += std::string(400, 'x');
+    }
+    const std::string summary = to_github_summary(run);
+    std::istringstream lines(summary);
+    size_t rows = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with('|')) {
+            ++rows;
+            EXPECT_LT(line.size(), 200U) << line;
+        }
+    }
+    EXPECT_GT(rows, 4U);
+    const std::vector<Cause> list = causes(run);
+    for (size_t k = 0; k < list.size(); ++k) {
+        const size_t head = summary.find(fmt::format("\n**{}. ", k + 1));
+        ASSERT_NE(head, std::string::npos) << k;
+        const size_t command = summary.find("\n    ", head);
+        EXPECT_EQ(summary.find(smallest_case(list[k]).rerun, head), command + 5) << k;
+        EXPECT_GT(summary.find(fmt::format("\n**{}. ", k + 2)), command) << k;
+    }
 }
 
 TEST(github, the_summary_stays_below_the_limit) {
