@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command "gtest": cases as the tests of a GoogleTest program, so that deqp-runner, which Mesa's
-// continuous integration uses, can list, draw and judge them without a patch. docs/ci/README.md
-// tells what of that program's habits the names and the order of the lines follow from.
+// The command "gtest": cases as the tests of a GoogleTest program, so that deqp-runner, which
+// Mesa's continuous integration uses, can list, draw and judge them without a patch.
+// docs/ci/README.md tells what of that program's habits the names and the order of the lines follow
+// from.
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <unistd.h>
@@ -188,9 +189,9 @@ int gtest_command(const Program& program, const GtestOptions& options) {
     fs::create_directories(parent, error);
     std::string folder = (parent / "edgecase-gtest-XXXXXX").string();
     if (::mkdtemp(folder.data()) == nullptr) {
-        return report_stop(stop_with(report::kExitUsage,
-                                     "no folder can be made in '" + parent.string() +
-                                         "'; choose another with -o or TMPDIR"));
+        return report_stop(
+            stop_with(report::kExitUsage, "no folder can be made in '" + parent.string() +
+                                              "'; choose another with -o or TMPDIR"));
     }
     run.output = folder;
     run.capture = keeps ? run.capture : run::KeepPictures::none;

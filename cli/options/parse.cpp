@@ -29,8 +29,8 @@ Stop usage_error(const std::string& sentence, const std::string& command) {
 }
 
 // An error for words that no option took.
-Stop unknown_words(CLI::App& command) {
-    for (const std::string& word : command.remaining()) {
+Stop unknown_words(const CLI::App& command, const std::vector<std::string>& unknown) {
+    for (const std::string& word : unknown) {
         if (word.size() > 1 && word.front() == '-') {
             std::vector<std::string> names;
             for (const CLI::Option* option : command.get_options()) {
@@ -45,8 +45,7 @@ Stop unknown_words(CLI::App& command) {
                                command.get_name());
         }
     }
-    return usage_error("'" + command.remaining().front() + "' was not expected here",
-                       command.get_name());
+    return usage_error("'" + unknown.front() + "' was not expected here", command.get_name());
 }
 
 // Whether the words give the option; else its value, if any, is that of its variable.
@@ -233,8 +232,12 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
         return std::string("version");
     }
     CLI::App* command = app.get_subcommand(first);
-    if (!command->remaining().empty()) {
-        return tl::unexpected(unknown_words(*command));
+    std::vector<std::string> unknown = command->remaining();
+    if (const auto end = std::find(unknown.begin(), unknown.end(), "--"); end != unknown.end()) {
+        unknown.erase(end);  // it ends the options, and CLI11 keeps it
+    }
+    if (!unknown.empty()) {
+        return tl::unexpected(unknown_words(*command, unknown));
     }
     if (const auto checked = check_files(*command); !checked) {
         return tl::unexpected(checked.error());
@@ -245,8 +248,8 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
         }
     }
     for (const auto& [name, device] :
-         {std::pair("run", &all.run.device), std::pair("doctor", &all.doctor.device),
-          std::pair("bench", &all.bench.device)}) {
+         {std::pair("run", &all.run.device), std::pair("gtest", &all.gtest.run.device),
+          std::pair("doctor", &all.doctor.device), std::pair("bench", &all.bench.device)}) {
         if (first == name) {
             if (const auto checked = check_device(*command, *device, words); !checked) {
                 return tl::unexpected(checked.error());

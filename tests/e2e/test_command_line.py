@@ -229,6 +229,12 @@ class Usage(ProgramTest):
         newest = re.search(r"^## ([\d.]+)", (SOURCE / "CHANGELOG.md").read_text(), re.M)[1]
         self.assertEqual(newest, version)
 
+    def test_two_dashes_end_the_options(self):
+        for words in (("--", "fam/c1"), ("--ids", "--", "fam/c1"), ("--ids", "fam/c1", "--")):
+            self.assertEqual(self.edgecase("list", *words, check=0).stdout.split()[0], "fam/c1")
+        self.assertEqual(len(self.edgecase("list", "--ids", "--", check=0).stdout.split()), 10)
+        self.refused(["list", "--", "--ids"], "no case matches --ids", exit_code=4)
+
     def test_manual_lists_every_option(self):
         manual = (SOURCE / "docs" / "cli.md").read_text()
         for command in COMMANDS:
