@@ -117,8 +117,10 @@ class Installed(unittest.TestCase):
         edgecase("render", "ties/apex-up", "-o", "x.png")
         self.assertEqual((root / "x.png").read_bytes()[:4], b"\x89PNG")
         self.assertIn(f"{moved}/bin/../lib/edgecase/edgecase-image-io.so", edgecase("doctor", "--renderer=reference"))
-        for kept, source in (("share/edgecase/cases/expectations", "cases/expectations"), ("share/edgecase/schema", "docs/schema")):
+        for kept, source in (("share/edgecase/cases/expectations", "cases/expectations"), ("share/edgecase/schema", "docs/schema"),
+                             ("share/edgecase/ci", "docs/ci")):
             self.assertEqual(sorted(p.name for p in (moved / kept).iterdir()), sorted(p.name for p in (SOURCE / source).iterdir()))
+        self.assertTrue(os.access(moved / "share/edgecase/ci/bisect-bits", os.X_OK))
         for page in ("man/man1/edgecase.1", "bash-completion/completions/edgecase", "zsh/site-functions/_edgecase",
                      "fish/vendor_completions.d/edgecase.fish"):
             self.assertGreater((moved / "share" / page).stat().st_size, 1000)

@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Lists and runs Edgecase's cases for lit; a module of its own, since lit sends tests to processes."""
+import os
+import shlex
+import subprocess
+import tempfile
+
+import lit.formats
+import lit.Test
+
+PROGRAM = os.environ.get("EDGECASE_PROGRAM", "edgecase")
+# What the exit codes of 'edgecase run' mean; any other is a mistake in the set-up, or a case that cannot be judged.
+RESULTS = {0: lit.Test.PASS, 1: lit.Test.FAIL, 6: lit.Test.UNSUPPORTED}
+
+
+class Edgecase(lit.formats.TestFormat):
+    def getTestsInDirectory(self, suite, path_in_suite, lit_config, local_config):
+        selectors = shlex.split(os.environ.get("EDGECASE_SELECTORS", ""))
+        listed = subprocess.run([PROGRAM, "list", "--ids", "--", *selectors], stdout=subprocess.PIPE, text=True, check=True)
+        return [lit.Test.Test(suite, (case,), local_config) for case in listed.stdout.split()]
+
+    def execute(self, test, lit_config):
+        with tempfile.TemporaryDirectory() as folder:
+            words = [PROGRAM, "run", "-o", folder, "--progress", "none", "--ci", "none",
+                     *shlex.split(os.environ.get("EDGECASE_OPTIONS", "")), "--", *test.path_in_suite]
+            done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        return RESULTS.get(done.returncode, lit.Test.UNRESOLVED), done.stdout
