@@ -3,8 +3,10 @@
 """What continuous integration sees: annotations, summaries, shards put together, ready workflow files."""
 import json
 import os
+import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import unittest
 
@@ -221,7 +223,7 @@ class Workflows(CiTest):
         self.assertEqual(set(self.statuses(self.folder / "out/merged")), set(self.ids))
 
     def test_github(self):
-        flow = yaml.safe_load((SOURCE / "docs/ci/github-actions.yml").read_text())
+        flow = yaml.safe_load((SOURCE / "docs/ci/github-actions-shards.yml").read_text())
         scripts = {name: [s["run"] for s in job["steps"] if "run" in s] for name, job in flow["jobs"].items()}
         [run] = self.lines_of(scripts["suite"], "run")
         shards = flow["jobs"]["suite"]["strategy"]["matrix"]["shard"]
@@ -236,7 +238,7 @@ class Workflows(CiTest):
         self.assert_scripts_exist(sum(scripts.values(), []))
 
     def test_gitlab(self):
-        flow = yaml.safe_load((SOURCE / "docs/ci/gitlab-ci.yml").read_text())
+        flow = yaml.safe_load((SOURCE / "docs/ci/gitlab-ci-shards.yml").read_text())
         count = flow["suite"]["parallel"]
         [run] = self.lines_of(flow["suite"]["script"], "run")
         for k in range(1, count + 1):
@@ -252,6 +254,91 @@ class Workflows(CiTest):
     def assert_scripts_exist(self, lines):
         for name in re.findall(r"scripts/[\w.-]+", "\n".join(lines)):
             self.assertTrue((SOURCE / name).exists(), name)
+
+
+class OneJob(CiTest):
+    """The templates of one job: every shell line of them, in a container of which only the network is made up. What
+    'git clone' and the packages would bring is this checkout, already built."""
+
+    BUILD = pathlib.Path(PROGRAM).resolve().parents[1]
+
+    def setUp(self):
+        super().setUp()
+        self.log = self.folder / "log"
+        checkout = self.folder / "checkout"
+        self.stub(checkout / "scripts/install-packages", f'echo "install-packages $*" >> {self.log}')
+        self.stub(checkout / "scripts/build", f'echo "build $* in $CCACHE_DIR" >> {self.log}')
+        (checkout / "scripts/packages.txt").write_text("")
+        (checkout / "build").mkdir()
+        (checkout / "build/release").symlink_to(self.BUILD)
+        self.stub(self.folder / "bin/apt-get", f'echo "apt-get $*" >> {self.log}')
+        self.stub(self.folder / "bin/git", f'echo "git $*" >> {self.log}; for last; do :; done; cp -a {checkout} "$last"')
+        # The driver of one's own: the system's lavapipe, built to where the template looks for it.
+        [manifest] = pathlib.Path("/usr/share/vulkan/icd.d").glob("lvp_icd*.json")
+        self.stub(self.folder / "build-my-driver", f"mkdir -p build && cp {manifest} build/my_icd.json")
+
+    def stub(self, path, line):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f"#!/bin/sh\n{line}\n")
+        path.chmod(0o755)
+
+    def shell(self, line, variables, fault):
+        env = {k: v for k, v in self.environment(fault).items() if not k.startswith("VK_")}
+        env |= variables | {"PATH": f"{self.folder}/bin:{os.environ['PATH']}"}
+        return subprocess.run(["bash", "-eo", "pipefail", "-c", line], env=env, cwd=self.folder, capture_output=True, text=True,
+                              timeout=200, check=False)
+
+    def log_lines(self):
+        lines = self.log.read_text().splitlines()
+        self.log.unlink()
+        return lines
+
+    INSTALLS = ["apt-get update", "apt-get install -y --no-install-recommends libvulkan1"]
+    BUILDS = ["install-packages edgecase-source/scripts/packages.txt", "build release in {}/edgecase-ccache"]
+
+    def test_github(self):
+        flow = yaml.safe_load((SOURCE / "docs/ci/github-actions.yml").read_text())
+        [job] = flow["jobs"].values()
+        variables = flow["env"] | {"GITHUB_ACTIONS": "true", "GITHUB_WORKSPACE": str(self.folder),
+                                   "GITHUB_STEP_SUMMARY": str(self.folder / "summary.md")}
+        caches = [s["with"]["path"] for s in job["steps"] if s.get("uses", "").startswith("actions/cache")]
+        self.assertEqual(caches, ["edgecase", "edgecase-ccache"])
+        for fault, code, cached in (("", 0, False), ("flip-pixel@fam/c1", 1, True)):
+            for step in job["steps"]:
+                if cached and "cache-hit" in str(step.get("if")):
+                    continue
+                if step.get("with", {}).get("path") == "edgecase-source":
+                    shutil.copytree(self.folder / "checkout", self.folder / "edgecase-source", symlinks=True)
+                if "run" in step:
+                    done = self.shell(step["run"], variables, fault)
+                    self.assertEqual(done.returncode, code if "edgecase run" in step["run"] else 0, done.stdout + done.stderr)
+            self.assertEqual(self.log_lines(), ([] if cached else [x.format(self.folder) for x in self.BUILDS]) + self.INSTALLS)
+            self.assertEqual(sorted(self.statuses(self.folder / "out/edgecase").values()), ["fail"] * code + ["pass"] * (10 - code))
+        self.assertEqual(done.stdout.count("::error file=cases/suite/fam/c1.toml"), 1)
+        self.assertIn("exit 1", (self.folder / "summary.md").read_text())
+
+    def test_gitlab(self):
+        [job] = yaml.safe_load((SOURCE / "docs/ci/gitlab-ci.yml").read_text()).values()
+        self.assertEqual([c["paths"] for c in job["cache"]], [["edgecase"], ["edgecase-ccache"]])
+        variables = job["variables"] | {"GITLAB_CI": "true", "CI_PROJECT_DIR": str(self.folder)}
+        clone = ["apt-get install -y --no-install-recommends git ca-certificates",
+                 "git clone --depth 1 --branch main https://example.org/edgecase.git edgecase-source"]
+        for fault, code, cached in (("", 0, False), ("flip-pixel@fam/c1", 1, True)):
+            done = self.shell("\n".join(job["script"]), variables, fault)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+            self.assertEqual(self.log_lines(), self.INSTALLS +
+                             ([] if cached else clone + [x.format(self.folder) for x in self.BUILDS]))
+            for file in (*job["artifacts"]["paths"], *job["artifacts"]["reports"].values()):
+                self.assertTrue((self.folder / file).exists(), file)
+        self.assertEqual(len(json.loads((self.folder / "out/edgecase/gl-code-quality.json").read_text())), 1)
+
+    def test_the_vulkan_loader_is_all_that_running_needs(self):
+        """Beside what every container has; the loader is opened by name."""
+        linked = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
+        names = set(re.findall(r"^\t(\S+\.so\S*) =>", linked, re.M))
+        self.assertEqual({n for n in names if not re.match("lib[a-z]+san", n)},
+                         {"libstdc++.so.6", "libm.so.6", "libgcc_s.so.1", "libc.so.6"})
+        self.assertIn("\0libvulkan.so.1\0", pathlib.Path(PROGRAM).read_bytes().decode("latin-1"))
 
 
 if __name__ == "__main__":
