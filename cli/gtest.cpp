@@ -178,8 +178,9 @@ int gtest_command(const Program& program, const GtestOptions& options) {
     }
     RunOptions run = options.run;
     run.no_expect = run.expect.empty();
-    run.jobs = 1;     // a runner starts as many of these processes as it wants
-    run.retries = 0;  // it also draws again what fails
+    run.jobs = 1;          // a runner starts as many of these processes as it wants
+    run.retries = 0;       // it also draws again what fails
+    run.fail_fast = true;  // a death is settled before others make the runner wait
     run.quiet = true;
     run.progress = ProgressStyle::none;
     run.ci = Ci::none;

@@ -90,6 +90,7 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     config.schedule.batch = options.batch;
     config.schedule.repeat = options.repeat;
     config.schedule.retries = options.retries;
+    config.schedule.suspects_first = options.fail_fast;
     config.profile = options.profile;
     config.pictures = options.capture;
     return config;
@@ -207,7 +208,9 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     }
     const run::Clock::time_point begin = run::Clock::now();
     run::RunLoop loop(config, p.plan, *journal, signals, on_record,
-                      [&](size_t done) { progress.show(done, unexpected.count()); });
+                      [&](size_t done, size_t unconfirmed) {
+                          progress.show(done, unexpected.count() + unconfirmed);
+                      });
     const run::RunLoop::End end = loop.run(std::move(first->client), first->device);
     progress.clear();
     print(unexpected.rest());

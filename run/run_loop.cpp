@@ -93,7 +93,7 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
             advance(slot);
         }
         pool_.collect();
-        on_progress_(settled_);
+        on_progress_(settled_, unconfirmed_.size());
     }
     // The system takes a while to free what a worker holds.
     ending_ = std::async(std::launch::async,
@@ -308,6 +308,9 @@ void RunLoop::on_judged(size_t k, CaseRecord record) {
         settle(k, std::move(record));
     } else {
         judged_[k] = std::move(record);
+        if (unexpected) {
+            unconfirmed_.insert(k);
+        }
     }
 }
 
@@ -407,6 +410,7 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     check(journal_.write_end(record));
     ++settled_;
     is_finished_[k] = true;
+    unconfirmed_.erase(k);
     is_stopped_ = !on_record_(record) || is_stopped_;
 }
 

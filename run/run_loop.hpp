@@ -10,6 +10,7 @@
 #include <future>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,9 @@ class RunLoop {
     // Called with each final record, in the order of settling; false ends the run, and the cases
     // that have no result by then are skipped.
     using OnRecord = std::function<bool(const report::CaseRecord&)>;
-    // Called at least five times a second: cases settled.
-    using OnProgress = std::function<void(size_t)>;
+    // Called at least five times a second: cases settled, and those that are to be drawn again
+    // because they have failed: whatever comes of that is no expected result.
+    using OnProgress = std::function<void(size_t settled, size_t unconfirmed)>;
 
     RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal& journal,
             SignalFd& signals, OnRecord on_record, OnProgress on_progress);
@@ -107,6 +109,7 @@ class RunLoop {
     std::map<size_t, report::CaseRecord> held_;    // waiting for the rest of a dead batch
     std::map<size_t, double> seconds_;
     vk_harness::DeviceInfo device_;
+    std::set<size_t> unconfirmed_;  // of judged_: unexpected failures
     size_t settled_ = 0;
     std::vector<bool> is_finished_;  // [k] has its final record
     bool is_stopped_ = false;        // by on_record_

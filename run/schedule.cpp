@@ -59,15 +59,8 @@ bool Schedule::has_waiting() const {
                        [](const Lane& lane) { return !lane.cases.empty(); });
 }
 
-std::optional<Batch> Schedule::next(size_t lane) {
-    Lane& own = lanes_.at(lane);
-    if (own.cases.empty()) {
-        refill(own);
-    }
-    if (!own.cases.empty()) {
-        own.has_worker = true;
-        return take(own.cases, options_.batch, false);
-    }
+// Of the cases that have been drawn before.
+std::optional<Batch> Schedule::take_again() {
     if (!again_.empty()) {
         return take(again_, options_.batch, false);
     }
@@ -75,6 +68,23 @@ std::optional<Batch> Schedule::next(size_t lane) {
         return take(retry_, 1, false);
     }
     return take(fresh_, 1, true);
+}
+
+std::optional<Batch> Schedule::next(size_t lane) {
+    Lane& own = lanes_.at(lane);
+    if (options_.suspects_first) {
+        if (std::optional<Batch> batch = take_again(); batch) {
+            return batch;
+        }
+    }
+    if (own.cases.empty()) {
+        refill(own);
+    }
+    if (!own.cases.empty()) {
+        own.has_worker = true;
+        return take(own.cases, options_.batch, false);
+    }
+    return take_again();
 }
 
 Schedule::Drawn Schedule::drawn(size_t k, uint64_t bits) {

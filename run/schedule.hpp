@@ -39,6 +39,7 @@ class Schedule {
         uint32_t repeat = 1;                       // renderings of each case
         uint32_t retries = 1;                      // more renderings of an unexpected failure
         size_t lanes = 1;                          // workers
+        bool suspects_first = false;  // settle failures and deaths before new cases are drawn
     };
 
     // `bytes[k]` is the size of case k's capture.
@@ -104,6 +105,7 @@ class Schedule {
     };
 
     std::optional<Batch> take(std::deque<size_t>& queue, size_t count, bool fresh);
+    std::optional<Batch> take_again();
     void refill(Lane& lane);
 
     std::vector<uint64_t> bytes_;

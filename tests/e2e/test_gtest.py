@@ -137,12 +137,13 @@ class Gtest(ProgramTest):
 
 class FailFast(ProgramTest):
     def test_the_rest_is_skipped(self):
-        # The last case hangs for the 30 s of a worker's limit, so the run has to end before that.
-        done = self.run_suite("--fail-fast", "--batch=1", "--jobs=1", "--retries=0", fault="flip-pixel@fam/c2,hang@fam/c9", check=1)
+        # The last case hangs for the 30 s of a worker's limit, so the failure has to be drawn again before that.
+        done = self.run_suite("--fail-fast", "--batch=1", "--jobs=1", fault="flip-pixel@fam/c2,hang@fam/c9", check=1)
         statuses = self.statuses()
         self.assertEqual(statuses["fam/c2"], "fail")
         self.assertEqual(statuses["fam/c9"], "skip")
         self.assertEqual(done.stdout.count("\nFAIL "), 1)
+        self.assertEqual(statuses["fam/c1"], "pass")
         [last] = [c for c in self.results()["cases"] if c["id"] == "fam/c9"]
         self.assertEqual(last["reason"], "the run ended before this case was judged")
 

@@ -84,6 +84,9 @@ class Terminal(TerminalTest):
         words = (*self.RUN, "--timeout", "1", "--retries", "0")
         text = self.on_terminal(*words, fault="hang@fam/c9")
         self.assertRegex(text, r"\r\x1b\[K\[\d+/10\] \d+%  \d+ unexpected")
+        # What has failed counts at once, although it is drawn again at the end.
+        text = self.on_terminal(*self.RUN, "--batch", "1", "--jobs", "1", "--timeout", "1", fault="flip-pixel@fam/c1,hang@fam/c9")
+        self.assertRegex(text, r"\r\x1b\[K\[8/10\] 80%  1 unexpected")
         self.assertNotIn("\r\x1b[K[", self.on_terminal(*words, fault="hang@fam/c9", CI="true"))
         self.assertNotIn("\r\x1b[K[", self.on_terminal(*words, "--progress", "none", fault="hang@fam/c9"))
 

@@ -108,6 +108,25 @@ TEST(Schedule, AFailureIsDrawnAgainAloneAndAPassIsNot) {
     EXPECT_TRUE(schedule.confirmed(1));
 }
 
+TEST(Schedule, SuspectsComeFirstOnDemand) {
+    for (const bool first : {false, true}) {
+        Schedule::Options options;
+        options.batch = 1;
+        options.suspects_first = first;
+        Schedule schedule = make(4, options);
+        EXPECT_EQ(schedule.next()->cases, (Ids{0}));
+        schedule.drawn(0, 1);
+        EXPECT_FALSE(schedule.judged(0, true));
+        EXPECT_EQ(schedule.next()->cases, first ? (Ids{0}) : (Ids{1}));
+        const Batch batch = *schedule.next();
+        EXPECT_EQ(batch.cases, first ? (Ids{1}) : (Ids{2}));
+        EXPECT_FALSE(schedule.died(batch, batch.cases, "died"));
+        const Batch next = *schedule.next();
+        EXPECT_EQ(next.cases, first ? (Ids{1}) : (Ids{3}));
+        EXPECT_EQ(next.fresh, first);
+    }
+}
+
 TEST(Schedule, OtherBitsDiffer) {
     Schedule schedule = make(1);
     schedule.next();
