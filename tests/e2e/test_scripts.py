@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -91,6 +92,29 @@ class InstallPackages(unittest.TestCase):
         needed = [line.split()[0] for line in (SOURCE / "scripts/packages.txt").read_text().splitlines()
                   if line[:1] not in ("", "#") and "(optional)" not in line]
         self.assertEqual(self.say().stderr.split(" calls ")[1].split(), needed)
+
+
+class Elsewhere(unittest.TestCase):
+    """A machine that is not set up as scripts/install-packages does it."""
+
+    def test_neither_compiler_nor_launcher_nor_image_library_is_demanded(self):
+        presets = json.loads((SOURCE / "CMakePresets.json").read_text())["configurePresets"]
+        for preset in presets:
+            if preset["name"] in ("base", "dev", "release"):
+                self.assertEqual({k for k in preset["cacheVariables"] if "COMPILER" in k or "LAUNCHER" in k}, set())
+        with tempfile.TemporaryDirectory(prefix="edgecase-e2e-") as build:
+            # No library is found by pkg-config, so OpenImageIO is not there; the compiler is the one that CXX names.
+            compiler = shutil.which("clang++") or shutil.which("c++")
+            env = {k: v for k, v in os.environ.items() if k != "CMAKE_CXX_COMPILER_LAUNCHER"}
+            done = subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DEDGECASE_TESTS=OFF", "-DEDGECASE_CCACHE="],
+                                  env=env | {"PKG_CONFIG_LIBDIR": build, "CXX": compiler}, capture_output=True, text=True,
+                                  timeout=120, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            built = (pathlib.Path(build) / "build.ninja").read_text()
+            rules = (pathlib.Path(build) / "CMakeFiles/rules.ninja").read_text()
+        compiles = re.findall(r"^  command = (\S+) \$DEFINES", rules, re.M)
+        self.assertEqual(set(compiles), {compiler})
+        self.assertEqual(re.findall(r"^build .*edgecase-image-io", built, re.M), [])
 
 
 class Installed(unittest.TestCase):
