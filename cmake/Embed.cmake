@@ -4,12 +4,10 @@
 # Files that the program holds, embedded as raw string literals ("embedded/report.css.inc" and so on): report/page/*,
 # of which report.html is made, in edgecase_report; which case catches which fault in edgecase_rasterizers.
 set(EDGECASE_EMBED_DIR ${CMAKE_BINARY_DIR}/embedded)
-set(parts report.html report.css dom.js exact.js geometry.js pictures.js canvas.js viewer.js inspector.js
-        case.js overview.js main.js compare.html compare.js)
-list(TRANSFORM parts PREPEND report/page/)
-foreach(path ${parts} rasterizers/strength/matrix.tsv)
-    set(source ${CMAKE_SOURCE_DIR}/${path})
-    get_filename_component(part ${path} NAME)
+file(GLOB parts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/report/page/*.html ${CMAKE_SOURCE_DIR}/report/page/*.css
+     ${CMAKE_SOURCE_DIR}/report/page/*.js)
+foreach(source ${parts} ${CMAKE_SOURCE_DIR}/rasterizers/strength/matrix.tsv)
+    get_filename_component(part ${source} NAME)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
     file(READ ${source} text)
     file(WRITE ${EDGECASE_EMBED_DIR}/${part}.tmp "R\"EDGECASE(${text})EDGECASE\"\n")

@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <set>
+#include <string_view>
 
 #include "report/journal/journal.hpp"
 #include "run/order.hpp"
@@ -297,7 +300,14 @@ report::Device to_report(const vk_harness::DeviceInfo& device) {
 }
 
 std::string utc_now(bool compact) {
-    const std::time_t now = std::time(nullptr);
+    std::time_t now = std::time(nullptr);
+    const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+    const std::string_view digits = compact || epoch == nullptr ? "" : epoch;
+    std::time_t given = 0;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), given);
+    if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size()) {
+        now = given;
+    }
     std::tm utc{};
     ::gmtime_r(&now, &utc);
     std::array<char, 32> text{};

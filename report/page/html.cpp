@@ -10,6 +10,7 @@
 #include "cases/base/printable.hpp"
 #include "report/page/page_data.hpp"
 #include "report/page/page_parts.hpp"
+#include "report/text/headline.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -40,6 +41,8 @@ constexpr std::string_view kScripts[] = {
     ,
 #include "embedded/case.js.inc"
     ,
+#include "embedded/causes.js.inc"
+    ,
 #include "embedded/overview.js.inc"
     ,
 #include "embedded/main.js.inc"
@@ -62,25 +65,49 @@ std::string title_of(const Run& run) {
                        run.device.name.empty() ? "no device" : run.device.name);
 }
 
+// How many cases break a promise of which level; nothing if none does.
+std::string levels(const Run& run) {
+    const auto count = unexpected_by_level(run);
+    std::string text;
+    for (const cases::Profile level : cases::kProfiles) {
+        const size_t n = count.at(static_cast<size_t>(level));
+        if (n > 0) {
+            text +=
+                fmt::format("<li><strong class=\"level level-{0}\">{1} at {0}</strong> {2}</li>\n",
+                            cases::to_string(level), n, meaning(level));
+        }
+    }
+    return text.empty() ? text : "<ul class=\"levels\">\n" + text + "</ul>\n";
+}
+
+// "2026-11-21 05:00 UTC" of "2026-11-21T05:00:00Z"; any other text as it is.
+std::string day_and_time(const std::string& utc) {
+    constexpr size_t kLength = 20;
+    return utc.size() == kLength && utc[10] == 'T' && utc.back() == 'Z'
+               ? fmt::format("{} {} UTC", utc.substr(0, 10), utc.substr(11, 5))
+               : utc;
+}
+
 std::string header(const Run& run) {
     const Device& d = run.device;
-    std::string text = fmt::format(
-        "<h1>{}</h1>\n", cases::markup(d.name.empty() ? std::string("no device") : d.name));
-    text += fmt::format("<p class=\"verdict\">{}</p>\n<dl class=\"key\">\n",
-                        cases::markup(exit_text(run)));
-    text += key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info);
+    std::string text = fmt::format("<h1>{}</h1>\n", cases::markup(headline(run)));
+    text += levels(run);
+    text += fmt::format(
+        "<dl class=\"key\">\n{}{}", key_fact("device", d.name.empty() ? "no device" : d.name),
+        key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info));
     text += key_fact("Vulkan", d.api_version);
     text += key_fact("subpixel bits", fmt::format("{}", d.subpixel_bits));
-    text += key_fact("profile", fmt::format("{} (a finding at this level: {})",
-                                            cases::to_string(run.profile), meaning(run.profile)));
-    if (const CaseRecord* worst = worst_case(run)) {
-        text += key_fact("largest accepted error",
-                         fmt::format("{}, {}", accepted_text(run, *worst), worst->id));
-    }
-    text += key_fact("took", seconds_text(run.seconds) + (run.ended.empty() ? ", cut off" : ""));
+    text += key_fact("profile", std::string(cases::to_string(run.profile)));
+    text += key_fact(
+        "run", fmt::format("{}, {}", day_and_time(run.started),
+                           run.ended.empty() ? "cut off" : "took " + seconds_text(run.seconds)));
     text += "</dl>\n<details><summary>About this run</summary><dl>\n";
     text += fact("edgecase", run.tool_version);
-    text += fact("started", run.started);
+    text += fact("ended with", exit_text(run));
+    if (const CaseRecord* worst = worst_case(run)) {
+        text += fact("largest accepted error",
+                     fmt::format("{}, {}", accepted_text(run, *worst), worst->id));
+    }
     text += fact("seed", fmt::format("{}", run.seed));
     text += fact("host", run.host);
     text += fact("UUID", d.uuid);

@@ -1,23 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-// All cases: causes of what went wrong, and the list by family, rule, status or cause.
+// All cases: totals, causes, and the list by family, rule, status or cause.
 
-const SHOWN_CAUSES = 8;
 const SHOWN_ROWS = 60;  // of a group, before it is asked for more
 const listing = {words: "", group: "family", sort: "status", cause: "", off: new Set(), opened: new Map(), more: new Map()};
 
-// The cause of an unexpected case: what all cases of the same signature have in common. Null for the others.
-function causeOf(record) {
-  if (isExpected(record)) { return null; }
-  if (record.lead) {
-    const f = finding(record.lead), rule = data.rules[f.rule];
-    return {key: [record.status, f.rule, f.kind, f.level].join("|"), status: record.status, kind: f.kind, rule: f.rule, level: f.level, text: rule ? rule.title : f.rule};
-  }
-  const text = record.signal ? record.signal + (record.step ? " in " + record.step : "") : record.reason || (record.status === "xpass" ? "passes, though it was expected to " + record.expected : record.what) || word(record.status);
-  return {key: record.status + "|" + text, status: record.status, kind: "", rule: "", level: "", text};
-}
-
-const entries = data.cases.map((record) => ({record, family: familyOf(record.id), cause: causeOf(record), rank: STATUSES.indexOf(record.status),
+const entries = data.cases.map((record) => ({record, family: familyOf(record.id), cause: causeOf.get(record) || null, rank: STATUSES.indexOf(record.status),
   wrong: record.finding_total || 0, worst: record.worst ? numberOf(record.worst[0]) : -1, seconds: numberOf(record.seconds),
   rules: new Set([...(record.rules || []), ...(record.lead ? [string(record.lead[1])] : [])]),
   text: [record.id, string(record.description), (record.rules || []).join(" "), record.what, word(record.status), record.lead ? string(record.lead[1]) : ""].join("\n").toLowerCase()}));
@@ -25,37 +13,9 @@ const entryOf = new Map(entries.map((entry) => [entry.record.id, entry]));
 const SORTS = {status: (a, b) => b.rank - a.rank || (a.record.id < b.record.id ? -1 : 1), name: (a, b) => a.record.id < b.record.id ? -1 : 1,
   findings: (a, b) => b.wrong - a.wrong, error: (a, b) => b.worst - a.worst, time: (a, b) => b.seconds - a.seconds};
 const GROUPS = {family: (e) => [e.family], rule: (e) => e.rules.size ? [...e.rules] : ["no rule"], status: (e) => [word(e.record.status)],
-  cause: (e) => [e.cause ? (e.cause.rule ? e.cause.rule + " \u00b7 " + e.cause.kind + " \u00b7 " : word(e.cause.status) + " \u00b7 ") + e.cause.text : "as expected"]};
+  cause: (e) => [e.cause ? causeTitle(e.cause) : "as expected"]};
 
 const collator = (a, b) => a < b ? -1 : a > b ? 1 : 0;
-
-// What went wrong, one row a cause.
-function causesSection() {
-  const causes = new Map();
-  for (const entry of entries) {
-    if (!entry.cause) { continue; }
-    if (!causes.has(entry.cause.key)) { causes.set(entry.cause.key, {...entry.cause, members: []}); }
-    causes.get(entry.cause.key).members.push(entry);
-  }
-  if (causes.size === 0) { return null; }
-  const list = [...causes.values()].sort((a, b) => STATUSES.indexOf(b.status) - STATUSES.indexOf(a.status) || b.members.length - a.members.length);
-  const rows = list.map((cause) => {
-    const families = [...new Set(cause.members.map((m) => m.family))], samples = cause.members.reduce((sum, m) => sum + m.wrong, 0);
-    return el("tr", {"data-cause": cause.key},
-      el("td", {}, statusTag(cause.status)),
-      el("td", {}, cause.rule ? [ruleLink(cause.rule), " ", el("span", {class: "kind"}, cause.kind), el("br"), cause.text] : cause.text),
-      el("td", {}, cause.level ? [levelTag(cause.level), el("div", {class: "quiet small"}, data.meanings[cause.level])] : ""),
-      el("td", {class: "right"}, el("button", {type: "button", class: "link", title: "show only these", onclick: () => { listing.cause = listing.cause === cause.key ? "" : cause.key; changed(); }}, plural(cause.members.length, "case")),
-        samples ? el("div", {class: "quiet small"}, plural(samples, "finding")) : null),
-      el("td", {class: "families"}, families.slice(0, 4).join(", ") + (families.length > 4 ? " and " + (families.length - 4) + " more" : "")),
-      el("td", {}, el("a", {href: "#case=" + encodeURIComponent(cause.members[0].record.id), class: "id"}, cause.members[0].record.id)));
-  });
-  const rest = rows.slice(SHOWN_CAUSES + 1).length ? rows.slice(SHOWN_CAUSES) : [];
-  rest.forEach((row) => { row.hidden = true; });
-  const more = rest.length ? el("button", {type: "button", class: "link more", onclick: () => { rest.forEach((row) => { row.hidden = false; }); more.remove(); }}, "show " + plural(rest.length, "more cause")) : null;
-  return el("section", {id: "causes"}, el("h2", {}, "Causes ", el("span", {class: "count"}, String(causes.size))),
-    el("div", {class: "scroll"}, table("", ["status", "cause", "breaks", "cases", "families", "for example"], rows)), more);
-}
 
 function statusBar(members) {
   const counts = new Map();
@@ -80,12 +40,15 @@ function happened(record) {
   return [flaky + record.counts + " \u00b7 ", el("span", {class: "id"}, f.rule), " \u00b7 ", levelTag(f.level)];
 }
 
+// What fails without a value out of its budget (a sample, a colour) has no error that says so: "0" would read as success.
+const isWorstTold = (record) => Boolean(record.worst) && (!record.finding_total || !(numberOf(record.worst[0]) <= MOST_BUDGETS));
+
 function caseRow(entry) {
   const record = entry.record;
   return el("tr", {class: "case-row " + (isExpected(record) ? "" : "unexpected"), "data-case": record.id, onclick: (event) => { if (event.target.tagName !== "A") { openCase(record.id); } }},
     el("td", {}, statusTag(record.status)), el("td", {}, el("a", {class: "id", href: "#case=" + encodeURIComponent(record.id)}, record.id)),
-    el("td", {class: "quiet what"}, happened(record)), el("td", {class: "number right"}, entry.wrong ? String(entry.wrong) : ""),
-    el("td", {class: "number right told"}, record.worst ? record.worst[1] : ""), el("td", {class: "number right quiet"}, record.time));
+    el("td", {class: "quiet what"}, happened(record)), el("td", {class: "number right", "data-label": "findings"}, entry.wrong ? String(entry.wrong) : ""),
+    el("td", {class: "number right told", "data-label": "budgets"}, isWorstTold(record) ? record.worst[1] : ""), el("td", {class: "number right quiet", "data-label": "time"}, record.time));
 }
 
 function groupBody(name, members, total, anySearch) {
@@ -152,8 +115,7 @@ function buildOverview() {
     if (!listing.off.delete(status)) { listing.off.add(status); }
     changed();
   }}, el("span", {class: "tally"}, String(data.totals[status])), statusTag(status))));
-  const causes = causesSection();
-  if (causes) { byId("causes-slot").append(causes); }
+  add(byId("causes-slot"), causesSection((key) => { listing.cause = listing.cause === key ? "" : key; changed(); }));
   if (data.without_pictures) {
     byId("causes-slot").append(el("p", {class: "note"}, "To keep this page small, the pictures of " + plural(data.without_pictures, "case") + " stand in ",
       el("a", {href: partName(data.part + 1)}, partName(data.part + 1)), ". Every cause has one here."));
@@ -166,6 +128,9 @@ function buildOverview() {
   choice("group", "group", Object.keys(GROUPS));
   choice("sort", "sort", Object.keys(SORTS));
   byId("filter").addEventListener("input", () => { listing.words = byId("filter").value; changed(); });
+  // The column headers stick below the bar, however many lines it takes.
+  const bar = byId("bar");
+  new ResizeObserver(() => document.documentElement.style.setProperty("--bar-height", getComputedStyle(bar).position === "sticky" ? bar.offsetHeight + "px" : "0")).observe(bar);
   byId("clear").addEventListener("click", () => { listing.words = ""; listing.cause = ""; listing.off.clear(); byId("filter").value = ""; changed(); });
 }
 

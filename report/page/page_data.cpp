@@ -12,6 +12,7 @@
 #include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
 #include "report/journal/json_codec.hpp"
+#include "report/text/causes.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -67,13 +68,27 @@ Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings)
                         has_ratio ? Json(ratio_text(f.ratio)) : Json(nullptr)});
 }
 
-// What cases fail by the same cause: 300 failures are mostly a handful of these.
-std::string signature(const CaseRecord& r) {
-    if (!r.findings.empty()) {
-        const diff::Finding& f = leading_finding(r);
-        return fmt::format("{}|{}|{}", f.rule, diff::to_string(f.kind), cases::to_string(f.level));
+// Causes in the order of the terminal; cases are told by their numbers, the one to look at first.
+Json causes_json(const Run& run, const std::vector<Cause>& list) {
+    Json json = Json::array();
+    const auto number_of = [&](const CaseRecord& record) { return &record - run.cases.data(); };
+    for (const Cause& cause : list) {
+        const CaseRecord& smallest = smallest_case(cause);
+        Json members = Json::array({number_of(smallest)});
+        for (const CaseRecord* record : cause.cases) {
+            if (record != &smallest) {
+                members.push_back(number_of(*record));
+            }
+        }
+        const bool has_level = !cause.rule.empty();
+        json.push_back(Json{{"status", to_string(cause.status)},
+                            {"family", cases::printable(cause.family)},
+                            {"rule", cases::printable(cause.rule)},
+                            {"kind", cases::printable(cause.kind)},
+                            {"level", has_level ? cases::to_string(cause.level) : ""},
+                            {"cases", std::move(members)}});
     }
-    return fmt::format("{}|{}|{}|{}", to_string(r.status), r.signal, r.step, r.reason);
+    return json;
 }
 
 Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
@@ -136,9 +151,9 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
     return json;
 }
 
-// Adds what fits to the cases: first all of the first case of every cause, then pictures with
+// Adds what fits to the cases: first all of the smallest case of every cause, then pictures with
 // triangles, then values. Returns the cases that had to be left without.
-std::vector<size_t> add_evidence(const Run& run, Json& list) {
+std::vector<size_t> add_evidence(const Run& run, const std::vector<Cause>& all, Json& list) {
     size_t left = kEvidenceBudget;
     std::vector<size_t> without;
     const auto add_picture = [&](size_t k) {
@@ -171,16 +186,16 @@ std::vector<size_t> add_evidence(const Run& run, Json& list) {
             }
         }
     };
-    std::set<std::string> seen;
+    std::set<size_t> first;
+    for (const Cause& cause : all) {
+        const auto k = static_cast<size_t>(&smallest_case(cause) - run.cases.data());
+        first.insert(k);
+        add_picture(k);
+        add_values(k);
+    }
     std::vector<size_t> rest;
     for (size_t k = 0; k < run.cases.size(); ++k) {
-        if (run.cases[k].pictures.width == 0) {
-            continue;
-        }
-        if (seen.insert(signature(run.cases[k])).second) {
-            add_picture(k);
-            add_values(k);
-        } else {
+        if (run.cases[k].pictures.width > 0 && !first.contains(k)) {
             rest.push_back(k);
         }
     }
@@ -214,7 +229,8 @@ Json page_data(const Run& run, size_t part, std::vector<size_t>& left_out) {
     for (const CaseRecord& record : run.cases) {
         list.push_back(case_json(record, most, strings));
     }
-    left_out = add_evidence(run, list);
+    const std::vector<Cause> all = causes(run);
+    left_out = add_evidence(run, all, list);
     for (const size_t k : left_out) {
         list[k]["part"] = part + 1;
     }
@@ -225,6 +241,7 @@ Json page_data(const Run& run, size_t part, std::vector<size_t>& left_out) {
                 {"subpixel_bits", run.device.subpixel_bits},
                 {"part", part},
                 {"without_pictures", left_out.size()},
+                {"causes", causes_json(run, all)},
                 {"strings", strings.list()},
                 {"cases", std::move(list)}};
 }

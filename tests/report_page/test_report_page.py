@@ -19,7 +19,7 @@ class Overview(PageTest):
         self.assertEqual(page.text("#statuses [data-status=fail] .tally"), "3")
         self.assertEqual(page.text("#statuses [data-status=pass] .tally"), "1")
         self.assertIn("cover.outside", page.text("#causes"))
-        self.assertIn("2 cases", page.text("#causes"))
+        self.assertEqual(page.count("#causes tr[data-cause]"), 3)
         self.assertIn("4 of 4 cases", page.text("#shown"))
         self.assertEqual(page.count("#list tr.case-row"), 4)
         self.assertEqual(page.run("document.querySelector('#list tr.case-row').dataset.case"), "family/wrong")
@@ -48,12 +48,6 @@ class Overview(PageTest):
                         "return [status, second.firstChild.getBoundingClientRect().left - first.firstChild.getBoundingClientRect().right]; }))")
         self.assertEqual(len(gaps), 13)
         self.assertGreaterEqual(min(gaps.values()), 12, gaps)
-
-    def test_causes_fit_a_narrow_window(self):
-        for width in (700, 1440):
-            page = self.open(width=width)
-            self.assertEqual(page.run("document.querySelector('#causes .scroll').scrollWidth - document.querySelector('#causes .scroll').clientWidth"), 0, width)
-            self.assertIn("family/wrong", page.text("#causes"))
 
     def test_a_flake_is_told_as_one(self):
         page = self.open()

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/text/headline.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "cases/base/counted.hpp"
+
+namespace report {
+
+namespace {
+
+// What cases of an unexpected status do, of one and of several, in the order of telling.
+struct Deed {
+    Status status;
+    std::string_view one, several;
+};
+constexpr Deed kDeeds[] = {
+    {Status::fail, "fails", "fail"},
+    {Status::crash, "crashes", "crash"},
+    {Status::timeout, "hangs", "hang"},
+    {Status::device_lost, "loses the device", "lose the device"},
+    {Status::error, "cannot be judged", "cannot be judged"},
+    {Status::not_run, "was not run", "were not run"},
+    {Status::flake, "differs from run to run", "differ from run to run"},
+    {Status::improved, "is better than expected", "are better than expected"},
+    {Status::xpass, "passes unexpectedly", "pass unexpectedly"},
+};
+
+}  // namespace
+
+std::string headline(const Run& run) {
+    const auto count = totals(run);
+    const auto of = [&](Status status) { return count.at(static_cast<size_t>(status)); };
+    std::string text;
+    for (const Deed& deed : kDeeds) {
+        const size_t n = of(deed.status);
+        if (n > 0) {
+            text += text.empty() ? fmt::format("{} of {}", n, cases::counted(run.cases.size(), "case"))
+                                 : fmt::format(", {}", n);
+            text += fmt::format(" {}", n == 1 ? deed.one : deed.several);
+        }
+    }
+    if (!text.empty()) {
+        return text;
+    }
+    const size_t passed = of(Status::pass), known = of(Status::xfail), judged = passed + known;
+    if (judged == 0) {
+        return "No case was judged";
+    }
+    if (known > 0) {
+        return fmt::format("All as expected: {} of {} fail, as is known", known,
+                           cases::counted(judged, "judged case"));
+    }
+    const std::string_view which = judged == run.cases.size() ? "case" : "judged case";
+    return judged == 1 ? fmt::format("The one {} passes", which)
+                       : fmt::format("All {} pass", cases::counted(judged, which));
+}
+
+std::array<size_t, std::size(cases::kProfiles)> unexpected_by_level(const Run& run) {
+    std::array<size_t, std::size(cases::kProfiles)> count{};
+    for (const CaseRecord& record : run.cases) {
+        if (!is_expected(record.status) && !record.findings.empty()) {
+            ++count.at(static_cast<size_t>(record.level));
+        }
+    }
+    return count;
+}
+
+}  // namespace report

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a run found, in one sentence, and how grave it is.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "cases/model/profile.hpp"
+#include "report/record/run.hpp"
+
+namespace report {
+
+// "87 of 3574 cases fail, 2 crash", "All 3185 judged cases pass", "No case was judged".
+std::string headline(const Run& run);
+
+// How many unexpected cases with findings there are at each level, by cases::Profile: a case is
+// counted at the loosest level that it breaks.
+std::array<size_t, std::size(cases::kProfiles)> unexpected_by_level(const Run& run);
+
+}  // namespace report

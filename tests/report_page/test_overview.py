@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a reader sees first: the verdict, the causes in order, and a list whose columns have headers at every width."""
+import json
+import os
+import unittest
+
+from page_support import CASES, SQUARE, PageTest
+
+WIDTHS = (360, 800, 1400)
+
+
+class FirstSight(PageTest):
+    cases = CASES | {f"late/{n}": SQUARE.format(more="", target="", draw="") for n in ("one", "two")}
+    fault = "flip-pixel@family/wrong,flip-pixel@samples/four,flip-pixel@late/*"
+
+    @classmethod
+    def make_run(cls):
+        """The two cases of late/ break a direct3d promise alone; what is drawn wrong elsewhere breaks Vulkan."""
+        super().make_run()
+        file = cls.out / "journal.jsonl"
+        records = [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()]
+        for record in records:
+            if record["record"] == "end" and record["id"].startswith("late/"):
+                record["level"] = "direct3d"
+                for finding in record["findings"]:
+                    finding["level"] = "direct3d"
+        file.write_text("".join(json.dumps(record) + "\n" for record in records), encoding="utf-8")
+        cls.edgecase("report", cls.out)
+
+    def test_causes_stand_in_the_order_of_results_json(self):
+        causes = json.loads((self.out / "results.json").read_text(encoding="utf-8"))["causes"]
+        self.assertEqual([(c["level"], len(c["cases"])) for c in causes], [("vulkan", 1), ("vulkan", 1), ("direct3d", 2)])
+        page = self.open()
+        shown = page.run("[...document.querySelectorAll('#causes tr[data-cause]')].map((r) => r.dataset.cause)")
+        self.assertEqual(shown, ["|".join((c["status"], c["family"], c["rule"], c["kind"])) for c in causes])
+        levels = page.run("[...document.querySelectorAll('#causes .level')].map((e) => e.innerText)")
+        self.assertEqual(levels, [c["level"] for c in causes])
+        examples = page.run("[...document.querySelectorAll('#causes td:last-child a')].map((a) => a.innerText)")
+        self.assertEqual(examples[2], "late/one")
+
+    def test_the_verdict_is_the_headline(self):
+        page = self.open()
+        self.assertEqual(page.text("h1"), "4 of 6 cases fail")
+        self.assertEqual(page.text(".levels").splitlines(), ["2 at vulkan not conformant", "2 at direct3d differs from top-left hardware"])
+        size = "parseFloat(getComputedStyle(document.querySelector('%s')).fontSize)"
+        self.assertGreater(page.run(size % "h1"), 1.5 * page.run(size % ".run dl.key dd"))
+        self.assertIn("Edgecase reference", page.text(".run dl.key"))
+
+    def test_the_date_of_the_run_is_told(self):
+        started = json.loads((self.out / "results.json").read_text(encoding="utf-8"))["run"]["started"]
+        told = self.open().run("[...document.querySelectorAll('.run dl.key div')].find((d) => d.innerText.startsWith('run')).innerText")
+        self.assertIn(f"{started[:10]} {started[11:16]} UTC, took ", told)
+
+    def test_the_date_can_be_set(self):
+        out = self.folder / "dated"
+        os.environ["SOURCE_DATE_EPOCH"] = "86400"
+        self.addCleanup(os.environ.pop, "SOURCE_DATE_EPOCH")
+        self.edgecase("run", "--renderer=reference", "family/good", "-o", out)
+        run = json.loads((out / "results.json").read_text(encoding="utf-8"))["run"]
+        self.assertEqual((run["started"], run["ended"]), ("1970-01-02T00:00:00Z", "1970-01-02T00:00:00Z"))
+        self.assertIn("1970-01-02 00:00 UTC", self.open(file=out / "report.html").text(".run"))
+        self.assertEqual(self.open(file=out / "report.html").text("h1"), "The one case passes")
+
+    def test_no_fact_of_the_run_stands_alone_in_a_line(self):
+        page = self.open(width=1400)
+        tops = page.run("[...document.querySelectorAll('.run dl.key > div')].map((d) => d.offsetTop)")
+        self.assertEqual(len(set(tops)), 1, tops)
+
+    def test_nothing_sticks_out_of_the_window(self):
+        for width in WIDTHS:
+            page = self.open(width=width)
+            self.assertEqual(page.run("document.documentElement.scrollWidth - innerWidth"), 0, width)
+            out = page.run("[...document.querySelectorAll('#overview *')].filter((e) => e.getClientRects().length && !e.closest('.hidden-text, thead') && "
+                           "e.getBoundingClientRect().right > innerWidth + .5).map((e) => e.tagName + '.' + e.className)")
+            self.assertEqual(out, [], width)
+            rows = page.run("[...document.querySelectorAll('#causes tbody tr, tr.case-row')].map((r) => r.offsetHeight)")
+            self.assertLess(max(rows), 200, width)
+
+    def test_the_bar_does_not_cover_the_columns_headers(self):
+        for width in (800, 1400):
+            page = self.open(width=width, height=420)
+            page.run("window.scrollTo(0, byId('list').getBoundingClientRect().top + scrollY + 60)")
+            page.wait_for("byId('bar').getBoundingClientRect().top < 1")
+            head, bar = page.run("[document.querySelector('#list thead th').getBoundingClientRect().top, byId('bar').getBoundingClientRect().bottom]")
+            self.assertGreaterEqual(head, bar - 1, width)
+            seen = page.run("(() => { const r = document.querySelector('#list thead th:nth-child(5)').getBoundingClientRect();"
+                            "return document.elementFromPoint(r.x + r.width / 2, r.y + r.height / 2).innerText; })()")
+            self.assertEqual(seen, "budgets", width)
+
+    def test_no_error_is_told_where_another_thing_is_wrong(self):
+        page = self.open()
+        told = page.run("[[null, 0], ['0', 0], ['0', 3], ['1.9', 3], ['2.1', 3], ['inf', 3]].map(([worst, wrong]) =>"
+                        "isWorstTold({worst: worst && [worst, worst, ''], finding_total: wrong}))")
+        self.assertEqual(told, [False, True, False, False, True, True])
+
+
+if __name__ == "__main__":
+    unittest.main()
