@@ -12,6 +12,7 @@
 #include "ref/number/fixed_point.hpp"
 #include "ref/position/clip.hpp"
 #include "ref/position/position.hpp"
+#include "run/overlay.hpp"
 
 namespace run {
 
@@ -50,8 +51,8 @@ std::vector<double> clipped_piece(const cases::Draw& draw, const cases::Triangle
                                   cases::Profile profile) {
     std::vector<double> piece;
     const ref::ClipVolume volume = ref::clip_volume_of(draw);
-    for (const ref::ClippedVertex& v : ref::clip_triangle(ref::ClipInput(draw, t.vertex),
-                                                          draw.viewport, profile, volume.view())) {
+    for (const ref::ClippedVertex& v :
+         ref::clip_triangle(ref::ClipInput(draw, t.vertex), draw.viewport, profile, volume.all())) {
         if (v.clip[3] > 0) {
             piece.push_back(v.position.x.get_d());
             piece.push_back(v.position.y.get_d());
@@ -69,11 +70,8 @@ Shape shape_of(const cases::Draw& draw, const cases::Triangle& t, const ref::Lim
     shape.vertex = t.vertex;
     shape.has_points = true;
     shape.is_exact = true;
-    bool is_finite = true;
     for (size_t k = 0; k < 3; ++k) {
         const glm::vec4& clip = draw.positions[t.vertex.at(k)];
-        is_finite = is_finite && std::isfinite(clip.x) && std::isfinite(clip.y) &&
-                    std::isfinite(clip.z) && std::isfinite(clip.w);
         const auto snapped = ref::is_projectable(clip)
                                  ? ref::snap_nearest(clip, draw.viewport, limits)
                                  : std::nullopt;
@@ -82,14 +80,19 @@ Shape shape_of(const cases::Draw& draw, const cases::Triangle& t, const ref::Lim
                              : std::nullopt;
         shape.has_points = shape.has_points && snapped.has_value();
         shape.is_exact = shape.is_exact && box && box->is_point();
-        shape.is_clipped =
-            shape.is_clipped || !ref::is_inside(clip, ref::clip_volume_of(draw).view());
         if (snapped) {
             shape.points.at(2 * k) = snapped->x;
             shape.points.at(2 * k + 1) = snapped->y;
         }
     }
-    if (shape.is_clipped && is_finite) {
+    const ref::ClipVolume volume = ref::clip_volume_of(draw);
+    const ref::ClipInput input(draw, t.vertex);
+    shape.is_clipped = !ref::is_inside(input, volume.all());
+    shape.cuts = cuts_of(draw, t);
+    if (!shape.is_exact) {
+        shape.boxes = boxes_of(draw, t, limits, profile);
+    }
+    if (shape.is_clipped && is_finite(input)) {
         shape.piece = clipped_piece(draw, t, profile);
     }
     return shape;
@@ -196,6 +199,7 @@ Geometry geometry_of(const PictureWindow& window, const cases::Case& c, const re
     for (const cases::Draw& draw : c.draws) {
         g.scissors.push_back(
             {draw.scissor.x, draw.scissor.y, draw.scissor.width, draw.scissor.height});
+        g.viewports.push_back(corners_of(draw.viewport));
     }
     g.triangle_total = expectation.triangles.size();
     for (const cases::Triangle& t : expectation.triangles) {

@@ -177,6 +177,12 @@ Json encode(const Shape& t) {
     if (t.is_clipped) {
         json["piece"] = encode(t.piece);
     }
+    if (!t.cuts.empty()) {
+        json["cuts"] = encode(t.cuts);
+    }
+    if (!t.boxes.empty()) {
+        json["boxes"] = encode(t.boxes);
+    }
     return json;
 }
 
@@ -200,6 +206,13 @@ void decode(const Json& json, const char* /*key*/, Shape& to) {
     to.is_clipped = (flags & 2U) != 0;
     if (to.is_clipped) {
         read(json, "piece", to.piece);
+    }
+    // Left out where there are none, and by older journals.
+    if (json.contains("cuts")) {
+        read(json, "cuts", to.cuts);
+    }
+    if (json.contains("boxes")) {
+        read(json, "boxes", to.boxes);
     }
 }
 

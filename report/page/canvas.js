@@ -19,7 +19,7 @@ function paint(canvas, scene, shot) {
   context.translate(-shot.left, -shot.top);
   const zoom = shot.zoom, margin = zoom;
   const range = (from, length, size) => [Math.max(0, Math.floor((from - margin) / zoom)), Math.min(size - 1, Math.ceil((from + length - margin) / zoom))];
-  const view = {context, palette, zoom, p, theme: shot.theme, margin, above: 0, columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
+  const view = {context, palette, zoom, p, theme: shot.theme, margin, above: 0, lettered: new Set(), labels: [], columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
   context.fillStyle = palette.paper;
   context.fillRect(margin, margin, p.width * zoom, p.height * zoom);
   paintCells(view, scene, shot);
@@ -28,7 +28,9 @@ function paint(canvas, scene, shot) {
   paintLayers(view);
   if (scene.geometry) {
     if (shot.options.outlines) { paintRegions(view, scene.geometry); eachLayer(view, scene.geometry, paintTriangles); }
+    eachLayer(view, scene.geometry, (layer, triangles) => paintLimits(layer, scene, triangles, shot.options));
     if (shot.options.samples && scene.geometry.blit.length === 0) { paintSamples(view, scene); }
+    paintLabels(view);
   }
   if (shot.kind === "error") { paintErrorNumbers(view, scene); }
   if (shot.cursor && isInPicture(p, shot.cursor)) { paintCursor(view, scene, shot.cursor); }
@@ -69,7 +71,7 @@ function paintCells(view, scene, shot) {
     } else if (shot.kind === "device" && shot.options.depth && p.depths) {
       if (p.depths[k]) { fill(grey(p.depths[k]), x, y, w, h); }
     } else if (shot.kind === "difference" && mark > 1) {
-      drawMark(context, mark, x, y, w, h);
+      if (drawMark(context, mark, x, y, w, h)) { view.lettered.add(k); }
     } else if (shot.kind === "error") {
       paintError(view, k, x, y, w, h);
     } else {
@@ -77,7 +79,10 @@ function paintCells(view, scene, shot) {
       if (shot.kind !== "device" && (hits === SEVERAL || (shot.kind === "difference" && mark === 1))) { drawFree(context, palette, x, y, w, h); }
       else if (hits > 0) {
         fill(shot.kind === "difference" ? palette.ok : palette.hits[Math.min(hits, 3)], x, y, w, h);
-        if (hits > 1 && shot.kind !== "difference" && Math.min(w, h) >= 14) { drawLetter(context, String(hits), x + w / 2, y + h / 2, Math.min(16, h * .5)); }
+        if (hits > 1 && shot.kind !== "difference" && Math.min(w, h) >= 14) {
+          drawLetter(context, String(hits), x + w / 2, y + h / 2, Math.min(16, h * .5));
+          view.lettered.add(k);
+        }
       }
     }
     if (frame) {
@@ -93,7 +98,7 @@ const grey = (code) => { const v = Math.round(30 + 215 * (code - 1) / 254); retu
 function paintError(view, k, x, y, w, h) {
   const {context, p} = view;
   if (!p.errors || p.errors[k] === 0) {
-    if (p.marks[k] > 1) { drawMark(context, p.marks[k], x, y, w, h); }  // no number says how wrong it is
+    if (p.marks[k] > 1 && drawMark(context, p.marks[k], x, y, w, h)) { view.lettered.add(k); }  // no number says how wrong it is
     return;
   }
   context.fillStyle = heatColor(p.errors[k], view.theme);
@@ -245,7 +250,7 @@ function paintRegions(view, geometry) {
   strokeTwice(view, 2.5);
 }
 
-// Sample positions as points; those exactly on an edge ringed.
+// Sample positions as points, but where a letter stands; those exactly on an edge ringed.
 function paintSamples(view, scene) {
   const {context, palette, p, zoom, margin} = view;
   if (zoom < 8 && scene.ties.size === 0) { return; }
@@ -256,7 +261,7 @@ function paintSamples(view, scene) {
         const at = scene.geometry.locations[s];
         if (!at) { continue; }
         const x = margin + (i + Number(at.x) / 65536) * zoom, y = margin + (j + Number(at.y) / 65536) * zoom;
-        if (zoom >= 8 && (p.samples === 1 || isPlaced(view, scene))) {
+        if (zoom >= 8 && (p.samples === 1 || isPlaced(view, scene)) && !view.lettered.has((j * p.width + i) * p.samples + s)) {
           context.beginPath();
           context.arc(x, y, radius, 0, 2 * Math.PI);
           context.fillStyle = palette.line;

@@ -60,14 +60,14 @@ function findingsSection(page) {
   page.rows = page.findings.map((f) => {
     const row = el("tr", {class: "pick", tabIndex: 0, onclick: () => page.pin(f), onkeydown: (event) => {
       if (event.key === "Enter") { page.pin(f); }
-    }}, el("td", {class: "number"}, pixelName((record.pictures || {}).layer_height, f.x, f.y) + (f.sample ? " s" + f.sample : "")), el("td", {}, f.kind), el("td", {}, ruleLink(f.rule)), el("td", {}, levelTag(f.level)),
-    el("td", {class: "number"}, f.quantity ? f.quantity + ": " : "", f.expected), el("td", {class: numberClass(f.got)}, f.got), el("td", {class: "number right"}, f.ratio || ""), el("td", {class: "why"}, f.why));
+    }}, el("td", {class: "number whole"}, pixelName((record.pictures || {}).layer_height, f.x, f.y) + (f.sample ? " s" + f.sample : "")), el("td", {}, f.kind), el("td", {}, ruleLink(f.rule)), el("td", {}, levelTag(f.level)),
+    el("td", {class: "number", "data-label": "expected"}, f.quantity ? f.quantity + ": " : "", unfolded(f.expected)), el("td", {class: numberClass(f.got), "data-label": "got"}, f.got), el("td", {class: "number right", "data-label": "budgets off"}, f.ratio || ""), el("td", {class: "why"}, f.why));
     return row;
   });
   const rest = record.finding_total - page.findings.length;
   return el("section", {class: "findings"}, el("h2", {}, "Findings ", el("span", {class: "count"}, String(record.finding_total) + (rest > 0 ? ", the first " + page.findings.length + " here; results.json has more" : ""))),
     el("div", {class: "scroll tall", tabIndex: 0, role: "region", "aria-label": "findings"},
-      table("", ["sample", "kind", "rule", "breaks", "expected", "got", "budgets off", "why"], page.rows)));
+      table("", ["sample", "kind", "rule", "breaks", "expected", "got", "budgets off", "why"], page.rows, "cards")));
 }
 
 function rulesSection(record) {
@@ -90,7 +90,7 @@ function factsSection(record) {
     const [samples, must, free, values] = record.compared;
     fact("compared", samples + " samples (" + must + " must be covered, " + free + " free), " + values + " values");
   }
-  fact("largest error", record.worst && record.worst[1] + " budgets" + (record.worst[2] ? ", " + record.worst[2] : ""));
+  fact(record.finding_total ? "largest error of a value" : "largest error", record.worst && record.worst[1] + " budgets" + (record.worst[2] ? ", " + record.worst[2] : ""));
   fact("time", record.time + (record.attempts > 1 ? ", " + record.attempts + " attempts" : ""));
   return el("section", {}, el("h2", {}, "Facts"), list);
 }
@@ -109,13 +109,13 @@ function geometrySection(page) {
     return el("section", {}, el("h2", {}, "What is drawn"), el("p", {}, "A blit of texels " + box(g.blit[0]) + " of the source to " + box(g.blit[1]) + " of the target."));
   }
   const rows = g.triangles.slice(0, SHOWN_SHAPES).map((t) => el("tr", {}, el("td", {}, triangleName(t, g) + (page.viewer.scene.pictures.layerHeight ? ", layer " + t.layer : "")),
-    t.corners.length ? t.corners.map((c) => el("td", {class: "number"}, pointText(c))) : el("td", {colspan: 3, class: "quiet"}, "a vertex has no position on screen"),
+    t.corners.length ? t.corners.map((c, k) => el("td", {class: "number", "data-label": "v" + c.number}, pointText(c), boxText(t.boxes[k]) ? el("div", {class: "quiet small"}, boxText(t.boxes[k])) : null)) : el("td", {colspan: 3, class: "quiet"}, "a vertex has no position on screen"),
     el("td", {}, t.edges.filter((e) => t.hasArea && ownsTies(e.kind)).map((e) => e.kind + " v" + e.a.number + "\u2192v" + e.b.number).join(", ")),
-    el("td", {class: "number right"}, t.corners.length ? fractionText(abs(t.area), 33) : "")));
+    el("td", {class: "number right", "data-label": "area"}, t.corners.length ? fractionText(abs(t.area), 33) : "")));
   return el("details", {class: "section"}, el("summary", {}, el("h2", {}, "Triangles ", el("span", {class: "count"}, g.total + (rows.length < g.total ? ", " + rows.length + " here" : "")))),
     el("p", {class: "quiet"}, "Vertices in framebuffer coordinates, snapped to 1/" + 2 ** data.subpixel_bits + " pixel. " +
       (g.samples > 1 ? "Samples at " + g.locations.map((l) => "(" + coordinateText(l.x) + ", " + coordinateText(l.y) + ")").join(", ") + " in a pixel." : "")),
-    el("div", {class: "scroll tall", tabIndex: 0, role: "region", "aria-label": "triangles"}, table("", ["triangle", "first vertex", "second", "third", "top and left edges", "area"], rows)));
+    el("div", {class: "scroll tall", tabIndex: 0, role: "region", "aria-label": "triangles"}, table("", ["triangle", "first vertex", "second", "third", "top and left edges", "area"], rows, "cards")));
 }
 
 function outputSections(record) {

@@ -44,6 +44,27 @@ const otherTheme = () => theme() === "dark" ? "light" : "dark";
 
 const numberClass = (text) => text.length > 20 ? "number" : "number whole";  // one that fits in a line is not broken
 
+// A text in which fractions too long for a glance are folded: a button shows all of their digits.
+const LONG_FRACTION = /[\u2212-]?\d+\/\d+/g, MOST_DIGITS = 13;
+function folded(text) {
+  const parts = [];
+  let from = 0;
+  for (const {0: fraction, index} of text.matchAll(LONG_FRACTION)) {
+    if (fraction.length <= MOST_DIGITS) { continue; }
+    const short = fraction.split("/").map((digits) => digits.length > 5 ? digits.slice(0, 4) + "\u2026" : digits).join("/");
+    const whole = el("span", {}, short);
+    parts.push(text.slice(from, index), el("button", {type: "button", class: "link fold", "aria-expanded": "false", "aria-label": "exact fraction " + fraction, title: "the exact fraction", onclick: (event) => {
+      event.stopPropagation();
+      const open = event.currentTarget.getAttribute("aria-expanded") !== "true";
+      event.currentTarget.setAttribute("aria-expanded", String(open));
+      whole.textContent = open ? fraction : short;
+    }}, whole));
+    from = index + fraction.length;
+  }
+  return [...parts, text.slice(from)];
+}
+const unfolded = (text) => text.replace(LONG_FRACTION, (fraction) => fraction.length <= MOST_DIGITS ? fraction : "").replace(" =  ", " ");
+
 const word = (status) => status.replace("_", " ");
 const plural = (count, noun) => count + " " + noun + (count === 1 ? "" : noun.endsWith("y") ? "" : "s");
 const isExpected = (record) => EXPECTED.has(record.status);
@@ -58,12 +79,12 @@ function ruleLink(id) {
 
 const levelTag = (level) => el("span", {class: "level level-" + level, title: data.meanings[level]}, level);
 
-// A table; `heads` are texts, or elements.
+// A table; `heads` are texts, or elements, `rows` rows or bodies.
 function table(caption, heads, rows, className) {
   return el("table", {class: className},
     caption ? el("caption", {}, caption) : null,
     el("thead", {}, el("tr", {}, heads.map((head) => el("th", {scope: "col"}, head)))),
-    el("tbody", {}, rows));
+    rows.length && rows[0].tagName === "TBODY" ? rows : el("tbody", {}, rows));
 }
 
 // A command line and a button that copies it.

@@ -7,13 +7,13 @@ function openGeometry(record) {
   const g = record.geometry;
   if (!g || !g.width) { return null; }
   const locations = g.locations.map(([x, y]) => ({x: BigInt(x) * ONE / 16n, y: BigInt(y) * ONE / 16n}));
-  return {width: g.width, height: g.height, samples: g.samples, locations, scissors: g.scissors, blit: g.blit,
+  return {width: g.width, height: g.height, samples: g.samples, locations, scissors: g.scissors, viewports: (g.viewports || []).map(openViewport), blit: g.blit,
     total: g.triangle_total, triangles: g.triangles.map(openTriangle)};
 }
 
 function openTriangle(t) {
   const triangle = {draw: t.of[0], primitive: t.of[1], layer: t.of[2] || 0, numbers: t.v, isExact: (t.flags & 1) !== 0, isClipped: (t.flags & 2) !== 0,
-    piece: (t.piece || []).map(Number), corners: [], edges: [], isBackward: false, hasArea: false};
+    piece: (t.piece || []).map(Number), cuts: t.cuts || [], boxes: t.boxes || [], corners: [], edges: [], isBackward: false, hasArea: false};
   if (t.p.length !== 6) { return triangle; }
   const corner = (k) => ({number: t.v[k], x: BigInt(t.p[2 * k]), y: BigInt(t.p[2 * k + 1])});
   const given = [corner(0), corner(1), corner(2)];

@@ -33,6 +33,8 @@ constexpr std::string_view kScripts[] = {
     ,
 #include "embedded/pictures.js.inc"
     ,
+#include "embedded/limits.js.inc"
+    ,
 #include "embedded/canvas.js.inc"
     ,
 #include "embedded/viewer.js.inc"

@@ -81,7 +81,7 @@ function findingsPart(told) {
       el("p", {}, ruleLink(f.rule), " ", levelTag(f.level), el("span", {class: "quiet"}, " " + data.meanings[f.level])),
       rule ? el("p", {}, el("strong", {}, rule.title + ". "), el("span", {class: "quiet"}, rule.text)) : null,
       el("p", {class: "why"}, f.why),
-      list.map((g) => el("p", {class: "pair"}, g.quantity ? el("strong", {}, g.quantity + ": ") : null, "expected ", el("span", {class: numberClass(g.expected)}, g.expected), ", got ",
+      list.map((g) => el("p", {class: "pair"}, g.quantity ? el("strong", {}, g.quantity + ": ") : null, "expected ", el("span", {class: "number"}, folded(g.expected)), ", got ",
         el("span", {class: numberClass(g.got)}, g.got), g.ratio ? ", " + g.ratio + " budgets off" : "")));
   }));
 }
@@ -101,13 +101,14 @@ function valueRow(value, told, complete, drawn) {
     budgets = off <= MOST_BUDGETS ? shortNumber(off, 3) + " budgets" : inside || complete ? "another set-up" : shortNumber(off, 3) + " budgets";
   }
   const verdict = bits === null ? "" : f ? el("strong", {class: "bad"}, "\u2717", el("span", {class: "hidden-text"}, " wrong")) : inside || complete ? "\u2713" : also ? "" : "outside";
-  return el("tr", {class: f ? "wrong" : ""},
-    el("th", {scope: "row"}, quantity),
-    el("td", {}, el("span", {class: "number"}, exact && exact !== shortNumber(nearest) ? exact + " = " : "", shortNumber(nearest)),
-      el("div", {class: "quiet number small"}, also ? also + (budget === 0 ? ", bit for bit" : "") : budget === 0 ? "bit for bit" : "[" + shortNumber(low) + ", " + shortNumber(high) + "]")),
-    el("td", {}, bits === null ? el("span", {class: "quiet"}, drawn ? "not compared" : "not drawn") : [el("span", {class: "number"}, floatText(bits)), el("div", {class: "quiet number small"}, hex(bits))]),
-    el("td", {class: "off"}, bits === null ? "" : [also && !f && complete && steps !== 0 ? "one of these" : steps === null ? "no number" : steps > MAX_STEPS ? "> 10\u2077 ulp" : steps + " ulp", el("div", {class: "quiet small"}, budgets)]),
-    el("td", {}, verdict));
+  const exactText = exact && exact !== shortNumber(nearest) ? [" = ", folded(exact)] : "";
+  return el("tbody", {class: f ? "wrong" : ""},
+    el("tr", {}, el("th", {scope: "rowgroup", colspan: 3}, quantity, verdict ? [" ", verdict] : null)),
+    el("tr", {},
+      el("td", {}, el("span", {class: "number"}, el("span", {class: "whole"}, shortNumber(nearest)), exactText),
+        el("div", {class: "quiet number small"}, also ? folded(also + (budget === 0 ? ", bit for bit" : "")) : budget === 0 ? "bit for bit" : ["[" + shortNumber(low) + ", ", el("span", {class: "whole"}, shortNumber(high) + "]")])),
+      el("td", {class: "device-value"}, bits === null ? el("span", {class: "quiet"}, drawn ? "not compared" : "not drawn") : [el("span", {class: "number whole"}, floatText(bits)), el("div", {class: "quiet number small"}, hex(bits))]),
+      el("td", {class: "off"}, bits === null ? "" : [also && !f && complete && steps !== 0 ? "one of these" : steps === null ? "no number" : steps > MAX_STEPS ? "> 10\u2077 ulp" : steps + " ulp", el("div", {class: "quiet small"}, budgets)])));
 }
 
 // `complete`: all findings of the sample are here, so that a value without one was accepted.
@@ -116,9 +117,9 @@ function valuesPart(scene, at, known, told, complete) {
   if (!known || known.values.length === 0) {
     return drawn && scene.pictures.errors ? el("p", {class: "quiet small"}, "Values are kept for wrong samples and their neighbours; the command \u201cexplain\u201d tells them for any sample.") : null;
   }
-  return el("div", {class: "values"}, el("h3", {}, "Values"), el("div", {class: "scroll"},
-    table("", ["quantity", "exact, [all set-ups]", "device", "off by", el("span", {class: "hidden-text"}, "verdict")], [...known.values].sort((a, b) => told.some((f) => f.quantity === b[0]) - told.some((f) => f.quantity === a[0]))
-      .map((v) => valueRow(v, told, complete, drawn)), "compact")));
+  const isWrong = (value) => told.some((f) => f.quantity === value[0]);
+  return el("div", {class: "values"}, el("h3", {}, "Values"), el("div", {class: "framed"},
+    table("", ["exact, [all set-ups]", "device", "off by"], [...known.values].sort((a, b) => isWrong(b) - isWrong(a)).map((v) => valueRow(v, told, complete, drawn)), "compact")));
 }
 
 function edgeRow(e) {
@@ -140,10 +141,11 @@ function trianglesPart(scene, at) {
   for (const seen of list.slice(0, SHOWN_TRIANGLES)) {
     const t = seen.triangle;
     parts.push(el("details", {class: "triangle place-" + seen.place, open: seen.place !== "outside" || list[0] === seen},
-      el("summary", {}, el("strong", {}, triangleName(t, g)), " ", placeText(seen), seen.place !== "outside" && isOutsideScissor(g, seen.triangle, at.x, rowInLayer(p, at.y)) ? ", but the scissor rectangle leaves this pixel out" : ""),
+      el("summary", {}, el("strong", {}, triangleName(t, g)), " ", placeText(seen), seen.place === "outside" ? "" : limitsText(g, t, point, at.x, rowInLayer(p, at.y))),
       table("", ["edge", "kind", "E, square pixels", "sign"], seen.edges.map(edgeRow), "compact edges"),
+      limitRows(t, point),
       el("p", {class: "quiet small"}, [t.isExact ? "" : "Snapped to the nearest subpixel position; the device may choose another. ",
-        t.isClipped ? "It reaches out of the view volume; dashed is what clipping leaves. " : "", t.hasArea ? (t.isBackward ? "Counter-clockwise on screen." : "Clockwise on screen.") : ""].join(""))));
+        t.isClipped ? "It reaches out of the clip volume; dashed is what clipping leaves. " : "", t.hasArea ? (t.isBackward ? "Counter-clockwise on screen." : "Clockwise on screen.") : ""].join(""))));
   }
   if (list.length > SHOWN_TRIANGLES) { parts.push(el("p", {class: "quiet"}, "and " + (list.length - SHOWN_TRIANGLES) + " more")); }
   return el("div", {class: "triangles"}, parts);

@@ -58,9 +58,19 @@ function openCase(id, at) {
     if (viewing.view === "error" && !page.viewer.scene.pictures.errors) { viewing.view = "difference"; }
     page.viewer.rebuild();
     const lead = entry.record.lead && finding(entry.record.lead);
-    if (at || lead) { page.pin(at || lead); }
+    if (at || lead) { page.pin(at ? {...at, sample: at.sample === undefined ? sampleToSee(page, at, lead) : at.sample} : lead); }
   }
   rememberCase();
+}
+
+// Of a pixel the sample that fails, or leads all that fail; else the first.
+function sampleToSee({viewer}, at, lead) {
+  if (lead && lead.x === at.x && lead.y === at.y) { return lead.sample; }
+  const p = viewer.scene.pictures;
+  for (let sample = 0; sample < p.samples && isInPicture(p, {...at, sample}); ++sample) {
+    if (p.marks[indexOf(p, {...at, sample})] > 1) { return sample; }
+  }
+  return 0;
 }
 
 function openOverview() {
@@ -83,7 +93,7 @@ function follow() {
     const zoom = Number(parts.get("zoom"));
     viewing.zoom = Number.isInteger(zoom) && zoom >= 1 && zoom <= MAX_ZOOM ? zoom : 0;
     const numbers = (parts.get("px") || "").split(",").map(Number);
-    openCase(id, numbers.length >= 2 && numbers.every((n) => Number.isInteger(n) && n >= 0) ? {x: numbers[0], y: numbers[1], sample: numbers[2] || 0} : null);
+    openCase(id, numbers.length >= 2 && numbers.every((n) => Number.isInteger(n) && n >= 0) ? {x: numbers[0], y: numbers[1], sample: numbers[2]} : null);
     return;
   }
   listing.words = parts.get("q") || "";
@@ -130,6 +140,7 @@ const VIEWER_KEYS = {ArrowLeft: moved(-1, 0, 0), ArrowRight: moved(1, 0, 0), Arr
   "+": () => page.viewer.zoomBy(1), "=": () => page.viewer.zoomBy(1), "-": () => page.viewer.zoomBy(-1), 0: () => page.viewer.setZoom(0),
   b: () => page.viewer.setView(viewing.view === "blink" ? "difference" : "blink"), o: () => toggle("outlines"), s: () => toggle("samples"), g: () => toggle("grid"),
   " ": () => { page.viewer.blinkOn = !page.viewer.blinkOn; page.viewer.draw(); }};
+LIMITS.forEach(([kind, , key]) => { VIEWER_KEYS[key] = () => toggle(kind); });
 VIEWS.forEach(([name], k) => { VIEWER_KEYS[k + 1] = () => page.viewer.setView(name); });
 const LIST_KEYS = {n: () => { const first = listedCases().find((e) => !isExpected(e.record)); if (first) { openCase(first.record.id); } }, Escape: () => byId("clear").click()};
 

@@ -91,12 +91,13 @@ function heatColor(code, theme) {
   return "rgb(" + mix(0) + "," + mix(1) + "," + mix(2) + ")";
 }
 
-// A cell with the pattern of its mark, so that it is told apart without colour too.
+// A cell with the pattern of its mark, so that it is told apart without colour too. Returns whether a letter stands in its
+// middle, where nothing else should be drawn.
 function drawMark(context, mark, x, y, w, h) {
   context.fillStyle = MARK_COLOR[mark];
   context.fillRect(x, y, w, h);
   const size = Math.min(w, h);
-  if (size < 5) { return; }
+  if (size < 5) { return false; }
   context.save();
   context.beginPath();
   context.rect(x, y, w, h);
@@ -126,8 +127,9 @@ function drawMark(context, mark, x, y, w, h) {
   }
   context.restore();
   // In a corner as soon as there is room: the sample is in the middle.
-  if (size >= 26) { drawLetter(context, LETTERS[mark], x + 9, y + 9, 12); }
-  else if (size >= 18) { drawLetter(context, LETTERS[mark], x + w / 2, y + h / 2, size * .5); }
+  if (size >= 34) { drawLetter(context, LETTERS[mark], x + 9, y + 9, 12); return false; }
+  if (size >= 12) { drawLetter(context, LETTERS[mark], x + w / 2, y + h / 2, Math.min(12, size * .7)); return true; }
+  return false;
 }
 
 function drawLetter(context, text, x, y, size) {

@@ -5,9 +5,9 @@
 const VIEWS = [["reference", "Reference"], ["device", "Device"], ["difference", "Difference"], ["error", "Error"], ["blink", "Blink"], ["side", "Side by side"]];
 const KIND_OF_VIEW = {reference: "expected", device: "device", difference: "difference", error: "error"};
 const PANE_TITLE = {expected: "reference", device: "device", difference: "difference", error: "error in budgets"};
-const MAX_ZOOM = 64;
+const MAX_ZOOM = 128;
 // Kept from case to case.
-const viewing = {view: "difference", zoom: 0, grid: true, outlines: true, samples: true, show: ""};
+const viewing = {view: "difference", zoom: 0, grid: true, outlines: true, samples: true, scissor: true, viewport: true, planes: true, boxes: true, show: ""};
 
 const panesOf = (view) => view === "side" ? ["expected", "device", "difference"] : view === "blink" ? ["blink"] : [KIND_OF_VIEW[view]];
 
@@ -17,6 +17,7 @@ function makeViewer(record, onSample, onChange) {
   if (!pictures) { return null; }
   const geometry = openGeometry(record);
   const scene = {pictures, geometry, ties: tiesIn(geometry, pictures)};
+  scene.limits = limitsOf(scene);
   const viewer = {scene, cursor: null, pinned: null, blinkOn: false, timer: 0};
   const stage = el("div", {class: "stage"});
   const zoomText = el("output", {class: "zoom-text"});
@@ -27,24 +28,26 @@ function makeViewer(record, onSample, onChange) {
   const zoomNow = () => viewing.zoom || fitZoom();
   function fitZoom() {
     const count = viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1;
-    const width = (stage.clientWidth || 640) / count - 14, height = Math.max(260, window.innerHeight - Math.min(360, stage.getBoundingClientRect().top + window.scrollY) - 70);
+    const width = (stage.clientWidth || 640) / count - 14, height = highest();
     const least = Math.min(pictures.width, pictures.height) <= 32 ? 8 : 1;  // long and narrow: better scrolled
     return Math.max(least, Math.min(MAX_ZOOM, Math.floor(Math.min(width / (pictures.width + 2), height / (pictures.height + 2)))));
   }
 
+  // The whole picture fits in the window, once what stands above it is scrolled away.
+  const highest = () => Math.max(262, window.innerHeight - 110);
   // As large as the picture, with room for a scrollbar across if there is one down, and the other way round.
   function fit(pane, width, height, widest) {
-    const highest = Math.max(262, window.innerHeight - 110), key = [width, height, widest, highest].join();
+    const most = highest(), key = [width, height, widest, most].join();
     if (pane.fitted === key) { return; }
     pane.fitted = key;
     const {frame} = pane, borders = 2;
     pane.canvas.style.width = pane.canvas.style.height = "0";  // as it was painted last it may stick out
     const set = (name, size) => { frame.style[name] = size + "px"; };
     set("width", Math.min(width + borders, widest));
-    set("height", Math.min(height + borders, highest));
+    set("height", Math.min(height + borders, most));
     const down = Math.max(0, frame.offsetWidth - frame.clientWidth - borders), across = Math.max(0, frame.offsetHeight - frame.clientHeight - borders);
     set("width", Math.min(width + borders + down, widest));
-    set("height", Math.min(height + borders + across, highest));
+    set("height", Math.min(height + borders + across, most));
   }
 
   const kindOf = (pane) => pane.kind !== "blink" ? pane.kind : viewer.blinkOn ? "device" : "expected";
@@ -57,7 +60,7 @@ function makeViewer(record, onSample, onChange) {
       fit(pane, width, height, Math.max(120, share));
       const shown = {width: Math.min(width, pane.frame.clientWidth), height: Math.min(height, pane.frame.clientHeight)};
       paint(pane.canvas, scene, {kind: kindOf(pane), zoom, left: pane.frame.scrollLeft, top: pane.frame.scrollTop, ...shown,
-        cursor: viewer.cursor, options: {grid: viewing.grid, outlines: viewing.outlines, samples: viewing.samples,
+        cursor: viewer.cursor, options: {...viewing,
           colors: shownPlane() === "colour", depth: shownPlane() === "depth"}, theme: theme()});
       pane.title.textContent = PANE_TITLE[kindOf(pane)];
     }
@@ -94,7 +97,7 @@ function makeViewer(record, onSample, onChange) {
     clearInterval(viewer.timer);
     panes = panesOf(viewing.view).map(makePane);
     stage.replaceChildren(...panes.map((pane) => pane.figure));
-    legendList.replaceChildren(...legendEntries(scene, viewing.view));
+    legendList.replaceChildren(...legendEntries(scene, viewing.view), ...limitEntries(scene, draw));
     for (const button of bar.querySelectorAll("[data-view]")) { button.setAttribute("aria-pressed", String(button.dataset.view === viewing.view)); }
     viewer.blinkOn = false;
     if (viewing.view === "blink" && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
@@ -143,7 +146,7 @@ function makeViewer(record, onSample, onChange) {
     onChange();
   };
   viewer.zoomBy = (direction) => {
-    const steps = [1, 2, 3, 4, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 56, 64], now = zoomNow();
+    const steps = [1, 2, 3, 4, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 112, 128], now = zoomNow();
     viewer.setZoom(direction > 0 ? steps.find((z) => z > now) || MAX_ZOOM : [...steps].reverse().find((z) => z < now) || 1);
   };
   viewer.look = (at) => {

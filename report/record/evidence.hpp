@@ -14,6 +14,19 @@
 
 namespace report {
 
+// A plane of the clip volume that cuts a triangle, as it is seen on the screen: a vertex's distance
+// from it over its w is (a x + b y + c) / d at framebuffer position (x, y), in whole numbers of any
+// length, d > 0. What is negative there is cut off (where w > 0).
+struct PlaneCut {
+    uint8_t plane = 0;  // ref::ClipPlane; 7 and more: clip distance 0, ...
+    std::array<std::string, 4> abcd;
+    static void fields(auto&& visit, auto&... c) {
+        visit("plane", c.plane...);
+        visit("abcd", c.abcd...);
+    }
+    friend bool operator==(const PlaneCut&, const PlaneCut&) = default;
+};
+
 // One assembled triangle.
 struct Shape {
     uint32_t draw = 0, primitive = 0;  // gl_PrimitiveID
@@ -24,9 +37,13 @@ struct Shape {
     std::array<int64_t, 6> points{};
     bool has_points = false;  // false: a vertex has no position on screen (w <= 0, not finite)
     bool is_exact = false;    // every vertex may be in this one place only
-    bool is_clipped = false;  // reaches out of the view volume
+    bool is_clipped = false;  // reaches out of the clip volume, clip distances included
     // Then: corners of what is left of it, x and y in pixels, rounded. Empty if nothing is.
     std::vector<double> piece;
+    std::vector<PlaneCut> cuts;  // then: the planes beyond which a vertex lies
+    // x0, y0, x1, y1 of the positions that a device may have for each vertex, in 2^-16 pixels;
+    // empty if is_exact, or where a vertex may be anywhere.
+    std::vector<std::array<int64_t, 4>> boxes;
     friend bool operator==(const Shape&, const Shape&) = default;
 };
 
@@ -37,6 +54,9 @@ struct Geometry {
     std::vector<Shape> triangles;                          // those that the picture shows, capped
     uint64_t triangle_total = 0;                           // of the case
     std::vector<std::array<int64_t, 4>> scissors;          // x, y, width, height; one a draw
+    // x0, y0, x1, y1 of the viewports as exact fractions, "25/2"; one a draw. x0 > x1 or y0 > y1:
+    // the viewport is turned over.
+    std::vector<std::array<std::string, 4>> viewports;
     // x0, y0, x1, y1 of a blit's regions in texels; empty for a case with draws.
     std::vector<std::array<int64_t, 4>> blit_regions;  // source, destination
     static void fields(auto&& visit, auto&... g) {
@@ -47,6 +67,7 @@ struct Geometry {
         visit("triangles", g.triangles...);
         visit("triangle_total", g.triangle_total...);
         visit("scissors", g.scissors...);
+        visit({"viewports", cases::kOlderLackIt}, g.viewports...);
         visit("blit", g.blit_regions...);
     }
     friend bool operator==(const Geometry&, const Geometry&) = default;

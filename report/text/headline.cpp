@@ -38,8 +38,9 @@ std::string headline(const Run& run) {
     for (const Deed& deed : kDeeds) {
         const size_t n = of(deed.status);
         if (n > 0) {
-            text += text.empty() ? fmt::format("{} of {}", n, cases::counted(run.cases.size(), "case"))
-                                 : fmt::format(", {}", n);
+            text += text.empty()
+                        ? fmt::format("{} of {}", n, cases::counted(run.cases.size(), "case"))
+                        : fmt::format(", {}", n);
             text += fmt::format(" {}", n == 1 ? deed.one : deed.several);
         }
     }

@@ -71,6 +71,7 @@ Geometry make_geometry() {
     g.sample_locations = {{8, 8}};
     g.triangle_total = 3;
     g.scissors = {{0, 0, 8, 8}};
+    g.viewports = {{"0", "25/2", "8", "-1/3"}};
     Shape upper;
     upper.vertex = {0, 1, 2};
     upper.points = {0, 0, 8 << 16, 0, 0, 8 << 16};
@@ -81,6 +82,9 @@ Geometry make_geometry() {
     cut.vertex = {2, 1, 0xffffffffU};
     cut.is_clipped = true;
     cut.piece = {0.1, -0.5, 8, 0, 3.25, 1e300};
+    cut.cuts = {{4, {"1", "-2", "123456789012345678901234567890", "7"}},
+                {7, {"0", "0", "-1", "1"}}};
+    cut.boxes = {{0, 0, 256, 256}, {-256, 0, 0, 0}, {1, 2, 3, 4}};
     g.triangles = {upper, cut};
     return g;
 }
