@@ -111,10 +111,10 @@ std::vector<report::PlaneCut> cuts_of(const cases::Draw& draw, const cases::Tria
         }
         const Triple d{distance_from(plane, input, 0), distance_from(plane, input, 1),
                        distance_from(plane, input, 2)};
-        cuts.push_back({static_cast<uint8_t>(plane),
-                        on_one_denominator({determinant(d, y, w) / whole,
-                                            determinant(x, d, w) / whole,
-                                            determinant(x, y, d) / whole})});
+        cuts.push_back(
+            {static_cast<uint8_t>(plane),
+             on_one_denominator({determinant(d, y, w) / whole, determinant(x, d, w) / whole,
+                                 determinant(x, y, d) / whole})});
     }
     return cuts;
 }

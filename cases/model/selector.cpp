@@ -14,6 +14,9 @@ namespace cases {
 
 namespace {
 
+// Characters; the longest path that systems take. Matching takes this many times the ids' length.
+constexpr size_t kMaxSelector = 4096;
+
 // Matches in time that is linear in the text for each character of the pattern, "*" and "**"
 // included; the pattern's other characters stand for themselves. "**" followed by "/" also matches
 // nothing ("a/**/b" matches "a/b").
@@ -237,6 +240,12 @@ Expected<std::vector<size_t>> select(const std::vector<Case>& all,
         const std::string rest = exclude ? word.substr(1) : word;
         if (rest.empty()) {
             return failure("a selector is empty; write a case id or a pattern");
+        }
+        if (rest.size() > kMaxSelector) {
+            return failure(
+                fmt::format("a selector has {} characters, the most are {}; write "
+                            "several selectors",
+                            rest.size(), kMaxSelector));
         }
         const Expected<std::vector<bool>> matched = matcher.one(rest);
         if (!matched) {

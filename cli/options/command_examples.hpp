@@ -14,8 +14,7 @@ struct Examples {
 inline constexpr Examples kExamples[] = {
     {"gtest",
      "  edgecase gtest --gtest_list_tests\n"
-     "  edgecase gtest --gtest_filter='edgecase.ties/apex-up'\n"
-     "  gtest-runner run --gtest edgecase --output out -- gtest --profile vulkan\n"},
+     "  edgecase gtest --gtest_filter='edgecase.ties/apex-up'\n"},
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},

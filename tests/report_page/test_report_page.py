@@ -350,8 +350,8 @@ class Shapes(PageTest):
         page = self.open("#case=shapes%2Fcut&px=4,4")
         cut = page.run("[...document.querySelectorAll('.triangle summary')].filter((s) => s.innerText.includes('inside')).map((s) => s.innerText)")
         self.assertEqual(len(cut), 2, cut)
-        self.assertEqual([("the scissor rectangle leaves this pixel out" in s, "draw 1" in s) for s in cut].count((True, True)), 1, cut)
-        self.assertEqual([("the scissor rectangle leaves this pixel out" in s, "draw 1" in s) for s in cut].count((False, False)), 1, cut)
+        self.assertEqual([("the scissor rectangle, x 0 to 2, y 0 to 8, leaves this pixel out" in s, "draw 1" in s) for s in cut].count((True, True)), 1, cut)
+        self.assertEqual([("the scissor rectangle, x 0 to 2, y 0 to 8, leaves this pixel out" in s, "draw 1" in s) for s in cut].count((False, False)), 1, cut)
         page = self.open("#case=shapes%2Fcut&px=1,4")
         self.assertNotIn("scissor", page.text(".triangles"))
 

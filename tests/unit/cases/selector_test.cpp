@@ -165,6 +165,8 @@ TEST(Selector, SaysWhatIsWrong) {
         {"@rule:clip.volume", "error: no case checks the rule clip.volume"},
         {"@family:x", "error: the selector @family:x is unknown; write @rule:PATTERN or a case id"},
         {"", "error: a selector is empty; write a case id or a pattern"},
+        {std::string(4097, '*'),
+         "error: a selector has 4097 characters, the most are 4096; write several selectors"},
         {"!", "error: a selector is empty; write a case id or a pattern"},
         // "*" does not cross ':'.
         {"ties/a*90", "error: no case matches ties/a*90; did you mean ties/apex?"},
