@@ -139,10 +139,10 @@ class Teller {
         std::fflush(stdout);
     }
     void tell(const CaseRecord& record) {
-        const std::string why = "    " + report::what_happened(record) + "\n    " +
-                                report::why_it_happened(record) + "\n    rerun: " + record.rerun +
-                                "\n" +
-                                (record.explain.empty() ? "" : "    " + record.explain + "\n");
+        const std::string why =
+            "    " + report::what_happened(record) + "\n    " + report::why_it_happened(record) +
+            "\n    rerun: " + record.rerun + "\n" +
+            (record.explain.empty() ? "" : "    explain: " + record.explain + "\n");
         if (record.status == Status::crash || record.status == Status::timeout ||
             record.status == Status::device_lost) {
             is_dead_ = true;  // a line on standard output might be read as the test's end

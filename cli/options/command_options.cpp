@@ -150,6 +150,9 @@ void define_gtest(CLI::App& app, GtestOptions& o) {
     add_value(gtest, "--gtest_filter", o.filter,
               "tests to draw, separated by ':', '*' and '?' as in GoogleTest [*]", "NAMES",
               "Selection");
+    // A hang costs it twice, with others and alone: less than the 60 s after which deqp-runner
+    // would end this process, and blame another case.
+    o.run.device.timeout = 20;
     add_device(gtest, o.run.device);
     gtest->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")
         ->group("Device");

@@ -82,7 +82,8 @@ void add_device(CLI::App* app, DeviceOptions& o) {
     add_value(app, "--icd", o.icd, "the driver's manifest file, and no other driver", "FILE",
               "Device")
         ->envname("EDGECASE_ICD");
-    add_value(app, "--timeout", o.timeout, "seconds without a sign of life that end a worker [30]",
+    add_value(app, "--timeout", o.timeout,
+              fmt::format("seconds without a sign of life that end a worker [{}]", o.timeout),
               "SECONDS", "Isolation")
         ->envname("EDGECASE_TIMEOUT")
         ->check(in_range(0.01, 86400.0));

@@ -59,7 +59,7 @@ class Gtest(ProgramTest):
                          "[ RUN      ] edgecase.fam/c2\n[  SKIPPED ] edgecase.fam/c2 (_ ms)\n")
         failed = self.gtest("fam/c1", fault="flip-pixel", check=1).stdout
         self.assertRegex(failed, r"\[  FAILED  \] edgecase.fam/c1 \(\d+ ms\)\n    1 \w+ of 64 samples .*\n    \(\d,\d\): .*\n"
-                                 r"    rerun: \S+ run fam/c1 --renderer reference --no-expect\n    \S+ explain fam/c1 --pixel ")
+                                 r"    rerun: \S+ run fam/c1 --renderer reference --timeout 20 --no-expect\n    explain: \S+ explain fam/c1 --pixel ")
 
     def test_filters(self):
         def listed(text):
