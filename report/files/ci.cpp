@@ -161,9 +161,10 @@ std::string to_github_summary(const Run& run) {
     text += "\n### What shows and repeats them\n";
     for (size_t k = 0; k < std::min(told, kMaxCommands); ++k) {
         const CaseRecord& first = smallest_case(list[k]);
-        const std::string block = fmt::format(
-            "\n**{}. {}**: {}\n\n{}", k + 1, cell(cause_title(list[k])),
-            cell(what_happened(first) + "; " + why_it_happened(first)), command_block(first));
+        const std::string block =
+            fmt::format("\n**{}. {}**: {}\n\n{}", k + 1, cell(cause_title(list[k])),
+                        cell(fmt::format("{}; {}", what_happened(first), why_it_happened(first))),
+                        command_block(first));
         if (text.size() + block.size() <= kMaxSummary) {
             text += block;
         }
