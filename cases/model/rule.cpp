@@ -95,7 +95,8 @@ constexpr std::array kRules = {
          "NaN and infinity make the result of their own triangle undefined inside scissor and "
          "framebuffer, and so do positions beyond 2^32 (beyond FLT_MAX/16 from practice on); all "
          "other triangles are drawn as ever and nothing is terminated. Denormals and zeros of "
-         "either sign are ordinary numbers, but a denormal w may be taken for zero.",
+         "either sign are ordinary numbers, but a denormal w, or z before the near plane, may be "
+         "taken for zero.",
          "fundamentals-floating-point", "15.4", "ref/position/position.hpp"},
     Rule{rule::scissor_half_open, Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",

@@ -103,7 +103,8 @@ constexpr Statement kStatements[] = {
      "Positions are widened by what the device may shift the viewport.",
      {"clip.viewport", "cover.inside"}, ""},
     {31, "depth clipping on and off", exact, exact,
-     "Which planes cut is exact; where they cut has the band of the depth at the plane.",
+     "Which planes cut is exact; near a plane that cuts, a sample is open where its depth is at the "
+     "plane within the error of a device that discards samples by their depth.",
      {"clip.volume", "clip.depth"}, ""},
     {32, "user clip distances", tolerance, exact,
      "Hit where the interpolated distance is positive, not where it is negative, open inside the derived band.",
@@ -223,7 +224,8 @@ constexpr Statement kStatements[] = {
      "Outcomes that depend on the rounding of a D16 or D24 value are open.",
      {"depth.compare", "depth.store"}, ""},
     {71, "the same geometry again under LESS_OR_EQUAL", exact, exact,
-     "Every fragment passes the second time.",
+     "Every fragment passes the second time on a floating-point target; on D16 and D24 the rounding "
+     "of statement 70 leaves it open.",
      {"depth.repeat"}, ""},
     {72, "writing FragCoord.z to FragDepth", Strictness::free, exact,
      "",

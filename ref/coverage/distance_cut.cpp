@@ -22,6 +22,13 @@
 // With a vertex behind the eye the b_i of visible points are not within [0,1]. Then N is linear in
 // p, and its error is the largest at the corners of the window, over all corners of the boxes of
 // positions; the budget is that of the homogeneous planes (ref/number/plane_budget.hpp).
+//
+// Depth planes. Nothing in the text of "Primitive Clipping" tells how a primitive is cut, and
+// tilers discard fragments by their depth instead. What such a device compares at a sample with the
+// planes' depth is z/w, interpolated without perspective from g_i = z_i/w_i: the plane of N above
+// with these g_i, its budget and the movement of the vertices. Compared in the viewport's depth
+// range [a, b] instead, two roundings of a + (b - a) z/w are added, u (|a| + |b|) / |b - a| each of
+// z/w, times K.
 #include "ref/coverage/distance_cut.hpp"
 
 #include <algorithm>
@@ -258,14 +265,17 @@ std::vector<Linear> homogeneous_planes(const CutSource& s, std::span<const Clipp
     return out;
 }
 
+bool is_before_eye(const CutSource& s) {
+    return std::all_of(s.triangle.clip.begin(), s.triangle.clip.end(),
+                       [](const glm::vec4& v) { return v.w >= 0x1p-126F; });
+}
+
 std::vector<Linear> planes_of(const CutSource& s, std::span<const ClippedVertex> polygon,
                               const Region& region, const Spread& moved) {
     const mpq_class factor = exact_budget_factor(s.profile);
     const uint32_t n = s.triangle.distance_count;
-    const bool is_before_eye = std::all_of(s.triangle.clip.begin(), s.triangle.clip.end(),
-                                           [](const glm::vec4& v) { return v.w >= 0x1p-126F; });
     std::vector<Linear> out;
-    if (is_before_eye) {
+    if (is_before_eye(s)) {
         Projected p;
         if (!s.vertex[0] || !s.vertex[1] || !s.vertex[2] || !project(s, region, moved, p)) {
             return {};
@@ -340,6 +350,28 @@ DistanceCut to_cut(const Linear& plane, const Window& window) {
     return out;
 }
 
+Region region_of(const Window& w) {
+    return {mpq_class(w.pixel_x0), mpq_class(w.pixel_y0), mpq_class(w.pixel_x1),
+            mpq_class(w.pixel_y1)};
+}
+
+// Of the outline's vertices, and of those of the triangle before the eye.
+Spread spread_of_all(const CutSource& source, std::span<const ClippedVertex> polygon,
+                     std::span<const Box> boxes) {
+    Spread moved;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const IdealPosition& at = polygon[i].position;
+        spread_by(moved, at.x, at.y, boxes[i]);
+    }
+    for (size_t i = 0; i < 3; ++i) {
+        if (source.vertex[i] && source.triangle.clip[i].w > 0) {
+            const IdealPosition at = ideal_position(source.triangle.clip[i], source.viewport);
+            spread_by(moved, at.x, at.y, *source.vertex[i]);
+        }
+    }
+    return moved;
+}
+
 bool is_passed_by_all(const DistanceCut& cut, std::span<const Box> boxes) {
     return std::all_of(boxes.begin(), boxes.end(), [&](const Box& box) {
         const BoxCorners points(box);
@@ -353,21 +385,12 @@ bool is_passed_by_all(const DistanceCut& cut, std::span<const Box> boxes) {
 std::optional<std::vector<DistanceCut>> distance_cuts(const CutSource& source,
                                                       std::span<const ClippedVertex> polygon,
                                                       std::span<const Box> boxes) {
-    const Window& w = source.window;
-    const Region region{mpq_class(w.pixel_x0), mpq_class(w.pixel_y0), mpq_class(w.pixel_x1),
-                        mpq_class(w.pixel_y1)};
-    Spread moved;
+    const Region region = region_of(source.window);
+    const Spread moved = spread_of_all(source, polygon, boxes);
     mpq_class least_inv_w;
     for (size_t i = 0; i < polygon.size(); ++i) {
-        const IdealPosition& at = polygon[i].position;
-        spread_by(moved, at.x, at.y, boxes[i]);
-        least_inv_w = i == 0 ? at.inv_w : std::min<mpq_class>(least_inv_w, at.inv_w);
-    }
-    for (size_t i = 0; i < 3; ++i) {
-        if (source.vertex[i] && source.triangle.clip[i].w > 0) {
-            const IdealPosition at = ideal_position(source.triangle.clip[i], source.viewport);
-            spread_by(moved, at.x, at.y, *source.vertex[i]);
-        }
+        const mpq_class& inv_w = polygon[i].position.inv_w;
+        least_inv_w = i == 0 ? inv_w : std::min<mpq_class>(least_inv_w, inv_w);
     }
     const std::vector<Linear> planes = planes_of(source, polygon, region, moved);
     // D, linear, is the least at a corner.
@@ -383,8 +406,50 @@ std::optional<std::vector<DistanceCut>> distance_cuts(const CutSource& source,
         if (is_zero) {
             continue;  // 0 x = 0 and x + 0 = x hold exactly: c = 0 everywhere
         }
-        DistanceCut cut = to_cut(planes[k], w);
-        cut.distance = static_cast<uint8_t>(k);
+        DistanceCut cut = to_cut(planes[k], source.window);
+        cut.plane = static_cast<ClipPlane>(static_cast<uint32_t>(ClipPlane::user_0) + k);
+        if (!is_passed_by_all(cut, boxes)) {
+            out.push_back(cut);
+        }
+    }
+    return out;
+}
+
+std::optional<std::vector<DistanceCut>> depth_cuts(const CutSource& source,
+                                                   std::span<const ClippedVertex> polygon,
+                                                   std::span<const Box> boxes,
+                                                   std::span<const ClipPlane> planes) {
+    const Region region = region_of(source.window);
+    const Spread moved = spread_of_all(source, polygon, boxes);
+    Projected p;
+    if (!is_before_eye(source) || !source.vertex[0] || !source.vertex[1] || !source.vertex[2] ||
+        !project(source, region, moved, p)) {
+        return std::nullopt;
+    }
+    std::array<mpq_class, 3> g;
+    for (size_t i = 0; i < 3; ++i) {
+        g[i] = rational(source.triangle.clip[i].z) * p.inv_w[i];
+    }
+    const mpq_class factor = exact_budget_factor(source.profile);
+    const Linear depth = projected_plane(p, g, factor);
+    const mpq_class low = rational(source.viewport.min_depth);
+    const mpq_class high = rational(source.viewport.max_depth);
+    const mpq_class in_range =
+        low == high ? mpq_class(0) : (abs(low) + abs(high)) / abs(high - low);
+    const mpq_class error = depth.error + factor * mpq_class(kUnitRoundoff) * 2 * in_range;
+    std::vector<DistanceCut> out;
+    for (const ClipPlane plane : planes) {
+        Linear value = depth;
+        value.error = error;
+        if (plane == ClipPlane::z_high) {  // 1 - z/w
+            value.x = -value.x;
+            value.y = -value.y;
+            value.c = 1 - value.c;
+        } else if (plane == ClipPlane::z_low_symmetric) {
+            value.c += 1;
+        }
+        DistanceCut cut = to_cut(value, source.window);
+        cut.plane = plane;
         if (!is_passed_by_all(cut, boxes)) {
             out.push_back(cut);
         }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Handles clip distances that a device tests at each sample instead of cutting the polygon by them.
+// Handles clip distances, and depth planes, that a device tests at each sample instead of cutting
+// the polygon by them.
 #pragma once
 
 #include <array>
@@ -34,5 +35,13 @@ struct CutSource {
 std::optional<std::vector<DistanceCut>> distance_cuts(const CutSource& source,
                                                       std::span<const ClippedVertex> polygon,
                                                       std::span<const Box> boxes);
+
+// The same of the depth against the depth planes that cut the triangle: "no cut" where no sample of
+// the outline fails them. Nothing if a vertex lies behind the eye or has no bounded position: then
+// only the cut polygon is right.
+std::optional<std::vector<DistanceCut>> depth_cuts(const CutSource& source,
+                                                   std::span<const ClippedVertex> polygon,
+                                                   std::span<const Box> boxes,
+                                                   std::span<const ClipPlane> planes);
 
 }  // namespace ref

@@ -235,7 +235,7 @@ Decision decide(const TriangleSetup& setup, const FixedPoint& p, bool is_told) {
     } else {
         const OutlineList outlines = setup.outlines();
         const size_t count = outlines.size();
-        std::array<Coverage, 4> each{};
+        std::array<Coverage, OutlineList::kMaxOutlines> each{};
         for (size_t k = 0; k < count; ++k) {
             each[k] = after_cuts(coverage_of(setup, *outlines[k], p), *outlines[k], p);
         }

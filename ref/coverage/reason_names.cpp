@@ -222,6 +222,18 @@ void name_open(const Outline& o, const FixedPoint& p, Reasons& out) {
     }
 }
 
+// That a cut keeps a sample out, or leaves it open.
+Reason reason_of_cut(const DistanceCut& cut, bool is_open) {
+    const Reason reason =
+        cut.plane ? reason_of_plane(*cut.plane) : Reason{ReasonKind::clip_distance};
+    if (!is_open) {
+        return reason;
+    }
+    return {
+        reason.kind == ReasonKind::clip_plane ? ReasonKind::near_plane : ReasonKind::near_distance,
+        reason.which};
+}
+
 }  // namespace
 
 void name_reasons(const TriangleSetup& setup, const Outline& o, const FixedPoint& p, Coverage own,
@@ -236,8 +248,7 @@ void name_reasons(const TriangleSetup& setup, const Outline& o, const FixedPoint
     const bool is_open = out.coverage == Coverage::either;
     for (const DistanceCut& cut : o.cuts) {
         if (is_open ? cut.must.at(p) < 0 : cut.may.at(p) < 0) {
-            const auto kind = is_open ? ReasonKind::near_distance : ReasonKind::clip_distance;
-            add_reason(out.reasons, {kind, cut.distance});
+            add_reason(out.reasons, reason_of_cut(cut, is_open));
         }
     }
     const Coverage whole = exact::coverage_of(setup, o, p);

@@ -105,6 +105,16 @@ bool outline_by(const Source& s, std::span<const ClipPlane> planes, Outline& out
     return outline_of(clip_triangle(s.input, s.draw.viewport, s.profile, planes), s, out);
 }
 
+CutSource cut_source(const Source& s) {
+    CutSource out{s.input, s.draw.viewport, s.profile, {}, s.window};
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::vec4& v = s.input.clip[i];
+        out.vertex[i] = v.w < 0 ? position_box(-v, s.draw.viewport, s.limits, s.profile)
+                                : s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
+    }
+    return out;
+}
+
 // The outline cut by the planes of the view volume, the clip distances tested at each sample. False
 // if some vertex has no box.
 bool tested_outline(const Source& s, std::span<const ClipPlane> planes, Outline& out,
@@ -114,20 +124,78 @@ bool tested_outline(const Source& s, std::span<const ClipPlane> planes, Outline&
     if (!outline_of(polygon, s, out)) {
         return false;
     }
-    CutSource source{s.input, s.draw.viewport, s.profile, {}, s.window};
-    for (size_t i = 0; i < 3; ++i) {
-        const glm::vec4& v = s.input.clip[i];
-        source.vertex[i] = v.w < 0 ? position_box(-v, s.draw.viewport, s.limits, s.profile)
-                                   : s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
-    }
-    const auto cuts = distance_cuts(source, polygon, out.vertices());
+    const auto cuts = distance_cuts(cut_source(s), polygon, out.vertices());
     is_bounded = cuts.has_value();
     out.cuts = cuts.value_or(std::vector<DistanceCut>{});
     return true;
 }
 
+// Adds the outlines of a device that tests the depth at each sample instead of cutting by the depth
+// planes: from the triangle, and from what the borders leave of it.
+void add_depth_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
+    std::vector<ClipPlane> planes(s.volume.all().begin() + s.volume.view_count,
+                                  s.volume.all().end());
+    for (const bool is_cut_by_borders : {false, true}) {
+        if (is_cut_by_borders) {
+            const auto borders = s.volume.all().first(4);
+            if (is_inside(s.input, borders)) {
+                return;
+            }
+            planes.insert(planes.begin(), borders.begin(), borders.end());
+        }
+        const std::vector<ClippedVertex> polygon =
+            clip_triangle(s.input, s.draw.viewport, s.profile, planes);
+        Outline o;
+        if (!outline_of(polygon, s, o)) {
+            continue;
+        }
+        auto cuts = depth_cuts(cut_source(s), polygon, o.vertices(), s.volume.depth());
+        const bool may_pass =
+            cuts && std::ranges::all_of(*cuts, [&](const DistanceCut& cut) {
+                return std::ranges::any_of(o.vertices(), [&](const Box& box) {
+                    const BoxCorners points(box);
+                    return std::any_of(points.begin(), points.end(),
+                                       [&](const FixedPoint& p) { return cut.may.at(p) >= 0; });
+                });
+            });
+        if (!may_pass) {
+            continue;
+        }
+        o.cuts = std::move(*cuts);
+        choose_mode(o, t.grid_step, s.profile);
+        signs |= signs_of(o, t.grid_step);
+        t.tested.push_back(std::move(o));
+    }
+}
+
 // What does not follow from the vertices: an outline that may be drawn or not.
 constexpr DistanceCut kOpenCut = {{0, 0, 1}, {0, 0, -1}};
+constexpr DistanceCut kFlushedCut = {{0, 0, 1}, {0, 0, -1}, ClipPlane::z_low};
+
+// A denormal that is input into a shader, or made by one, may be flushed to zero (Vulkan,
+// "Precision and Operation of SPIR-V Instructions"), and so may the z of a position be: a triangle
+// just before the near plane may lie on it.
+ClipInput with_zero_for_denormal_depths(const ClipInput& triangle, const ClipVolume& volume) {
+    ClipInput out = triangle;
+    const auto depth = volume.depth();
+    if (std::ranges::find(depth, ClipPlane::z_low) != depth.end()) {
+        for (glm::vec4& v : out.clip) {
+            v.z = v.z > -0x1p-126F && v.z < 0 ? 0.0F : v.z;
+        }
+    }
+    return out;
+}
+
+// Nothing has to be drawn of any outline.
+void leave_open(TriangleSetup& t) {
+    t.unclipped.cuts.push_back(kFlushedCut);
+    if (t.clipped) {
+        t.clipped->cuts.push_back(kFlushedCut);
+    }
+    for (Outline& o : t.tested) {
+        o.cuts.push_back(kFlushedCut);
+    }
+}
 
 // Adds the outlines of a device that tests the distances; false if some vertex has no box.
 bool add_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
@@ -279,6 +347,9 @@ void set_up_outlines(const Source& s, bool is_told, TriangleSetup& t) {
     if (is_defined && s.volume.has_user_planes()) {
         is_defined = add_tested(s, t, signs);
     }
+    if (is_defined && !is_inside(s.input, s.volume.depth())) {
+        add_depth_tested(s, t, signs);
+    }
     const bool crosses_eye =
         std::any_of(clip.begin(), clip.end(), [](const glm::vec4& v) { return !(v.w > 0); });
     if (!is_defined) {
@@ -342,8 +413,10 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
         return t;
     }
     const bool is_outside = is_trivially_outside(clip, s.volume.view());
+    const ClipInput flushed = with_zero_for_denormal_depths(s.input, s.volume);
+    const bool may_be_flushed = is_outside && !is_trivially_outside(flushed.clip, s.volume.view());
     const bool is_culled = is_culled_by_distance(draw, triangle);
-    if (!is_told && (is_outside || is_culled || draw.rasterizer_discard)) {
+    if (!is_told && ((is_outside && !may_be_flushed) || is_culled || draw.rasterizer_discard)) {
         return t;
     }
     // "x/w ... division by zero produces an unspecified result" (Vulkan, "General Requirements"); a
@@ -352,10 +425,16 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
                                     std::any_of(clip.begin(), clip.end(), [](const glm::vec4& v) {
                                         return std::fabs(v.w) < 0x1p-126F;
                                     });
-    if (is_outside) {
+    if (is_outside && !may_be_flushed) {
         tell_planes(s, t);
     } else if (may_divide_by_zero) {
         set_up_anywhere(s, ReasonKind::undefined, t);
+    } else if (may_be_flushed) {
+        Source other = s;
+        other.input = flushed;
+        set_up_outlines(other, is_told, t);
+        leave_open(t);
+        t.reasons.push_back({ReasonKind::flushed});
     } else {
         set_up_outlines(s, is_told, t);
     }

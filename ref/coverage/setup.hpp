@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What of a triangle does not depend on the sample. A device may draw a triangle from one of up to
-// four outlines: the triangle as it is (cut by the depth planes only, if it has to be: a guard band
+// six outlines: the triangle as it is (cut by the depth planes only, if it has to be: a guard band
 // with an exact viewport scissor), and, if it leaves the view volume, the polygon clipped against
 // all planes; either of them cut by the clip distances, or not cut by them and the distances tested
-// at each sample. Each vertex of an outline is a box of positions.
+// at each sample; and, if a depth plane cuts it, the two not cut by these and the depth tested at
+// each sample. Each vertex of an outline is a box of positions.
 #pragma once
 
 #include <algorithm>
@@ -44,11 +45,12 @@ enum class EdgeTest : uint8_t {
     top_left,  // between two points that every device has (profile direct3d): the top-left rule
 };
 
-// A clip distance that is tested at each sample (ref/coverage/distance_cut.hpp): inside `may` it
-// may pass, inside `must` it passes whatever the device's freedom.
+// A clip distance, or the depth against a depth plane, that is tested at each sample
+// (ref/coverage/distance_cut.hpp): inside `may` it may pass, inside `must` it passes whatever the
+// device's freedom.
 struct DistanceCut {
     HalfPlane may, must;
-    uint8_t distance = kNothing;  // its number; nothing: of no distance in particular
+    std::optional<ClipPlane> plane = {};  // nothing: none in particular
 };
 
 // Holds the boxes of an outline in one piece. Nearly every outline is a triangle, and there may be
@@ -105,9 +107,10 @@ struct Outline {
     std::span<const Box> must_vertices() const { return {must_boxes.data(), must_count}; }
 };
 
-// The outlines of a triangle that a device may use, one to four.
+// The outlines of a triangle that a device may use, one to six.
 class OutlineList {
   public:
+    static constexpr size_t kMaxOutlines = 6;
     void add(const Outline* o) { list_[count_++] = o; }
     const Outline* const* begin() const { return list_.data(); }
     const Outline* const* end() const { return list_.data() + count_; }
@@ -115,7 +118,7 @@ class OutlineList {
     size_t size() const { return count_; }
 
   private:
-    std::array<const Outline*, 4> list_{};
+    std::array<const Outline*, kMaxOutlines> list_{};
     size_t count_ = 0;
 };
 
@@ -149,8 +152,8 @@ struct TriangleSetup {
     Outline unclipped;         // cut by the depth planes and clip distances only
     // Cut by all planes; only if is_clipped. Few triangles have one, and it is large.
     std::shared_ptr<Outline> clipped;
-    // Not cut by the clip distances, which are tested at each sample; empty where no distance
-    // matters.
+    // Not cut by the clip distances, or not by the depth planes, which are tested at each sample;
+    // empty where none of them matters.
     std::vector<Outline> tested;
     int8_t tested_unclipped = -1, tested_clipped = -1;  // into `tested`; -1: as if cut
     int64_t grid_step = 1;                              // S47.16 units of one subpixel

@@ -30,14 +30,6 @@ namespace ref {
 
 namespace {
 
-// A power of two whose reciprocal is normal as well: the biased exponent is neither of the two
-// least nor of the three largest.
-bool is_power_of_two(float w) {
-    const auto bits = std::bit_cast<uint32_t>(w);
-    const uint32_t exponent = bits >> 23U & 0xffU;
-    return (bits & 0x007fffffU) == 0 && exponent > 1 && exponent < 253;
-}
-
 struct Axis {
     mpq_class half;              // p/2
     mpq_class offset;            // o
@@ -135,6 +127,12 @@ std::optional<Box> box_by(RangeOf range_of, const mpq_class& x, const mpq_class&
 }
 
 }  // namespace
+
+bool is_power_of_two(float w) {
+    const auto bits = std::bit_cast<uint32_t>(w);
+    const uint32_t exponent = bits >> 23U & 0xffU;
+    return (bits & 0x007fffffU) == 0 && exponent > 1 && exponent < 253;
+}
 
 // Answered in binary64, where each step is exact or known not to be.
 bool is_transform_exact(float c, float w, float origin, float extent) {

@@ -50,6 +50,9 @@ struct TransformError {
     mpq_class x, y;
 };
 TransformError transform_error(const glm::vec4& clip, const cases::Viewport& viewport);
+// A power of two whose reciprocal is normal as well: the biased exponent is neither of the two
+// least nor of the three largest. A product with 1/w is exact.
+bool is_power_of_two(float w);
 // Whether the bound is 0 for a coordinate c, of a viewport from `origin` on, `extent` pixels long.
 bool is_transform_exact(float c, float w, float origin, float extent);
 

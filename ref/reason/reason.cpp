@@ -67,8 +67,13 @@ constexpr std::array kRows = {
     Row{unbounded, rule::number_undefined,
         "a vertex lies behind the eye or beyond 2^32 pixels, and nothing bounds where the corners "
         "of the clipped polygon may lie"},
+    Row{flushed, rule::number_undefined,
+        "a denormal z may be taken for 0, which lies inside the view volume"},
     Row{near_distance, rule::clip_distance,
         "inside the triangle, but clip distance {number} is 0 within its error at the sample"},
+    Row{near_plane, rule::clip_volume,
+        "its depth at the sample is at the plane {plane} of the view volume within the error of a "
+        "device that discards samples by their depth"},
     Row{open_facing, rule::face_area_sign,
         "which way the triangle faces depends on where its vertices are snapped ({boxes}), and one "
         "of its faces is culled"},

@@ -39,7 +39,9 @@ enum class ReasonKind : uint8_t {
     // A triangle may cover the sample.
     undefined,        // a vertex is beyond what the profile promises anything of
     unbounded,        // a vertex of the clipped polygon may be anywhere
+    flushed,          // a denormal z may be taken for 0
     near_distance,    // a clip distance is 0 within its error; its number
+    near_plane,       // its depth is at a depth plane within its error; a ClipPlane
     open_facing,      // the triangle is culled or not, as its vertices snap
     viewport_border,  // it lies within a pixel of a viewport's fractional border
     on_edge,          // it lies on an edge, and no rule of the profile decides; the edge's label

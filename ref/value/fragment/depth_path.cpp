@@ -8,6 +8,7 @@
 
 #include "ref/number/rational.hpp"
 #include "ref/position/clip.hpp"
+#include "ref/position/position.hpp"
 
 namespace ref::value {
 
@@ -17,8 +18,20 @@ namespace {
 // formed as a power of two. Each is at most u of |m slope| + |r constant|.
 constexpr double kBiasRoundings = 4;
 
-// Largest |z_f| of the vertices, of those of the clipped polygon, and of either after depth clamp.
-std::vector<mpq_class> largest_depths(const Primitive& primitive) {
+// The largest |z_f| of some vertices as a device has it.
+struct Largest {
+    mpq_class least, most;
+    void add(const mpq_class& z, const mpq_class& slack) {
+        least = std::max<mpq_class>(least, z * (1 - slack));
+        most = std::max<mpq_class>(most, z * (1 + slack));
+    }
+};
+
+// Those of the vertices, of those of the clipped polygon, and of either after depth clamp. z_f of a
+// vertex is off by at most five roundings (quantities.cpp) of terms up to 1; relative to the
+// largest z that may be a few more when near and far cancel, and 16 leaves room. It is not off at
+// all where w is a power of two and the viewport's range is 0 to 1.
+std::vector<Largest> largest_depths(const Primitive& primitive, cases::Profile profile) {
     const cases::Viewport& v = primitive.draw->viewport;
     const mpq_class low = rational(std::min(v.min_depth, v.max_depth));
     const mpq_class high = rational(std::max(v.min_depth, v.max_depth));
@@ -30,17 +43,24 @@ std::vector<mpq_class> largest_depths(const Primitive& primitive) {
         range /= 2;
         near = (rational(v.max_depth) + rational(v.min_depth)) / 2;
     }
-    mpq_class whole = 0, whole_clamped = 0, cut = 0, cut_clamped = 0;
-    const auto add = [&](const mpq_class& z, mpq_class& free, mpq_class& clamped) {
-        free = std::max<mpq_class>(free, abs(z));
-        clamped = std::max<mpq_class>(clamped, std::min(std::max(z, low), high));
+    const bool is_identity = range == 1 && near == 0;
+    const mpq_class rounded =
+        profile == cases::Profile::vulkan ? mpq_class(16, 100000) : mpq_class(16, 16777216);
+    Largest whole, whole_clamped, cut;
+    const auto clamped = [&](const mpq_class& z) {
+        return std::min<mpq_class>(std::max<mpq_class>(z, low), high);
     };
     for (const glm::vec4& clip : primitive.clip) {
         if (clip.w > 0) {
-            add(range * rational(clip.z) / rational(clip.w) + near, whole, whole_clamped);
+            const bool is_exact =
+                profile != cases::Profile::vulkan && is_identity && is_power_of_two(clip.w);
+            const mpq_class slack = is_exact ? mpq_class(0) : rounded;
+            const mpq_class z = range * rational(clip.z) / rational(clip.w) + near;
+            whole.add(abs(z), slack);
+            whole_clamped.add(abs(clamped(z)), slack);
         }
     }
-    std::vector<mpq_class> out{whole};
+    std::vector<Largest> out{whole};
     if (primitive.draw->depth.clamp) {
         out.push_back(whole_clamped);
     }
@@ -50,7 +70,11 @@ std::vector<mpq_class> largest_depths(const Primitive& primitive) {
         for (const ClippedVertex& c :
              clip_triangle(input, v, cases::Profile::direct3d, volume.all())) {
             if (c.clip[3] > 0) {
-                add(range * c.clip[2] / c.clip[3] + near, cut, cut_clamped);
+                const bool is_exact =
+                    c.original >= 0 && profile != cases::Profile::vulkan && is_identity &&
+                    is_power_of_two(primitive.clip.at(static_cast<size_t>(c.original)).w);
+                cut.add(abs(range * c.clip[2] / c.clip[3] + near),
+                        is_exact ? mpq_class(0) : rounded);
             }
         }
         out.push_back(cut);
@@ -91,14 +115,14 @@ Range<T> unit_of(const Primitive& primitive, cases::Profile profile) {
         const double least = constant_unit(format);
         return bias.is_exact ? Range<T>{T(least), T(least)} : Range<T>{T(0.0), T(2 * least)};
     }
-    // z_f of a vertex is off by at most five roundings (quantities.cpp) of terms up to 1; relative
-    // to the largest z that may be a few more when near and far cancel, and 16 leaves room.
-    const mpq_class slack =
-        profile == cases::Profile::vulkan ? mpq_class(16, 100000) : mpq_class(16, 16777216);
-    const std::vector<mpq_class> depths = largest_depths(primitive);
-    const auto [least, most] = std::minmax_element(depths.begin(), depths.end());
-    const double low = *least == 0 ? 0.0 : unit_at(*least * (1 - slack));
-    return {T(low), T(unit_at(*most * (1 + slack)))};
+    mpq_class least, most;
+    bool is_first = true;
+    for (const Largest& largest : largest_depths(primitive, profile)) {
+        least = is_first ? largest.least : std::min<mpq_class>(least, largest.least);
+        most = std::max<mpq_class>(most, largest.most);
+        is_first = false;
+    }
+    return {T(least == 0 ? 0.0 : unit_at(least)), T(unit_at(most))};
 }
 
 // A bound from above on the square root.

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "ref/expectation/complement.hpp"
+#include "tests/unit/ref/coverage_fixture.hpp"
 #include "tests/unit/ref/coverage_random.hpp"
 
 namespace ref::test {
@@ -283,6 +284,43 @@ TEST(CullDistance, NegativeAtAllVertices) {
 }
 
 // Near plane at z = 0, at z = -w, and none.
+// z of the whole triangle is within 3u of 1: cut at x = 64/3, while z rounded to nearest is 1 or
+// less up to x = 128/3.
+TEST(DepthClip, AllowsADeviceThatDiscardsSamplesByTheirDepth) {
+    for (const cases::Profile profile : cases::kProfiles) {
+        cases::Case c = blank(64, 8);
+        cases::Draw draw = whole(c);
+        const float near_one = 1 - 0x1p-24F;
+        draw.positions = {{-1, -1, near_one, 1}, {1, -1, 1 + 0x1p-23F, 1}, {-1, 1, near_one, 1}};
+        c.draws = {draw};
+        const Expectation e = expect(c, {8}, profile);
+        EXPECT_EQ(hits_at(e, 30, 1).total_max, 1U);
+        EXPECT_EQ(hits_at(e, 30, 1).total_min, 0U);
+        EXPECT_EQ(hits_at(e, 63, 7).total_max, 0U);  // beside the triangle
+        // Steeper by 2^23 it is cut as it was.
+        c.draws[0].positions = {{-1, -1, 0, 1}, {1, -1, 2, 1}, {-1, 1, 0, 1}};
+        const Expectation steep = expect(c, {8}, profile);
+        EXPECT_EQ(hits_at(steep, 30, 1).total_min, 1U);
+        EXPECT_EQ(hits_at(steep, 33, 1).total_max, 0U);
+    }
+}
+
+TEST(DepthClip, ADenormalBeforeTheNearPlaneMayBeOnIt) {
+    for (const cases::Profile profile : cases::kProfiles) {
+        cases::Case c = blank(4, 4);
+        cases::Draw draw = whole(c);
+        for (const float z : {-0x1p-149F, -0x1p-126F}) {
+            draw.positions = {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}};
+            c.draws = {draw};
+            const HitBounds hits = hits_at(expect(c, {8}, profile), 1, 1);
+            EXPECT_EQ(hits.total_min, 0U);
+            EXPECT_EQ(hits.total_max, z > -0x1p-126F ? 1U : 0U) << z;
+            const Expectation oracle = exact::expect(c, {8}, profile);
+            EXPECT_EQ(hits_at(oracle, 1, 1), hits);
+        }
+    }
+}
+
 TEST(DepthClip, Volumes) {
     cases::Case c = blank(8, 8);
     cases::Draw d = whole(c);

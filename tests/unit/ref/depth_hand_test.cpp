@@ -316,6 +316,23 @@ TEST(DepthHand, ToldDepthIsBiasedAndClamped) {
 }
 
 // The bounds that are told hold exactly the stored depths that are accepted, in every format.
+// 1/4 is exact at a vertex with w = 1, and r is 2^-25: no device has an exponent less.
+TEST(DepthHand, AnExactDepthHasOneUnitOfBias) {
+    cases::Case c = case_of({half_plane(0.25)});
+    c.draws[0].depth.bias = cases::DepthBias{0x1p15F, 0, 0};
+    for (const Profile profile : {Profile::practice, Profile::direct3d}) {
+        EXPECT_TRUE(accepts(c, 0.25 + 0x1p-10, profile));
+        EXPECT_FALSE(accepts(c, 0.25 + 0x1p-11, profile));  // r = 2^-26
+        EXPECT_FALSE(accepts(c, 0.25 + 0x1p-9, profile));
+        EXPECT_FALSE(accepts(c, 0.25, profile));
+    }
+    // 1/w of 3 is rounded, so that 3/4 over 3 may be just below.
+    for (glm::vec4& v : c.draws[0].positions) {
+        v *= 3.0F;
+    }
+    EXPECT_TRUE(accepts(c, 0.25 + 0x1p-11, Profile::direct3d));
+}
+
 TEST(DepthHand, ToldRangeIsWhatIsAccepted) {
     cases::Case c = case_of({half_plane(0.25)}, DepthFormat::d16_unorm);
     for (const Profile profile : {Profile::practice, Profile::direct3d}) {

@@ -232,6 +232,11 @@ void take_away(Scene& s, Reason reason, int orientation) {
         case ReasonKind::cull_distance:
             set_distances(draw.distances.cull, reason.which, 0);
             return;
+        case ReasonKind::near_plane:
+        case ReasonKind::flushed:
+            draw.depth.clip = false;
+            draw.depth.clamp = true;
+            return;
         case ReasonKind::clip_distance:
         case ReasonKind::near_distance:
             set_distances(draw.distances.clip, reason.which, 0);
