@@ -203,6 +203,7 @@ report::Run make_header(const Program& program, const DiffOptions& options,
         header.cases.push_back(run::make_record(c));
         header.cases.back().rerun = diff_line(program, options, c.id);
     }
+    header.sources = sources_of(header.cases);
     return header;
 }
 

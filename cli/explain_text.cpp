@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "cases/base/number_text.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/sample.hpp"
 #include "diff/verdict.hpp"
@@ -61,7 +62,8 @@ std::string accepted_text(ref::ValueReference& values, uint32_t triangle, cases:
     const ref::ValueRange all =
         v.part.empty() ? values.range(triangle, sample, v.quantity) : ref::ValueRange{};
     return all.is_promised
-               ? text + fmt::format(", of all bases {:.9g} to {:.9g}", all.low, all.high)
+               ? text + fmt::format(", of all bases {} to {}", cases::number_text(all.low),
+                                    cases::number_text(all.high))
                : text;
 }
 
@@ -69,11 +71,12 @@ std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::S
     std::string text;
     for (const ref::ExpectedValue& v : values.expected(triangle, sample)) {
         if (v.is_flat) {
-            text += fmt::format("        {:<14} {:.9g} {}, bit for bit\n", to_text(v), v.nearest,
-                                v.also.empty() ? "exactly" : v.also);
+            text += fmt::format("        {:<14} {} {}, bit for bit\n", to_text(v),
+                                cases::number_text(v.nearest), v.also.empty() ? "exactly" : v.also);
         } else {
-            text += fmt::format("        {:<14} {:.9g} = {}{}{}{}\n", to_text(v), v.nearest,
-                                shortened(v.exact), accepted_text(values, triangle, sample, v),
+            text += fmt::format("        {:<14} {} = {}{}{}{}\n", to_text(v),
+                                cases::number_text(v.nearest), shortened(v.exact),
+                                accepted_text(values, triangle, sample, v),
                                 v.also.empty() ? "" : ", ", v.also);
         }
     }

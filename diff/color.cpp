@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "cases/base/number_text.hpp"
+
 namespace diff {
 
 using Kind = ref::ColorVerdict::Kind;
@@ -56,7 +58,7 @@ std::optional<Finding> ColorComparison::judge(size_t index, cases::SampleId id,
             return !at.explains_depth(index, id, capture_.depth[index], case_.target.depth_clear);
         });
         finding.expected = "the depth of a fragment that the colour allows";
-        finding.got = fmt::format("{:.9g}", capture_.depth[index]);
+        finding.got = cases::number_text(capture_.depth[index]);
         return finding;
     }
     return std::nullopt;

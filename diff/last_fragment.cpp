@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cases/base/number_text.hpp"
 #include "cases/model/rule_ids.hpp"
 
 namespace diff {
@@ -102,7 +103,7 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
         finding.expected += (finding.expected.empty() ? "" : ", or ") + m.expected;
         finding.ratio = m.ratio;
     }
-    finding.got = fmt::format("{:.9g}", device.depth);
+    finding.got = cases::number_text(device.depth);
     tell(finding, ref::ReasonKind::depth_unwritten);
     return finding;
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "cases/base/number_text.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "ref/color/component.hpp"
@@ -91,7 +92,7 @@ double select(const std::vector<double>& samples, Resolve mode) {
 std::string to_text(const std::vector<double>& samples) {
     std::string out;
     for (const double sample : samples) {
-        out += fmt::format("{}{:.9g}", out.empty() ? "" : ", ", sample);
+        out += (out.empty() ? "" : ", ") + cases::number_text(sample);
     }
     return out;
 }
@@ -101,7 +102,7 @@ std::optional<Finding> judge_number(const std::vector<double>& samples, double g
                                     ComponentKind kind, Profile profile) {
     Finding finding;
     finding.kind = FindingKind::value;
-    finding.got = fmt::format("{:.9g}", got);
+    finding.got = cases::number_text(got);
     if (mode == Resolve::average) {
         const auto level = wrong_average(samples, got, kind, profile);
         if (!level) {
@@ -110,7 +111,7 @@ std::optional<Finding> judge_number(const std::vector<double>& samples, double g
         const Range range = range_of(samples, kind, *level);
         finding.rule = cases::rule::resolve_average;
         finding.level = *level;
-        finding.expected = fmt::format("{:.9g} .. {:.9g}", range.min, range.max);
+        finding.expected = cases::number_text(range.min) + " .. " + cases::number_text(range.max);
         finding.why =
             fmt::format("the samples of the pixel, read singly, are {}", to_text(samples));
         return finding;
@@ -121,7 +122,7 @@ std::optional<Finding> judge_number(const std::vector<double>& samples, double g
     }
     finding.rule = cases::rule::resolve_select;
     finding.level = Profile::vulkan;
-    finding.expected = fmt::format("{:.9g}", expected);
+    finding.expected = cases::number_text(expected);
     finding.why = fmt::format("the samples of the pixel, read singly, are {}", to_text(samples));
     return finding;
 }

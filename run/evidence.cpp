@@ -170,7 +170,17 @@ void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff:
                    const ref::Limits& limits) {
     const PictureWindow window(verdict, c.target);
     record.pictures = cut_pictures(window, c, verdict, capture);
-    record.geometry = geometry_of(window, c, limits, expectation);
+    record.geometry = geometry_of(window, c, limits, expectation, report::kMaxShapes);
+}
+
+void keep_reference(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+                    const ref::Expectation& expectation, const ref::Limits& limits) {
+    if (verdict.expected_hits.empty()) {
+        return;
+    }
+    const PictureWindow window(verdict, c.target);
+    record.reference = cut_reference(window, verdict);
+    record.geometry = geometry_of(window, c, limits, expectation, report::kMaxReferenceShapes);
 }
 
 void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,

@@ -20,6 +20,10 @@ void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff:
                    const ref::Expectation& expectation, const capture::CaptureView& capture,
                    const ref::Limits& limits);
 
+// Fills reference and geometry of the record of a case that passes.
+void keep_reference(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,
+                    const ref::Expectation& expectation, const ref::Limits& limits);
+
 // Fills pictures, geometry and evidence of the record of a case with draws or a blit. `expectation`
 // is empty for a blit.
 void keep_evidence(report::CaseRecord& record, const cases::Case& c, const diff::Verdict& verdict,

@@ -64,6 +64,8 @@ void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView&
         }
         if (keep_verdict(record, verdict, pictures)) {
             keep_evidence(record, c, verdict, expectation, capture, limits);
+        } else if (pictures != KeepPictures::none) {
+            keep_reference(record, c, verdict, expectation, limits);
         }
     } catch (const std::exception& e) {
         record.status = Status::error;

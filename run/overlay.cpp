@@ -11,7 +11,6 @@
 #include <cmath>
 
 #include "ref/number/rational.hpp"
-#include "ref/position/position.hpp"
 
 namespace run {
 
@@ -117,22 +116,6 @@ std::vector<report::PlaneCut> cuts_of(const cases::Draw& draw, const cases::Tria
                                  determinant(x, y, d) / whole})});
     }
     return cuts;
-}
-
-std::vector<std::array<int64_t, 4>> boxes_of(const cases::Draw& draw, const cases::Triangle& t,
-                                             const ref::Limits& limits, cases::Profile profile) {
-    std::vector<std::array<int64_t, 4>> boxes;
-    for (const uint32_t vertex : t.vertex) {
-        const glm::vec4& clip = draw.positions[vertex];
-        const auto box = ref::is_projectable(clip)
-                             ? ref::position_box(clip, draw.viewport, limits, profile)
-                             : std::nullopt;
-        if (!box) {
-            return {};
-        }
-        boxes.push_back({box->x0, box->y0, box->x1, box->y1});
-    }
-    return boxes;
 }
 
 std::array<std::string, 4> corners_of(const cases::Viewport& viewport) {

@@ -1,19 +1,17 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What else than its edges decides where a triangle shows: the planes that clip it, and where its
-// vertices may be snapped. Exact, for the page to draw and to tell.
+// What else than its edges decides where a triangle shows: viewport, and the planes that clip it.
+// Exact, for the page to draw and to tell.
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "cases/model/case.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/position/clip.hpp"
-#include "ref/position/limits.hpp"
 #include "report/record/evidence.hpp"
 
 namespace run {
@@ -24,10 +22,6 @@ bool is_finite(const ref::ClipInput& input);
 // The planes of its draw's clip volume beyond which a vertex of the triangle lies. None if a number
 // is not finite, or the triangle has no area as it is seen.
 std::vector<report::PlaneCut> cuts_of(const cases::Draw& draw, const cases::Triangle& t);
-
-// The boxes of its vertices; none if a vertex has no box.
-std::vector<std::array<int64_t, 4>> boxes_of(const cases::Draw& draw, const cases::Triangle& t,
-                                             const ref::Limits& limits, cases::Profile profile);
 
 // x0, y0, x1, y1: x and y as given, the other corner by their exact sums.
 std::array<std::string, 4> corners_of(const cases::Viewport& viewport);

@@ -72,14 +72,18 @@ Shape shape_of(const cases::Draw& draw, const cases::Triangle& t, const ref::Lim
     shape.is_exact = true;
     for (size_t k = 0; k < 3; ++k) {
         const glm::vec4& clip = draw.positions[t.vertex.at(k)];
-        const auto snapped = ref::is_projectable(clip)
-                                 ? ref::snap_nearest(clip, draw.viewport, limits)
-                                 : std::nullopt;
-        const auto box = ref::is_projectable(clip)
-                             ? ref::position_box(clip, draw.viewport, limits, profile)
-                             : std::nullopt;
+        if (!ref::is_projectable(clip)) {
+            shape.has_points = shape.is_exact = false;
+            continue;
+        }
+        if (const auto box = ref::position_box(clip, draw.viewport, limits, profile)) {
+            shape.boxes.push_back({box->x0, box->y0, box->x1, box->y1});
+            shape.is_exact = shape.is_exact && box->is_point();
+        } else {
+            shape.is_exact = false;
+        }
+        const auto snapped = ref::snap_nearest(clip, draw.viewport, limits);
         shape.has_points = shape.has_points && snapped.has_value();
-        shape.is_exact = shape.is_exact && box && box->is_point();
         if (snapped) {
             shape.points.at(2 * k) = snapped->x;
             shape.points.at(2 * k + 1) = snapped->y;
@@ -89,8 +93,8 @@ Shape shape_of(const cases::Draw& draw, const cases::Triangle& t, const ref::Lim
     const ref::ClipInput input(draw, t.vertex);
     shape.is_clipped = !ref::is_inside(input, volume.all());
     shape.cuts = cuts_of(draw, t);
-    if (!shape.is_exact) {
-        shape.boxes = boxes_of(draw, t, limits, profile);
+    if (shape.is_exact || shape.boxes.size() < 3) {
+        shape.boxes.clear();
     }
     if (shape.is_clipped && is_finite(input)) {
         shape.piece = clipped_piece(draw, t, profile);
@@ -181,8 +185,22 @@ Pictures cut_pictures(const PictureWindow& window, const cases::Case& c,
     return p;
 }
 
+report::Reference cut_reference(const PictureWindow& window, const diff::Verdict& verdict) {
+    const Pictures frame = window.frame();
+    report::Reference r{.width = frame.width,
+                        .height = frame.height,
+                        .left = frame.left,
+                        .top = frame.top,
+                        .layer_height = frame.layer_height,
+                        .hits = {}};
+    window.for_each([&](uint32_t, uint32_t, uint32_t, size_t k) {
+        r.hits.push_back(verdict.expected_hits[k]);
+    });
+    return r;
+}
+
 Geometry geometry_of(const PictureWindow& window, const cases::Case& c, const ref::Limits& limits,
-                     const ref::Expectation& expectation) {
+                     const ref::Expectation& expectation, size_t most) {
     Geometry g;
     g.width = c.target.width;
     g.height = c.target.rows();
@@ -196,14 +214,14 @@ Geometry geometry_of(const PictureWindow& window, const cases::Case& c, const re
         }
         return g;
     }
-    for (const cases::Draw& draw : c.draws) {
+    const auto add_limits_of = [&g](const cases::Draw& draw) {
         g.scissors.push_back(
             {draw.scissor.x, draw.scissor.y, draw.scissor.width, draw.scissor.height});
         g.viewports.push_back(corners_of(draw.viewport));
-    }
+    };
     g.triangle_total = expectation.triangles.size();
     for (const cases::Triangle& t : expectation.triangles) {
-        if (g.triangles.size() == report::kMaxShapes) {
+        if (g.triangles.size() == most) {
             break;
         }
         Shape shape = shape_of(c.draws[t.draw], t, limits, expectation.profile);
@@ -218,6 +236,12 @@ Geometry geometry_of(const PictureWindow& window, const cases::Case& c, const re
             g.triangles.push_back(std::move(shape));
         }
     }
+    // Of the draws that are shown; of two, so that the page tells which of several it is.
+    size_t draws = std::min<size_t>(c.draws.size(), 2);
+    for (const Shape& shape : g.triangles) {
+        draws = std::max<size_t>(draws, shape.draw + 1);
+    }
+    std::for_each_n(c.draws.begin(), draws, add_limits_of);
     return g;
 }
 

@@ -45,8 +45,12 @@ class PictureWindow {
 report::Pictures cut_pictures(const PictureWindow& window, const cases::Case& c,
                               const diff::Verdict& verdict, const capture::CaptureView& capture);
 
-// `expectation` is empty for a blit.
+// Of a verdict that has expected_hits.
+report::Reference cut_reference(const PictureWindow& window, const diff::Verdict& verdict);
+
+// `expectation` is empty for a blit; `most`: how many triangles are kept.
 report::Geometry geometry_of(const PictureWindow& window, const cases::Case& c,
-                             const ref::Limits& limits, const ref::Expectation& expectation);
+                             const ref::Limits& limits, const ref::Expectation& expectation,
+                             size_t most);
 
 }  // namespace run

@@ -13,6 +13,7 @@
 
 #include "capture/capture.hpp"
 #include "capture/exchange/plane_numbers.hpp"
+#include "cases/base/number_text.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/format/color_format.hpp"
 #include "cases/model/derive.hpp"
@@ -287,7 +288,8 @@ class Reader {
             const double v = from.at(at_.in_file(k), channel);
             const Meaning m = meaning(v);
             if (m.wrong != nullptr) {
-                return fmt::format("holds {:.9g} at {}; {}", v, place(case_.target, k), m.wrong);
+                return fmt::format("holds {} at {}; {}", cases::number_text(v),
+                                   place(case_.target, k), m.wrong);
             }
             to.push_back(m.value);
         }

@@ -131,6 +131,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
         planned.data = std::move(c);
         p.plan.push_back(std::move(planned));
     }
+    header.sources = sources_of(header.cases);
     p.selection.cases.clear();
     p.folder = options.output;
     return p;

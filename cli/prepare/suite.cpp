@@ -7,12 +7,14 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <sstream>
 
 #include "cases/base/checksum.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/selector.hpp"
 #include "report/record/run.hpp"
+#include "report/text/sentences.hpp"
 
 namespace cli {
 
@@ -184,6 +186,33 @@ OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& op
     return std::move(suite->cases[suite->selected.front()]);
 }
 
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> sources_of(
+    const std::vector<report::CaseRecord>& cases) {
+    constexpr size_t kMostOfFile = size_t{1} << 16;
+    std::set<std::string> files;
+    for (const report::CaseRecord& record : cases) {
+        files.insert(record.file);
+    }
+    std::vector<std::pair<std::string, std::string>> sources;
+    for (const std::string& file : files) {
+        if (std::string text = text_of(file); !text.empty()) {
+            sources.emplace_back(file, report::head_and_tail(text, kMostOfFile));
+        }
+    }
+    return sources;
+}
+
 uint64_t suite_hash(const std::filesystem::path& root) {
     std::error_code none;
     std::vector<std::filesystem::path> files;
@@ -195,11 +224,8 @@ uint64_t suite_hash(const std::filesystem::path& root) {
     std::sort(files.begin(), files.end());
     uint64_t hash = 0;
     for (const std::filesystem::path& file : files) {
-        std::ifstream in(file, std::ios::binary);
-        std::ostringstream text;
-        text << in.rdbuf();
         hash = cases::stable_hash(file.lexically_relative(root).string(), hash);
-        hash = cases::stable_hash(text.str(), hash);
+        hash = cases::stable_hash(text_of(file), hash);
     }
     return hash;
 }

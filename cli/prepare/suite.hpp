@@ -25,6 +25,11 @@ OrStop<std::filesystem::path> find_suite_root(const Program& program, const std:
 // suite.
 uint64_t suite_hash(const std::filesystem::path& root);
 
+// The files of cases and their texts, by name, of long ones head and tail; those that cannot be
+// read are left out.
+std::vector<std::pair<std::string, std::string>> sources_of(
+    const std::vector<report::CaseRecord>& cases);
+
 struct LoadedSuite {
     std::filesystem::path root;
     std::vector<cases::Case> cases;  // the suite's, then those of files outside that selectors name

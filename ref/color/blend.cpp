@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/base/number_text.hpp"
+
 namespace ref::color {
 
 namespace {
@@ -193,10 +195,8 @@ std::string Unit::text_of(const std::array<uint32_t, 4>& codes) const {
         const double value = Component(c).number(codes[k]);
         if (!is_floating(c.kind)) {
             out += std::to_string(codes[k]);
-        } else if (std::isfinite(value)) {
-            out += fmt::format("{:.9g} (0x{:0{}x})", value, codes[k], c.bits / 4);
         } else {
-            out += fmt::format("no number (0x{:0{}x})", codes[k], c.bits / 4);
+            out += fmt::format("{} (0x{:0{}x})", cases::number_text(value), codes[k], c.bits / 4);
         }
     }
     return out;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "cases/base/number_text.hpp"
 #include "ref/value/fragment/partials.hpp"
 
 namespace ref::value {
@@ -24,7 +25,7 @@ Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
 }
 
 std::string number_text(double nearest, const std::optional<mpq_class>& exact) {
-    const std::string text = fmt::format("{:.9g}", nearest);
+    const std::string text = cases::number_text(nearest);
     const std::string fraction = exact ? exact->get_str() : text;
     return fraction == text || fraction.size() > 40 ? text : text + " = " + fraction;
 }
@@ -35,7 +36,7 @@ std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const P
         return "a number that the values around the pixel explain";
     }
     if (q.probe == cases::Probe::lod) {
-        return fmt::format("{:.9g}, {}", v->nearest, kLodFreedom);
+        return fmt::format("{}, {}", cases::number_text(v->nearest), kLodFreedom);
     }
     return fmt::format("{} within {:.4g} x {:.3g}{}", number_text(v->nearest, v->exact),
                        budget_factor(place.profile), v->budget,

@@ -20,6 +20,7 @@
 #include <tuple>
 #include <vector>
 
+#include "cases/base/number_text.hpp"
 #include "ref/value/accept/filter.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 #include "ref/value/accept/probe.hpp"
@@ -73,7 +74,7 @@ struct Loaded {
 
 // A number as read back, and its bits.
 inline std::string bits_of(float f) {
-    return fmt::format("{:.9g} (0x{:08x})", f, std::bit_cast<uint32_t>(f));
+    return fmt::format("{} (0x{:08x})", cases::number_text(f), std::bit_cast<uint32_t>(f));
 }
 
 // Depth that is stored as it is interpolated: the filters know no other.

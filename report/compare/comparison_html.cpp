@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/base/printable.hpp"
+#include "cases/model/rule.hpp"
 #include "report/compare/comparison.hpp"
 #include "report/journal/picture_codec.hpp"
 #include "report/page/page_parts.hpp"
+#include "report/text/causes.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -23,6 +25,8 @@ constexpr std::string_view kScripts[] = {
 #include "embedded/dom.js.inc"
     ,
 #include "embedded/pictures.js.inc"
+    ,
+#include "embedded/causes.js.inc"
     ,
 #include "embedded/compare.js.inc"
     ,
@@ -65,6 +69,64 @@ Json result_of(const CaseRecord* record) {
     return Json{{"status", to_string(status)},
                 {"what", what_happened(*record)},
                 {"why", status == Status::pass ? std::string() : why_it_happened(*record)}};
+}
+
+// The record of a case that shows what is wrong with it: the first that does not pass.
+const CaseRecord* failing_record(const ComparedCase& c) {
+    for (const CaseRecord* record : c.records) {
+        if (record != nullptr && !is_expected(actual_status(*record))) {
+            return record;
+        }
+    }
+    return nullptr;
+}
+
+// The causes behind each kind of change, in the order of the terminal; cases are told by their
+// numbers in the page's list, where those that are the same have none.
+Json causes_json(const Comparison& comparison, Json& rules) {
+    Json list = Json::array();
+    for (size_t k = 0; k < kChanges; ++k) {
+        const auto change = static_cast<Change>(k);
+        Run failing;  // of this change
+        std::vector<size_t> numbers;
+        size_t number = 0;
+        for (const ComparedCase& c : comparison.cases) {
+            if (c.change == Change::same) {
+                continue;
+            }
+            const CaseRecord* const record = c.change == change ? failing_record(c) : nullptr;
+            if (record != nullptr) {
+                failing.cases.push_back(*record);
+                failing.cases.back().status = actual_status(*record);
+                numbers.push_back(number);
+            }
+            ++number;
+        }
+        for (const Cause& cause : causes(failing)) {
+            const CaseRecord& smallest = smallest_case(cause);
+            const auto number_of = [&](const CaseRecord& record) {
+                return numbers.at(static_cast<size_t>(&record - failing.cases.data()));
+            };
+            Json members = Json::array({number_of(smallest)});
+            for (const CaseRecord* record : cause.cases) {
+                if (record != &smallest) {
+                    members.push_back(number_of(*record));
+                }
+            }
+            const bool has_level = !cause.rule.empty();
+            list.push_back(Json{{"change", to_string(change)},
+                                {"status", to_string(cause.status)},
+                                {"family", cases::printable(cause.family)},
+                                {"rule", cases::printable(cause.rule)},
+                                {"kind", cases::printable(cause.kind)},
+                                {"level", has_level ? cases::to_string(cause.level) : ""},
+                                {"cases", std::move(members)}});
+            if (const cases::Rule* rule = cases::find_rule(cause.rule)) {
+                rules[cause.rule] = Json{{"title", rule->title}, {"anchor", rule->anchor}};
+            }
+        }
+    }
+    return list;
 }
 
 Json data_of(const std::vector<NamedRun>& runs, const Comparison& comparison,
@@ -110,6 +172,11 @@ Json data_of(const std::vector<NamedRun>& runs, const Comparison& comparison,
         }
         cases.push_back(std::move(one));
     }
+    Json rules = Json::object(), meanings = Json::object();
+    Json causes = causes_json(comparison, rules);
+    for (const cases::Profile profile : cases::kProfiles) {
+        meanings[std::string(cases::to_string(profile))] = meaning(profile);
+    }
     return Json{{"profile", cases::to_string(runs.front().run.profile)},
                 {"runs", std::move(list)},
                 {"remarks", comparison.remarks},
@@ -117,8 +184,9 @@ Json data_of(const std::vector<NamedRun>& runs, const Comparison& comparison,
                 {"cases", std::move(cases)},
                 {"pictures_left_out", left_out},
                 {"strings", Json::array()},
-                {"rules", Json::object()},
-                {"meanings", Json::object()}};
+                {"causes", std::move(causes)},
+                {"rules", std::move(rules)},
+                {"meanings", std::move(meanings)}};
 }
 
 // For readers without a script.
@@ -160,7 +228,7 @@ std::string comparison_html(const std::vector<NamedRun>& runs, const Comparison&
         {"{{CSS}}", std::string(page_style())},
         {"{{VERDICT}}", cases::markup(exit_words(comparison))},
         {"{{TABLE}}", table(comparison)},
-        {"{{DATA}}", script_data(data_of(runs, comparison, reports))},
+        {"{{DATA}}", script_data(data_of(runs, comparison, reports).dump())},
         {"{{SCRIPT}}", script},
     };
     return fill_page(kPage, fields);

@@ -76,7 +76,10 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
         run.interrupted = run.interrupted || part.interrupted;
         run.jobs += part.jobs;
         std::move(part.cases.begin(), part.cases.end(), std::back_inserter(run.cases));
+        std::move(part.sources.begin(), part.sources.end(), std::back_inserter(run.sources));
     }
+    std::sort(run.sources.begin(), run.sources.end());
+    run.sources.erase(std::unique(run.sources.begin(), run.sources.end()), run.sources.end());
     for (uint32_t shard = 1; shard <= run.shards; ++shard) {
         if (!shards.contains(shard)) {
             merged.missing_shards.push_back(shard);

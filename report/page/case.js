@@ -31,13 +31,14 @@ function makeCasePage(record, neighbours, onChange) {
   page.element = el("article", {class: "case-page", "aria-labelledby": "case-title"}, head);
   if (page.viewer) {
     page.inspector = makeInspector(record, page.viewer.scene);
+    if (page.viewer.scene.pictures.isReference) { page.element.append(el("p", {class: "note"}, "The device drew what the rules ask for, which is shown here. --capture=all keeps its own pictures, too.")); }
     page.element.append(el("div", {class: "bench"}, page.viewer.element, page.inspector.element));
     page.viewer.element.addEventListener("click", () => { if (page.viewer.pinned) { page.mark(page.viewer.pinned); } });
   } else {
     page.element.append(el("p", {class: "note"}, noPictureText(record)));
   }
   add(page.element, findingsSection(page), el("div", {class: "columns"}, rulesSection(record), factsSection(record), commandsSection(record)),
-    geometrySection(page), outputSections(record));
+    geometrySection(page), sourceSection(record), outputSections(record));
   return page;
 }
 
@@ -50,7 +51,7 @@ function partName(part) {
 function noPictureText(record) {
   if (record.part) { return ["To keep this page small its pictures stand in ", el("a", {href: partName(record.part) + "#case=" + encodeURIComponent(record.id)}, partName(record.part)), "."]; }
   if (record.findings) { return "No pictures were kept; --capture=failed keeps them."; }
-  if (record.status === "pass" || record.status === "xpass") { return "Nothing is wrong here, so no pictures were kept; --capture=all keeps them."; }
+  if (record.status === "pass" || record.status === "xpass") { return "Nothing is wrong here, so no pictures were kept; --capture=all keeps them, and \u201crender\u201d draws the reference."; }
   return "Nothing was compared, so there are no pictures.";
 }
 
@@ -116,6 +117,13 @@ function geometrySection(page) {
     el("p", {class: "quiet"}, "Vertices in framebuffer coordinates, snapped to 1/" + 2 ** data.subpixel_bits + " pixel. " +
       (g.samples > 1 ? "Samples at " + g.locations.map((l) => "(" + coordinateText(l.x) + ", " + coordinateText(l.y) + ")").join(", ") + " in a pixel." : "")),
     el("div", {class: "scroll tall", tabIndex: 0, role: "region", "aria-label": "triangles"}, table("", ["triangle", "first vertex", "second", "third", "top and left edges", "area"], rows, "cards")));
+}
+
+// The file that makes the case; one with a matrix makes several.
+function sourceSection(record) {
+  const text = onDemand().sources[record.file];
+  return text ? el("details", {class: "section source"}, el("summary", {}, el("h2", {}, "Case file")), el("p", {class: "quiet"}, record.file),
+    el("pre", {class: "output", tabIndex: 0}, text)) : null;
 }
 
 function outputSections(record) {

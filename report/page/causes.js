@@ -5,7 +5,7 @@
 
 const SHOWN_CAUSES = 8;
 
-const causes = data.causes.map((cause) => ({...cause, key: [cause.status, cause.family, cause.rule, cause.kind].join("|"),
+const causes = data.causes.map((cause) => ({...cause, key: [cause.change, cause.status, cause.family, cause.rule, cause.kind].filter((part) => part !== undefined).join("|"),
   records: cause.cases.map((k) => data.cases[k])}));
 const causeOf = new Map(causes.flatMap((cause) => cause.records.map((record) => [record, cause])));
 
@@ -18,7 +18,7 @@ const causeTitle = (cause) => (cause.rule ? cause.rule + " \u00b7 " + cause.kind
 function causeRow(cause, show) {
   const findings = cause.records.reduce((sum, record) => sum + (record.finding_total || 0), 0), example = cause.records[0].id;
   return el("tr", {"data-cause": cause.key},
-    el("td", {}, statusTag(cause.status)),
+    el("td", {}, cause.change ? cause.change : statusTag(cause.status)),
     el("td", {}, cause.rule ? [ruleLink(cause.rule), " ", el("span", {class: "kind"}, cause.kind), " in " + cause.family] : null, el("div", {}, causeText(cause))),
     el("td", {}, cause.level ? [levelTag(cause.level), el("div", {class: "quiet small"}, data.meanings[cause.level])] : ""),
     el("td", {class: "right"}, el("button", {type: "button", class: "link", title: "show only these", onclick: () => show(cause.key)}, plural(cause.records.length, "case")),
@@ -34,5 +34,5 @@ function causesSection(show) {
   rest.forEach((row) => { row.hidden = true; });
   const more = rest.length ? el("button", {type: "button", class: "link more", onclick: () => { rest.forEach((row) => { row.hidden = false; }); more.remove(); }}, "show " + plural(rest.length, "more cause")) : null;
   return el("section", {id: "causes"}, el("h2", {}, "Causes ", el("span", {class: "count"}, String(causes.length))),
-    el("div", {class: "framed"}, table("", ["status", "cause", "breaks", "cases", "smallest case"], rows, "cards")), more);
+    el("div", {class: "framed"}, table("", [data.runs ? "change" : "status", "cause", "breaks", "cases", "smallest case"], rows, "cards")), more);
 }

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-// The page of "edgecase compare --html": kinds of change, cases, and where the runs hit other samples.
+// The page of "edgecase compare --html": kinds of change, causes, cases, and where the runs hit other samples.
 
 const hidden = new Set(data.kinds.filter((k) => k.count === 0 || k.name === "same").map((k) => k.name));
+let onlyCause = "";  // the key of the cause whose cases alone are listed
+let opened = "";     // the case whose detail was opened last
 const MOST_ROWS = 500;  // shown at once; the filter finds the others
 
 function turnTheme() {
@@ -20,9 +22,10 @@ function caseLink(k, id, child) {
 }
 
 function runsTable() {
-  return el("div", {class: "scroll"}, table("", ["run", "device", "driver", "subpixel bits", "cases", "ended with", "folder"], data.runs.map((run) => el("tr", {},
-    el("th", {scope: "row"}, el("strong", {}, run.name)), el("td", {}, run.device), el("td", {}, run.driver), el("td", {}, String(run.subpixel_bits)),
-    el("td", {}, String(run.cases)), el("td", {}, run.exit), el("td", {class: "id"}, run.report ? el("a", {href: run.report, rel: "noreferrer"}, run.folder) : run.folder)))));
+  const cell = (label, ...children) => el("td", {"data-label": label}, children);
+  return el("div", {class: "framed"}, table("", ["run", "device", "driver", "subpixel bits", "cases", "ended with", "folder"], data.runs.map((run) => el("tr", {},
+    el("th", {scope: "row"}, el("strong", {}, run.name)), cell("device", run.device), cell("driver", run.driver), cell("subpixel bits", String(run.subpixel_bits)),
+    cell("cases", String(run.cases)), cell("", run.exit), el("td", {class: "id"}, run.report ? el("a", {href: run.report, rel: "noreferrer"}, run.folder) : run.folder))), "cards"));
 }
 
 function tiles() {
@@ -88,13 +91,15 @@ function picturePart(entry) {
 
 function resultCell(entry, k) {
   const result = entry.results[k];
-  if (!result) { return el("td", {class: "quiet"}, "not there"); }
-  return el("td", {}, caseLink(k, entry.id, statusTag(result.status)), result.status === "pass" ? null : el("div", {class: "quiet small what"}, result.what));
+  const label = data.runs[k].name + ":";
+  if (!result) { return el("td", {class: "quiet result", "data-label": label}, "not there"); }
+  return el("td", {class: "result", "data-label": label}, caseLink(k, entry.id, statusTag(result.status)), result.status === "pass" ? null : el("div", {class: "quiet small what"}, result.what));
 }
 
 function showDetail(entry, row) {
   const open = row.nextSibling && row.nextSibling.classList.contains("detail");
   row.querySelector("button").setAttribute("aria-expanded", String(!open));
+  opened = entry.id;
   if (open) { row.nextSibling.remove(); return; }
   const told = entry.results.map((result, k) => result && el("li", {}, el("strong", {}, data.runs[k].name + ": "), result.what || word(result.status), result.why ? el("div", {class: "quiet"}, result.why) : null));
   row.after(el("tr", {class: "detail"}, el("td", {colspan: row.cells.length}, el("ul", {class: "plain"}, told),
@@ -105,7 +110,9 @@ function showList() {
   painters.clear();
   const words = byId("filter").value.toLowerCase().split(/\s+/).filter(Boolean);
   const text = (entry) => (entry.id + " " + entry.detail + " " + entry.results.map((r) => r ? r.status + " " + r.what + " " + r.why : "").join(" ")).toLowerCase();
-  const shown = data.cases.filter((entry) => !hidden.has(entry.change) && words.every((w) => text(entry).includes(w)));
+  const shown = data.cases.filter((entry) => !hidden.has(entry.change) && words.every((w) => text(entry).includes(w)) && (!onlyCause || (causeOf.get(entry) || {}).key === onlyCause));
+  byId("clear").hidden = !words.length && !onlyCause;
+  for (const row of document.querySelectorAll("#causes tr[data-cause]")) { row.setAttribute("aria-selected", String(row.dataset.cause === onlyCause)); }
   byId("shown").textContent = shown.length + " of " + data.cases.length + " cases that are not the same" + (shown.length > MOST_ROWS ? ", the first " + MOST_ROWS + " here" : "");
   const sections = [];
   let left = MOST_ROWS;
@@ -114,27 +121,60 @@ function showList() {
     left -= entries.length;
     if (entries.length === 0) { continue; }
     const hasDetail = !TOLD_BY_RESULTS.has(kind.name);
-    sections.push(el("section", {"data-kind": kind.name}, el("h2", {}, kind.text), el("div", {class: "scroll"},
+    sections.push(el("section", {"data-kind": kind.name}, el("h3", {}, kind.text), el("div", {class: "framed"},
       table("", ["case", ...data.runs.map((run) => run.name), hasDetail ? "detail" : []].flat(), entries.map((entry) => {
         const button = el("button", {type: "button", class: "link id", "aria-expanded": "false"}, entry.id);
         const row = el("tr", {class: "compared", "data-case": entry.id}, el("td", {}, button), data.runs.map((_, k) => resultCell(entry, k)), hasDetail ? el("td", {class: "quiet"}, entry.detail) : null);
         button.addEventListener("click", () => showDetail(entry, row));
         return row;
-      })))));
+      }), "cards"))));
   }
   byId("list").replaceChildren(...sections);
+}
+
+// Opens the next case of the list, or the one before, and closes the one that was open.
+function step(by) {
+  const rows = [...document.querySelectorAll("tr.compared")], at = rows.findIndex((row) => row.dataset.case === opened);
+  const next = rows[at < 0 ? (by > 0 ? 0 : rows.length - 1) : at + by], isOpen = (row) => row.querySelector("button").getAttribute("aria-expanded") === "true";
+  if (!next) { return; }
+  if (at >= 0 && isOpen(rows[at])) { rows[at].querySelector("button").click(); }
+  if (!isOpen(next)) { next.querySelector("button").click(); }
+  next.querySelector("button").focus();
+  next.scrollIntoView({block: "nearest"});
+}
+
+// The case that the address names.
+function follow() {
+  const id = new URLSearchParams(location.hash.slice(1).replaceAll("+", "%2B")).get("case"), entry = data.cases.find((one) => one.id === id);
+  if (!entry) { return; }
+  hidden.delete(entry.change);
+  showAll();
+  const row = [...document.querySelectorAll("tr.compared")].find((one) => one.dataset.case === id);
+  if (row) { row.querySelector("button").click(); row.scrollIntoView({block: "start"}); row.querySelector("button").focus(); }
+}
+
+function showAll() {
+  onlyCause = "";
+  byId("filter").value = "";
+  showList();
 }
 
 (function start() {
   add(byId("runs"), runsTable(), data.remarks.map((remark) => el("p", {class: "note"}, remark)),
     data.pictures_left_out ? el("p", {class: "note"}, "Pictures of " + plural(data.pictures_left_out, "case") + " are left out to keep this page small.") : null);
+  add(byId("causes-slot"), causesSection((key) => { onlyCause = onlyCause === key ? "" : key; showList(); }));
   add(byId("statuses"), tiles());
+  byId("clear").addEventListener("click", showAll);
+  byId("help-button").addEventListener("click", () => byId("help").showModal());
+  byId("help-close").addEventListener("click", () => byId("help").close());
   byId("filter").addEventListener("input", showList);
   byId("theme").addEventListener("click", turnTheme);
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "INPUT") { return; }
-    if (event.key === "t") { turnTheme(); }
-    if (event.key === "/") { event.preventDefault(); byId("filter").focus(); }
+    const keys = {t: turnTheme, n: () => step(1), p: () => step(-1), Escape: showAll, "/": () => byId("filter").focus(), "?": () => byId("help").showModal()};
+    if (keys[event.key] && !byId("help").open) { event.preventDefault(); keys[event.key](); }
   });
   showList();
+  follow();
+  window.addEventListener("hashchange", follow);
 })();

@@ -11,6 +11,12 @@ const EXPECTED = new Set(["pass", "unsupported", "skip", "xfail"]);
 const SPECIFICATION = "https://registry.khronos.org/vulkan/specs/latest/html/vkspec.html#";
 const MOST_BUDGETS = data.profile === "vulkan" ? 8e-5 * 2 ** 24 : 2;  // ref::budget_factor
 const byId = (id) => document.getElementById(id);
+// References of cases that pass, and the cases' files: read when the first case asks for them.
+let onDemandData = null;
+function onDemand() {
+  onDemandData = onDemandData || JSON.parse(byId("on-demand").textContent);
+  return onDemandData;
+}
 const string = (k) => data.strings[k] === undefined ? "" : data.strings[k];  // texts that many cases share
 
 // An element: `properties` are set as they are, but class, data-... and aria-... as attributes.

@@ -58,8 +58,8 @@ function ulps(bits, exact) {
 // Numbers for people.
 const MINUS = /^-/;
 function shortNumber(value, digits = 9) {
-  if (value === "inf" || value === Infinity) { return "\u221e"; }
-  if (value === "-inf" || value === -Infinity) { return "\u2212\u221e"; }
+  if (value === "inf" || value === Infinity) { return "infinity"; }
+  if (value === "-inf" || value === -Infinity) { return "\u2212infinity"; }
   const number = Number(value);
   if (Number.isNaN(number)) { return "NaN"; }
   return String(Number(number.toPrecision(digits))).replace(MINUS, "\u2212");

@@ -3,8 +3,7 @@
 // Where a case's triangles and samples lie.
 
 // Sample locations in 2^-16 pixels; g.locations are in 1/16 pixel.
-function openGeometry(record) {
-  const g = record.geometry;
+function openGeometry(g) {
   if (!g || !g.width) { return null; }
   const locations = g.locations.map(([x, y]) => ({x: BigInt(x) * ONE / 16n, y: BigInt(y) * ONE / 16n}));
   return {width: g.width, height: g.height, samples: g.samples, locations, scissors: g.scissors, viewports: (g.viewports || []).map(openViewport), blit: g.blit,

@@ -147,15 +147,18 @@ std::string script() {
     return text;
 }
 
-// One page; `left_out` as page_data() fills it.
+// One page; `left_out` as page_data() gives it.
 std::string page_of(const Run& run, size_t part, std::vector<size_t>& left_out) {
     const std::string part_text = part > 1 ? fmt::format(" (part {})", part) : "";
+    PageData data = page_data(run, part);
+    left_out = std::move(data.left_out);
     const PageField fields[] = {
         {"{{TITLE}}", cases::markup(title_of(run)) + part_text},
         {"{{CSS}}", std::string(page_style())},
         {"{{HEADER}}", header(run)},
         {"{{TABLE}}", table(run)},
-        {"{{DATA}}", script_data(page_data(run, part, left_out))},
+        {"{{DATA}}", script_data(data.json.dump())},
+        {"{{ON_DEMAND}}", script_data(data.on_demand)},
         {"{{SCRIPT}}", script()},
     };
     return fill_page(kPage, fields);

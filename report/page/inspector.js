@@ -38,7 +38,7 @@ const deviceText = (scene, hits) => !isBlitScene(scene) ? hitsText(hits, false) 
 function sampleSentence(scene, at) {
   if (!isInPicture(scene.pictures, at)) { return ""; }
   const p = scene.pictures, k = indexOf(p, at);
-  return (isBlitScene(scene) ? "Texel " : "Pixel ") + sampleName(scene, at) + ": " + spoken(scene, MARK_TEXT[p.marks[k]]) + "; reference: " + spoken(scene, classText(p.expected[k])) + ", device: " + deviceText(scene, p.device[k]) +
+  return (isBlitScene(scene) ? "Texel " : "Pixel ") + sampleName(scene, at) + ": " + spoken(scene, MARK_TEXT[p.marks[k]]) + "; reference: " + spoken(scene, classText(p.expected[k])) + (p.isReference ? "" : ", device: " + deviceText(scene, p.device[k])) +
     (scene.ties.has(k) ? "; exactly on an edge" : "");
 }
 
@@ -55,7 +55,7 @@ function verdictPart(scene, at, known) {
   const expected = p.expected[k];
   fact("reference", [el("strong", {"data-class": expected === SEVERAL ? "either" : expected === 0 ? "must-not" : "must"}, spoken(scene, classText(expected))),
     known && known.allowed ? ", hits " + known.allowed : expected === SEVERAL || expected === 0 || isBlitScene(scene) ? "" : ", " + hitsText(expected, true)]);
-  fact("device", (known && known.hits ? known.hits : deviceText(scene, p.device[k])) + (known && known.writer ? ", last by " + known.writer : ""));
+  fact("device", p.isReference ? "" : (known && known.hits ? known.hits : deviceText(scene, p.device[k])) + (known && known.writer ? ", last by " + known.writer : ""));
   if (p.errors && p.errors[k]) { fact("error", errorText(p.errors[k])); }
   const color = (plane) => [plane[k], plane[p.count + k], plane[2 * p.count + k]];
   const chip = (c) => { const s = el("span", {class: "chip", "aria-hidden": "true"}); s.style.background = "rgb(" + c.join(",") + ")"; return [s, " " + c.join(", ")]; };
@@ -64,7 +64,7 @@ function verdictPart(scene, at, known) {
   if (p.depths && p.depths[k]) {
     fact("device depth", "about " + shortNumber(p.depthLow + (p.depthHigh - p.depthLow) * (p.depths[k] - 1) / 254, 4));
   }
-  return el("div", {class: "verdict-part"}, el("div", {class: "mark-line"}, swatch, el("strong", {"data-mark": MARKS[mark]}, spoken(scene, MARK_TEXT[mark]))), el("dl", {}, rows));
+  return el("div", {class: "verdict-part"}, el("div", {class: "mark-line"}, swatch, el("strong", {"data-mark": MARKS[mark]}, p.isReference && mark === 0 ? "the reference" : spoken(scene, MARK_TEXT[mark]))), el("dl", {}, rows));
 }
 
 function findingsPart(told) {
@@ -108,7 +108,7 @@ function valueRow(value, told, complete, drawn) {
       el("td", {}, el("span", {class: "number"}, el("span", {class: "whole"}, shortNumber(nearest)), exactText),
         el("div", {class: "quiet number small"}, also ? folded(also + (budget === 0 ? ", bit for bit" : "")) : budget === 0 ? "bit for bit" : ["[" + shortNumber(low) + ", ", el("span", {class: "whole"}, shortNumber(high) + "]")])),
       el("td", {class: "device-value"}, bits === null ? el("span", {class: "quiet"}, drawn ? "not compared" : "not drawn") : [el("span", {class: "number whole"}, floatText(bits)), el("div", {class: "quiet number small"}, hex(bits))]),
-      el("td", {class: "off"}, bits === null ? "" : [also && !f && complete && steps !== 0 ? "one of these" : steps === null ? "no number" : steps > MAX_STEPS ? "> 10\u2077 ulp" : steps + " ulp", el("div", {class: "quiet small"}, budgets)])));
+      el("td", {class: "off"}, bits === null ? "" : [also && !f && complete && steps !== 0 ? "one of these" : steps === null ? "" : steps > MAX_STEPS ? "> 10\u2077 ulp" : steps + " ulp", el("div", {class: "quiet small"}, budgets)])));
 }
 
 // `complete`: all findings of the sample are here, so that a value without one was accepted.
@@ -118,7 +118,7 @@ function valuesPart(scene, at, known, told, complete) {
     return drawn && scene.pictures.errors ? el("p", {class: "quiet small"}, "Values are kept for wrong samples and their neighbours; the command \u201cexplain\u201d tells them for any sample.") : null;
   }
   const isWrong = (value) => told.some((f) => f.quantity === value[0]);
-  return el("div", {class: "values"}, el("h3", {}, "Values"), el("div", {class: "framed"},
+  return el("div", {class: "values"}, el("h2", {}, "Values"), el("div", {class: "framed"},
     table("", ["exact, [all set-ups]", "device", "off by"], [...known.values].sort((a, b) => isWrong(b) - isWrong(a)).map((v) => valueRow(v, told, complete, drawn)), "compact")));
 }
 
@@ -136,7 +136,7 @@ function trianglesPart(scene, at) {
   const g = scene.geometry;
   if (!g || g.blit.length > 0) { return null; }
   const p = scene.pictures, point = samplePosition(g, at.x, rowInLayer(p, at.y), at.sample), list = trianglesAt(g, point, layerOf(p, at.y));
-  const parts = [el("h3", {}, "Triangles")];
+  const parts = [el("h2", {}, "Triangles")];
   if (list.length === 0) { parts.push(el("p", {class: "quiet"}, "No triangle within two pixels.")); }
   for (const seen of list.slice(0, SHOWN_TRIANGLES)) {
     const t = seen.triangle;

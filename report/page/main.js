@@ -55,7 +55,6 @@ function openCase(id, at) {
   window.scrollTo(0, 0);
   byId("case-title").focus({preventScroll: true});
   if (page.viewer) {
-    if (viewing.view === "error" && !page.viewer.scene.pictures.errors) { viewing.view = "difference"; }
     page.viewer.rebuild();
     const lead = entry.record.lead && finding(entry.record.lead);
     if (at || lead) { page.pin(at ? {...at, sample: at.sample === undefined ? sampleToSee(page, at, lead) : at.sample} : lead); }

@@ -5,8 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <string_view>
 #include <unordered_map>
 
 #include "cases/base/printable.hpp"
@@ -60,7 +64,8 @@ void put(Json& json, const char* key, const std::vector<std::string>& list) {
 // A list, as finding() of dom.js reads it. Rows are those of the stacked layers, as in pictures.
 Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings) {
     const uint32_t row = f.layer.value_or(0) * r.pictures.layer_height + f.y;
-    const bool has_ratio = f.kind == diff::FindingKind::value && f.ratio > 0;
+    const bool has_ratio =
+        f.kind == diff::FindingKind::value && f.ratio > 0 && std::isfinite(f.ratio);
     return Json::array({diff::to_string(f.kind), strings.number_of(f.rule),
                         cases::to_string(f.level), f.x, row, f.sample,
                         strings.number_of(f.quantity), strings.number_of(f.expected),
@@ -204,9 +209,68 @@ std::vector<size_t> add_evidence(const Run& run, const std::vector<Cause>& all, 
     return without;
 }
 
+// References of cases that pass, each with its triangles, as a list; many leaves of a file share
+// one. Each case gets the number of its own; one that does not fit gets none.
+std::string references_text(const Run& run, Json& list) {
+    size_t left = kReferenceBudget, count = 0;
+    std::string text;
+    struct Known {
+        const CaseRecord* record;
+        size_t number;
+    };
+    std::unordered_multimap<size_t, Known> known;  // by a hash of the hits
+    const auto number_of = [&](const CaseRecord& r) -> std::optional<size_t> {
+        const std::string_view hits(reinterpret_cast<const char*>(r.reference.hits.data()),
+                                    r.reference.hits.size());
+        const size_t hash = std::hash<std::string_view>()(hits);
+        const auto [begin, end] = known.equal_range(hash);
+        const auto same = std::find_if(begin, end, [&](const auto& entry) {
+            const CaseRecord& other = *entry.second.record;
+            return other.reference == r.reference && other.geometry == r.geometry;
+        });
+        if (same != end) {
+            return same->second.number;
+        }
+        const std::string both = Json::array({encode(r.reference), encode(r.geometry)}).dump();
+        if (both.size() > left) {
+            return std::nullopt;
+        }
+        left -= both.size();
+        text += (text.empty() ? "" : ",") + both;
+        known.emplace(hash, Known{&r, count});
+        return count++;
+    };
+    for (size_t k = 0; k < run.cases.size(); ++k) {
+        if (!run.cases[k].reference.hits.empty()) {
+            if (const auto number = number_of(run.cases[k])) {
+                list[k]["reference"] = *number;
+            }
+        }
+    }
+    return "[" + text + "]";
+}
+
+// The texts of the files of the page's cases.
+Json sources_json(const Run& run) {
+    std::set<std::string> files;
+    for (const CaseRecord& record : run.cases) {
+        files.insert(record.file);
+    }
+    size_t left = kSourceBudget;
+    Json json = Json::object();
+    for (const auto& [file, text] : run.sources) {
+        if (files.contains(file) && text.size() <= left) {
+            left -= text.size();
+            json[cases::printable(file)] = cases::printable(text);
+        }
+    }
+    return json;
+}
+
 }  // namespace
 
-Json page_data(const Run& run, size_t part, std::vector<size_t>& left_out) {
+PageData page_data(const Run& run, size_t part) {
+    PageData data;
     Json rules = Json::object();
     for (const cases::Rule& rule : cases::all_rules()) {
         rules[std::string(rule.id)] = Json{{"title", rule.title},
@@ -230,20 +294,23 @@ Json page_data(const Run& run, size_t part, std::vector<size_t>& left_out) {
         list.push_back(case_json(record, most, strings));
     }
     const std::vector<Cause> all = causes(run);
-    left_out = add_evidence(run, all, list);
-    for (const size_t k : left_out) {
+    data.left_out = add_evidence(run, all, list);
+    for (const size_t k : data.left_out) {
         list[k]["part"] = part + 1;
     }
-    return Json{{"rules", std::move(rules)},
-                {"meanings", std::move(meanings)},
-                {"totals", std::move(total)},
-                {"profile", cases::to_string(run.profile)},
-                {"subpixel_bits", run.device.subpixel_bits},
-                {"part", part},
-                {"without_pictures", left_out.size()},
-                {"causes", causes_json(run, all)},
-                {"strings", strings.list()},
-                {"cases", std::move(list)}};
+    data.on_demand = fmt::format("{{\"references\":{},\"sources\":{}}}", references_text(run, list),
+                                 sources_json(run).dump());
+    data.json = Json{{"rules", std::move(rules)},
+                     {"meanings", std::move(meanings)},
+                     {"totals", std::move(total)},
+                     {"profile", cases::to_string(run.profile)},
+                     {"subpixel_bits", run.device.subpixel_bits},
+                     {"part", part},
+                     {"without_pictures", data.left_out.size()},
+                     {"causes", causes_json(run, all)},
+                     {"strings", strings.list()},
+                     {"cases", std::move(list)}};
+    return data;
 }
 
 }  // namespace report

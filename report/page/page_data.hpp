@@ -6,7 +6,8 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "report/record/run.hpp"
@@ -17,8 +18,18 @@ namespace report {
 // cases and the script a page stays below 8 MB; what does not fit goes to further pages.
 inline constexpr size_t kEvidenceBudget = size_t{4} << 20;
 
-// `part`: 1 for the first page of a run. Cases whose pictures do not fit go into `left_out`, by
-// their numbers in the run; the page says that they stand in the next part.
-nlohmann::ordered_json page_data(const Run& run, size_t part, std::vector<size_t>& left_out);
+// The same of the references of cases that pass, and of the texts of case files.
+inline constexpr size_t kReferenceBudget = size_t{2} << 20;
+inline constexpr size_t kSourceBudget = size_t{3} << 18;
+
+struct PageData {
+    nlohmann::ordered_json json;  // read when the page opens
+    std::string on_demand;        // JSON: references and case files, read when a case asks for them
+    std::vector<size_t> left_out;  // cases whose pictures do not fit, by their numbers in the run
+};
+
+// `part`: 1 for the first page of a run. The page says of what is left out that it stands in the
+// next part.
+PageData page_data(const Run& run, size_t part);
 
 }  // namespace report

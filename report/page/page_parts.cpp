@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace report {
 
@@ -17,9 +16,10 @@ std::string_view page_style() {
     return kStyle;
 }
 
-std::string script_data(const nlohmann::ordered_json& json) {
+std::string script_data(std::string_view json) {
     std::string text;
-    for (const char c : json.dump()) {
+    text.reserve(json.size() + json.size() / 16);
+    for (const char c : json) {
         if (c == '<' || c == '>' || c == '&') {
             text += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
         } else {

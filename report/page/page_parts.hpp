@@ -16,7 +16,7 @@ namespace report {
 std::string_view page_style();
 
 // JSON inside <script>: no "<" at all, so neither "</script>" nor "<!--" can end or change it.
-std::string script_data(const nlohmann::ordered_json& json);
+std::string script_data(std::string_view json);
 
 // A template whose fields ("{{DATA}}") are replaced in the order in which they stand in it; what is
 // put in is never searched for fields again.

@@ -53,6 +53,17 @@ function openPictures(p) {
   return pictures;
 }
 
+// Of a case that passes the reference alone; or null.
+function openReference(record) {
+  if (record.reference === undefined) { return null; }
+  const pair = onDemand().references[record.reference];
+  const [r, geometry] = pair, expected = decodePicture(r.hits), none = new Uint8Array(expected.length), samples = expected.length / (r.width * r.height);
+  const columns = Math.ceil(Math.sqrt(samples));
+  return {geometry, pictures: {width: r.width, height: r.height, left: r.left, top: r.top, layerHeight: r.layer_height, expected, device: none,
+    marks: expected.map((hits) => hits === SEVERAL ? 1 : 0), errors: null, depths: null, colors: null, expectedColors: null, samples, count: expected.length, columns,
+    rows: Math.ceil(samples / columns), isReference: true}};
+}
+
 // A pixel's name; layers are stacked in pictures, each `layerHeight` rows high (0: one layer).
 const pixelName = (layerHeight, x, y) =>
   layerHeight ? "(" + x + ", " + y % layerHeight + ") of layer " + Math.floor(y / layerHeight) : "(" + x + ", " + y + ")";
@@ -79,7 +90,7 @@ function errorOf(code) {
 }
 function errorText(code) {
   const error = errorOf(code);
-  return error === null ? "nothing compared" : error === 0 ? "exact" : error === Infinity ? "beyond any budget" : "about " + shortNumber(error, 2) + " budgets";
+  return error === null ? "nothing compared" : error === 0 ? "exact" : error === Infinity ? "infinity" : "about " + shortNumber(error, 2) + " budgets";
 }
 // 2^-8 to 2^8 budgets. Large errors stand out of the paper: bright on dark, dark on light.
 const HEAT_SPAN = 8;

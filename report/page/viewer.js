@@ -13,9 +13,9 @@ const panesOf = (view) => view === "side" ? ["expected", "device", "difference"]
 
 // `onSample(at)` is called when another sample is pointed at; `onChange()` when the address should change.
 function makeViewer(record, onSample, onChange) {
-  const pictures = openPictures(record.pictures);
+  const reference = record.pictures ? null : openReference(record), pictures = reference ? reference.pictures : openPictures(record.pictures);
   if (!pictures) { return null; }
-  const geometry = openGeometry(record);
+  const geometry = openGeometry(reference ? reference.geometry : record.geometry);
   const scene = {pictures, geometry, ties: tiesIn(geometry, pictures)};
   scene.limits = limitsOf(scene);
   const viewer = {scene, cursor: null, pinned: null, blinkOn: false, timer: 0};
@@ -24,10 +24,13 @@ function makeViewer(record, onSample, onChange) {
   const legendList = el("ul", {class: "legend"});
   let panes = [];
 
+  const views = VIEWS.filter(([name]) => pictures.isReference ? name === "reference" : name !== "error" || pictures.errors);
+  // What is looked at, or the nearest that this case has.
+  const shownView = () => views.some(([name]) => name === viewing.view) ? viewing.view : pictures.isReference ? "reference" : "difference";
   const shownPlane = () => viewing.show || (pictures.expectedColors ? "colour" : "hits");  // a blit is seen by its colours
   const zoomNow = () => viewing.zoom || fitZoom();
   function fitZoom() {
-    const count = viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1;
+    const count = shownView() === "side" && stage.clientWidth > 700 ? 3 : 1;
     const width = (stage.clientWidth || 640) / count - 14, height = highest();
     const least = Math.min(pictures.width, pictures.height) <= 32 ? 8 : 1;  // long and narrow: better scrolled
     return Math.max(least, Math.min(MAX_ZOOM, Math.floor(Math.min(width / (pictures.width + 2), height / (pictures.height + 2)))));
@@ -53,7 +56,7 @@ function makeViewer(record, onSample, onChange) {
   const kindOf = (pane) => pane.kind !== "blink" ? pane.kind : viewer.blinkOn ? "device" : "expected";
   function draw() {
     const zoom = zoomNow(), width = (pictures.width + 2) * zoom, height = (pictures.height + 2) * zoom;
-    const share = Math.floor(stage.clientWidth / (viewing.view === "side" && stage.clientWidth > 700 ? 3 : 1)) - 12;  // what fitZoom() leaves, and two borders
+    const share = Math.floor(stage.clientWidth / (shownView() === "side" && stage.clientWidth > 700 ? 3 : 1)) - 12;  // what fitZoom() leaves, and two borders
     for (const pane of panes) {
       pane.sizer.style.width = width + "px";
       pane.sizer.style.height = height + "px";
@@ -95,12 +98,12 @@ function makeViewer(record, onSample, onChange) {
 
   function rebuild() {
     clearInterval(viewer.timer);
-    panes = panesOf(viewing.view).map(makePane);
+    panes = panesOf(shownView()).map(makePane);
     stage.replaceChildren(...panes.map((pane) => pane.figure));
-    legendList.replaceChildren(...legendEntries(scene, viewing.view), ...limitEntries(scene, draw));
-    for (const button of bar.querySelectorAll("[data-view]")) { button.setAttribute("aria-pressed", String(button.dataset.view === viewing.view)); }
+    legendList.replaceChildren(...legendEntries(scene, shownView()), ...limitEntries(scene, draw));
+    for (const button of bar.querySelectorAll("[data-view]")) { button.setAttribute("aria-pressed", String(button.dataset.view === shownView())); }
     viewer.blinkOn = false;
-    if (viewing.view === "blink" && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
+    if (shownView() === "blink" && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
       viewer.timer = setInterval(() => {
         if (!stage.isConnected) { clearInterval(viewer.timer); return; }
         viewer.blinkOn = !viewer.blinkOn;
@@ -110,7 +113,6 @@ function makeViewer(record, onSample, onChange) {
     draw();
   }
 
-  const views = VIEWS.filter(([name]) => name !== "error" || pictures.errors);
   const bar = el("div", {class: "toolbar", role: "toolbar", "aria-label": "picture"},
     el("div", {class: "segments", role: "group", "aria-label": "view"}, views.map(([name, title]) =>
       el("button", {type: "button", "data-view": name, title: "key " + (1 + VIEWS.findIndex((v) => v[0] === name)), onclick: () => viewer.setView(name)}, title))),
@@ -182,7 +184,7 @@ function pictureText(record, scene, kind) {
   for (const mark of p.marks) { ++counts[mark]; }
   const wrong = MARKS.slice(2).map((name, k) => counts[k + 2] ? counts[k + 2] + " " + name : "").filter(Boolean).join(", ");
   return (PANE_TITLE[kind] || "reference and device in turn") + ": " + p.width + " by " + p.height + " pixels" + (p.samples > 1 ? " of " + p.samples + " samples" : "") +
-    ", " + (wrong || "no wrong sample") + (counts[1] ? ", " + counts[1] + " free" : "") + ". The table of findings says the same.";
+    ", " + (wrong || "no wrong sample") + (counts[1] ? ", " + counts[1] + " free" : "") + ". " + (p.isReference ? "What must be covered, as the rules say." : "The table of findings says the same.");
 }
 
 function legendEntries(scene, view) {

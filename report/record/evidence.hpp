@@ -53,7 +53,7 @@ struct Geometry {
     std::vector<std::array<uint8_t, 2>> sample_locations;  // in 1/16 pixel, one a sample
     std::vector<Shape> triangles;                          // those that the picture shows, capped
     uint64_t triangle_total = 0;                           // of the case
-    std::vector<std::array<int64_t, 4>> scissors;          // x, y, width, height; one a draw
+    std::vector<std::array<int64_t, 4>> scissors;  // x, y, width, height; of the first draws
     // x0, y0, x1, y1 of the viewports as exact fractions, "25/2"; one a draw. x0 > x1 or y0 > y1:
     // the viewport is turned over.
     std::vector<std::array<std::string, 4>> viewports;
@@ -73,6 +73,7 @@ struct Geometry {
     friend bool operator==(const Geometry&, const Geometry&) = default;
 };
 inline constexpr size_t kMaxShapes = 512;
+inline constexpr size_t kMaxReferenceShapes = 24;  // with the reference of a case that passes
 
 // One value of a fragment.
 struct SampleValue {

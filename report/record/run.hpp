@@ -112,6 +112,20 @@ struct Pictures {
     }
     friend bool operator==(const Pictures&, const Pictures&) = default;
 };
+// What must be seen of a case that passes: the device's picture is the same but where it is free.
+struct Reference {
+    uint32_t width = 0, height = 0, left = 0, top = 0, layer_height = 0;  // as in Pictures
+    std::vector<uint8_t> hits;                                            // Verdict::expected_hits
+    static void fields(auto&& visit, auto&... r) {
+        visit("width", r.width...);
+        visit("height", r.height...);
+        visit("left", r.left...);
+        visit("top", r.top...);
+        visit("layer_height", r.layer_height...);
+        visit("hits", r.hits...);
+    }
+    friend bool operator==(const Reference&, const Reference&) = default;
+};
 // 0: nothing was compared, 1: no error, 2..254: about 2^((code - 128) / 8) budgets, 255: infinite.
 uint8_t error_code(float ratio);
 
@@ -154,8 +168,9 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     uint32_t attempts = 0;
     std::vector<std::string> messages;  // validation layer
     Pictures pictures;
+    Reference reference;  // of a case that passes and whose pictures were not kept
     std::string explain;  // command line that explains the first wrong sample; empty if none
-    Geometry geometry;    // with pictures
+    Geometry geometry;    // with pictures or the reference
     std::vector<SampleEvidence> evidence;  // of wrong samples and some of their neighbours
     static void fields(auto&& visit, auto&... r) {
         PlannedCase::fields(visit, r...);
@@ -179,6 +194,7 @@ struct CaseRecord : PlannedCase, diff::Outcome {
         visit("explain", r.explain...);
         visit({"evidence", cases::kOlderLackIt}, r.evidence...);
         visit({"pictures", cases::kLeftOutIfEmpty}, r.pictures...);  // of most cases none are kept
+        visit({"reference", cases::kLeftOutIfEmpty}, r.reference...);
         visit({"geometry", cases::kLeftOutIfEmpty}, r.geometry...);
     }
 };
@@ -197,6 +213,7 @@ struct RunHeader {
     std::string suite_hash;        // of the suite's files, hexadecimal; empty in older journals
     std::string expectation_file;  // empty if none applied
     uint32_t shard = 1, shards = 1, jobs = 1;
+    std::vector<std::pair<std::string, std::string>> sources;  // the cases' files and their texts
     static void fields(auto&& visit, auto&... h) {
         visit("tool_version", h.tool_version...);
         visit("arguments", h.arguments...);
@@ -211,6 +228,7 @@ struct RunHeader {
         visit("shard", h.shard...);
         visit("shards", h.shards...);
         visit("jobs", h.jobs...);
+        visit({"sources", cases::kOlderLackIt}, h.sources...);
     }
 };
 

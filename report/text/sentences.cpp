@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/number_text.hpp"
 #include "cases/base/printable.hpp"
 #include "ref/number/plane_budget.hpp"
 
@@ -73,7 +74,7 @@ std::string seconds_text(double seconds) {
 }
 
 std::string ratio_text(double ratio) {
-    return fmt::format("{:.3g}", ratio);
+    return cases::number_text(ratio, 3);
 }
 
 std::string_view meaning(cases::Profile level) {
@@ -186,7 +187,8 @@ std::string why_it_happened(const CaseRecord& record) {
             text += one_line(f.quantity) + ": ";
         }
         text += fmt::format("expected {}, got {}", one_line(f.expected), one_line(f.got));
-        if (f.kind == diff::FindingKind::value && f.ratio > 0) {  // exact ones have no budget
+        // Exact ones have no budget, and NaN has no distance.
+        if (f.kind == diff::FindingKind::value && f.ratio > 0 && std::isfinite(f.ratio)) {
             text += fmt::format(", {} budgets off", ratio_text(f.ratio));
         }
         return f.why.empty() ? text : text + "; " + one_line(f.why);

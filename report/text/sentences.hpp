@@ -15,7 +15,7 @@ namespace report {
 std::string one_line(std::string_view bytes);
 // "12.4 s", "0.03 s", "0.42 ms"; "?" if not finite.
 std::string seconds_text(double seconds);
-// At most three significant digits: "0.732", "12.5", "inf".
+// At most three significant digits: "0.732", "12.5", "infinity".
 std::string ratio_text(double ratio);
 
 // The largest error of a case, and what its run accepts: "1.08 of 2 allowed budgets".

@@ -278,7 +278,7 @@ class WrongInput(Captures):
         mask = array.array("f", INSIDE)
         mask[10] = math.nan
         file = self.deliver("coverage.f32", mask.tobytes())
-        self.rejects(f"'{file}' holds nan at pixel (2, 1); a mask holds 0 and the largest number of its format only")
+        self.rejects(f"'{file}' holds NaN at pixel (2, 1); a mask holds 0 and the largest number of its format only")
         file = self.deliver("coverage.png", png(SIDE, SIDE, [128] * 64))
         self.rejects(f"'{file}' holds 128 at pixel (0, 0); a mask holds 0 and the largest number of its format only")
         file = self.deliver("hits.f32", struct.pack("<f", 0.5) * 64)

@@ -47,10 +47,49 @@ class ComparePage(PageTest):
         self.assertEqual(page.run("document.querySelector('.detail td').colSpan"), 3)
 
     def test_results_stand_beside_the_first_line_of_a_long_id(self):
-        page = self.open(file=self.page, width=600)
+        page = self.open(file=self.page, width=900)
         page.run("(() => { const row = document.querySelector(\"tr[data-case='family/wrong']\"); row.querySelector('button').textContent = 'long/' + 'id '.repeat(90); })()")
         tops = page.run("[...document.querySelector(\"tr[data-case='family/wrong']\").cells].map((c) => c.firstElementChild.getBoundingClientRect().top)")
         self.assertLess(max(tops) - min(tops), 8)
+
+    def test_causes_stand_by_change(self):
+        page = self.open(file=self.page)
+        rows = page.run("[...document.querySelectorAll('#causes tr[data-cause]')].map((r) => [...r.cells].map((c) => c.innerText.split('\\n')[0]))")
+        self.assertEqual([(row[0], row[2], row[3], row[4]) for row in rows],
+                         [("regression", "vulkan", "1 case", "family/wrong"), ("regression", "vulkan", "1 case", "samples/four"),
+                          ("fix", "vulkan", "1 case", "family/fixed"), ("fails alike", "", "1 case", "family/gone")])
+        self.assertIn("A triangle covers no sample strictly outside it", page.text("#causes"))
+        page.click_seen("#causes tr:nth-child(3) button")
+        self.assertEqual(self.sections(page), {"fix": ["family/fixed"]})
+        page.key("Escape")
+        self.assertEqual(len(self.sections(page)), 3)
+
+    def test_keys_open_one_case_after_the_other(self):
+        page = self.open(file=self.page)
+        opened = "[...document.querySelectorAll('tr.compared')].filter((r) => r.querySelector('button').getAttribute('aria-expanded') === 'true').map((r) => r.dataset.case)"
+        for key, case in (("n", "family/wrong"), ("n", "samples/four"), ("n", "family/fixed"), ("p", "samples/four")):
+            page.key(key)
+            self.assertEqual(page.run(opened), [case])
+        page.key("?")
+        self.assertTrue(page.run("byId('help').open"))
+        page.key("Escape")
+        self.assertFalse(page.run("byId('help').open"))
+
+    def test_an_address_opens_a_case(self):
+        page = self.open("#case=family%2Ffixed", file=self.page)
+        self.assertEqual(page.run("document.querySelector('.detail').previousSibling.dataset.case"), "family/fixed")
+        page.run("scrollTo(0, 0)")
+        page.click_seen("#causes tr:nth-child(2) td:last-child a")
+        page.wait_for("document.querySelector(\"tr[data-case='samples/four']\").nextSibling?.className === 'detail'")
+
+    def test_rows_hold_no_blanks_in_a_narrow_window(self):
+        for width in (360, 400, 800, 1400):
+            page = self.open(file=self.page, width=width)
+            self.assertEqual(page.run("document.documentElement.scrollWidth - innerWidth"), 0, width)
+            cut = page.run("[...document.querySelectorAll('.framed')].filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.scrollWidth)")
+            self.assertEqual(cut, [], width)
+            heights = page.run("[...document.querySelectorAll('tr.compared')].map((r) => r.offsetHeight)")
+            self.assertLess(max(heights), 150, width)
 
     def test_tiles_and_words_filter(self):
         page = self.open(file=self.page)

@@ -97,6 +97,8 @@ TEST_F(JournalTest, round_trip_is_exact) {
     EXPECT_EQ(a.pictures.device_depths, b.pictures.device_depths);
     EXPECT_EQ(a.geometry, b.geometry);
     EXPECT_EQ(a.evidence, b.evidence);
+    EXPECT_EQ(loaded->cases[0].reference, run.cases[0].reference);
+    EXPECT_EQ(loaded->sources, run.sources);
     EXPECT_EQ(a.catches, b.catches);
     EXPECT_EQ(a.counts, b.counts);
     EXPECT_EQ(a.level, cases::Profile::vulkan);

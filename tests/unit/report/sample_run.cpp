@@ -138,7 +138,11 @@ Run sample_run() {
     run.device.viewport_subpixel_bits = 0;
     run.device.has_primitive_id = true;
 
+    run.sources = {{"cases/suite/coverage/half-square.toml", "format = 1\n<&>\xff"}};
+
     run.cases.push_back(make("coverage/half-square", Status::pass));
+    run.cases.back().reference = {2, 1, 3, 4, 5, {0, 255}};
+    run.cases.back().geometry = make_geometry();
     run.cases.push_back(make("coverage/wide:samples=4", Status::unsupported));
     run.cases.back().reason = "the device has no target of 4 samples";
     run.cases.push_back(make("coverage/slow", Status::skip));
