@@ -91,7 +91,7 @@ function factsSection(record) {
     const [samples, must, free, values] = record.compared;
     fact("compared", samples + " samples (" + must + " must be covered, " + free + " free), " + values + " values");
   }
-  fact(record.finding_total ? "largest error of a value" : "largest error", record.worst && record.worst[1] + " budgets" + (record.worst[2] ? ", " + record.worst[2] : ""));
+  fact(record.finding_total ? "largest error of a value" : "largest error", record.worst && record.worst[1] + (numberOf(record.worst[0]) === Infinity ? "" : " budgets") + (record.worst[2] ? ", " + record.worst[2] : ""));
   fact("time", record.time + (record.attempts > 1 ? ", " + record.attempts + " attempts" : ""));
   return el("section", {}, el("h2", {}, "Facts"), list);
 }

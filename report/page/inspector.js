@@ -95,7 +95,7 @@ function valueRow(value, told, complete, drawn) {
   const steps = bits === null ? null : ulps(bits, nearest), inside = got >= low && got <= high;
   let budgets = "";
   if (f && f.ratio) { budgets = f.ratio + " budgets"; }
-  else if (f) { budgets = "another number"; }
+  else if (f) { budgets = Number.isNaN(got) ? "" : "another number"; }
   else if (budget > 0 && bits !== null) {
     const off = Math.abs(got - nearest) / budget;
     budgets = off <= MOST_BUDGETS ? shortNumber(off, 3) + " budgets" : inside || complete ? "another set-up" : shortNumber(off, 3) + " budgets";

@@ -134,6 +134,7 @@ function paintLimits(view, scene, triangles, options) {
       context.beginPath();
       context.rect(x0, y0, x1 - x0, y1 - y0);
       strokeLimit(view, kind, 2);
+      if (x1 < 0 || y1 < 0 || x0 > (p.width + 2) * zoom || y0 > (p.height + 2) * zoom) { continue; }  // the legend tells where it is
       view.labels.push([kind, kind, inside(x0, (p.width + 2) * zoom - 50), inside(kind === "scissor" ? y0 - 3 : y1 + 14, (p.height + 2) * zoom - margin / 2)]);
     }
   }

@@ -40,6 +40,17 @@ class ToldValues(PageTest):
             self.assertRegex(told[0], r"or [\d.]+(, [\d.]+){%d}, bit for bit" % (others - 1))
             self.assertFalse([r for r in rows if r.startswith("attribute") and "bit for bit" in r])
 
+    def test_nan_and_infinity_have_one_name(self):
+        told = self.open(file=self.out / "report.html").run(
+            "['7fc00000', 'ffc00001', '7f800000', 'ff800000'].map((bits) => valueRow(['depth', '', '0.5', '1e-7', '0', '1', parseInt(bits, 16)],"
+            "[{quantity: 'depth'}], true, true).innerText)")
+        for row, name in zip(told, ("NaN", "NaN", "infinity", "\u2212infinity")):
+            self.assertEqual(row.split("0x")[0].split("]")[1], name, row)
+            for other in ("no number", "another number" if name == "NaN" else "nan", "inf budgets", "\u221e"):
+                self.assertNotIn(other, row)
+        page = self.open(file=self.out / "report.html")
+        self.assertEqual(page.run("[errorText(255), shortNumber('inf'), shortNumber('-inf'), shortNumber('nan')]"), ["infinity", "infinity", "\u2212infinity", "NaN"])
+
     def test_the_accepted_error_is_the_profiles(self):
         for profile, text in self.accepted.items():
             page = self.open("#case=told%2Fshaded&view=error", file=self.folder / profile / "report.html")
