@@ -90,7 +90,7 @@ function errorOf(code) {
 }
 function errorText(code) {
   const error = errorOf(code);
-  return error === null ? "nothing compared" : error === 0 ? "exact" : error === Infinity ? "infinity" : "about " + shortNumber(error, 2) + " budgets";
+  return error === null ? "nothing compared" : error === 0 ? "exact" : error === Infinity ? "NaN or infinity" : "about " + shortNumber(error, 2) + " budgets";
 }
 // 2^-8 to 2^8 budgets. Large errors stand out of the paper: bright on dark, dark on light.
 const HEAT_SPAN = 8;

@@ -90,7 +90,9 @@ class ComparePage(PageTest):
             self.assertEqual(cut, [], width)
             heights = page.run("[...document.querySelectorAll('tr.compared')].map((r) => r.offsetHeight)")
             self.assertLess(max(heights), 150, width)
-            page.run("document.querySelector('tr.compared button').textContent = 'long/' + 'part,of-an_id='.repeat(12)")
+            lefts = page.run("[...document.querySelector('tr.compared').cells].map((c) => c.getBoundingClientRect().left)")
+            self.assertEqual(len(set(lefts)) == 1, width <= 700, (width, lefts))  # one below the other
+            page.run("document.querySelector('tr.compared button').textContent = 'long/' + 'part_of_an_id='.repeat(12)")
             out = page.run("[...document.querySelectorAll('main *')].filter((e) => e.getClientRects().length && e.getBoundingClientRect().right > innerWidth + .5 && !e.closest('thead')).map((e) => e.tagName + e.className)")
             self.assertEqual(out, [], width)
 
