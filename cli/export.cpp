@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command "export": cases as plain JSON, for renderers that know nothing of this project.
+// The command "export": cases as plain JSON, for renderers that know nothing of this project, or
+// one case as a C program for a bug report.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
+#include "cli/reproducer/reproducer.hpp"
 
 namespace cli {
 
@@ -31,9 +33,29 @@ cases::Expected<void> write_below(const fs::path& file, const std::string& text)
     return write_text(file.string(), text);
 }
 
+int export_reproducer(const Program& program, const ExportOptions& options) {
+    const OrStop<cases::Case> c = load_one_case(program, options.suite);
+    if (!c) {
+        return report_stop(c.error());
+    }
+    ref::Limits limits;
+    limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
+    const auto text = reproducer(*c, limits, options.profile, kVersion);
+    if (!text) {
+        return report_stop({report::kExitUsage, {text.error().message}});
+    }
+    if (auto written = write_text(options.output, *text); !written) {
+        return report_stop({report::kExitUsage, {written.error().message}});
+    }
+    return report::kExitOk;
+}
+
 }  // namespace
 
 int export_command(const Program& program, const ExportOptions& options) {
+    if (options.reproducer) {
+        return export_reproducer(program, options);
+    }
     const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
     if (!suite) {
         return report_stop(suite.error());

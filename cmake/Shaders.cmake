@@ -131,6 +131,7 @@ constexpr Module<FragmentVariant> kFragment[] = {
 ${fragment_table}};
 ")
 
-add_library(edgecase_shaders STATIC ${CMAKE_SOURCE_DIR}/shaders/shaders.cpp ${EDGECASE_SHADER_OUTPUTS})
+add_library(edgecase_shaders STATIC ${CMAKE_SOURCE_DIR}/shaders/shaders.cpp
+            ${CMAKE_SOURCE_DIR}/shaders/spirv_variant.cpp ${EDGECASE_SHADER_OUTPUTS})
 target_include_directories(edgecase_shaders PUBLIC ${CMAKE_SOURCE_DIR} PRIVATE ${EDGECASE_SHADER_DIR})
-target_link_libraries(edgecase_shaders PRIVATE edgecase_warnings)
+target_link_libraries(edgecase_shaders PUBLIC edgecase::expected PRIVATE edgecase_warnings edgecase::fmt)

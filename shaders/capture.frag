@@ -10,7 +10,7 @@
 // INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
 // each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
-// added to the compiled module (vk_harness/pipeline/spirv_variant.hpp), where the input at location 7 may also
+// added to the compiled module (shaders/spirv_variant.hpp), where the input at location 7 may also
 // become gl_PrimitiveID.
 #version 450
 #if BARYCENTRICS

@@ -32,7 +32,9 @@ inline constexpr Examples kExamples[] = {
      "  edgecase export 'ties/**' -o cases               what a renderer elsewhere has to draw\n"
      "  my-renderer cases captures                       yours: draws them, writes planes\n"
      "  edgecase diff 'ties/**' --captures captures      judges what it has drawn\n"
+     "  edgecase export --reproducer ties/apex-up -o bug.c   for a bug report: one C file\n"
      "\n"
+     "docs/bug-reports.md tells what a reproducer draws and how it is compiled;\n"
      "docs/other-renderers.md tells it step by step; docs/schema/case-1.json is the format.\n"},
     {"diff",
      "  edgecase diff --captures captures                      what was drawn, whatever it is\n"

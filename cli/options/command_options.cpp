@@ -167,9 +167,18 @@ void define_gtest(CLI::App& app, GtestOptions& o) {
 void define_images(CLI::App& app, AllOptions& all) {
     CLI::App* out = app.add_subcommand("export", "write cases as JSON that any program can draw");
     add_suite(out, all.export_cases.suite);
-    out->add_option("-o,--output", all.export_cases.output, "where the files go")
-        ->type_name("DIR")
+    out->add_option("-o,--output", all.export_cases.output,
+                    "where the files go; with --reproducer the C file")
+        ->type_name("PATH")
         ->required();
+    out->add_flag("--reproducer", all.export_cases.reproducer,
+                  "one case as a C program for a bug report, needs the Vulkan loader alone");
+    add_profile(out, all.export_cases.profile);
+    add_subpixel_bits(out, all.export_cases.subpixel_bits);
+    for (const char* judging : {"--profile", "--subpixel-bits"}) {
+        // The environment says how runs are judged, which is no reason to refuse an export.
+        out->get_option(judging)->needs("--reproducer")->envname("");
+    }
 
     CLI::App* in = app.add_subcommand("diff", "judge what another program drew of exported cases");
     RunOptions& o = all.diff.run;

@@ -119,7 +119,10 @@ struct RenderOptions {
 
 struct ExportOptions {
     SuiteOptions suite;
-    std::string output;  // folder
+    std::string output;                                 // folder; of a reproducer the file
+    bool reproducer = false;                            // one case as a C program
+    cases::Profile profile = cases::Profile::direct3d;  // that a reproducer judges at
+    uint32_t subpixel_bits = 8;                         // of the device that it is for
 };
 
 struct DiffOptions {

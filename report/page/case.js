@@ -98,7 +98,8 @@ function factsSection(record) {
 
 function commandsSection(record) {
   if (!record.rerun && !record.explain) { return null; }
-  return el("section", {}, el("h2", {}, "Again"), command("rerun", record.rerun), command("explain", record.explain));
+  const reproducer = record.explain && record.explain.replace(" explain ", " export --reproducer ").replace(/ --pixel .*$/, "") + " -o repro.c";
+  return el("section", {}, el("h2", {}, "Again"), command("rerun", record.rerun), command("explain", record.explain), command("reproducer", reproducer));
 }
 
 const SHOWN_SHAPES = 64;

@@ -83,13 +83,13 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
 }
 
 Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
-                                                    std::vector<InputChange> changes) {
+                                                    std::vector<shaders::InputChange> changes) {
     std::pair key(code.data(), std::move(changes));
     const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
     }
-    auto changed = change_inputs(code, key.second);
+    auto changed = shaders::change_inputs(code, key.second);
     if (!changed) {
         return fail(Stage::shader, changed.error());
     }

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "shaders/spirv_variant.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
-#include "vk_harness/pipeline/spirv_variant.hpp"
 #include "vk_harness/target/attachments.hpp"
 
 namespace vk_harness {
@@ -34,7 +34,7 @@ class PipelineCache {
     explicit PipelineCache(const Device& device) : device_(&device) {}
     // The module `code`, embedded in the program, with changes to its inputs.
     Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
-                                         std::vector<InputChange> changes = {});
+                                         std::vector<shaders::InputChange> changes = {});
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
 
     const Device* device_;
@@ -44,7 +44,8 @@ class PipelineCache {
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
     // By the embedded code's address and the changes.
-    std::map<std::pair<const uint32_t*, std::vector<InputChange>>, Handle<VkShaderModule>> modules_;
+    std::map<std::pair<const uint32_t*, std::vector<shaders::InputChange>>, Handle<VkShaderModule>>
+        modules_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
     std::map<const uint32_t*, Handle<VkPipeline>> copies_;  // by the embedded code's address
 };

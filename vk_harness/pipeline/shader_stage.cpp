@@ -31,17 +31,17 @@ static_assert(static_cast<uint32_t>(cases::Probe::lod) ==
 
 }  // namespace
 
-std::vector<InputChange> input_changes(const PipelineKey& key, bool has_primitive_id) {
-    std::vector<InputChange> changes;
+std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has_primitive_id) {
+    std::vector<shaders::InputChange> changes;
     if (has_primitive_id && key.instruments) {
-        InputChange change;
+        shaders::InputChange change;
         change.number = shaders::kPrimitiveLocation;
         change.becomes_primitive_id = true;
         changes.push_back(change);
     }
     for (uint32_t k = 0; k < key.attribute_count; ++k) {
         const AttributeKey& attribute = key.attributes[k];
-        InputChange change;
+        shaders::InputChange change;
         change.number = 1 + k;
         change.flat = attribute.interpolation == cases::Interpolation::flat;
         change.no_perspective = attribute.interpolation == cases::Interpolation::noperspective;
@@ -49,8 +49,9 @@ std::vector<InputChange> input_changes(const PipelineKey& key, bool has_primitiv
         change.sample = attribute.auxiliary == cases::Auxiliary::sample;
         if (attribute.source == cases::Source::barycentric) {
             // The built-in is chosen by the interpolation; it is perspective or not by itself.
-            change.by = InputBy::built_in;
-            change.number = change.no_perspective ? kBuiltInBaryCoordNoPersp : kBuiltInBaryCoord;
+            change.by = shaders::InputBy::built_in;
+            change.number = change.no_perspective ? shaders::kBuiltInBaryCoordNoPersp
+                                                  : shaders::kBuiltInBaryCoord;
             change.no_perspective = false;
         } else if (attribute.source != cases::Source::vertex) {
             continue;

@@ -7,15 +7,15 @@
 
 #include <vector>
 
+#include "shaders/spirv_variant.hpp"
 #include "vk_harness/device/api.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
-#include "vk_harness/pipeline/spirv_variant.hpp"
 
 namespace vk_harness {
 
 // Interpolation and auxiliary qualifiers of the inputs; the primitive's number if the device has
 // it.
-std::vector<InputChange> input_changes(const PipelineKey& key, bool has_primitive_id);
+std::vector<shaders::InputChange> input_changes(const PipelineKey& key, bool has_primitive_id);
 
 // Values of the specialization constants of capture.frag. Must not be moved once it is filled.
 struct Specialization {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "vk_harness/pipeline/spirv_variant.hpp"
+#include "shaders/spirv_variant.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -44,21 +44,21 @@ Assembler small_module() {
     return a.add(kVariable, {1, 5, kInput}).add(kVariable, {1, 6, kOutput});
 }
 
-InputChange at_location(uint32_t location) {
-    InputChange change;
+shaders::InputChange at_location(uint32_t location) {
+    shaders::InputChange change;
     change.number = location;
     return change;
 }
 
-std::string error_of(const Words& module, const std::vector<InputChange>& changes) {
-    const auto made = change_inputs(module, changes);
+std::string error_of(const Words& module, const std::vector<shaders::InputChange>& changes) {
+    const auto made = shaders::change_inputs(module, changes);
     return made ? "" : made.error();
 }
 
 TEST(SpirvVariant, DecoratesTheInputAndNotTheOutput) {
-    InputChange change = at_location(2);
+    shaders::InputChange change = at_location(2);
     change.no_perspective = true;
-    const auto made = change_inputs(small_module().words(), {{change}});
+    const auto made = shaders::change_inputs(small_module().words(), {{change}});
     ASSERT_TRUE(made) << made.error();
     Assembler want;
     want.add(kCapability, {1}).add(kDecorate, {5, 30, 2}).add(kDecorate, {5, 13});
@@ -67,29 +67,29 @@ TEST(SpirvVariant, DecoratesTheInputAndNotTheOutput) {
 }
 
 TEST(SpirvVariant, NoChangesGiveTheModuleItself) {
-    const auto made = change_inputs(small_module().words(), {});
+    const auto made = shaders::change_inputs(small_module().words(), {});
     ASSERT_TRUE(made);
     EXPECT_EQ(*made, small_module().words());
 }
 
 TEST(SpirvVariant, SampleBringsItsCapabilityOnce) {
-    InputChange change = at_location(2);
+    shaders::InputChange change = at_location(2);
     change.sample = true;
-    const auto made = change_inputs(small_module().words(), {{change}});
+    const auto made = shaders::change_inputs(small_module().words(), {{change}});
     ASSERT_TRUE(made);
     EXPECT_THAT(Words(made->begin() + 5, made->begin() + 9),
                 ::testing::ElementsAre(2U << 16U | kCapability, 35, 2U << 16U | kCapability, 1));
     Assembler has_it;
     has_it.add(kCapability, {35}).add(kDecorate, {5, 30, 2}).add(kVariable, {1, 5, kInput});
-    const auto again = change_inputs(has_it.words(), {{change}});
+    const auto again = shaders::change_inputs(has_it.words(), {{change}});
     ASSERT_TRUE(again);
     EXPECT_EQ(again->size(), has_it.words().size() + 3);  // the decoration alone
 }
 
 TEST(SpirvVariant, PrimitiveIdTakesThePlaceOfTheLocation) {
-    InputChange change = at_location(2);
+    shaders::InputChange change = at_location(2);
     change.becomes_primitive_id = true;
-    const auto made = change_inputs(small_module().words(), {{change}});
+    const auto made = shaders::change_inputs(small_module().words(), {{change}});
     ASSERT_TRUE(made);
     Assembler want;
     want.add(kCapability, {2}).add(kCapability, {1}).add(kDecorate, {5, 11, 7});
@@ -98,7 +98,7 @@ TEST(SpirvVariant, PrimitiveIdTakesThePlaceOfTheLocation) {
 }
 
 TEST(SpirvVariant, WhatItRefuses) {
-    const InputChange change = at_location(2);
+    const shaders::InputChange change = at_location(2);
     const Words good = small_module().words();
     EXPECT_EQ(error_of({}, {}), "the module does not begin as SPIR-V of this machine's byte order");
     Words bad = good;
@@ -129,14 +129,14 @@ TEST(SpirvVariant, WhatItRefuses) {
     two.add(kDecorate, {7, 30, 2}).add(kVariable, {1, 7, kInput});
     EXPECT_EQ(error_of(two.words(), {change}), "two inputs of the module have location 2");
     EXPECT_EQ(error_of(good, {change, change}), "input 2 is changed twice");
-    InputChange built_in;
-    built_in.by = InputBy::built_in;
-    built_in.number = kBuiltInBaryCoord;
+    shaders::InputChange built_in;
+    built_in.by = shaders::InputBy::built_in;
+    built_in.number = shaders::kBuiltInBaryCoord;
     EXPECT_EQ(error_of(good, {built_in}), "no input of the module has built-in 5286");
 }
 
 TEST(SpirvVariant, ContradictionsAreRefused) {
-    InputChange change = at_location(2);
+    shaders::InputChange change = at_location(2);
     change.flat = true;
     change.centroid = true;
     EXPECT_EQ(error_of(small_module().words(), {change}),
@@ -206,7 +206,8 @@ TEST(SpirvVariant, EveryChangedModuleIsValid) {
                     key.attributes[1].source = source;
                     const auto code = shaders::capture_fragment(fragment_variant(key));
                     ASSERT_FALSE(code.empty());
-                    const auto changed = change_inputs(code, input_changes(key, primitive_id));
+                    const auto changed =
+                        shaders::change_inputs(code, input_changes(key, primitive_id));
                     ASSERT_TRUE(changed) << changed.error();
                     EXPECT_EQ(validator_says(*changed), "");
                 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "vk_harness/pipeline/spirv_variant.hpp"
+#include "shaders/spirv_variant.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-namespace vk_harness {
+namespace shaders {
 
 namespace {
 
@@ -214,4 +214,4 @@ tl::expected<std::vector<uint32_t>, std::string> change_inputs(
     return out;
 }
 
-}  // namespace vk_harness
+}  // namespace shaders

@@ -14,7 +14,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-namespace vk_harness {
+namespace shaders {
 
 // How one Input variable is found: by its Location or by its BuiltIn.
 enum class InputBy : uint8_t { location, built_in };
@@ -38,4 +38,4 @@ inline constexpr uint32_t kBuiltInBaryCoord = 5286, kBuiltInBaryCoordNoPersp = 5
 tl::expected<std::vector<uint32_t>, std::string> change_inputs(
     std::span<const uint32_t> module, std::span<const InputChange> changes);
 
-}  // namespace vk_harness
+}  // namespace shaders
