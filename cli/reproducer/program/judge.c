@@ -96,7 +96,8 @@ static int judge_values(uint32_t at, const struct Writer* w, int is_told) {
             got = number(FIRST_ATTRIBUTE + n / 4, at, n % 4);
             sprintf(name, "attribute %u.%s", n / 4, kComponents[n % 4]);
         }
-        if (is_flat ? memcmp(&range.low, &got, sizeof got) != 0 : !is_within(&range, got)) {
+        if (!is_within(&range, got) ||
+            (is_flat && range.low == range.high && memcmp(&range.low, &got, sizeof got) != 0)) {
             if (is_told) {
                 tell_value(at, name, (double)range.low, (double)range.high, got);
             }
@@ -160,8 +161,8 @@ static void judge_sample(uint32_t at, const struct Expected* e) {
     if (!are_allowed(b, front, back)) {
         if (tell(at)) {
             printf(
-                "hits: expected %u to %u (front faces %u to %u, back faces %u to %u, front less "
-                "back %d to %d), got %g front, %g back\n",
+                "hits: expected %u to %u (front %u to %u, back %u to %u, difference %d to %d), "
+                "got %g front, %g back\n",
                 b->total_min, b->total_max, b->front_min, b->front_max, b->back_min, b->back_max,
                 b->signed_min, b->signed_max, front, back);
         }
