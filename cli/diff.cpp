@@ -141,16 +141,19 @@ OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
     try {
         std::ifstream in(file);
         const auto index = nlohmann::json::parse(in);
-        for (const auto& entry : index.at("cases")) {
-            ids.insert(entry.at("id").get<std::string>());
+        if (index.at("schema") == "edgecase-export-1") {
+            for (const auto& entry : index.at("cases")) {
+                ids.insert(entry.at("id").get<std::string>());
+            }
+            return ids;
         }
     } catch (const std::exception&) {
-        return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                        "'" + cases::printable(file.string()) +
-                                            "' is no list of exported cases; name the folder that "
-                                            "'edgecase export' wrote"));
+        // told below
     }
-    return ids;
+    return tl::unexpected(stop_with(report::kExitInvalidFile,
+                                    "'" + cases::printable(file.string()) +
+                                        "' is no list of exported cases; name the folder that "
+                                        "'edgecase export' wrote"));
 }
 
 // Without selectors, what was exported or drawn is judged; the sentence says so.
@@ -160,6 +163,17 @@ OrStop<std::string> keep_captured(const DiffOptions& options, Selection& selecti
         const OrStop<std::set<std::string>> ids = exported_ids(options.exported);
         if (!ids) {
             return tl::unexpected(ids.error());
+        }
+        std::set<std::string> unknown = *ids;
+        for (const cases::Case& c : selection.cases) {
+            unknown.erase(c.id);
+        }
+        if (options.run.suite.selectors.empty() && !unknown.empty()) {
+            return tl::unexpected(stop_with(
+                report::kExitInvalidFile,
+                "'" + cases::printable(options.exported) + "' has the case '" +
+                    cases::printable(*unknown.begin()) +
+                    "', which is not in the suite; export the cases of this suite again"));
         }
         std::erase_if(selection.cases, [&](const cases::Case& c) { return !ids->contains(c.id); });
     } else if (options.run.suite.selectors.empty()) {

@@ -233,6 +233,14 @@ class WrongInput(Captures):
         self.assertEqual(self.statuses(), {"fam/c1": "pass", "fam/c2": "not_run"})
         self.assertNotIn("left out", done.stdout)
         self.edgecase(*words, "fam/c1", "--exported", "exported", check=0)
+        index = self.folder / "exported/index.json"
+        whole = index.read_text()
+        index.write_text(whole.replace('"id": "fam/c2"', '"id": "fam/gone"'))
+        done = self.edgecase(*words, "--exported", "exported", check=3)
+        self.assertEqual(done.stderr, "edgecase: 'exported' has the case 'fam/gone', which is not in the suite; "
+                         "export the cases of this suite again\n")
+        index.write_text(whole.replace("edgecase-export-1", "edgecase-export-9"))
+        self.assertIn("is no list of exported cases", self.edgecase(*words, "--exported", "exported", check=3).stderr)
         done = self.edgecase(*words, "--exported", "nowhere", check=3)
         self.assertEqual(done.stderr, "edgecase: 'nowhere/index.json' is no list of exported cases; name the folder that "
                          "'edgecase export' wrote\n")
