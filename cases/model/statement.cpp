@@ -221,11 +221,12 @@ constexpr Statement kStatements[] = {
      "Depths beyond the range are the range's end, bit for bit on a floating-point target.",
      {"depth.clamp"}, ""},
     {70, "rounding of depth before it is compared", Strictness::free, exact,
-     "Outcomes that depend on the rounding of a D16 or D24 value are open.",
+     "Outcomes that depend on the rounding of a D16 or D24 value are open, but at direct3d those of "
+     "the same geometry again.",
      {"depth.compare", "depth.store"}, ""},
     {71, "the same geometry again under LESS_OR_EQUAL", exact, exact,
      "Every fragment passes the second time on a floating-point target; on D16 and D24 the rounding "
-     "of statement 70 leaves it open.",
+     "of statement 70 leaves it open but at direct3d.",
      {"depth.repeat"}, ""},
     {72, "writing FragCoord.z to FragDepth", Strictness::free, exact,
      "",

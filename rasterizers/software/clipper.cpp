@@ -134,6 +134,15 @@ ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, const ca
                              const Device& device) {
     ClippedPolygon polygon{{triangle.begin(), triangle.end()}, false};
     for (const Plane& plane : planes_of(draw, device)) {
+        const auto is_beyond = [&](const ClipVertex& v) { return distance(plane, v) < 0; };
+        if (!plane.is_user && plane.coordinate == 2 && device.tests_depth &&
+            std::all_of(triangle.begin(), triangle.end(),
+                        [](const ClipVertex& v) { return v.position.w > 0; }) &&
+            !std::all_of(triangle.begin(), triangle.end(), is_beyond)) {
+            const bool is_cut = std::any_of(triangle.begin(), triangle.end(), is_beyond);
+            polygon.tests_depth = polygon.tests_depth || is_cut;
+            continue;
+        }
         std::vector<ClipVertex> kept;
         const size_t count = polygon.vertices.size();
         for (size_t k = 0; k < count; ++k) {

@@ -25,6 +25,7 @@ struct ClipVertex {
 struct ClippedPolygon {
     std::vector<ClipVertex> vertices;  // fewer than three: nothing is left
     bool was_cut = false;
+    bool tests_depth = false;  // not cut by the depth planes: samples beyond them have to go
 };
 
 // Sutherland-Hodgman in binary32 against the planes that the device clips to. A cut is computed

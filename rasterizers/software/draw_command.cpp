@@ -120,6 +120,7 @@ void DrawCommand::rasterize(const Primitive& primitive) {
         }
     }
     const ClippedPolygon polygon = clip_triangle(triangle, draw_, device_);
+    tests_depth_ = polygon.tests_depth;
     std::vector<WindowVertex> window;
     largest_z_ = 0;
     for (const ClipVertex& v : polygon.vertices) {

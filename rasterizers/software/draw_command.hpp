@@ -48,6 +48,7 @@ class DrawCommand {
     bool is_culled(bool front) const;
     bool is_distance_culled(const Primitive& primitive) const;
     bool is_distance_clipped(const TrianglePlanes& planes, int64_t i, int64_t j, uint32_t s) const;
+    bool is_depth_clipped(const TrianglePlanes& planes, int64_t i, int64_t j, uint32_t s) const;
     glm::vec4 distances_of(uint32_t v, const Primitive& primitive, size_t k) const;
     bool inside_viewport(int64_t i, int64_t j, uint32_t s) const;
     // Sample s of pixel (i,j) is covered: with several samples the fragment waits until all of its
@@ -75,8 +76,9 @@ class DrawCommand {
     std::map<std::tuple<int64_t, int64_t, const TrianglePlanes*>, uint32_t> covered_;
     std::unique_ptr<TrianglePlanes> cached_planes_;
     WindowVertex cached_first_;
-    uint32_t culled_ = 0;  // triangles so far
-    float largest_z_ = 0;  // of the polygon being drawn
+    uint32_t culled_ = 0;       // triangles so far
+    float largest_z_ = 0;       // of the polygon being drawn
+    bool tests_depth_ = false;  // the primitive's samples are tested by depth
     std::array<uint32_t, 32> vertex_cache_ = [] {
         std::array<uint32_t, 32> empty{};
         empty.fill(UINT32_MAX);

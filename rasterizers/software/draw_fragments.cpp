@@ -52,9 +52,23 @@ bool DrawCommand::is_distance_clipped(const TrianglePlanes& planes, int64_t i, i
     return false;
 }
 
+// With the depth tested at each sample, in the viewport's range.
+bool DrawCommand::is_depth_clipped(const TrianglePlanes& planes, int64_t i, int64_t j,
+                                   uint32_t s) const {
+    if (!tests_depth_) {
+        return false;
+    }
+    const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
+    const float z = planes.depth(static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit,
+                                 static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit);
+    const auto [low, high] = std::minmax(draw_.viewport.min_depth, draw_.viewport.max_depth);
+    return !(z >= low && z <= high);
+}
+
 void DrawCommand::cover(const Primitive& primitive, const TrianglePlanes& planes,
                         const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s) {
-    if (!inside_viewport(i, j, s) || is_distance_clipped(planes, i, j, s)) {
+    if (!inside_viewport(i, j, s) || is_distance_clipped(planes, i, j, s) ||
+        is_depth_clipped(planes, i, j, s)) {
         return;
     }
     if (samples_.size() == 1) {

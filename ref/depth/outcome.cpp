@@ -187,7 +187,7 @@ struct DepthTest::Impl {
             return {};
         }
         if (da.depth == db.depth) {
-            return {steps <= 0, 0};
+            return {steps <= 0 || profile == cases::Profile::direct3d, 0};
         }
         cases::DepthState x = da.depth;
         cases::DepthState y = db.depth;

@@ -66,6 +66,18 @@ std::vector<LegalDevice> legal_devices() {
         add(fmt::format("unorm_rounds_down_at_{}", cases::to_string(profile)),
             "UNORM is rounded down", profile, [](Device& d) { d.unorm = UnormRounding::down; });
     }
+    for (const PlaneBasis basis : {PlaneBasis::unsnapped, PlaneBasis::snapped}) {
+        add(basis == PlaneBasis::snapped ? "depth_tested_at_samples_snapped"
+                                         : "depth_tested_at_samples",
+            basis == PlaneBasis::snapped
+                ? "depth planes tested at each sample, planes from snapped positions"
+                : "depth planes tested at each sample, not by cutting",
+            Profile::direct3d, [&](Device& d) {
+                d.tests_depth = true;
+                d.basis = basis;
+                d.clip = ClipMethod::guard_band;
+            });
+    }
     add("resolve_truncates", "averages of codes rounded down, of sRGB taken of the codes",
         Profile::direct3d, [](Device& d) {
             d.resolve_truncates = true;

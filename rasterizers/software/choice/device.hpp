@@ -56,8 +56,11 @@ struct Device {
     ClipMethod clip = ClipMethod::geometric;
     bool piece_planes = true;  // clipped triangles: planes of each piece, not of the whole triangle
     bool tests_distances = false;  // clip distances at each sample, not by cutting the polygon
-    bool fused = false;            // a * b + c rounded once
-    bool reciprocal_w = false;     // x * (1/w) instead of x / w
+    // The depth at each sample, not by cutting: of triangles before the eye that a depth plane
+    // cuts.
+    bool tests_depth = false;
+    bool fused = false;         // a * b + c rounded once
+    bool reciprocal_w = false;  // x * (1/w) instead of x / w
     Centroid centroid = Centroid::first_sample;
     bool inputs_follow_samples = true;  // with sample shading inputs are evaluated at the sample
     bool corner_inputs = false;         // with several samples undecorated ones near a corner

@@ -159,10 +159,15 @@ TEST(DepthHand, TheSameTriangleAgainIsEqual) {
         c.target.depth_clear = 1;
         const uint32_t count = op == CompareOp::less ? 1 : 2;
         expect_hits(c, count, count);
-        // Nothing is promised with fixed point (the stored depth is rounded), nor if the state
-        // differs.
+        // With fixed point the stored depth is rounded; Direct3D rounds what is compared, too.
         c.target.depth_format = DepthFormat::d16_unorm;
-        expect_hits(c, 1, 2);
+        for (const Profile profile : cases::kProfiles) {
+            const bool is_rounded = profile == Profile::direct3d;
+            uint32_t most = 0;
+            EXPECT_EQ(hits(c, profile, &most), is_rounded ? count : 1);
+            EXPECT_EQ(most, is_rounded ? count : 2);
+        }
+        // Nothing is promised if the state differs.
         c.target.depth_format = DepthFormat::d32_float;
         c.draws[0].depth.compare = CompareOp::always;
         expect_hits(c, 1, 2);
@@ -315,7 +320,6 @@ TEST(DepthHand, ToldDepthIsBiasedAndClamped) {
     EXPECT_EQ(told(c, Profile::direct3d).exact, mpq_class(16384, 65535).get_str());
 }
 
-// The bounds that are told hold exactly the stored depths that are accepted, in every format.
 // 1/4 is exact at a vertex with w = 1, and r is 2^-25: no device has an exponent less.
 TEST(DepthHand, AnExactDepthHasOneUnitOfBias) {
     cases::Case c = case_of({half_plane(0.25)});
@@ -333,6 +337,7 @@ TEST(DepthHand, AnExactDepthHasOneUnitOfBias) {
     EXPECT_TRUE(accepts(c, 0.25 + 0x1p-11, Profile::direct3d));
 }
 
+// The bounds that are told hold exactly the stored depths that are accepted, in every format.
 TEST(DepthHand, ToldRangeIsWhatIsAccepted) {
     cases::Case c = case_of({half_plane(0.25)}, DepthFormat::d16_unorm);
     for (const Profile profile : {Profile::practice, Profile::direct3d}) {
