@@ -8,6 +8,7 @@
 #include "ref/coverage/distance_cut.hpp"
 #include "ref/coverage/facing.hpp"
 #include "ref/coverage/outline.hpp"
+#include "ref/coverage/outline_source.hpp"
 #include "ref/number/edge_function.hpp"
 #include "ref/number/rational.hpp"
 #include "ref/position/position_detail.hpp"
@@ -16,108 +17,9 @@ namespace ref {
 
 namespace {
 
-struct Source {
-    const cases::Draw& draw;
-    const cases::Triangle& triangle;
-    const Limits& limits;
-    cases::Profile profile;
-    VertexBoxes& boxes;
-    const Window& window;
-    ClipInput input;
-    ClipVolume volume;
-};
-
-// As for a vertex of the triangle (ref/position/position.hpp). x, y and z of a vertex of the view
-// volume are at most w.
-bool is_in_guaranteed_range(const ClippedVertex& v, cases::Profile profile) {
-    constexpr int64_t kLargest = int64_t{1} << 32;
-    return profile != cases::Profile::vulkan || v.position.inv_w <= kLargest;
-}
-
-// Whether all points of an edge of the triangle have the same ideal x, or the same ideal y.
-bool is_axis_aligned(const std::array<glm::vec4, 3>& clip, EdgeLabel edge) {
-    const glm::vec4& a = clip[edge];
-    const glm::vec4& b = clip[(edge + 1U) % 3U];
-    return rational(a.x) * rational(b.w) == rational(b.x) * rational(a.w) ||
-           rational(a.y) * rational(b.w) == rational(b.y) * rational(a.w);
-}
-
-// Whether a cut vertex lies where an edge of the triangle, or a depth plane's, meets the border of
-// the viewport: a device with a guard band has no vertex there, only an edge that runs across. An
-// axis-aligned edge is snapped to the same coordinate wherever it is cut.
-bool is_crossing(const std::array<glm::vec4, 3>& clip, EdgeLabel in, EdgeLabel out) {
-    constexpr EdgeLabel kFirstDepthEdge = kFirstClipEdge + static_cast<EdgeLabel>(ClipPlane::z_low);
-    const auto is_border = [](EdgeLabel e) { return e >= kFirstClipEdge && e < kFirstDepthEdge; };
-    if (is_border(in) == is_border(out)) {
-        return false;
-    }
-    const EdgeLabel line = is_border(in) ? out : in;
-    return line >= kFirstDepthEdge || !is_axis_aligned(clip, line);
-}
-
-// False if some vertex has no box.
-bool outline_of(const std::vector<ClippedVertex>& polygon, const Source& s, Outline& out) {
-    out.count = 0;
-    if (polygon.size() > kMaxClippedVertices) {
-        return false;
-    }
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const ClippedVertex& v = polygon[i];
-        const EdgeLabel in = polygon[(i + polygon.size() - 1) % polygon.size()].edge;
-        std::optional<Box> box;
-        if (v.original >= 0) {
-            box = s.boxes.of(s.triangle.draw, s.triangle.vertex[static_cast<size_t>(v.original)]);
-        } else if (!v.is_bounded || !is_in_guaranteed_range(v, s.profile)) {
-            return false;
-        } else if (is_crossing(s.input.clip, in, v.edge)) {
-            box = box_around_crossing(v.position.x, v.position.y, v.error, s.draw.viewport,
-                                      s.limits, s.profile);
-            out.is_on_grid = false;
-        } else {
-            box = box_around(v.position.x, v.position.y, v.error, s.draw.viewport, s.limits,
-                             s.profile);
-        }
-        if (!box) {
-            return false;
-        }
-        out.boxes[out.count] = *box;
-        out.edge[out.count] = v.edge;
-        ++out.count;
-    }
-    return true;
-}
-
-// The outline cut by `planes`, which holds no border of the viewport or all of them.
-bool outline_by(const Source& s, std::span<const ClipPlane> planes, Outline& out) {
-    out.count = 0;
-    if (is_inside(s.input, planes)) {
-        for (uint32_t i = 0; i < 3; ++i) {
-            const std::optional<Box>& box = s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
-            if (!box) {
-                return false;
-            }
-            out.boxes[i] = *box;
-            out.edge[i] = static_cast<EdgeLabel>(i);
-        }
-        out.count = 3;
-        return true;
-    }
-    return outline_of(clip_triangle(s.input, s.draw.viewport, s.profile, planes), s, out);
-}
-
-CutSource cut_source(const Source& s) {
-    CutSource out{s.input, s.draw.viewport, s.profile, {}, s.window};
-    for (size_t i = 0; i < 3; ++i) {
-        const glm::vec4& v = s.input.clip[i];
-        out.vertex[i] = v.w < 0 ? position_box(-v, s.draw.viewport, s.limits, s.profile)
-                                : s.boxes.of(s.triangle.draw, s.triangle.vertex[i]);
-    }
-    return out;
-}
-
 // The outline cut by the planes of the view volume, the clip distances tested at each sample. False
 // if some vertex has no box.
-bool tested_outline(const Source& s, std::span<const ClipPlane> planes, Outline& out,
+bool tested_outline(const OutlineSource& s, std::span<const ClipPlane> planes, Outline& out,
                     bool& is_bounded) {
     const std::vector<ClippedVertex> polygon =
         clip_triangle(s.input, s.draw.viewport, s.profile, planes);
@@ -132,7 +34,7 @@ bool tested_outline(const Source& s, std::span<const ClipPlane> planes, Outline&
 
 // Adds the outlines of a device that tests the depth at each sample instead of cutting by the depth
 // planes: from the triangle, and from what the borders leave of it.
-void add_depth_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
+void add_depth_tested(const OutlineSource& s, TriangleSetup& t, AreaSigns& signs) {
     std::vector<ClipPlane> planes(s.volume.all().begin() + s.volume.view_count,
                                   s.volume.all().end());
     for (const bool is_cut_by_borders : {false, true}) {
@@ -150,15 +52,7 @@ void add_depth_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
             continue;
         }
         auto cuts = depth_cuts(cut_source(s), polygon, o.vertices(), s.volume.depth());
-        const bool may_pass =
-            cuts && std::ranges::all_of(*cuts, [&](const DistanceCut& cut) {
-                return std::ranges::any_of(o.vertices(), [&](const Box& box) {
-                    const BoxCorners points(box);
-                    return std::any_of(points.begin(), points.end(),
-                                       [&](const FixedPoint& p) { return cut.may.at(p) >= 0; });
-                });
-            });
-        if (!may_pass) {
+        if (!cuts) {
             continue;
         }
         o.cuts = std::move(*cuts);
@@ -168,9 +62,10 @@ void add_depth_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
     }
 }
 
-// What does not follow from the vertices: an outline that may be drawn or not.
-constexpr DistanceCut kOpenCut = {{0, 0, 1}, {0, 0, -1}};
-constexpr DistanceCut kFlushedCut = {{0, 0, 1}, {0, 0, -1}, ClipPlane::z_low};
+// An outline with this cut may be drawn or not, whatever its vertices say.
+DistanceCut open_cut(std::optional<ClipPlane> plane) {
+    return {{0, 0, 1}, {0, 0, -1}, plane};
+}
 
 // A denormal that is input into a shader, or made by one, may be flushed to zero (Vulkan,
 // "Precision and Operation of SPIR-V Instructions"), and so may the z of a position be: a triangle
@@ -188,17 +83,17 @@ ClipInput with_zero_for_denormal_depths(const ClipInput& triangle, const ClipVol
 
 // Nothing has to be drawn of any outline.
 void leave_open(TriangleSetup& t) {
-    t.unclipped.cuts.push_back(kFlushedCut);
+    t.unclipped.cuts.push_back(open_cut(ClipPlane::z_low));
     if (t.clipped) {
-        t.clipped->cuts.push_back(kFlushedCut);
+        t.clipped->cuts.push_back(open_cut(ClipPlane::z_low));
     }
     for (Outline& o : t.tested) {
-        o.cuts.push_back(kFlushedCut);
+        o.cuts.push_back(open_cut(ClipPlane::z_low));
     }
 }
 
 // Adds the outlines of a device that tests the distances; false if some vertex has no box.
-bool add_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
+bool add_tested(const OutlineSource& s, TriangleSetup& t, AreaSigns& signs) {
     std::array<std::span<const ClipPlane>, 2> volumes{s.volume.depth(), s.volume.view()};
     const bool leaves_view = !is_inside(s.input, s.volume.view());
     bool is_defined = true;
@@ -213,7 +108,7 @@ bool add_tested(const Source& s, TriangleSetup& t, AreaSigns& signs) {
             continue;
         }
         if (!is_bounded) {
-            o.cuts = {kOpenCut};
+            o.cuts = {open_cut(std::nullopt)};
         }
         const bool is_cut = !is_inside(s.input, s.volume.all().subspan(s.volume.view_count));
         if (o.cuts.empty() && !is_cut) {
@@ -265,7 +160,7 @@ bool is_culled_by_distance(const cases::Draw& draw, const cases::Triangle& trian
 }
 
 // Nothing is promised of the triangle but that it stays inside `window`.
-void set_up_anywhere(const Source& s, ReasonKind why, TriangleSetup& t) {
+void set_up_anywhere(const OutlineSource& s, ReasonKind why, TriangleSetup& t) {
     t.kind = TriangleSetup::Kind::anywhere;
     t.window.is_viewport_ignored = true;
     apply_facing(t, {true, true, true}, s.draw);
@@ -282,7 +177,7 @@ void discard_by_state(const cases::Draw& draw, TriangleSetup& t) {
 
 // That planes take the whole triangle away: those beyond which all of its vertices lie, or else
 // those beyond which some do.
-void tell_planes(const Source& s, TriangleSetup& t) {
+void tell_planes(const OutlineSource& s, TriangleSetup& t) {
     for (const size_t least : {size_t{3}, size_t{1}}) {
         for (const ClipPlane plane : s.volume.all()) {
             size_t beyond = 0;
@@ -308,7 +203,7 @@ void tell_planes(const Source& s, TriangleSetup& t) {
 }
 
 // The set-up of a triangle of numbers, some of which lies inside each plane.
-void set_up_outlines(const Source& s, bool is_told, TriangleSetup& t) {
+void set_up_outlines(const OutlineSource& s, bool is_told, TriangleSetup& t) {
     const std::array<glm::vec4, 3>& clip = s.input.clip;
     const cases::Profile profile = s.profile;
     AreaSigns signs;
@@ -395,14 +290,14 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
     TriangleSetup t;
     t.window = window;
     t.grid_step = int64_t{1} << (kFixedBits - limits.subpixel_bits);
-    const Source s{draw,
-                   triangle,
-                   limits,
-                   profile,
-                   boxes,
-                   window,
-                   {draw, triangle.vertex},
-                   clip_volume_of(draw)};
+    const OutlineSource s{draw,
+                          triangle,
+                          limits,
+                          profile,
+                          boxes,
+                          window,
+                          {draw, triangle.vertex},
+                          clip_volume_of(draw)};
     const std::array<glm::vec4, 3>& clip = s.input.clip;
     const bool is_number = std::all_of(
         clip.begin(), clip.end(), [&](const glm::vec4& v) { return is_representable(v, profile); });
@@ -430,7 +325,7 @@ TriangleSetup set_up(const cases::Case& c, const cases::Triangle& triangle, cons
     } else if (may_divide_by_zero) {
         set_up_anywhere(s, ReasonKind::undefined, t);
     } else if (may_be_flushed) {
-        Source other = s;
+        OutlineSource other = s;
         other.input = flushed;
         set_up_outlines(other, is_told, t);
         leave_open(t);
