@@ -69,8 +69,8 @@ bool CaseFacts::is_beyond_range(uint32_t t, const JudgedSample& sample) {
             std::make_unique<ValueReference>(*unclamped_, limits_, cases::Profile::direct3d);
     }
     const cases::Viewport& viewport = draw_of(t).viewport;
-    const auto [low, high] = std::minmax(static_cast<double>(viewport.min_depth),
-                                         static_cast<double>(viewport.max_depth));
+    const double low = std::min(viewport.min_depth, viewport.max_depth);
+    const double high = std::max(viewport.min_depth, viewport.max_depth);
     const std::vector<ExpectedValue> values = unclamped_values_->expected(t, sample.id);
     return std::ranges::any_of(values, [&](const ExpectedValue& value) {
         return value.quantity.is_depth() && (value.nearest < low || value.nearest > high);
