@@ -11,6 +11,7 @@
 
 #include "capture/exchange/export_case.hpp"
 #include "capture/exchange/plane_files.hpp"
+#include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -34,6 +35,11 @@ cases::Expected<void> write_below(const fs::path& file, const std::string& text)
 }
 
 int export_reproducer(const Program& program, const ExportOptions& options) {
+    if (!options.output.ends_with(".c")) {
+        return report_stop({report::kExitUsage,
+                            {"-o '" + cases::printable(options.output) +
+                             "' is no name of a C file; write one that ends in .c"}});
+    }
     const OrStop<cases::Case> c = load_one_case(program, options.suite);
     if (!c) {
         return report_stop(c.error());
@@ -47,6 +53,8 @@ int export_reproducer(const Program& program, const ExportOptions& options) {
     if (auto written = write_text(options.output, *text); !written) {
         return report_stop({report::kExitUsage, {written.error().message}});
     }
+    say(fmt::format("{}: build it with 'cc -std=c99 {} -lvulkan'\n",
+                    cases::printable(options.output), cases::printable(options.output)));
     return report::kExitOk;
 }
 

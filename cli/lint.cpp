@@ -21,7 +21,9 @@
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "cli/strength.hpp"
+#include "diff/color.hpp"
 #include "ref/exercise/exercise.hpp"
+#include "ref/expectation/expectation.hpp"
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
 #include "run/judge.hpp"
@@ -107,8 +109,18 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
             errors.push_back(
                 {c.where, c.id + ": at profile " + std::string(cases::to_string(profile)) +
                               " no sample must be covered, so a device that draws nothing "
-                              "would pass; add a triangle that must be seen"});
-            break;
+                              "would pass; add a triangle that must be seen" +
+                              (c.notes.empty() ? "" : " (" + c.notes.front() + ")")});
+            return errors;
+        }
+        if (!c.target.has_instruments &&
+            diff::may_stay_clear(c, ref::expect(c, ref::Limits{}, profile))) {
+            errors.push_back(
+                {c.where, c.id + ": at profile " + std::string(cases::to_string(profile)) +
+                              " every sample may hold the clear colour, so a device that draws "
+                              "nothing would pass; choose another colour, or another clear "
+                              "colour"});
+            return errors;
         }
     }
     return errors;

@@ -177,7 +177,7 @@ int man_command() {
 }
 
 int version_command() {
-    std::printf("edgecase %s\ncase format 1, results schema 1, expectation format 1\n", kVersion);
+    std::printf("edgecase %s\ncase format 1, results schema 1, expectation format 2\n", kVersion);
     return report::kExitOk;
 }
 

@@ -120,4 +120,19 @@ uint8_t ColorComparison::hits_for_pictures(size_t index) {
     return is_clear ? 0 : 1;
 }
 
+bool may_stay_clear(const cases::Case& c, const ref::Expectation& expectation) {
+    const ref::color::Unit unit{c.target.color->format, expectation.profile};
+    const auto clear = unit.codes_of(unit.cleared(*c.target.color));
+    ref::ColorReference reference(c, expectation);
+    for (size_t index = 0; index < expectation.samples.size(); ++index) {
+        const cases::SampleId id = cases::sample_at(c.target, index);
+        if (!reference.explains(index, id, clear, std::nullopt) ||
+            (c.target.has_depth &&
+             !reference.explains_depth(index, id, c.target.depth_clear, c.target.depth_clear))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace diff

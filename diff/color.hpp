@@ -56,4 +56,8 @@ class ColorComparison {
     std::optional<std::array<uint32_t, 4>> last_clear_, last_drawn_;
 };
 
+// Whether a target without instruments in which nothing is drawn may pass: every sample may hold
+// the clear colour, and the clear depth if it has depth. `expectation`: that of the case.
+bool may_stay_clear(const cases::Case& c, const ref::Expectation& expectation);
+
 }  // namespace diff

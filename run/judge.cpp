@@ -9,6 +9,7 @@
 #include "capture/checksum.hpp"
 #include "cases/base/checksum.hpp"
 #include "diff/blit.hpp"
+#include "diff/color.hpp"
 #include "diff/stray_write.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -55,6 +56,12 @@ void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView&
             c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
         diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
                                        : diff::compare(c, expectation, capture);
+        if (verdict.ok() && !c.blit && !c.target.has_instruments &&
+            diff::may_stay_clear(c, expectation)) {
+            verdict.error =
+                "every sample may hold the clear colour, so that a black picture would pass; "
+                "choose another colour, or another clear colour";
+        }
         if (verdict.error.empty()) {
             diff::add_differences(c, cases::derivations(c), found.consistency, verdict);
             diff::add_stray_writes(c, found.stray_writes, verdict);

@@ -59,6 +59,7 @@ class DrawLoader {
             return std::move(draw_);
         }
         check_count(name, notes);
+        check_space(name, notes);
         if (!draw_.positions.empty()) {
             refuse_with_surface();
             return std::move(draw_);
@@ -337,6 +338,19 @@ class DrawLoader {
         }
         draw_.indices = std::move(indices);
         return true;
+    }
+
+    // Who writes clip space without saying so has drawn one pixel.
+    void check_space(const std::string& name, std::vector<std::string>& notes) const {
+        const bool is_tiny = std::ranges::all_of(
+            vertices_, [](const ExactVertex& v) { return abs(v.x()) <= 1 && abs(v.y()) <= 1; });
+        if (is_tiny && !vertices_.empty() && table_.find("space") == nullptr) {
+            notes.push_back(
+                fmt::format("{}: all vertices lie within a pixel of the corner; their "
+                            "space is \"pixels\" unless it is said to be \"clip\" or "
+                            "\"ndc\"",
+                            name));
+        }
     }
 
     // Enough for a triangle; leftovers, which Vulkan discards, are noted.

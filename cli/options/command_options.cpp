@@ -66,6 +66,7 @@ void add_expect(CLI::App* app, RunOptions& o, const char* what) {
         ->type_name("FILE")
         ->type_size(1)
         ->expected(1)
+        ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Judging");
 }

@@ -58,23 +58,42 @@ Decision CaseFacts::decide(uint32_t t, const JudgedSample& sample) {
     return explainer_->decide(t, sample.p, sample.id);
 }
 
+// The depth that a triangle most likely has at the sample in a case, NaN if it has none.
+double CaseFacts::depth_of(ValueReference& values, uint32_t t, const JudgedSample& sample) {
+    for (const ExpectedValue& value : values.expected(t, sample.id)) {
+        if (value.quantity.is_depth()) {
+            return value.nearest;
+        }
+    }
+    return std::nan("");
+}
+
+// Beyond the range without bias; or at its end, which is as far as any depth is told to be, with
+// the bias alone. In binary32: fixed point may round to the end.
 bool CaseFacts::is_beyond_range(uint32_t t, const JudgedSample& sample) {
-    if (unclamped_ == nullptr) {
-        unclamped_ = std::make_unique<cases::Case>(case_);
-        for (cases::Draw& draw : unclamped_->draws) {
+    if (!biased_values_) {
+        biased_ = std::make_unique<cases::Case>(case_);
+        biased_->target.depth_format = cases::DepthFormat::d32_float;
+        for (cases::Draw& draw : biased_->draws) {
             draw.depth.clip = draw.depth.clip.value_or(!draw.depth.clamp);
             draw.depth.clamp = false;
         }
-        unclamped_values_ =
-            std::make_unique<ValueReference>(*unclamped_, limits_, cases::Profile::direct3d);
+        plain_ = std::make_unique<cases::Case>(*biased_);
+        for (cases::Draw& draw : plain_->draws) {
+            draw.depth.bias.reset();
+        }
+        biased_values_.emplace(*biased_, limits_, cases::Profile::direct3d);
+        plain_values_.emplace(*plain_, limits_, cases::Profile::direct3d);
     }
     const cases::Viewport& viewport = draw_of(t).viewport;
     const double low = std::min(viewport.min_depth, viewport.max_depth);
     const double high = std::max(viewport.min_depth, viewport.max_depth);
-    const std::vector<ExpectedValue> values = unclamped_values_->expected(t, sample.id);
-    return std::ranges::any_of(values, [&](const ExpectedValue& value) {
-        return value.quantity.is_depth() && (value.nearest < low || value.nearest > high);
-    });
+    const double plain = depth_of(*plain_values_, t, sample);
+    if (plain < low || plain > high) {
+        return true;
+    }
+    const double biased = depth_of(*biased_values_, t, sample);
+    return plain > low && plain < high && (!(biased > low) || !(biased < high));
 }
 
 }  // namespace ref

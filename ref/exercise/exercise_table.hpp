@@ -47,8 +47,10 @@ class CaseFacts {
     std::vector<std::vector<value::Quantity>> quantities_;
     std::optional<bool> has_bad_number_;
     std::unique_ptr<Explainer> explainer_;
-    std::unique_ptr<cases::Case> unclamped_;
-    std::unique_ptr<ValueReference> unclamped_values_;
+    static double depth_of(ValueReference& values, uint32_t t, const JudgedSample& sample);
+    // The case without clamp, in binary32; with and without its bias.
+    std::unique_ptr<cases::Case> biased_, plain_;
+    std::optional<ValueReference> biased_values_, plain_values_;
 };
 
 // One sample as a test sees it; the set-ups are those of the profile at which it looks.

@@ -31,6 +31,11 @@ std::optional<int> severity(const CaseRecord* record) {
     return at == kOrder.end() ? std::nullopt : std::optional(static_cast<int>(at - kOrder.begin()));
 }
 
+// A run has no such case, or its device does not support it.
+bool is_lacking(const CaseRecord* record) {
+    return record == nullptr || actual_status(*record) == Status::unsupported;
+}
+
 // "value of interp.linear [vulkan]", for each group of b's findings that a has not.
 std::vector<std::string> news_of(const CaseRecord& a, const CaseRecord& b) {
     std::vector<std::string> news;
@@ -71,7 +76,7 @@ Change change_of(const std::vector<const CaseRecord*>& records) {
         better = better || (first && s && *s < *first);
         worse = worse ||
                 (first && s && *s == *first && *s > 0 && fails_anew(*records.front(), *record));
-        gone = gone || (first && record == nullptr);
+        gone = gone || (first && is_lacking(record));
     }
     if (worse) {
         return Change::regression;
@@ -252,7 +257,7 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs, Stri
     }
     if (strictness.common) {
         std::erase_if(result.cases, [](const ComparedCase& c) {
-            return std::find(c.records.begin(), c.records.end(), nullptr) != c.records.end();
+            return std::any_of(c.records.begin(), c.records.end(), is_lacking);
         });
     }
     for (ComparedCase& c : result.cases) {

@@ -27,13 +27,13 @@ enum class Change : uint8_t {
     // Worse in a later run (pass < flake < fail < device_lost < timeout < crash), or it fails there
     // in a way in which it did not: by another kind, rule or level, or by another signal.
     regression,
-    vanished,         // judged in the first run, and a later one has no such case
-    fix,              // better in a later run, worse in none
+    vanished,  // judged in the first run, and a later one has no such case or does not support it
+    fix,       // better in a later run, worse in none
     fails_otherwise,  // bad in all, with other findings or other bits
     fails_alike,      // bad in all, bit for bit the same
     other_coverage,   // passes in all, other samples are hit: the reference allows both
     other_values,     // passes in all with the same hits and other bits
-    only_in_some,     // not in a run, or not judged there (unsupported, skipped, not run, error)
+    only_in_some,     // not in the first run, or not judged in one (skipped, not run, error)
     same,             // passes in all, bit for bit the same, or is judged in none
 };
 inline constexpr size_t kChanges = 9;
@@ -41,7 +41,7 @@ std::string_view to_string(Change change);  // "regression", "other coverage", .
 
 // What makes a comparison fail, besides regressions and cases that vanished.
 struct Strictness {
-    bool common = false;  // cases that a run lacks are left out
+    bool common = false;  // cases that a run lacks or does not support are left out
     bool strict = false;  // any difference of bits counts
 };
 

@@ -85,7 +85,7 @@ std::string heading(Change change, size_t count) {
     // In the order of Change.
     constexpr std::array<const char*, kChanges> kHeadings = {
         "regressions: {} {} got worse",
-        "vanished: {} {} of the first run not in a later one",
+        "vanished: {} {} of the first run not in a later one, or unsupported there",
         "fixes: {} {} got better",
         "fail in all, in different ways: {} {}",
         "fail in all, bit for bit alike: {} {}",

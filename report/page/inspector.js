@@ -115,7 +115,7 @@ function valueRow(value, told, complete, drawn) {
 function valuesPart(scene, at, known, told, complete) {
   const drawn = isInPicture(scene.pictures, at) && scene.pictures.device[indexOf(scene.pictures, at)] > 0;
   if (!known || known.values.length === 0) {
-    return drawn && scene.pictures.errors ? el("p", {class: "quiet small"}, "Values are kept for wrong samples and their neighbours; the command \u201cexplain\u201d tells them for any sample.") : null;
+    return drawn && scene.pictures.errors ? el("p", {class: "quiet small"}, "Values are kept for the first wrong samples and their neighbours, where a triangle may be; the command \u201cexplain\u201d tells them for any sample.") : null;
   }
   const isWrong = (value) => told.some((f) => f.quantity === value[0]);
   return el("div", {class: "values"}, el("h2", {}, "Values"), el("div", {class: "framed"},

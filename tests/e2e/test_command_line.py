@@ -309,6 +309,22 @@ class Listing(ProgramTest):
         self.assertIn("error: no sample exercises the rule depth.compare; one does where the depth test", done.stderr)
         self.assertEqual(self.edgecase("lint", "fam/c3", "-q", check=3).stdout, "")
 
+    def test_a_black_picture_never_passes(self):
+        case = ('format = 1\ndescription = "A colour."\nrules = ["store.unorm"]\n[target]\nsize = [8, 8]\nattachments = "color"\n'
+                '[target.color]\nformat = "rgba8-unorm"\nclear = [1, 1, 1, 1]\n[[draw]]\n'
+                'vertices = [[0,0], [8,0], [0,8]]\ncolor = { value = [%d, 1, 1, 1] }\n')
+        self.write_case("fam/c3", case % 1)
+        told = "every sample may hold the clear colour"
+        self.assertIn(told, self.edgecase("lint", "fam/c3", check=3).stderr)
+        self.assertIn(told, self.edgecase("run", "fam/c3", "-o", "out", check=7).stdout)
+        self.write_case("fam/c3", case % 0)
+        self.edgecase("lint", "fam/c3", check=0)
+        self.edgecase("run", "fam/c3", "-o", "out", check=0)
+        # Clip space without saying so is one pixel, and not even its centre.
+        self.write_case("fam/c3", (case % 0).replace("[[0,0], [8,0], [0,8]]", "[[-1,-1], [1,-1], [-1,1]]"))
+        self.assertIn('(draw 0: all vertices lie within a pixel of the corner; their space is "pixels" unless',
+                      self.edgecase("lint", "fam/c3", check=3).stderr)
+
     def test_lint_tells_which_faults_a_case_catches(self):
         self.assertIn("name the cases", self.edgecase("lint", "--strength", check=2).stderr)
         told = self.edgecase("lint", "--strength", "fam/c3", check=0).stdout

@@ -55,6 +55,24 @@ TEST(Exercise, CoplanarTrianglesUnderEqualAreFree) {
     EXPECT_EQ(found.rules[0].samples, 32U);
 }
 
+// A depth of 3/4 is in the range; 2^23 units of r = 2^-24 are 1/2 and take it beyond. Clamped
+// depths end at 1, so only the bias or the plane tells that one was.
+TEST(Exercise, ADepthIsClampedByItsPlaneOrItsBias) {
+    const auto clamped = [](const std::string& z, const std::string& bias) {
+        const std::string text =
+            "[target]\nsize = [8, 8]\ndepth = \"d16-unorm\"\n[[draw]]\n"
+            "space = \"clip\"\nvertices = [[-1,-1," +
+            z + ",1], [1,-1," + z + ",1], [-1,1," + z + ",1]]\ndepth = { clamp = true" + bias +
+            " }\n";
+        return exercise_of_text(text, {"depth.clamp"}).rules[0].samples;
+    };
+    EXPECT_EQ(clamped("0.75", ""), 0U);
+    EXPECT_EQ(clamped("0.75", ", bias = { constant = 100 }"), 0U);
+    EXPECT_EQ(clamped("\"1-2^-20\"", ""), 0U);  // stored as 1
+    EXPECT_GT(clamped("0.75", ", bias = { constant = 8388608 }"), 0U);
+    EXPECT_GT(clamped("1.5", ""), 0U);
+}
+
 TEST(Exercise, WhatIsDrawnBehindFailsTheTest) {
     const std::string text =
         "[target]\nsize = [8, 8]\ndepth = \"d32-float\"\n"
