@@ -212,7 +212,7 @@ const ref::Expectation& Attribution::at(cases::Profile profile) {
     }
     std::optional<ref::Expectation>& slot = looser_[static_cast<size_t>(profile)];
     if (!slot) {
-        slot = ref::expect(case_, expectation_.limits, profile);
+        slot = explainer(profile).expectation();
     }
     return *slot;
 }
@@ -296,16 +296,24 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
     const std::string key =
         fmt::format("{} {} {}|{}", static_cast<int>(finding.kind), static_cast<int>(finding.level),
                     finding.expected, finding.got);
-    const auto earlier = like_.find(key);
-    if (explained_ >= explains_ && earlier != like_.end()) {
-        finding.rule = earlier->second.rule;
-        finding.quantity = earlier->second.quantity;
-        finding.why = "as at " + cases::pixel_text(case_.target, sample_of(earlier->second));
+    const Finding* earlier = nullptr;
+    const std::pair rough(finding.kind, finding.level);
+    if (const auto like = like_.find(key); like != like_.end() && explained_ >= explains_) {
+        earlier = &like->second;
+    } else if (const auto alike = alike_.find(rough);
+               alike != alike_.end() && explained_ >= kMostExplained) {
+        earlier = &alike->second;
+    }
+    if (earlier != nullptr) {
+        finding.rule = earlier->rule;
+        finding.quantity = earlier->quantity;
+        finding.why = "as at " + cases::pixel_text(case_.target, sample_of(*earlier));
         return;
     }
     explain_hits(finding, asked, front + back);
     ++explained_;
     like_.insert_or_assign(key, finding);
+    alike_.insert_or_assign(rough, finding);
 }
 
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) {

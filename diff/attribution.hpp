@@ -54,9 +54,10 @@ class Attribution {
 
     // Explaining a sample costs as much as judging thousands, and more with each triangle of the
     // case. After kExplained findings, or kTriangles set up for them, one that looks like an
-    // earlier one (same kind, level and numbers) takes over its rule: a driver that breaks
-    // everything is judged in seconds, too.
+    // earlier one (same kind, level and numbers) takes over its rule, and after kMostExplained one
+    // of the same kind and level: a driver that breaks everything is judged in seconds, too.
     static constexpr size_t kExplained = 16;
+    static constexpr size_t kMostExplained = 64;
     static constexpr size_t kTriangles = 1024;
 
     const cases::Case& case_;
@@ -65,7 +66,8 @@ class Attribution {
     std::optional<ref::Explainer> explainers_[3];  // by profile, made when first asked for
     size_t explains_;  // how many findings are explained before one takes over another's rule
     size_t explained_ = 0;
-    std::map<std::string, Finding> like_;            // by kind, level, expected and got
+    std::map<std::string, Finding> like_;  // by kind, level, expected and got
+    std::map<std::pair<FindingKind, cases::Profile>, Finding> alike_;
     std::map<cases::Profile, Finding> like_writer_;  // wrong writers, by level
 };
 

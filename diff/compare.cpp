@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "cases/base/counted.hpp"
@@ -18,6 +19,11 @@
 namespace diff {
 
 namespace {
+
+// With so many findings a case that breaks profile vulkan, the loosest, has wrong values counted
+// only: they are known to break the asked profile, and count with the rule that the same quantity
+// broke before.
+constexpr uint64_t kMaxReasoned = 1000;
 
 // One comparison's state; the phases of a sample stand in judge_sample().
 class Comparison {
@@ -97,8 +103,7 @@ class Comparison {
         }
         if (expectation_.must_samples == 0) {
             return "the case has no sample that must be covered, so a black picture would pass; "
-                   "add a "
-                   "control triangle";
+                   "add a control triangle";
         }
         return {};
     }
@@ -152,11 +157,7 @@ class Comparison {
         verdict_.device_hits[index] = static_cast<uint8_t>(std::min(front + back, 255U));
         if (!bounds.allows(front, back)) {
             Finding finding = finding_at(kind_of(bounds, front, back), case_.target, id);
-            if (verdict_.findings.size() < kMaxFindings) {
-                attribution_.attribute_hits(finding, front, back);
-            } else {
-                attribution_.level_hits(finding, front, back);  // beyond the cap nothing is told
-            }
+            attribution_.attribute_hits(finding, front, back);
             add(std::move(finding));
             return;
         }
@@ -226,9 +227,17 @@ class Comparison {
     }
 
     void add(Finding finding) {
-        verdict_.add(std::move(finding), case_.target);
-        if (verdict_.findings.size() == kMaxFindings && verdict_.level == cases::Profile::vulkan) {
-            // Nothing of what follows is told, and no level can be looser: it is counted.
+        const bool is_told = !is_brief_ || finding.kind != FindingKind::value;
+        std::string& rule = value_rules_[finding.quantity];
+        if (finding.kind == FindingKind::value && is_told) {
+            rule = finding.rule;
+        } else if (!is_told && !rule.empty()) {
+            finding.rule = rule;  // taken to be wrong as the last one that was told
+        }
+        verdict_.add(std::move(finding), case_.target, is_told);
+        if (!is_brief_ && verdict_.finding_total() >= kMaxReasoned &&
+            verdict_.level == cases::Profile::vulkan) {
+            is_brief_ = true;
             values_.judge_briefly();
         }
     }
@@ -242,6 +251,8 @@ class Comparison {
     LastFragment last_fragment_;
     bool has_pixel_rules_ = false;
     std::optional<ColorComparison> color_;
+    bool is_brief_ = false;                           // of values
+    std::map<std::string, std::string> value_rules_;  // that was broken last, by quantity
     Verdict verdict_;
 };
 

@@ -35,7 +35,7 @@ void Verdict::raise_error(size_t index, double ratio) {
     }
 }
 
-void Verdict::add(Finding finding, const cases::Target& target) {
+void Verdict::add(Finding finding, const cases::Target& target, bool is_told) {
     const cases::SampleId id = sample_of(finding);
     const size_t index = cases::index_of(target, id);
     if (finding.kind == FindingKind::value && finding.ratio > 0) {
@@ -48,26 +48,26 @@ void Verdict::add(Finding finding, const cases::Target& target) {
     max_x = first ? id.x : std::max(max_x, id.x);
     max_y = first ? row : std::max(max_y, row);
     level = first ? finding.level : std::min(level, finding.level);
-    count(finding, 1);
+    const uint64_t of_group = count(finding, 1);
     if (index < marks.size() &&
         (marks[index] == SampleMark::ok || marks[index] == SampleMark::either)) {
         marks[index] = mark_of(finding.kind);
     }
-    if (findings.size() < kMaxFindings) {
+    if (is_told && of_group <= kMaxOfGroup && findings.size() < kMaxFindings) {
         findings.push_back(std::move(finding));
     }
 }
 
-void Verdict::count(const Finding& finding, uint64_t count) {
+uint64_t Verdict::count(const Finding& finding, uint64_t count) {
     counts.at(static_cast<size_t>(finding.kind)) += count;
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& g) {
         return g.kind == finding.kind && g.rule == finding.rule && g.level == finding.level;
     });
     if (group != groups.end()) {
-        group->count += count;
-    } else {
-        groups.push_back({finding.kind, finding.rule, finding.level, count, 0});
+        return group->count += count;
     }
+    groups.push_back({finding.kind, finding.rule, finding.level, count, 0});
+    return count;
 }
 
 std::optional<uint64_t> Verdict::count_wrong_samples() const {

@@ -101,11 +101,13 @@ inline Finding finding_at(FindingKind kind, const cases::Target& target,
 // What the comparison saw at a sample, for pictures: one byte a sample.
 enum class SampleMark : uint8_t { ok, either, missing, extra, double_hit, value, order };
 
-inline constexpr size_t kMaxFindings = 1000;
+// What is kept of a case's findings: so many of each group, and so many in all. All are counted.
+inline constexpr size_t kMaxOfGroup = 16;
+inline constexpr size_t kMaxFindings = 64;
 
 // What a comparison says of a case: all of it that the records of a run keep.
 struct Outcome {
-    std::vector<Finding> findings;                 // the first kMaxFindings, in sample order
+    std::vector<Finding> findings;                 // those that are kept, in sample order
     std::array<uint64_t, kFindingKinds> counts{};  // of all, capped or not
     std::vector<FindingGroup> groups;              // the same, by kind, rule and level
     uint64_t finding_total() const {
@@ -151,11 +153,13 @@ struct Verdict : Outcome {
     bool has_unmarked = false;  // some wrong samples were counted, but have no mark
     bool ok() const { return error.empty() && counts == std::array<uint64_t, kFindingKinds>{}; }
 
-    // Counts a finding of a target; keeps it if fewer than kMaxFindings are kept. The first finding
-    // at a sample gives it its mark.
-    void add(Finding finding, const cases::Target& target);
-    // Counts `count` findings like `finding`, without a word of each.
-    void count(const Finding& finding, uint64_t count);
+    // Counts a finding of a target; keeps it if it is among the first kMaxOfGroup of its group and
+    // fewer than kMaxFindings are kept, and if it is told. The first finding at a sample gives it
+    // its mark.
+    void add(Finding finding, const cases::Target& target, bool is_told = true);
+    // Counts `count` findings like `finding`, without a word of each; returns how many its group
+    // has now.
+    uint64_t count(const Finding& finding, uint64_t count);
     // How many samples have a finding, which may have several; nothing where it is not known.
     std::optional<uint64_t> count_wrong_samples() const;
     // The error at a sample, in budgets, is at least `ratio`.

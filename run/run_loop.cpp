@@ -22,7 +22,7 @@ using vk_harness::Rendered;
 
 namespace {
 
-constexpr uint64_t kMaxJudgingBytes = uint64_t{512} << 20;
+constexpr uint64_t kMaxJudgingBytes = uint64_t{128} << 20;
 constexpr uint32_t kMaxStartFailures = 3;
 constexpr int kProgressMs = 200;
 

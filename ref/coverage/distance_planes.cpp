@@ -109,7 +109,7 @@ mpq_class projected_budget(const Projected& p, const std::array<mpq_class, 3>& g
 }
 
 LinearBound projected_plane(const Projected& p, const std::array<mpq_class, 3>& g,
-                       const mpq_class& factor) {
+                            const mpq_class& factor) {
     LinearBound out;
     for (size_t i = 0; i < 3; ++i) {
         const size_t j = (i + 1) % 3;
@@ -205,8 +205,9 @@ mpq_class basis_budget(const value::Basis<mpq_class>& basis, const value::Plane<
 }
 
 // N of every distance and D, where a vertex lies behind the eye; empty if they have no bound.
-std::vector<LinearBound> homogeneous_planes(const CutSource& s, std::span<const ClippedVertex> polygon,
-                                       const Region& region, const mpq_class& factor) {
+std::vector<LinearBound> homogeneous_planes(const CutSource& s,
+                                            std::span<const ClippedVertex> polygon,
+                                            const Region& region, const mpq_class& factor) {
     std::vector<value::PlaneInput<mpq_class>> inputs(s.triangle.distance_count + 1);
     for (size_t i = 0; i < 3; ++i) {
         inputs.back().h[i] = 1;
@@ -287,8 +288,7 @@ Spread spread_of_all(const CutSource& source, std::span<const ClippedVertex> pol
 
 }  // namespace
 
-std::vector<LinearBound> distance_planes(const CutSource& s,
-                                         std::span<const ClippedVertex> polygon,
+std::vector<LinearBound> distance_planes(const CutSource& s, std::span<const ClippedVertex> polygon,
                                          std::span<const Box> boxes) {
     const Region region = region_of(s.window);
     const Spread moved = spread_of_all(s, polygon, boxes);

@@ -36,8 +36,8 @@ struct LinearBound {
     mpq_class x, y, c, error;
 };
 
-// N = sum b_i d_i/w_i of each clip distance, and D = sum b_i/w_i last, in the outline whose vertices
-// are `polygon` with positions in `boxes`. Empty if they have no bound.
+// N = sum b_i d_i/w_i of each clip distance, and D = sum b_i/w_i last, in the outline whose
+// vertices are `polygon` with positions in `boxes`. Empty if they have no bound.
 std::vector<LinearBound> distance_planes(const CutSource& source,
                                          std::span<const ClippedVertex> polygon,
                                          std::span<const Box> boxes);

@@ -12,7 +12,7 @@
 #include "ref/coverage/triangle_setups.hpp"
 #include "ref/expectation/narrowing.hpp"
 #include "ref/expectation/onlooker.hpp"
-#include "ref/expectation/scan_all.hpp"
+#include "ref/expectation/scene.hpp"
 
 namespace ref {
 
@@ -101,8 +101,7 @@ class HitTable {
     std::vector<Hit> hits_;
 };
 
-}  // namespace
-
+// Sets up the triangles that may touch a sample, and keeps those that do.
 std::vector<fast::Span> scan_all(const cases::Case& c,
                                  const std::vector<cases::Triangle>& triangles,
                                  TriangleSetups& setups) {
@@ -126,23 +125,37 @@ std::vector<fast::Span> scan_all(const cases::Case& c,
     return spans;
 }
 
+}  // namespace
+
+Scene::Scene(const cases::Case& the_case, const Limits& the_limits, cases::Profile the_profile,
+             bool is_told)
+    : c(the_case),
+      limits(the_limits),
+      profile(the_profile),
+      triangles(assemble(c)),
+      setups(c, triangles, limits, profile, is_told),
+      spans(scan_all(c, triangles, setups)),
+      depth(DepthTest::is_needed(c)
+                ? std::make_optional<DepthTest>(c, triangles, limits, profile, false)
+                : std::nullopt),
+      narrowing(c, profile, triangles, setups,
+                {fast::is_in_hull, fast::winding, fast::is_inside_whole},
+                depth ? &*depth : nullptr) {}
+
 Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile,
                    Onlooker* onlooker) {
+    Scene scene(c, limits, profile, false);
+    return expect(scene, onlooker);
+}
+
+Expectation expect(Scene& scene, Onlooker* onlooker) {
+    const cases::Case& c = scene.c;
     Expectation out;
-    out.limits = limits;
-    out.profile = profile;
+    out.limits = scene.limits;
+    out.profile = scene.profile;
     out.target = c.target;
-    out.triangles = assemble(c);
-    TriangleSetups setups(c, out.triangles, limits, profile);
-    const std::vector<fast::Span> spans = scan_all(c, out.triangles, setups);
-    HitTable table(c.target, spans);
-    std::optional<DepthTest> depth;
-    if (DepthTest::is_needed(c)) {
-        depth.emplace(c, out.triangles, limits, profile, false);
-    }
-    Narrowing narrowing(c, profile, out.triangles, setups,
-                        {fast::is_in_hull, fast::winding, fast::is_inside_whole},
-                        depth ? &*depth : nullptr);
+    out.triangles = scene.triangles;
+    HitTable table(c.target, scene.spans);
     out.samples.resize(size_t{c.target.width} * c.target.rows() * c.target.samples);
     out.writers.reserve(table.size());
     size_t at = 0;
@@ -161,8 +174,8 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                 }
                 const FixedPoint p = sample_position(i, j, s, c.target);
                 JudgeReasons reasons;
-                sample = narrowing.judge(p, s, hits, out.writers, out.depth_writers,
-                                         onlooker != nullptr ? &reasons : nullptr);
+                sample = scene.narrowing.judge(p, s, hits, out.writers, out.depth_writers,
+                                               onlooker != nullptr ? &reasons : nullptr);
                 if (onlooker != nullptr &&
                     !onlooker->look({at,
                                      {i, j, s, row / c.target.height},
@@ -171,7 +184,7 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                                      sample.hits,
                                      std::span(out.writers).subspan(sample.writers_begin),
                                      reasons},
-                                    setups)) {
+                                    scene.setups)) {
                     onlooker = nullptr;
                 }
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;

@@ -10,7 +10,6 @@
 
 #include "ref/coverage/exact.hpp"
 #include "ref/expectation/reason_text.hpp"
-#include "ref/expectation/scan_all.hpp"
 #include "ref/position/clip.hpp"
 
 namespace ref {
@@ -127,22 +126,11 @@ bool TriangleExplanation::is_tie() const {
 }
 
 Explainer::Explainer(const cases::Case& c, const Limits& limits, cases::Profile profile)
-    : case_(c),
-      limits_(limits),
-      profile_(profile),
-      triangles_(cases::assemble(c)),
-      setups_(c, triangles_, limits, profile, true),
-      spans_(scan_all(c, triangles_, setups_)),
-      depth_(DepthTest::is_needed(c)
-                 ? std::make_optional<DepthTest>(c, triangles_, limits, profile, false)
-                 : std::nullopt),
-      narrowing_(c, profile, triangles_, setups_,
-                 {fast::is_in_hull, fast::winding, fast::is_inside_whole},
-                 depth_ ? &*depth_ : nullptr) {}
+    : scene_(c, limits, profile, true) {}
 
 Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId sample) {
-    const cases::Draw& draw = case_.draws[triangles_[t].draw];
-    Decision out = exact::decide(setups_[t], p, true);
+    const cases::Draw& draw = scene_.c.draws[scene_.triangles[t].draw];
+    Decision out = exact::decide(scene_.setups[t], p, true);
     if (!is_in_mask(draw.multisample, sample.sample)) {
         refuse(out, ReasonKind::masked);
     }
@@ -162,17 +150,17 @@ TriangleExplanation Explainer::explain_triangle(uint32_t t, const FixedPoint& p,
                                                 Decision decision) {
     TriangleExplanation e;
     e.index = t;
-    e.triangle = triangles_[t];
+    e.triangle = scene_.triangles[t];
     e.decision = std::move(decision);
-    e.facing = setups_[t].facing;
-    const cases::Draw& draw = case_.draws[e.triangle.draw];
+    e.facing = scene_.setups[t].facing;
+    const cases::Draw& draw = scene_.c.draws[e.triangle.draw];
     std::array<std::optional<FixedPoint>, 3> snapped;
     for (size_t k = 0; k < 3; ++k) {
         const glm::vec4& clip = draw.positions[e.triangle.vertex[k]];
         e.is_clipped = e.is_clipped || !is_inside(clip, clip_volume_of(draw).view());
         if (is_projectable(clip)) {
-            snapped[k] = snap_nearest(clip, draw.viewport, limits_);
-            e.boxes[k] = position_box(clip, draw.viewport, limits_, profile_);
+            snapped[k] = snap_nearest(clip, draw.viewport, scene_.limits);
+            e.boxes[k] = position_box(clip, draw.viewport, scene_.limits, scene_.profile);
         }
     }
     if (!snapped[0] || !snapped[1] || !snapped[2]) {
@@ -197,11 +185,11 @@ TriangleExplanation Explainer::explain_triangle(uint32_t t, const FixedPoint& p,
 
 SampleExplanation Explainer::explain(cases::SampleId sample) {
     SampleExplanation out;
-    out.position = sample_position(sample.x, sample.y, sample.sample, case_.target);
+    out.position = sample_position(sample.x, sample.y, sample.sample, scene_.c.target);
     const FixedPoint& p = out.position;
     out.of_all = ReasonKind::other_layer;
-    for (const cases::Draw& draw : case_.draws) {
-        const Window window = window_of(case_, draw, profile_);
+    for (const cases::Draw& draw : scene_.c.draws) {
+        const Window window = window_of(scene_.c, draw, scene_.profile);
         const ReasonKind why = draw.layer != sample.layer ? ReasonKind::other_layer
                                : !window.is_in_scissor(p) ? ReasonKind::scissor
                                                           : ReasonKind::viewport;
@@ -212,8 +200,8 @@ SampleExplanation Explainer::explain(cases::SampleId sample) {
         out.of_all = std::max(*out.of_all, why);
     }
     std::set<uint32_t> at_sample;
-    const uint32_t row = sample.layer * case_.target.height + sample.y;
-    for (const fast::Span& s : spans_) {
+    const uint32_t row = sample.layer * scene_.c.target.height + sample.y;
+    for (const fast::Span& s : scene_.spans) {
         if (s.y == row && s.sample == sample.sample && s.x0 <= sample.x && sample.x < s.x1) {
             at_sample.insert(s.triangle);
         }
@@ -221,8 +209,9 @@ SampleExplanation Explainer::explain(cases::SampleId sample) {
     std::vector<Hit> hits;
     std::vector<size_t> explained;  // the explanation of each hit, or none of those told
     constexpr size_t kUntold = ~size_t{0};
-    for (uint32_t t = 0; t < triangles_.size(); ++t) {
-        const bool is_told = is_near(case_.draws[triangles_[t].draw], triangles_[t], p);
+    for (uint32_t t = 0; t < scene_.triangles.size(); ++t) {
+        const bool is_told =
+            is_near(scene_.c.draws[scene_.triangles[t].draw], scene_.triangles[t], p);
         if (!is_told && !at_sample.contains(t)) {
             continue;
         }
@@ -233,15 +222,16 @@ SampleExplanation Explainer::explain(cases::SampleId sample) {
         }
         if (is_told) {
             TriangleExplanation e = explain_triangle(t, p, std::move(decision));
-            e.sentence = sentence_of(e.decision.reasons.front(), e, case_, sample);
+            e.sentence = sentence_of(e.decision.reasons.front(), e, scene_.c, sample);
             out.triangles.push_back(std::move(e));
         }
     }
     std::vector<uint32_t> writers, depth_writers;
     JudgeReasons reasons;
-    out.hits = narrowing_.judge(p, sample.sample, hits, writers, depth_writers, &reasons).hits;
+    out.hits =
+        scene_.narrowing.judge(p, sample.sample, hits, writers, depth_writers, &reasons).hits;
     for (FixedSet& set : reasons.sets) {
-        std::string sentence = sentence_of(set, triangles_);
+        std::string sentence = sentence_of(set, scene_.triangles);
         out.sets.push_back({std::move(set), std::move(sentence)});
     }
     for (size_t m = 0; m < reasons.depth.outcomes.size(); ++m) {
@@ -249,10 +239,11 @@ SampleExplanation Explainer::explain(cases::SampleId sample) {
             continue;
         }
         TriangleExplanation& t = out.triangles[explained[m]];
-        const cases::CompareOp op = case_.draws[t.triangle.draw].depth.compare;
+        const cases::CompareOp op = scene_.c.draws[t.triangle.draw].depth.compare;
         t.depth = reasons.depth.outcomes[m];
         t.depth_reason = reasons.depth.reasons[m];
-        t.depth_text = sentence_of(t.depth_reason, *t.depth, op, depth_->range_text(t.index, p));
+        t.depth_text =
+            sentence_of(t.depth_reason, *t.depth, op, scene_.depth->range_text(t.index, p));
     }
     return out;
 }

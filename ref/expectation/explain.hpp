@@ -17,11 +17,10 @@
 #include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
-#include "ref/coverage/fast/fast.hpp"
-#include "ref/coverage/triangle_setups.hpp"
 #include "ref/depth/outcome.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/narrowing.hpp"
+#include "ref/expectation/scene.hpp"
 #include "ref/position/limits.hpp"
 #include "ref/position/position.hpp"
 
@@ -83,6 +82,9 @@ class Explainer {
     // Keeps a reference to the case.
     Explainer(const cases::Case& c, const Limits& limits, cases::Profile profile);
 
+    // The expectation of all samples, from what explaining has computed already.
+    Expectation expectation() { return expect(scene_); }
+
     // Layer, pixel and sample must lie inside the target.
     SampleExplanation explain(cases::SampleId sample);
 
@@ -92,14 +94,7 @@ class Explainer {
   private:
     TriangleExplanation explain_triangle(uint32_t t, const FixedPoint& p, Decision decision);
 
-    const cases::Case& case_;
-    Limits limits_;
-    cases::Profile profile_;
-    std::vector<cases::Triangle> triangles_;
-    TriangleSetups setups_;
-    std::vector<fast::Span> spans_;
-    std::optional<DepthTest> depth_;
-    Narrowing narrowing_;
+    Scene scene_;
 };
 
 // Explains one sample.

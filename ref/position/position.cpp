@@ -247,6 +247,13 @@ std::optional<FixedPoint> snap_nearest(const glm::vec4& clip, const cases::Viewp
     if (!is_projectable(clip)) {
         return std::nullopt;
     }
+    const auto x = filtered_nearest(clip.x, clip.w, viewport.x, viewport.width, limits);
+    const auto y = filtered_nearest(clip.y, clip.w, viewport.y, viewport.height, limits);
+    return x && y ? FixedPoint{*x, *y} : exact_snap_nearest(clip, viewport, limits);
+}
+
+std::optional<FixedPoint> exact_snap_nearest(const glm::vec4& clip, const cases::Viewport& viewport,
+                                             const Limits& limits) {
     const IdealPosition ideal = ideal_position(clip, viewport);
     const mpq_class limit = power_of_two(32);
     if (abs(ideal.x) > limit || abs(ideal.y) > limit) {

@@ -46,4 +46,8 @@ std::optional<Box> box_around_crossing(const mpq_class& x, const mpq_class& y,
 std::optional<Box> exact_position_box(const glm::vec4& clip, const cases::Viewport& viewport,
                                       const Limits& limits, cases::Profile profile);
 
+// snap_nearest, of a projectable vertex, by rationals alone.
+std::optional<FixedPoint> exact_snap_nearest(const glm::vec4& clip, const cases::Viewport& viewport,
+                                             const Limits& limits);
+
 }  // namespace ref

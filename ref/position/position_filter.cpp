@@ -45,32 +45,75 @@ bool certain_ceil(const Known& k, int64_t& out) {
     return true;
 }
 
-}  // namespace
+// The position on one axis, and the error that a device's binary32 transform may have, pixels.
+struct Transformed {
+    double t = 0, o = 0, x_f = 0;
+    bool is_exact = false;  // in binary32
+    Known position;
+    double error = 0;
+};
 
-std::optional<FixedRange> filtered_range(float c, float w, float origin, float extent,
-                                         const Limits& limits, cases::Profile profile) {
+std::optional<Transformed> transformed(float c, float w, float origin, float extent) {
     if (!(w >= 0x1p-60F) || !(w <= 0x1p60F) || !(std::abs(c) <= 0x1p90F)) {
         return std::nullopt;
     }
+    Transformed out;
     const double half = static_cast<double>(extent) / 2;
     const double x_d = static_cast<double>(c) / static_cast<double>(w);
-    const double t = x_d * half;
-    const double o = static_cast<double>(origin) + half;
-    const double x_f = t + o;
+    const double t = out.t = x_d * half;
+    const double o = out.o = static_cast<double>(origin) + half;
+    const double x_f = out.x_f = t + o;
     if (!(std::abs(x_f) < kFar) || !(std::abs(o) < kFar)) {
         return std::nullopt;
     }
-    const bool is_exact = is_transform_exact(c, w, origin, extent);
+    out.is_exact = is_transform_exact(c, w, origin, extent);
+    out.position.value = x_f;
     // position.cpp, "The binary32 error"
     constexpr double kUnit = 0x1p-24;
-    double error = 0;
-    Known position{x_f, 0};
-    if (!is_exact) {
-        error = kUnit * (4 * std::abs(t) + std::abs(o) + 2 * std::abs(x_f) + 1) * (1 + 8 * kUnit) +
-                0x1p-120 * (1 + std::abs(half)) * (1 + std::abs(static_cast<double>(c)));
-        position.slack = 16 * kRound * (std::abs(t) + std::abs(o) + std::abs(x_f)) +
-                         64 * kRound * error + kSmall;
+    if (!out.is_exact) {
+        out.error =
+            kUnit * (4 * std::abs(t) + std::abs(o) + 2 * std::abs(x_f) + 1) * (1 + 8 * kUnit) +
+            0x1p-120 * (1 + std::abs(half)) * (1 + std::abs(static_cast<double>(c)));
+        out.position.slack = 16 * kRound * (std::abs(t) + std::abs(o) + std::abs(x_f)) +
+                             64 * kRound * out.error + kSmall;
     }
+    return out;
+}
+
+}  // namespace
+
+std::optional<int64_t> filtered_nearest(float c, float w, float origin, float extent,
+                                        const Limits& limits) {
+    const std::optional<Transformed> at = transformed(c, w, origin, extent);
+    if (!at) {
+        return std::nullopt;
+    }
+    // A power of two and, below 2^47, sums with 1/2 lose nothing that the slack does not hold; if
+    // the transform is exact in binary32 nothing is lost at all.
+    const double scale = static_cast<double>(int64_t{1} << limits.subpixel_bits);
+    const double scaled = at->x_f * scale;
+    int64_t n = 0;
+    if (at->is_exact) {
+        n = floor_of(scaled);
+        const double rest = scaled - static_cast<double>(n);
+        n += rest > 0.5 || (!(rest < 0.5) && n % 2 != 0) ? 1 : 0;
+    } else if (!certain_floor(
+                   {scaled + 0.5, at->position.slack * scale + 4 * kRound * (std::abs(scaled) + 1)},
+                   n)) {
+        return std::nullopt;
+    }
+    return n * (int64_t{1} << (kFixedBits - limits.subpixel_bits));
+}
+
+std::optional<FixedRange> filtered_range(float c, float w, float origin, float extent,
+                                         const Limits& limits, cases::Profile profile) {
+    const std::optional<Transformed> at = transformed(c, w, origin, extent);
+    if (!at) {
+        return std::nullopt;
+    }
+    const auto& [t, o, x_f, is_exact, ideal, binary32_error] = *at;
+    Known position = ideal;
+    double error = binary32_error;
     const double scale = static_cast<double>(int64_t{1} << limits.subpixel_bits);
     const bool is_direct3d = profile == cases::Profile::direct3d;
     const bool is_vulkan = profile == cases::Profile::vulkan;

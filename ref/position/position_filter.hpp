@@ -20,4 +20,8 @@ namespace ref {
 std::optional<FixedRange> filtered_range(float c, float w, float origin, float extent,
                                          const Limits& limits, cases::Profile profile);
 
+// One coordinate of snap_nearest, likewise.
+std::optional<int64_t> filtered_nearest(float c, float w, float origin, float extent,
+                                        const Limits& limits);
+
 }  // namespace ref

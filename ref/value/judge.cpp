@@ -126,6 +126,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
                 ValueMismatch m;
                 m.quantity = all[verdict.failing[k]].id;
                 m.level = profile;
+                m.rule = all[verdict.failing[k]].rule;
                 m.ratio = verdict.ratios[k];
                 out.mismatches.push_back(std::move(m));
             }

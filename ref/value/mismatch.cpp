@@ -90,14 +90,25 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
 }
 
 std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId id,
-                                                     const FragmentValues& device, Profile at) {
-    const std::vector<size_t> only = asked(t, at);
+                                                     const FragmentValues& device, Profile at,
+                                                     const std::vector<size_t>& suspects) {
+    std::vector<size_t> only = asked(t, at);
     if (at == Profile::vulkan && !only.empty()) {
         const value::CandidateSet<Ball>& set = candidates<Ball>(t, at);
         if (set.is_known) {
             const value::ProbePlace place = probe_place(t, id, at);
+            const auto places = value::evaluations<Ball>(fragment(t, id, at), at);
+            // A stricter profile has accepted the others, and each value stands alone here.
+            if (places.size() == 1) {
+                std::erase_if(only, [&](size_t index) {
+                    return std::find(suspects.begin(), suspects.end(), index) == suspects.end();
+                });
+                if (only.empty()) {
+                    return {};
+                }
+            }
             auto failing = failing_separately(
-                set, value::evaluations<Ball>(fragment(t, id, at), at),
+                set, places,
                 {quantities_of(t), load(t).primitive.is_projectable, &place, &device, only});
             if (failing) {
                 return std::move(*failing);
@@ -121,7 +132,7 @@ std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId
         if (p >= profile || is_settled) {
             break;
         }
-        const std::vector<size_t> wrong = failing_at(t, id, device, p);
+        const std::vector<size_t> wrong = failing_at(t, id, device, p, failing);
         const auto is_in = [](const std::vector<size_t>& set, size_t index) {
             return std::find(set.begin(), set.end(), index) != set.end();
         };

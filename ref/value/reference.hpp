@@ -313,8 +313,9 @@ struct ValueReference::Impl {
     }
 
     // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
+    // `suspects`: what fails at the profile that is judged.
     std::vector<size_t> failing_at(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                   Profile at);
+                                   Profile at, const std::vector<size_t>& suspects);
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
                     FragmentVerdict& out) const;

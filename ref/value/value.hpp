@@ -100,8 +100,9 @@ class ValueReference {
     // From now on only these values are judged; one basis has to explain those together.
     void judge_only(const ValueSelection& selection);
 
-    // From now on a mismatch has its quantity and ratio only; its level is the asked profile. This
-    // suffices for what a report does not tell: a broken device has thousands of mismatches.
+    // From now on a mismatch has its quantity, that one's rule and its ratio only, and the asked
+    // profile for its level: looser ones are not tried. This suffices for what a report does not
+    // tell: a broken device has thousands of mismatches.
     void judge_briefly();
 
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.

@@ -34,25 +34,41 @@ SharedMemory::~SharedMemory() {
 }
 
 bool SharedMemory::has_free() const {
-    return std::any_of(taken_.begin(), taken_.end(),
-                       [](const auto& region) { return region.expired(); });
+    return std::any_of(is_taken_.begin(), is_taken_.end(),
+                       [](const std::atomic<bool>& taken) { return !taken; });
 }
 
-std::shared_ptr<const Region> SharedMemory::take() {
+void SharedMemory::give_back(size_t k, bool is_large) const {
+    if (is_large) {
+        // If the system cannot, the memory is used again all the same.
+        static_cast<void>(::fallocate(fd_.get(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+                                      static_cast<off_t>(k * kRegionBytes + kKeptBytes),
+                                      static_cast<off_t>(kRegionBytes - kKeptBytes)));
+    }
+    is_taken_.at(k) = false;  // not before: the next batch writes there
+}
+
+std::shared_ptr<const Region> SharedMemory::take(uint64_t bytes) {
+    // A capture that is read keeps the mapping.
+    struct Reader {
+        std::shared_ptr<const SharedMemory> memory;
+        size_t k;
+        bool is_large;
+        Region region;
+        Reader(std::shared_ptr<const SharedMemory> m, size_t number, bool large)
+            : memory(std::move(m)),
+              k(number),
+              is_large(large),
+              region{k * kRegionBytes, {memory->data_ + k * kRegionBytes, kRegionBytes}} {}
+        Reader(const Reader&) = delete;
+        Reader& operator=(const Reader&) = delete;
+        ~Reader() { memory->give_back(k, is_large); }
+    };
     for (size_t k = 0; k < kRegions; ++k) {
-        if (taken_[k].expired()) {
-            const uint64_t offset = k * kRegionBytes;
-            // A capture that is read keeps the mapping. (Not a deleter: that would live as long as
-            // taken_ watches it, inside the memory that it keeps.)
-            struct Reader {
-                std::shared_ptr<const SharedMemory> memory;
-                Region region;
-            };
-            const auto reader = std::make_shared<const Reader>(
-                Reader{shared_from_this(), {offset, {data_ + offset, kRegionBytes}}});
-            const std::shared_ptr<const Region> region(reader, &reader->region);
-            taken_[k] = region;
-            return region;
+        if (!is_taken_.at(k).exchange(true)) {
+            const auto reader =
+                std::make_shared<const Reader>(shared_from_this(), k, bytes > kKeptBytes);
+            return {reader, &reader->region};
         }
     }
     return nullptr;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -27,6 +28,7 @@ class SharedMemory : public std::enable_shared_from_this<SharedMemory> {
     static constexpr size_t kRegions = 4;
     static constexpr uint64_t kRegionBytes = uint64_t{65} << 20;  // a batch has 64 MiB at most
     static constexpr uint64_t kBytes = kRegions * kRegionBytes;   // taken only where written to
+    static constexpr uint64_t kKeptBytes = uint64_t{8} << 20;     // of a region that is free again
 
     // Null if the system has no such memory; captures travel through the pipe then.
     static std::shared_ptr<SharedMemory> create();
@@ -35,15 +37,18 @@ class SharedMemory : public std::enable_shared_from_this<SharedMemory> {
     SharedMemory& operator=(const SharedMemory&) = delete;
 
     int fd() const { return fd_.get(); }
-    // The first free region; null if none is.
-    std::shared_ptr<const Region> take();
+    // The first free region, for a batch of so many bytes; null if none is free. What a large batch
+    // had taken from the system goes back to it with the region.
+    std::shared_ptr<const Region> take(uint64_t bytes);
     bool has_free() const;
 
   private:
     SharedMemory(Fd fd, const std::byte* data) : fd_(std::move(fd)), data_(data) {}
+    // Of a region that nobody reads any more, on whichever thread that happens.
+    void give_back(size_t k, bool is_large) const;
     Fd fd_;
     const std::byte* data_;
-    std::array<std::weak_ptr<const Region>, kRegions> taken_;
+    mutable std::array<std::atomic<bool>, kRegions> is_taken_{};
 };
 
 // The worker's side. Everything fails softly: what finds no place goes through the pipe.

@@ -68,7 +68,7 @@ void WorkerClient::kill() {
 
 void WorkerClient::render(uint32_t attempt, const std::vector<const cases::Case*>& batch,
                           uint64_t bytes) {
-    region_ = memory_ ? memory_->take() : nullptr;
+    region_ = memory_ ? memory_->take(bytes + batch.size() * 64) : nullptr;
     Room room;
     if (region_) {  // no more than needed: the worker unlocks and locks page by page
         constexpr uint64_t kPage = 4096;

@@ -186,6 +186,7 @@ TEST(Position, ProfilesAreNestedAndHoldTheNearestPoint) {
 TEST(Position, FilterAgreesWithRationals) {
     RandomCases random(6);
     int told = 0;
+    int snapped = 0;
     const int rounds = 30000;
     for (int k = 0; k < rounds; ++k) {
         cases::Viewport v{0, 0, 64, 64, 0, 1};
@@ -211,6 +212,12 @@ TEST(Position, FilterAgreesWithRationals) {
         };
         const float ws[] = {1, 2, 0.25F, 3, static_cast<float>(random.real(0.01, 100))};
         const glm::vec4 clip = at_pixel(d, coordinate(), coordinate(), ws[random.integer(0, 4)]);
+        const FixedPoint nearest = *exact_snap_nearest(clip, v, limits);
+        const auto near_x = filtered_nearest(clip.x, clip.w, v.x, v.width, limits);
+        const auto near_y = filtered_nearest(clip.y, clip.w, v.y, v.height, limits);
+        ASSERT_EQ(near_x.value_or(nearest.x), nearest.x) << k;
+        ASSERT_EQ(near_y.value_or(nearest.y), nearest.y) << k;
+        snapped += near_x ? 1 : 0;
         for (const Profile profile : cases::kProfiles) {
             const Box want = *exact_position_box(clip, v, limits, profile);
             const auto x = filtered_range(clip.x, clip.w, v.x, v.width, limits, profile);
@@ -227,6 +234,7 @@ TEST(Position, FilterAgreesWithRationals) {
         }
     }
     EXPECT_GT(told, rounds * 2);
+    EXPECT_GT(snapped, rounds * 2 / 3);
 }
 
 TEST(Position, NearestTiesGoToEven) {

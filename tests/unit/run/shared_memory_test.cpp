@@ -17,8 +17,8 @@ namespace {
 TEST(SharedMemory, AWorkersWordsArriveInTheParent) {
     const std::shared_ptr<SharedMemory> memory = SharedMemory::create();
     ASSERT_TRUE(memory);
-    const std::shared_ptr<const Region> first = memory->take();
-    const std::shared_ptr<const Region> region = memory->take();
+    const std::shared_ptr<const Region> first = memory->take(1);
+    const std::shared_ptr<const Region> region = memory->take(1);
     SharedWriter writer(memory->fd());
     writer.open(region->offset, region->bytes.size());
     const std::span<std::byte> a = writer.place(5);
@@ -37,29 +37,47 @@ TEST(SharedMemory, ARegionIsTakenAgainOnlyWhenNobodyReadsIt) {
     std::vector<std::shared_ptr<const Region>> taken;
     for (size_t k = 0; k < SharedMemory::kRegions; ++k) {
         EXPECT_TRUE(memory->has_free());
-        taken.push_back(memory->take());
+        taken.push_back(memory->take(1));
         ASSERT_TRUE(taken.back());
         EXPECT_EQ(taken.back()->offset, k * SharedMemory::kRegionBytes);
     }
     EXPECT_FALSE(memory->has_free());
-    EXPECT_FALSE(memory->take());
+    EXPECT_FALSE(memory->take(1));
     const std::shared_ptr<const Region> reader = taken[2];
     taken[2].reset();
-    EXPECT_FALSE(memory->take());
+    EXPECT_FALSE(memory->take(1));
     taken[1].reset();
-    const std::shared_ptr<const Region> again = memory->take();
+    const std::shared_ptr<const Region> again = memory->take(1);
     ASSERT_TRUE(again);
     EXPECT_EQ(again->offset, SharedMemory::kRegionBytes);
 }
 
 TEST(SharedMemory, ReadersOutliveTheOwner) {
     std::shared_ptr<SharedMemory> memory = SharedMemory::create();
-    const std::shared_ptr<const Region> region = memory->take();
+    const std::shared_ptr<const Region> region = memory->take(1);
     SharedWriter writer(memory->fd());
     writer.open(region->offset, region->bytes.size());
     writer.place(1)[0] = std::byte{42};
     memory.reset();
     EXPECT_EQ(region->bytes[0], std::byte{42});
+}
+
+// A region that held a large batch is empty beyond its first megabytes when it is taken again, one
+// that held a small one is as it was: the system need not clear it.
+TEST(SharedMemory, ALargeBatchLeavesItsMemoryToTheSystem) {
+    const std::shared_ptr<SharedMemory> memory = SharedMemory::create();
+    constexpr uint64_t kKept = SharedMemory::kKeptBytes;
+    for (const uint64_t bytes : {kKept, kKept + 4096}) {
+        std::shared_ptr<const Region> region = memory->take(bytes);
+        SharedWriter writer(memory->fd());
+        writer.open(region->offset, region->bytes.size());
+        writer.place(kKept)[0] = std::byte{1};
+        writer.place(4096)[0] = std::byte{2};
+        region.reset();
+        region = memory->take(1);
+        EXPECT_EQ(region->bytes[0], std::byte{1});
+        EXPECT_EQ(region->bytes[kKept], bytes > kKept ? std::byte{0} : std::byte{2});
+    }
 }
 
 TEST(SharedMemory, CannotBeTakenAway) {
