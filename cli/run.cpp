@@ -14,6 +14,7 @@
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
+#include "report/files/ci.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
@@ -117,6 +118,14 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
     return std::monostate{};
 }
 
+// Nothing was judged: there are no reports, so the CI is told here.
+int stopped(const RunOptions& options, const Stop& stop) {
+    if (chosen_ci(options.ci) == Ci::github) {
+        std::fputs(report::to_github_annotation(stop.lines).c_str(), stderr);
+    }
+    return report_stop(stop);
+}
+
 int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                  run::WorkerClient worker, run::SignalFd& signals, const RunTeller* teller) {
     const bool resumed = !p.header.device.name.empty();
@@ -131,12 +140,13 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
             stop.lines.push_back("  the driver library '" + manifest.library +
                                  "' does not load: " + why);
         }
-        return report_stop(stop);
+        return stopped(options, stop);
     }
     const report::Device device = to_report(first->device);
     if (resumed && !is_same_device(device, p.header.device)) {
-        return report_stop(stop_with(
-            report::kExitDevice, "the run cannot go on: it was on '" + p.header.device.name +
+        return stopped(options,
+                       stop_with(report::kExitDevice,
+                                 "the run cannot go on: it was on '" + p.header.device.name +
                                      "', this is '" + device.name + "' or another driver version"));
     }
     p.header.device = device;
@@ -146,10 +156,10 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         std::max(4, static_cast<int>(first->device.interpolation_offset_bits));
     config.limits.mipmap_bits = std::max(4, static_cast<int>(first->device.mipmap_bits));
     if (auto fits = check_required_device(options, device); !fits) {
-        return report_stop(fits.error());
+        return stopped(options, fits.error());
     }
     if (auto applied = apply_expectations(p); !applied) {
-        return report_stop(applied.error());
+        return stopped(options, applied.error());
     }
     for (run::PlannedCase& c : p.plan) {
         c.rerun = rerun_line(program, options, c.data.id);
@@ -160,7 +170,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     }
     OrStop<report::Journal> journal = open_journal(p.folder, p.header, resumed);
     if (!journal) {
-        return report_stop(journal.error());
+        return stopped(options, journal.error());
     }
 
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> nowhere(
@@ -244,7 +254,7 @@ int run_told(const Program& program, const RunOptions& options, const RunTeller*
     OrStop<Prepared> prepared =
         resumes ? prepare_resume(program, options) : prepare(program, options);
     if (!prepared) {
-        return report_stop(prepared.error());
+        return stopped(options, prepared.error());
     }
     if (teller != nullptr) {
         std::erase_if(prepared->plan,
@@ -252,22 +262,23 @@ int run_told(const Program& program, const RunOptions& options, const RunTeller*
         std::erase_if(prepared->header.cases,
                       [&](const CaseRecord& record) { return !teller->takes(record.id); });
         if (prepared->plan.empty()) {
-            return report_stop(stop_with(report::kExitNothingSelected,
-                                         "no selected case is one of the tests that are asked for; "
-                                         "'edgecase gtest --gtest_list_tests' lists their names"));
+            return stopped(options,
+                           stop_with(report::kExitNothingSelected,
+                                     "no selected case is one of the tests that are asked for; "
+                                     "'edgecase gtest --gtest_list_tests' lists their names"));
         }
     }
     run::LoopConfig config = loop_config(program, prepared->options);
     if (!prepared->options.debugger.empty()) {
         if (auto set = set_debugger(program, prepared->options, prepared->plan, config); !set) {
-            return report_stop(set.error());
+            return stopped(options, set.error());
         }
     }
     if (!worker) {
         worker.emplace(start_first_worker(config));
     }
     if (!*worker) {
-        return report_stop(worker->error());
+        return stopped(options, worker->error());
     }
     return run_prepared(program, *prepared, config, std::move(**worker), signals, teller);
 }

@@ -119,6 +119,11 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
     return text;
 }
 
+std::string to_github_annotation(const std::vector<std::string>& sentences) {
+    return fmt::format("::error title=edgecase::{}\n",
+                       command_text(fmt::format("{}", fmt::join(sentences, "\n")), false));
+}
+
 std::string to_github_summary(const Run& run) {
     const Device& d = run.device;
     std::string text = fmt::format("## Edgecase: {}\n\n", exit_text(run));

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "report/record/run.hpp"
 
@@ -17,6 +18,9 @@ namespace report {
 // is unexpected.
 inline constexpr size_t kMaxAnnotations = 10;
 std::string to_github_annotations(const Run& run, const std::filesystem::path& base);
+
+// The same for a run that could not begin: its sentences as one error.
+std::string to_github_annotation(const std::vector<std::string>& sentences);
 
 // Markdown for $GITHUB_STEP_SUMMARY: totals, causes, commands. Below GitHub's limit of 1 MiB.
 std::string to_github_summary(const Run& run);

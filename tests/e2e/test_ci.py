@@ -55,6 +55,13 @@ class GitHub(CiTest):
         env = self.in_ci(GITHUB_ACTIONS="true")
         self.assertNotIn("::", self.run_in(env, check=0).stdout)
 
+    def test_a_run_that_cannot_begin_is_told(self):
+        for words, code, told in ((["nosuch/**"], 4, "error: no case matches nosuch/**"), ([], 5, "EDGECASE_FAULT names an unknown fault 'x'")):
+            env = self.in_ci("x", GITHUB_ACTIONS="true")
+            done = self.run_in(env, *words, check=code)
+            self.assertIn("::error title=edgecase::" + told, done.stderr)
+            self.assertNotIn("::error", self.run_in(env, *words, "--ci=none", check=code).stderr)
+
     def test_json_on_standard_output_stays_json(self):
         env = self.in_ci("flip-pixel@fam/c1", GITHUB_ACTIONS="true")
         done = self.run_in(env, "--json", "-", check=1)
@@ -322,7 +329,7 @@ class OneJob(CiTest):
         self.assertEqual([c["paths"] for c in job["cache"]], [["edgecase"], ["edgecase-ccache"]])
         variables = job["variables"] | {"GITLAB_CI": "true", "CI_PROJECT_DIR": str(self.folder)}
         clone = ["apt-get install -y --no-install-recommends git ca-certificates",
-                 "git clone --depth 1 --branch main https://example.org/edgecase.git edgecase-source"]
+                 "git clone --depth 1 --branch v0.2.0 https://example.org/edgecase.git edgecase-source"]
         for fault, code, cached in (("", 0, False), ("flip-pixel@fam/c1", 1, True)):
             done = self.shell("\n".join(job["script"]), variables, fault)
             self.assertEqual(done.returncode, code, done.stdout + done.stderr)

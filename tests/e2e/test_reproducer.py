@@ -59,8 +59,9 @@ class Wrong(Reproducer):
                 found = {tuple(map(int, m)) for m in re.findall(r"^pixel \((\d+), (\d+)\) sample (\d+): ", text, re.M)}
                 wrong = {(f["sample"]["x"], f["sample"]["y"], f["sample"]["index"]) for f in told[case_id]["findings"]}
                 self.assertGreater(len(wrong), 0)
-                self.assertEqual(found, wrong)
-                self.assertIn(f"\n{len(wrong)} of ", text)
+                self.assertLessEqual(wrong, found)  # of a cause, results.json has the first findings
+                self.assertEqual(len(found), told[case_id]["wrong_samples"])
+                self.assertIn(f"\n{len(found)} of ", text)
 
     def test_lines_are_capped_and_the_rest_counted(self):
         self.write_case("fam/wide", HEAD.format(target="").replace("[8, 8]", "[32, 32]") +
