@@ -189,19 +189,25 @@ void add_expectations(std::vector<std::string>& words, const RunOptions& options
     }
 }
 
-// A case outside the suite is named by its file.
+// A case outside the suite is named by its file, and a leaf of it.
 std::string selector_of(const RunOptions& options, const std::string& id) {
-    const std::string base = id.substr(0, id.find(':'));
+    const size_t end = std::min(id.find(':'), id.size());
+    const std::string base = id.substr(0, end);
+    const std::string leaf = id.substr(end);
     for (const std::string& selector : options.suite.selectors) {
+        const fs::path own = selector.substr(0, selector.find(".toml:") + 5);
+        if (selector.find(".toml:") != std::string::npos && own.stem() == base) {
+            return own.string() + leaf;
+        }
         if (selector.ends_with(".toml") && fs::path(selector).stem() == base) {
-            return selector;
+            return selector + leaf;
         }
         // A folder of one's own: its file; the suite's folders are not below the working directory
         // by their ids.
         const fs::path file = fs::path(selector) / (base + ".toml");
         std::error_code ignored;
         if (fs::is_regular_file(file, ignored)) {
-            return file.string();
+            return file.string() + leaf;
         }
     }
     return id;

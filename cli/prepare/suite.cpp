@@ -54,6 +54,19 @@ bool is_outside_folder(const fs::path& selector, const fs::path& root) {
                        [](const auto& entry) { return entry.path().extension() == ".toml"; });
 }
 
+// A leaf of a case file: "FILE.toml:seed=1". The leaf is empty where a selector names none.
+struct LeafOfFile {
+    std::string file, leaf;
+};
+LeafOfFile leaf_of_file(const std::string& selector) {
+    constexpr std::string_view kEnd = ".toml:";
+    const size_t at = selector.find(kEnd);
+    if (at == std::string::npos) {
+        return {selector, ""};
+    }
+    return {selector.substr(0, at + kEnd.size() - 1), selector.substr(at + kEnd.size())};
+}
+
 // Loads the case files outside the suite that selectors name, themselves or by their folder, and
 // puts their ids in the selectors' place. Below a folder ids are paths, as in a suite.
 OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
@@ -61,8 +74,9 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
     std::vector<std::string> selectors;
     for (const std::string& selector : options.selectors) {
         cases::ExpectedAll<std::vector<cases::Case>> loaded;
-        if (is_outside_file(selector, suite.root)) {
-            loaded = cases::load_file(selector, suite.root);
+        const auto [file, leaf] = leaf_of_file(selector);
+        if (is_outside_file(file, suite.root)) {
+            loaded = cases::load_file(file, suite.root);
         } else if (is_outside_folder(selector, suite.root)) {
             cases::Suite own = cases::load_suite(selector);
             if (own.errors.empty()) {
@@ -76,6 +90,16 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
         }
         if (!loaded) {
             return tl::unexpected(invalid_files(loaded.error()));
+        }
+        if (!leaf.empty()) {
+            std::erase_if(*loaded, [&ending = leaf](const cases::Case& c) {
+                return c.id.substr(c.id.find(':') + 1) != ending;
+            });
+            if (loaded->empty()) {
+                return tl::unexpected(Stop{report::kExitNothingSelected,
+                                           {"the file " + file + " has no leaf '" + leaf +
+                                            "'; 'edgecase list " + file + "' lists them"}});
+            }
         }
         for (cases::Case& c : *loaded) {
             for (const cases::Case& known : suite.cases) {

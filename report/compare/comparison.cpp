@@ -36,16 +36,21 @@ bool is_lacking(const CaseRecord* record) {
     return record == nullptr || actual_status(*record) == Status::unsupported;
 }
 
-// "value of interp.linear [vulkan]", for each group of b's findings that a has not.
+// "3 value of interp.linear [vulkan]", for each group of b's findings that a has not, or has fewer
+// of.
 std::vector<std::string> news_of(const CaseRecord& a, const CaseRecord& b) {
     std::vector<std::string> news;
     for (const diff::FindingGroup& g : b.groups) {
-        if (std::none_of(a.groups.begin(), a.groups.end(), [&](const diff::FindingGroup& other) {
+        const auto same =
+            std::find_if(a.groups.begin(), a.groups.end(), [&](const diff::FindingGroup& other) {
                 return g.kind == other.kind && g.rule == other.rule && g.level == other.level;
-            })) {
-            news.push_back(fmt::format("{} {} of {} [{}]", g.count, diff::to_string(g.kind),
+            });
+        const uint64_t before = same == a.groups.end() ? 0 : same->count;
+        if (g.count > before) {
+            news.push_back(fmt::format("{} {} of {} [{}]{}", g.count, diff::to_string(g.kind),
                                        g.rule.empty() ? "no told rule" : g.rule,
-                                       cases::to_string(g.level)));
+                                       cases::to_string(g.level),
+                                       before > 0 ? fmt::format(" instead of {}", before) : ""));
         }
     }
     return news;

@@ -25,7 +25,7 @@ struct NamedRun {
 // What became of a case between the first run (A) and the others, the most important first.
 enum class Change : uint8_t {
     // Worse in a later run (pass < flake < fail < device_lost < timeout < crash), or it fails there
-    // in a way in which it did not: by another kind, rule or level, or by another signal.
+    // in a way or as often as it did not: by another kind, rule or level, or by another signal.
     regression,
     vanished,  // judged in the first run, and a later one has no such case or does not support it
     fix,       // better in a later run, worse in none

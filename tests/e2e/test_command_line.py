@@ -325,6 +325,18 @@ class Listing(ProgramTest):
         self.assertIn('(draw 0: all vertices lie within a pixel of the corner; their space is "pixels" unless',
                       self.edgecase("lint", "fam/c3", check=3).stderr)
 
+    def test_a_leaf_of_a_file_of_ones_own(self):
+        own = self.folder / "own.toml"
+        own.write_text((self.suite / "fam/c3.toml").read_text().replace("[target]", "[matrix]\nfirst = [0, 1]\n[target]").replace("[[draw]]", "[[draw]]\nfirst = \"first\""))
+        done = self.edgecase("run", own, "-o", "out", check=1, env=self.environment("flip-pixel"))
+        explain = re.findall(r"explain: \S+ (explain .*)", done.stdout)
+        self.assertEqual(len(explain), 2)
+        for k, line in enumerate(explain):
+            self.assertIn(f"{own}:first={k} --pixel", line)
+            self.assertIn("allowed: ", self.edgecase(*line.split(), check=0).stdout)
+        told = self.edgecase("explain", f"{own}:first=3", "--pixel", "1,1", check=4).stderr
+        self.assertEqual(told, f"edgecase: the file {own} has no leaf 'first=3'; 'edgecase list {own}' lists them\n")
+
     def test_lint_tells_which_faults_a_case_catches(self):
         self.assertIn("name the cases", self.edgecase("lint", "--strength", check=2).stderr)
         told = self.edgecase("lint", "--strength", "fam/c3", check=0).stdout

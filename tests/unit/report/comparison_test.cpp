@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/compare/comparison.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -58,6 +59,22 @@ TEST(comparison, bits_tell_what_statuses_do_not) {
     runs[1].run.cases[3].counts[0] += 1;
     EXPECT_EQ(compare_runs(runs)->cases[3].change, Change::fails_otherwise);
     EXPECT_EQ(exit_code(*compare_runs(runs)), kExitInternal);  // the sample run is not whole
+}
+
+TEST(comparison, more_findings_of_a_cause_are_worse) {
+    std::vector<NamedRun> runs = {{"a", test::sample_run()}, {"b", test::sample_run()}};
+    for (NamedRun& run : runs) {
+        CaseRecord& c = run.run.cases[3];
+        c.groups = {{diff::FindingKind::value, "interp.linear", cases::Profile::vulkan, 127, 0}};
+    }
+    EXPECT_EQ(compare_runs(runs)->cases[3].change, Change::fails_alike);
+    runs[1].run.cases[3].groups[0].count = 128;
+    const auto worse = compare_runs(runs);
+    EXPECT_EQ(worse->cases[3].change, Change::regression);
+    EXPECT_THAT(worse->cases[3].detail,
+                testing::HasSubstr("128 value of interp.linear [vulkan] instead of 127"));
+    runs[1].run.cases[3].groups[0].count = 126;
+    EXPECT_NE(compare_runs(runs)->cases[3].change, Change::regression);
 }
 
 TEST(comparison, hostile_bytes_are_inert) {
