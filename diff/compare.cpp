@@ -227,12 +227,13 @@ class Comparison {
     }
 
     void add(Finding finding) {
-        const bool is_told = !is_brief_ || finding.kind != FindingKind::value;
-        std::string& rule = value_rules_[finding.quantity];
-        if (finding.kind == FindingKind::value && is_told) {
-            rule = finding.rule;
-        } else if (!is_told && !rule.empty()) {
-            finding.rule = rule;  // taken to be wrong as the last one that was told
+        const bool is_told = finding.kind != FindingKind::value || !finding.got.empty();
+        if (finding.kind == FindingKind::value) {
+            std::string& rule = value_rules_[finding.quantity];
+            if (is_told || rule.empty()) {
+                rule = finding.rule;
+            }
+            finding.rule = rule;  // if it is not told, taken to be wrong as the last one that was
         }
         verdict_.add(std::move(finding), case_.target, is_told);
         if (!is_brief_ && verdict_.finding_total() >= kMaxReasoned &&
