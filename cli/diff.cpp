@@ -129,9 +129,10 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
     return tl::unexpected(stop_with(
         report::kExitInvalidFile,
         "'" + cases::printable((fs::path(options.captures) / unknown.front()).string()) + "'" +
-            more + " belongs to no case of the suite" +
+            more + (more.empty() ? " belongs" : " belong") + " to no case of the suite" +
             cases::did_you_mean(unknown.front(), folders,
-                                "; folders have the names that 'edgecase export' writes")));
+                                "; folders have the names that 'edgecase export' writes, and cases "
+                                "of your own are named by their file or folder, as there")));
 }
 
 // The cases of an export, by its list.

@@ -192,8 +192,9 @@ class Reader {
         std::vector<fs::path> files;
         std::error_code none;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-            // A folder that has a plane's name is a mistake, others may hold other cases.
-            if (entry.is_regular_file(none) ||
+            // A folder that has a plane's name is a mistake, others may hold other cases; a link
+            // that leads nowhere is no plane that was left out.
+            if (entry.is_regular_file(none) || (entry.is_symlink(none) && !entry.exists(none)) ||
                 (entry.is_directory(none) && entry.path().has_extension())) {
                 files.push_back(entry.path());
             }

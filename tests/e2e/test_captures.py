@@ -221,6 +221,12 @@ class WrongInput(Captures):
         self.assertEqual(done.stderr, f"edgecase: '{self.captures}/fam/c01' belongs to no case of the suite; did you mean "
                          "'fam/c0'?\n")
 
+    def test_a_link_that_leads_nowhere(self):
+        file = self.deliver("coverage.u8", bytes(INSIDE))
+        file.with_name("depth.f32").symlink_to("nowhere")
+        self.judge(check=7)
+        self.assertIn("depth.f32", self.record()["reason"])
+
     def test_without_selectors_what_was_drawn_is_judged(self):
         self.deliver("coverage.u8", bytes(INSIDE))
         words = ("diff", "--captures", self.captures, "-o", self.out)
