@@ -77,7 +77,7 @@ OrStop<run::UpdateWords> check_words(const ExpectOptions& options) {
             stop_with(report::kExitUsage,
                       "--until: '" + options.until + "' is no day to come; write YYYY-MM-DD"));
     }
-    return run::UpdateWords{options.bug, options.reason, options.until};
+    return run::UpdateWords{options.bug, options.reason, options.until, options.bits};
 }
 
 std::string sentence(const std::vector<std::string>& ids) {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -17,6 +16,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cli/commands.hpp"
+#include "cli/prepare/claims.hpp"
 #include "cli/prepare/on_threads.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -36,53 +36,6 @@ namespace {
 
 // So many cases are told one by one without being asked.
 constexpr size_t kFew = 16;
-// The fewest subpixel bits that a device may have [Vulkan, "Required Limits"].
-constexpr int kFewestSubpixelBits = 4;
-
-// The cases of a file, which claim the same rules, and which of these some sample exercises.
-struct File {
-    const cases::Case* first = nullptr;
-    std::vector<size_t> cases;  // of those linted
-    bool is_whole = false;      // all cases of the file are linted
-    std::vector<std::atomic<bool>> exercised;
-
-    explicit File(const cases::Case& c) : first(&c), exercised(c.rules.size()) {}
-    // The claims of which no sample is known yet.
-    std::vector<std::string> open_rules() const {
-        std::vector<std::string> out;
-        for (size_t k = 0; k < exercised.size(); ++k) {
-            if (!exercised[k]) {
-                out.push_back(first->rules[k]);
-            }
-        }
-        return out;
-    }
-    void note(const ref::Exercise& found) {
-        for (const ref::RuleShare& share : found.rules) {
-            for (size_t k = 0; k < exercised.size(); ++k) {
-                if (share.samples > 0 && share.rule == first->rules[k]) {
-                    exercised[k] = true;
-                }
-            }
-        }
-    }
-};
-
-std::map<std::string, File> files_of(const LoadedSuite& suite) {
-    std::map<std::string, File> files;
-    for (const size_t k : suite.selected) {
-        const cases::Case& c = suite.cases[k];
-        files.try_emplace(c.where.file, c).first->second.cases.push_back(k);
-    }
-    std::map<std::string, size_t> counts;
-    for (const cases::Case& c : suite.cases) {
-        ++counts[c.where.file];
-    }
-    for (auto& [name, file] : files) {
-        file.is_whole = file.cases.size() == counts[name];
-    }
-    return files;
-}
 
 // What was found of one case.
 struct Checked {
@@ -121,40 +74,6 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
                               "nothing would pass; choose another colour, or another clear "
                               "colour"});
             return errors;
-        }
-    }
-    return errors;
-}
-
-// The claims of whole files that no sample exercises, neither with the reference's subpixel bits
-// nor with the fewest, with which more samples are near edges.
-cases::Errors check_claims(const LoadedSuite& suite, std::map<std::string, File>& files) {
-    std::vector<File*> open;
-    for (auto& [name, file] : files) {
-        if (file.is_whole && !file.open_rules().empty()) {
-            open.push_back(&file);
-        }
-    }
-    for_each_on_threads(open.size(), [&](size_t k) {
-        for (const size_t c : open[k]->cases) {
-            try {
-                open[k]->note(ref::exercise(suite.cases[c], ref::Limits{kFewestSubpixelBits},
-                                            open[k]->open_rules(), ref::Count::some));
-            } catch (const std::exception&) {
-                return;  // told of the case with the usual bits
-            }
-        }
-    });
-    cases::Errors errors;
-    for (const File* file : open) {
-        for (const std::string& rule : file->open_rules()) {
-            if (cases::find_rule(rule) == nullptr) {
-                continue;  // an error of its own
-            }
-            errors.push_back({file->first->where,
-                              fmt::format("no sample exercises the rule {}; one does {}, so take "
-                                          "the rule away or add a triangle",
-                                          rule, ref::exercise_of(rule))});
         }
     }
     return errors;
@@ -217,13 +136,13 @@ int lint_command(const Program& program, const LintOptions& options) {
         }
         return code;
     }
-    std::map<std::string, File> files = files_of(*suite);
+    std::map<std::string, ClaimedFile> files = claimed_files(suite->cases, suite->selected);
     const size_t count = suite->selected.size();
     const bool is_told = !options.quiet && (options.verbose || count <= kFew);
     std::vector<Checked> checked(count);
     for_each_on_threads(count, [&](size_t k) {
         const cases::Case& c = suite->cases[suite->selected[k]];
-        File& file = files.at(c.where.file);
+        ClaimedFile& file = files.at(c.where.file);
         Checked& out = checked[k];
         try {
             const std::vector<std::string> rules = is_told ? c.rules : file.open_rules();
@@ -245,7 +164,7 @@ int lint_command(const Program& program, const LintOptions& options) {
         }
         add(checked[k].errors);
     }
-    add(check_claims(*suite, files));
+    add(check_claims(suite->cases, files));
     // Expectation files are about the suite, so they are none of a selection's business.
     size_t expectation_files = 0;
     if (options.suite.selectors.empty()) {

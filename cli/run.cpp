@@ -92,6 +92,7 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
     config.schedule.repeat = options.repeat;
     config.schedule.retries = options.retries;
     config.schedule.suspects_first = options.fail_fast;
+    config.requires_support = options.require_support;
     config.profile = options.profile;
     config.pictures = options.capture;
     return config;

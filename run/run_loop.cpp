@@ -396,6 +396,11 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     if (const auto& expected = cases_[k].expected; expected) {
         apply(*expected, record);
     }
+    if (config_.requires_support && record.status == Status::unsupported) {
+        record.actual = record.status;
+        record.status = Status::fail;
+        record.reason = "unsupported, where --require-support asks for support: " + record.reason;
+    }
     if (!record.findings.empty()) {
         const diff::Finding& f = report::leading_finding(record);
         record.explain =

@@ -42,6 +42,7 @@ struct LoopConfig {
     std::chrono::milliseconds timeout{30000};
     Schedule::Options schedule;  // its lanes: workers
     cases::Profile profile = cases::Profile::direct3d;
+    bool requires_support = false;  // a case that is not supported counts as failed
     ref::Limits limits;
     KeepPictures pictures = KeepPictures::failed;
 };

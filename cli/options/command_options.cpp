@@ -120,6 +120,9 @@ void define_run(CLI::App& app, RunOptions& o) {
               "Device");
     run->add_flag("--validation", o.device.validation, "with the Khronos validation layer")
         ->group("Device");
+    run->add_flag("--require-support", o.require_support,
+                  "a case that the device does not support fails, unless a 'skip' line names it")
+        ->group("Judging");
     add_profile(run, o.profile);
     add_expectations(run, o);
     add_value(run, "-j,--jobs", o.jobs, "workers, 1 to 256 [one a core, at most 4]", "N",
@@ -283,6 +286,8 @@ void define_others(CLI::App& app, AllOptions& all) {
         ->add_option("--until", all.expect.until,
                      "last day of new lines and of lines that ended and are still true")
         ->type_name("DATE");
+    expect->add_flag("--bits", all.expect.bits,
+                     "a line a case that excuses this picture only, bit for bit");
     expect->add_flag("--dry-run", all.expect.dry_run, "show what would change, write nothing");
     expect
         ->add_option("--suite", all.expect.suite.suite, "the folder of the suite [that of the run]")

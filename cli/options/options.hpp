@@ -44,7 +44,7 @@ struct RunOptions {
     SuiteOptions suite;
     DeviceOptions device;
     std::string failed_in, resume;
-    bool quick = false, fail_fast = false;
+    bool quick = false, fail_fast = false, require_support = false;
     Shard shard;
     bool shuffle = false;
     uint64_t seed = 1;
@@ -98,7 +98,7 @@ struct ExpectOptions {
     std::string file;
     std::string update;  // the folder of a run
     std::string bug, reason, until;
-    bool dry_run = false;
+    bool bits = false, dry_run = false;
 };
 
 struct CompareOptions {

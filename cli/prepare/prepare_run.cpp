@@ -10,6 +10,7 @@
 #include "cases/base/checksum.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/options/parse.hpp"
+#include "cli/prepare/claims.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
@@ -36,6 +37,38 @@ void warn_of_idle_faults(const std::vector<std::string>& ids) {
             })) {
             complain("warning: EDGECASE_FAULT: '" + fault.glob + "' matches no case");
         }
+    }
+}
+
+// So many cases of a file of one's own are looked at before they are drawn.
+constexpr size_t kFewOwnCases = 64;
+
+// A claim that no sample of one's own file exercises passes on every device; 'lint' refuses it, and
+// who only runs the file hears of it, too.
+void warn_of_claims(const std::vector<cases::Case>& selected, const SuiteOptions& suite) {
+    const std::set<std::string> named(suite.selectors.begin(), suite.selectors.end());
+    std::vector<size_t> own;
+    for (size_t k = 0; k < selected.size(); ++k) {
+        if (named.contains(selected[k].where.file)) {
+            own.push_back(k);
+        }
+    }
+    if (own.size() > kFewOwnCases) {
+        return;
+    }
+    std::map<std::string, ClaimedFile> files = claimed_files(selected, own);
+    for (auto& [name, file] : files) {
+        for (const size_t k : file.cases) {
+            try {
+                file.note(
+                    ref::exercise(selected[k], ref::Limits{}, file.open_rules(), ref::Count::some));
+            } catch (const std::exception&) {
+                return;  // the judge says so
+            }
+        }
+    }
+    for (const cases::Error& error : check_claims(selected, files)) {
+        complain("warning: " + error.where.file + ": " + error.message);
     }
 }
 
@@ -119,6 +152,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     p.options = options;
     p.selection = std::move(*selection);
     warn_of_idle_faults(p.selection.suite_ids);
+    warn_of_claims(p.selection.cases, options.suite);
     Run& header = p.header = new_header(program, options, p.selection.root);
     header.suite_hash = cases::hex(suite_hash(p.selection.root));
     header.shard = options.shard.index;

@@ -246,6 +246,9 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
     if (std::abs(options.device.timeout - DeviceOptions().timeout) > 0) {
         words.insert(words.end(), {"--timeout", fmt::format("{}", options.device.timeout)});
     }
+    if (options.require_support) {
+        words.emplace_back("--require-support");
+    }
     add_expectations(words, options);
     return driver_settings() + join(words);
 }

@@ -88,10 +88,10 @@ struct Wanted {
     ExpectedCause cause;
 };
 
-// Cases that one line can speak of: they end alike, and crash alike.
-using Alike = std::tuple<Status, std::string, std::string>;
-Alike alike_of(const Wanted& wanted) {
-    return {wanted.status, wanted.cause.signal, wanted.cause.step};
+// Cases that one line can speak of: they end alike, and crash alike; none with a line each.
+using Alike = std::tuple<Status, std::string, std::string, std::string>;
+Alike alike_of(const Wanted& wanted, bool a_line_each) {
+    return {wanted.status, wanted.cause.signal, wanted.cause.step, a_line_each ? wanted.id : ""};
 }
 
 // The cause of all of them that a glob matches.
@@ -162,7 +162,7 @@ class Updater {
     }
 
     // What a line about the case should say now: nothing if it is not needed any more.
-    static std::optional<Wanted> wanted(const ExpectationLine& line, const CaseRecord& record) {
+    std::optional<Wanted> wanted(const ExpectationLine& line, const CaseRecord& record) const {
         const Status actual = report::actual_status(record);
         if (actual == Status::pass) {  // a flake passes now and then
             return line.status == Status::flake
@@ -173,11 +173,15 @@ class Updater {
         if (actual == line.status) {
             wanted.cause = line.cause;
         }
+        const bool with_bits = words_.bits || !wanted.cause.bits.empty();
+        if (words_.bits && actual == line.status && wanted.cause.bits.empty()) {
+            wanted.cause.bits = cause_of(record, true).bits;
+        }
         if (wanted.cause.is_empty() || !what_is_new(wanted.cause, record).empty()) {
-            widen(wanted.cause, cause_of(record));
+            widen(wanted.cause, cause_of(record, with_bits));
             if (actual == Status::crash && wanted.cause.signal.empty() &&
                 wanted.cause.step.empty()) {
-                wanted.cause = cause_of(record);
+                wanted.cause = cause_of(record, with_bits);
             }
         }
         return wanted;
@@ -200,7 +204,7 @@ class Updater {
                 now = wanted(line, *record->second);
             }
             if (now) {
-                wanted_of[alike_of(*now)].push_back(*now);
+                wanted_of[alike_of(*now, words_.bits)].push_back(*now);
             } else {
                 ++passed;
             }
@@ -318,13 +322,16 @@ class Updater {
                 result_.without_bug.push_back(record.id);
                 continue;
             }
-            Wanted now{record.id, status, cause_of(record)};
+            // What the device must support and does not is excused by not drawing it.
+            const bool drawn = report::actual_status(record) != Status::unsupported;
+            Wanted now{record.id, drawn ? status : Status::skip,
+                       drawn ? cause_of(record, words_.bits) : ExpectedCause()};
             std::set<std::string> rules;
             for (const diff::FindingGroup& group : now.cause.groups) {
                 rules.insert(std::string(diff::to_string(group.kind)) + ' ' + group.rule);
             }
-            const auto [at, fresh] =
-                index.emplace(std::pair(alike_of(now), std::move(rules)), all_new.size());
+            const auto [at, fresh] = index.emplace(
+                std::pair(alike_of(now, words_.bits), std::move(rules)), all_new.size());
             if (fresh) {
                 all_new.emplace_back();
             }

@@ -19,6 +19,9 @@ struct UpdateWords {
     std::string bug;     // of new lines; empty: not known
     std::string reason;  // of new lines; empty: what the run says
     std::string until;   // of new lines and of those that ended; empty: none
+    // Each case gets a line of its own that knows the bits of its picture, so that no other picture
+    // of it is excused. A line that knows bits already learns new ones without this.
+    bool bits = false;
 };
 
 struct Update {

@@ -46,6 +46,15 @@ void insert(ExpectedCause& cause, const FindingGroup& group) {
     }
 }
 
+void sort_bits(std::vector<std::string>& bits) {
+    std::sort(bits.begin(), bits.end());
+    bits.erase(std::unique(bits.begin(), bits.end()), bits.end());
+}
+
+bool knows_bits(const ExpectedCause& cause, const std::string& bits) {
+    return std::binary_search(cause.bits.begin(), cause.bits.end(), bits);
+}
+
 std::optional<FindingKind> parse_kind(std::string_view word) {
     for (size_t k = 0; k < diff::kFindingKinds; ++k) {
         if (word == diff::to_string(static_cast<FindingKind>(k))) {
@@ -55,9 +64,10 @@ std::optional<FindingKind> parse_kind(std::string_view word) {
     return std::nullopt;
 }
 
-// The words "signal=", "step=" and "bits=", and what they set.
-constexpr std::array<std::pair<std::string_view, std::string ExpectedCause::*>, 3> kTexts = {{
-    {"bits=", &ExpectedCause::bits},
+constexpr std::string_view kBits = "bits=";
+
+// The words "signal=" and "step=", and what they set.
+constexpr std::array<std::pair<std::string_view, std::string ExpectedCause::*>, 2> kTexts = {{
     {"signal=", &ExpectedCause::signal},
     {"step=", &ExpectedCause::step},
 }};
@@ -68,6 +78,25 @@ cases::Expected<void> add_text(std::string& to, std::string_view word, std::stri
                               value.empty() ? "has no value" : "stands beside another one");
     }
     to = value;
+    return {};
+}
+
+// "0123456789abcdef,fedcba9876543210" of a word.
+cases::Expected<void> add_bits(std::vector<std::string>& to, std::string_view word) {
+    std::string_view rest = word.substr(kBits.size());
+    do {
+        const size_t comma = std::min(rest.find(','), rest.size());
+        const std::string_view bits = rest.substr(0, comma);
+        if (bits.size() != 16 || bits.find_first_not_of("0123456789abcdef") != bits.npos) {
+            return cases::failure(
+                "'{}' does not name pictures; write each as 16 digits 0 to 9 and a to f, as "
+                "results.json has them in 'bits', with commas between them",
+                word);
+        }
+        to.emplace_back(bits);
+        rest.remove_prefix(std::min(comma + 1, rest.size()));
+    } while (!rest.empty());
+    sort_bits(to);
     return {};
 }
 
@@ -98,12 +127,15 @@ cases::Expected<void> add_bound(ExpectedCause& cause, FindingGroup group, std::s
 }  // namespace
 
 bool is_cause_word(std::string_view word) {
-    return word.find(':') != std::string_view::npos ||
+    return word.find(':') != std::string_view::npos || word.starts_with(kBits) ||
            std::any_of(kTexts.begin(), kTexts.end(),
                        [word](const auto& text) { return word.starts_with(text.first); });
 }
 
 cases::Expected<void> add_cause_word(ExpectedCause& cause, std::string_view word) {
+    if (word.starts_with(kBits)) {
+        return add_bits(cause.bits, word);
+    }
     for (const auto& [name, member] : kTexts) {
         if (word.starts_with(name)) {
             return add_text(cause.*member, word, word.substr(name.size()));
@@ -154,6 +186,9 @@ std::string to_text(const ExpectedCause& cause) {
         text += fmt::format("{}<={}", cases::to_string(group.level), group.count);
         before = &group;
     }
+    if (!cause.bits.empty()) {
+        text += fmt::format("{}{}{}", text.empty() ? "" : " ", kBits, fmt::join(cause.bits, ","));
+    }
     for (const auto& [name, member] : kTexts) {
         if (!(cause.*member).empty()) {
             text += fmt::format("{}{}{}", text.empty() ? "" : " ", name, cause.*member);
@@ -162,13 +197,16 @@ std::string to_text(const ExpectedCause& cause) {
     return text;
 }
 
-ExpectedCause cause_of(const report::CaseRecord& record) {
+ExpectedCause cause_of(const report::CaseRecord& record, bool with_bits) {
     ExpectedCause cause;
     for (const FindingGroup& group : record.groups) {
         insert(cause, group);
     }
     cause.signal = record.signal;
     cause.step = record.signal.empty() ? record.step : "";
+    if (with_bits && !record.bits.empty()) {
+        cause.bits = {record.bits};
+    }
     return cause;
 }
 
@@ -176,6 +214,8 @@ void add_up(ExpectedCause& cause, const ExpectedCause& other) {
     for (const FindingGroup& group : other.groups) {
         insert(cause, group);
     }
+    cause.bits.insert(cause.bits.end(), other.bits.begin(), other.bits.end());
+    sort_bits(cause.bits);
     for (const auto& [name, member] : kTexts) {
         if ((cause.*member).empty()) {
             cause.*member = other.*member;
@@ -191,6 +231,12 @@ void widen(ExpectedCause& cause, const ExpectedCause& other) {
     for (const FindingGroup& group : other.groups) {
         insert(cause, group);
     }
+    if (cause.bits.empty() || other.bits.empty()) {
+        cause.bits.clear();
+    } else {
+        cause.bits.insert(cause.bits.end(), other.bits.begin(), other.bits.end());
+        sort_bits(cause.bits);
+    }
     for (const auto& [name, member] : kTexts) {
         if (cause.*member != other.*member) {
             (cause.*member).clear();
@@ -205,13 +251,15 @@ std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& re
     };
     const auto check = [&](std::string_view what, const std::string& is, const std::string& known) {
         if (!known.empty() && known != is) {
-            say(fmt::format("the {} {} '{}' and not '{}'", what, what == "bits" ? "are" : "is", is,
-                            known));
+            say(fmt::format("the {} is '{}' and not '{}'", what, is, known));
         }
     };
     check("signal", record.signal, cause.signal);
     check("step", record.step, cause.step);
-    check("bits", record.bits, cause.bits);
+    if (!cause.bits.empty() && !knows_bits(cause, record.bits)) {
+        say(fmt::format("the bits are '{}' and not '{}'", record.bits,
+                        fmt::join(cause.bits, "' or '")));
+    }
     if (cause.groups.empty()) {
         return text;  // the bits say all, or a death has no findings
     }
@@ -229,7 +277,7 @@ std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& re
 }
 
 void mark_known(const ExpectedCause& cause, report::CaseRecord& record) {
-    const bool same_bits = !cause.bits.empty() && cause.bits == record.bits;
+    const bool same_bits = knows_bits(cause, record.bits);
     for (FindingGroup& group : record.groups) {
         const FindingGroup* like = find_like(cause, group);
         group.known = same_bits         ? group.count

@@ -5,7 +5,7 @@
 // rules that are broken, in which way, at which level and how often; or the signal of a crash; or
 // every bit of the picture. One cause is a few words of a line of an expectation file:
 //   extra:scissor.half-open@vulkan<=9   value:interp.sample@practice<=3,direct3d<=40
-//   bits=0123456789abcdef   signal=SIGSEGV   step=submit
+//   bits=0123456789abcdef,fedcba9876543210   signal=SIGSEGV   step=submit
 #pragma once
 
 #include <string>
@@ -23,9 +23,9 @@ struct ExpectedCause {
     // expected. The rule of findings beyond those that a record keeps is not known: it is empty,
     // and '-' in a file.
     std::vector<diff::FindingGroup> groups;
-    std::string bits;    // CaseRecord::bits; empty: any
-    std::string signal;  // CaseRecord::signal; empty: any
-    std::string step;    // CaseRecord::step; empty: any
+    std::vector<std::string> bits;  // each CaseRecord::bits that is known, sorted; empty: any
+    std::string signal;             // CaseRecord::signal; empty: any
+    std::string step;               // CaseRecord::step; empty: any
     bool is_empty() const {
         return groups.empty() && bits.empty() && signal.empty() && step.empty();
     }
@@ -41,10 +41,10 @@ cases::Expected<void> add_cause_word(ExpectedCause& cause, std::string_view word
 // The words, with a space between them.
 std::string to_text(const ExpectedCause& cause);
 
-// How the case of a record fails.
-ExpectedCause cause_of(const report::CaseRecord& record);
-// Makes a cause wide enough for the other one, too. Bits, signals and steps that differ are left
-// out.
+// How the case of a record fails: what is wrong with it, and `with_bits` its picture, too.
+ExpectedCause cause_of(const report::CaseRecord& record, bool with_bits = false);
+// Makes a cause wide enough for the other one, too: it knows the pictures of both. Signals and
+// steps that differ are left out, and so are bits if one of the two holds for any picture.
 void widen(ExpectedCause& cause, const ExpectedCause& other);
 // Makes a cause speak of what either says: two lines about one case.
 void add_up(ExpectedCause& cause, const ExpectedCause& other);

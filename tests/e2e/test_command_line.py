@@ -309,6 +309,14 @@ class Listing(ProgramTest):
         self.assertIn("error: no sample exercises the rule depth.compare; one does where the depth test", done.stderr)
         self.assertEqual(self.edgecase("lint", "fam/c3", "-q", check=3).stdout, "")
 
+    def test_a_run_of_ones_own_tells_what_it_does_not_test(self):
+        text = CASE.format(n=0)
+        (self.folder / "mine.toml").write_text(text)
+        self.assertNotIn("warning", self.edgecase("run", "mine.toml", "-o", "out", check=0).stderr)
+        (self.folder / "mine.toml").write_text(text.replace('"cover.inside"', '"cover.inside", "depth.compare"'))
+        done = self.edgecase("run", "mine.toml", "-o", "out", check=0)
+        self.assertIn("warning: mine.toml: no sample exercises the rule depth.compare; one does where", done.stderr)
+
     def test_a_black_picture_never_passes(self):
         case = ('format = 1\ndescription = "A colour."\nrules = ["store.unorm"]\n[target]\nsize = [8, 8]\nattachments = "color"\n'
                 '[target.color]\nformat = "rgba8-unorm"\nclear = [1, 1, 1, 1]\n[[draw]]\n'

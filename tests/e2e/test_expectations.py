@@ -74,6 +74,32 @@ class Statuses(ExpectationTest):
         self.run_suite(check=0)
 
 
+class Support(ExpectationTest):
+    """Who must support a case can say so."""
+
+    def test_support_is_required(self):
+        fault = "unsupported@fam/c3"
+        self.run_suite(fault=fault, check=0)
+        done = self.run_suite("--require-support", fault=fault, check=1)
+        self.assertIn("unsupported, where --require-support asks for support: unsupported on purpose", done.stdout)
+        self.assertIn(" --require-support", done.stdout.partition("rerun: ")[2].partition("\n")[0])
+        case = next(c for c in self.results()["cases"] if c["id"] == "fam/c3")
+        self.assertEqual((case["status"], case["actual"]), ("fail", "unsupported"))
+        self.run_suite("--require-support", check=0)
+
+    def test_a_known_failure_that_is_supported_no_more(self):
+        self.expectations(f"fam/c3  fail  bug#1  {FLIPPED}  # It is known.\n")
+        self.run_suite(fault="unsupported@fam/c3", check=0)
+        self.run_suite("--require-support", fault="unsupported@fam/c3", check=1)
+
+    def test_an_update_writes_a_skip(self):
+        self.run_suite("--require-support", fault="unsupported@fam/c3", check=1)
+        path = self.expectations("")
+        self.edgecase("expect", "--update", self.out, path, "--bug", "bug#1", check=0)
+        self.assertRegex(path.read_text(), r"\nfam/c3   skip   bug#1   # unsupported, where .*\n\Z")
+        self.run_suite("--require-support", fault="unsupported@fam/c3", check=0)
+
+
 class Causes(ExpectationTest):
     """A known failure hides no other one."""
 
@@ -105,6 +131,31 @@ class Causes(ExpectationTest):
         self.run_suite(fault="flip-pixel@fam/c3", check=0)
         self.run_suite(fault="flip-pixel@fam/c3,shift-value+1@fam/c3", check=1)
 
+    def test_several_pictures(self):
+        """An update teaches a line that knows bits the picture of another driver, too."""
+        path = self.expectations(f"fam/c3 fail bug#1 {FLIPPED} bits=0123456789abcdef  # Known.\n")
+        done = self.run_suite(fault="flip-pixel@fam/c3", check=1)
+        self.assertRegex(done.stdout, r"not as \S+ says \(bug#1\): the bits are '[0-9a-f]{16}' and not '0123456789abcdef'\n")
+        self.edgecase("expect", "--update", self.out, path, check=0)
+        self.assertRegex(path.read_text(), rf"fam/c3 fail bug#1   {FLIPPED} bits=[0-9a-f]{{16}},[0-9a-f]{{16}}   # Known\.\n")
+        self.run_suite(fault="flip-pixel@fam/c3", check=0)
+        self.run_suite(fault="flip-pixel+1@fam/c3", check=1)  # as many wrong samples, another one
+
+    def test_a_line_a_picture(self):
+        """With --bits a glob becomes a line a case, and no other picture is excused."""
+        path = self.expectations(f"fam/c* fail bug#1 {FLIPPED}  # Known.\n")
+        faults = "flip-pixel@fam/c*"
+        self.run_suite(fault=faults, check=0)
+        self.edgecase("expect", "--update", self.out, path, check=0)
+        self.assertIn("fam/c* fail bug#1", path.read_text())  # without --bits it stays
+        self.edgecase("expect", "--update", self.out, path, "--bits", check=0)
+        for k in "12":
+            self.assertRegex(path.read_text(), rf"\nfam/c{k}   fail   bug#1   {FLIPPED} bits=[0-9a-f]{{16}}   # Known\.\n")
+        self.assertNotIn("fam/c*", path.read_text())
+        self.run_suite(fault=faults, check=0)
+        self.run_suite(fault=",".join(f"flip-pixel{'+1' if i == 'fam/c2' else ''}@{i}" for i in self.statuses()), check=1)
+        self.assertEqual((self.statuses()["fam/c1"], self.statuses()["fam/c2"]), ("xfail", "fail"))
+
     def test_wrong_words(self):
         for cause, sentence in (
                 ("", "names no cause; write KIND:RULE@LEVEL<=COUNT"),
@@ -116,7 +167,9 @@ class Causes(ExpectationTest):
                 ("double:cover.outside@vulkan<=0", "does not say how far"),
                 ("double:cover.outside@vulkan<=1x", "does not say how far"),
                 ("double:cover.outside@vulkan<=1,vulkan<=2", "gives a second count for the same findings"),
-                ("bits=", "'bits=' has no value"),
+                ("bits=", "'bits=' does not name pictures; write each as 16 digits"),
+                ("bits=0123456789abcdeF", "does not name pictures"),
+                ("bits=0123456789abcdef,012", "does not name pictures"),
                 ("signal=A signal=B " + FLIPPED, "'signal=B' stands beside another one")):
             path = self.expectations(f"fam/c3 fail bug#1 {cause}  # Known.\n")
             done = self.edgecase("expect", path, check=3)

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/claims.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "cases/model/rule.hpp"
+#include "cli/prepare/on_threads.hpp"
+
+namespace cli {
+
+namespace {
+
+// The fewest subpixel bits that a device may have [Vulkan, "Required Limits"].
+constexpr int kFewestSubpixelBits = 4;
+
+}  // namespace
+
+std::vector<std::string> ClaimedFile::open_rules() const {
+    std::vector<std::string> out;
+    for (size_t k = 0; k < exercised.size(); ++k) {
+        if (!exercised[k]) {
+            out.push_back(first->rules[k]);
+        }
+    }
+    return out;
+}
+
+void ClaimedFile::note(const ref::Exercise& found) {
+    for (const ref::RuleShare& share : found.rules) {
+        for (size_t k = 0; k < exercised.size(); ++k) {
+            if (share.samples > 0 && share.rule == first->rules[k]) {
+                exercised[k] = true;
+            }
+        }
+    }
+}
+
+std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>& all,
+                                                 const std::vector<size_t>& chosen) {
+    std::map<std::string, ClaimedFile> files;
+    for (const size_t k : chosen) {
+        files.try_emplace(all[k].where.file, all[k]).first->second.cases.push_back(k);
+    }
+    std::map<std::string, size_t> counts;
+    for (const cases::Case& c : all) {
+        ++counts[c.where.file];
+    }
+    for (auto& [name, file] : files) {
+        file.is_whole = file.cases.size() == counts[name];
+    }
+    return files;
+}
+
+cases::Errors check_claims(const std::vector<cases::Case>& all,
+                           std::map<std::string, ClaimedFile>& files) {
+    std::vector<ClaimedFile*> open;
+    for (auto& [name, file] : files) {
+        if (file.is_whole && !file.open_rules().empty()) {
+            open.push_back(&file);
+        }
+    }
+    for_each_on_threads(open.size(), [&](size_t k) {
+        for (const size_t c : open[k]->cases) {
+            try {
+                open[k]->note(ref::exercise(all[c], ref::Limits{kFewestSubpixelBits},
+                                            open[k]->open_rules(), ref::Count::some));
+            } catch (const std::exception&) {
+                return;  // told of the case with the usual bits
+            }
+        }
+    });
+    cases::Errors errors;
+    for (const ClaimedFile* file : open) {
+        for (const std::string& rule : file->open_rules()) {
+            if (cases::find_rule(rule) == nullptr) {
+                continue;  // an error of its own
+            }
+            errors.push_back({file->first->where,
+                              fmt::format("no sample exercises the rule {}; one does {}, so take "
+                                          "the rule away or add a triangle",
+                                          rule, ref::exercise_of(rule))});
+        }
+    }
+    return errors;
+}
+
+}  // namespace cli

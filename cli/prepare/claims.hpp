@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The rules that case files claim to test, and whether some sample is decided by each.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cases/base/error.hpp"
+#include "cases/model/case.hpp"
+#include "ref/exercise/exercise.hpp"
+
+namespace cli {
+
+// The cases of a file, which claim the same rules, and which of these some sample exercises.
+struct ClaimedFile {
+    const cases::Case* first = nullptr;
+    std::vector<size_t> cases;  // the chosen ones
+    bool is_whole = false;      // they are all cases of the file
+    std::vector<std::atomic<bool>> exercised;
+
+    explicit ClaimedFile(const cases::Case& c) : first(&c), exercised(c.rules.size()) {}
+    // The claims of which no sample is known yet.
+    std::vector<std::string> open_rules() const;
+    // Takes down what a case exercises; several threads may do so at once.
+    void note(const ref::Exercise& found);
+};
+
+// The files of the chosen cases (indices into `all`), by name. `all` stays where it is.
+std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>& all,
+                                                 const std::vector<size_t>& chosen);
+
+// One error for each open claim of a whole file that no sample exercises with the fewest subpixel
+// bits that a device may have either: with these, more samples are near edges.
+cases::Errors check_claims(const std::vector<cases::Case>& all,
+                           std::map<std::string, ClaimedFile>& files);
+
+}  // namespace cli
