@@ -64,7 +64,7 @@ int export_command(const Program& program, const ExportOptions& options) {
     if (options.reproducer) {
         return export_reproducer(program, options);
     }
-    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    const OrStop<LoadedSuite> suite = load_selected(program, options.suite);
     if (!suite) {
         return report_stop(suite.error());
     }

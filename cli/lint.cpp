@@ -127,7 +127,7 @@ int lint_command(const Program& program, const LintOptions& options) {
                             {"--strength draws each case with each fault, which takes long for a "
                              "whole suite; name the cases"}});
     }
-    const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    const OrStop<LoadedSuite> suite = load_selected(program, options.suite);
     if (!suite) {
         const int code = report_stop(suite.error());
         if (!options.quiet && code == report::kExitInvalidFile) {

@@ -91,8 +91,9 @@ int list_command(const Program& program, const ListOptions& options) {
                                          options.suite.selectors.end(), [](const std::string& s) {
                                              return s.find('@') != std::string::npos || s == "-";
                                          });
-    const OrStop<LoadedSuite> suite = load_and_select(
-        program, options.suite, names_only ? cases::Contents::ids : cases::Contents::all);
+    const OrStop<LoadedSuite> suite =
+        names_only ? load_and_select(program, options.suite, cases::Contents::ids)
+                   : load_selected(program, options.suite);
     if (!suite) {
         return report_stop(suite.error());
     }

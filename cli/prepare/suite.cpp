@@ -7,8 +7,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 #include <sstream>
+#include <utility>
+#include <variant>
 
 #include "cases/base/checksum.hpp"
 #include "cases/load/loader.hpp"
@@ -67,6 +70,47 @@ LeafOfFile leaf_of_file(const std::string& selector) {
     return {selector.substr(0, at + kEnd.size() - 1), selector.substr(at + kEnd.size())};
 }
 
+// The file of the case with this id, loaded or in the suite's folder; empty if there is none.
+std::string file_of_id(const LoadedSuite& suite, const std::string& id) {
+    for (const cases::Case& known : suite.cases) {
+        if (known.id == id) {
+            return known.where.file;
+        }
+    }
+    const fs::path file = suite.root / (id.substr(0, id.find(':')) + ".toml");
+    std::error_code none;
+    return suite.cases.empty() && fs::exists(file, none) ? file.string() : "";
+}
+
+bool is_outside(const std::string& selector, const fs::path& root) {
+    return is_outside_file(leaf_of_file(selector).file, root) || is_outside_folder(selector, root);
+}
+
+// Puts all of their contents into the place of selected cases of which the id is known.
+OrStop<std::monostate> load_contents(LoadedSuite& suite) {
+    std::map<std::string, std::vector<cases::Case>> files;
+    for (const size_t k : suite.selected) {
+        cases::Case& c = suite.cases[k];
+        const auto [file, fresh] = files.try_emplace(c.where.file);
+        if (fresh) {
+            auto loaded = cases::load_file(c.where.file, suite.root);
+            if (!loaded) {
+                return tl::unexpected(invalid_files(loaded.error()));
+            }
+            file->second = std::move(*loaded);
+        }
+        const auto full = std::find_if(file->second.begin(), file->second.end(),
+                                       [&](const cases::Case& other) { return other.id == c.id; });
+        if (full == file->second.end()) {
+            return tl::unexpected(
+                stop_with(report::kExitInvalidFile, c.where.file + " changed while it was read"));
+        }
+        c = std::move(*full);
+        full->id.clear();
+    }
+    return std::monostate{};
+}
+
 // Loads the case files outside the suite that selectors name, themselves or by their folder, and
 // puts their ids in the selectors' place. Below a folder ids are paths, as in a suite.
 OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
@@ -102,19 +146,32 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
             }
         }
         for (cases::Case& c : *loaded) {
-            for (const cases::Case& known : suite.cases) {
-                if (known.id == c.id) {
-                    return tl::unexpected(
-                        Stop{report::kExitInvalidFile,
-                             {c.where.file + ": error: its id '" + c.id + "' is already that of " +
-                              known.where.file + "; rename the file"}});
-                }
+            if (const std::string known = file_of_id(suite, c.id); !known.empty()) {
+                return tl::unexpected(
+                    Stop{report::kExitInvalidFile,
+                         {c.where.file + ": error: its id '" + c.id + "' is already that of " +
+                          known + "; rename the file"}});
             }
             selectors.push_back(c.id);
             suite.cases.push_back(std::move(c));
         }
     }
     return selectors;
+}
+
+OrStop<LoadedSuite> select_of(LoadedSuite suite, const SuiteOptions& options) {
+    const OrStop<std::vector<std::string>> selectors = load_outside_files(options, suite);
+    if (!selectors) {
+        return tl::unexpected(selectors.error());
+    }
+    cases::Expected<std::vector<size_t>> selected =
+        cases::select(suite.cases, *selectors, std::cin);
+    if (!selected) {
+        return tl::unexpected(
+            Stop{report::kExitNothingSelected, {cases::to_string(selected.error())}});
+    }
+    suite.selected = std::move(*selected);
+    return suite;
 }
 
 }  // namespace
@@ -173,23 +230,38 @@ OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& 
     if (!loaded.errors.empty()) {
         return tl::unexpected(invalid_files(loaded.errors));
     }
-    LoadedSuite suite{*root, std::move(loaded.cases), {}};
-    const OrStop<std::vector<std::string>> selectors = load_outside_files(options, suite);
-    if (!selectors) {
-        return tl::unexpected(selectors.error());
+    return select_of({*root, std::move(loaded.cases), {}}, options);
+}
+
+OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& options) {
+    const OrStop<fs::path> root = find_suite_root(program, options.suite);
+    if (!root) {
+        return tl::unexpected(root.error());
     }
-    cases::Expected<std::vector<size_t>> selected =
-        cases::select(suite.cases, *selectors, std::cin);
-    if (!selected) {
-        return tl::unexpected(
-            Stop{report::kExitNothingSelected, {cases::to_string(selected.error())}});
+    const std::vector<std::string>& selectors = options.selectors;
+    const auto is_any = [&](auto&& test) {
+        return std::any_of(selectors.begin(), selectors.end(), test);
+    };
+    if (!selectors.empty() &&
+        !is_any([&](const std::string& s) { return !is_outside(s, *root); })) {
+        return select_of({*root, {}, {}}, options);
     }
-    suite.selected = std::move(*selected);
+    if (selectors.empty() ||  // what is no name is asked of the cases themselves
+        is_any([](const std::string& s) { return s == "-" || s.find('@') != s.npos; }) ||
+        is_any([&](const std::string& s) { return is_outside(s, *root); })) {
+        return load_and_select(program, options);
+    }
+    OrStop<LoadedSuite> suite = load_and_select(program, options, cases::Contents::ids);
+    if (suite) {
+        if (auto loaded = load_contents(*suite); !loaded) {
+            return tl::unexpected(loaded.error());
+        }
+    }
     return suite;
 }
 
 OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options) {
-    OrStop<LoadedSuite> suite = load_and_select(program, options);
+    OrStop<LoadedSuite> suite = load_selected(program, options);
     if (!suite) {
         return tl::unexpected(suite.error());
     }

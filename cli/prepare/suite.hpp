@@ -40,7 +40,11 @@ struct LoadedSuite {
 OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,
                                     cases::Contents contents = cases::Contents::all);
 
-// As load_and_select, for commands on a single case.
+// As load_and_select, for commands that look at selected cases only: of the other cases of the
+// suite the ids are read, and none if all selectors name files outside of it.
+OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& options);
+
+// As load_selected, for commands on a single case.
 OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options);
 
 }  // namespace cli
