@@ -272,6 +272,11 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     size_t best_distance = SIZE_MAX;
     for (const std::string& candidate : candidates) {
         const size_t longest = std::max(word.size(), candidate.size());
+        // The distance is at least the difference of the lengths.
+        const size_t least = longest - std::min(word.size(), candidate.size());
+        if (least >= best_distance || least * 3 > longest + 1) {
+            continue;
+        }
         const size_t distance = edit_distance(word, candidate);
         if (distance < best_distance && distance * 3 <= longest + 1) {
             best = candidate;
