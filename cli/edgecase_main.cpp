@@ -33,6 +33,7 @@ int edgecase_main(int argc, const char* const* argv) {
     const std::map<std::string, std::function<int()>> table = {
         {"run", [&] { return run_command(program, all.run); }},
         {"gtest", [&] { return gtest_command(program, all.gtest); }},
+        {"fuzz", [&] { return fuzz_command(program, all.fuzz); }},
         {"list", [&] { return list_command(program, all.list); }},
         {"lint", [&] { return lint_command(program, all.lint); }},
         {"explain", [&] { return explain_command(program, all.explain); }},

@@ -12,6 +12,7 @@
 #include "cli/options/parse.hpp"
 #include "cli/prepare/ci.hpp"
 #include "cli/prepare/device_answer.hpp"
+#include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
 #include "report/files/ci.hpp"
@@ -28,24 +29,6 @@ using report::CaseRecord;
 using report::Run;
 
 namespace {
-
-// "llvmpipe (LLVM 15.0.6, 256 bits)" -> "llvmpipe-llvm-15.0.6-256-bits"
-std::string file_name_of(const std::string& device) {
-    std::string name;
-    for (const char c : device) {
-        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '.';
-        const bool upper = c >= 'A' && c <= 'Z';
-        if (plain || upper) {
-            name += upper ? static_cast<char>(c - 'A' + 'a') : c;
-        } else if (!name.empty() && name.back() != '-') {
-            name += '-';
-        }
-    }
-    while (!name.empty() && name.back() == '-') {
-        name.pop_back();
-    }
-    return name.substr(0, 48);
-}
 
 // Checks every hand-drawn picture, on all cores, before a device is asked.
 void check_pictures(std::vector<run::PlannedCase>& plan) {
@@ -79,23 +62,6 @@ OrStop<std::monostate> check_required_device(const RunOptions& options,
 bool is_same_device(const report::Device& a, const report::Device& b) {
     return a.name == b.name && a.uuid == b.uuid && a.driver_version == b.driver_version &&
            a.subpixel_bits == b.subpixel_bits;
-}
-
-run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
-    run::LoopConfig config;
-    config.command = worker_command(program);
-    config.worker = worker_options(options.device);
-    config.icd_from = options.device.icd_from;
-    config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
-    config.schedule.lanes = options.jobs;
-    config.schedule.batch = options.batch;
-    config.schedule.repeat = options.repeat;
-    config.schedule.retries = options.retries;
-    config.schedule.suspects_first = options.fail_fast;
-    config.requires_support = options.require_support;
-    config.profile = options.profile;
-    config.pictures = options.capture;
-    return config;
 }
 
 // One case, drawn once, by a worker that a person looks at.
@@ -151,11 +117,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                                      "', this is '" + device.name + "' or another driver version"));
     }
     p.header.device = device;
-    config.limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
-    // A device that rasterizes a sample only at the centre may have 0 bits, and asks for no offset.
-    config.limits.interpolation_offset_bits =
-        std::max(4, static_cast<int>(first->device.interpolation_offset_bits));
-    config.limits.mipmap_bits = std::max(4, static_cast<int>(first->device.mipmap_bits));
+    set_limits(config, first->device);
     if (auto fits = check_required_device(options, device); !fits) {
         return stopped(options, fits.error());
     }
@@ -218,11 +180,13 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         teller->begin(ids);
     }
     const run::Clock::time_point begin = run::Clock::now();
-    run::RunLoop loop(config, p.plan, *journal, signals, on_record,
+    run::RunLoop loop(config, p.plan, &*journal, signals, on_record,
                       [&](size_t done, size_t unconfirmed) {
                           progress.show(done, unexpected.count() + unconfirmed);
                       });
-    const run::RunLoop::End end = loop.run(std::move(first->client), first->device);
+    std::vector<run::WorkerClient> workers;
+    workers.push_back(std::move(first->client));
+    const run::RunLoop::End end = loop.run(std::move(workers), first->device);
     progress.clear();
     print(unexpected.rest());
 

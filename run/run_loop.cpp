@@ -47,7 +47,7 @@ double seconds_since(Clock::time_point begin) {
 
 }  // namespace
 
-RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal& journal,
+RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal* journal,
                  SignalFd& signals, OnRecord on_record, OnProgress on_progress)
     : config_(std::move(config)),
       cases_(cases),
@@ -59,10 +59,12 @@ RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, repor
       pool_(cases::cores()),
       is_finished_(cases.size(), false) {}
 
-RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& device) {
+RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device) {
     device_ = device;
     slots_.resize(std::max(size_t{1}, config_.schedule.lanes));
-    slots_.front().client.emplace(std::move(first));
+    for (size_t k = 0; k < std::min(workers.size(), slots_.size()); ++k) {
+        slots_[k].client.emplace(std::move(workers[k]));
+    }
     for (size_t k = 0; k < cases_.size(); ++k) {
         const PlannedCase& c = cases_[k];
         if (!c.error.empty() || (c.expected && skips(*c.expected))) {
@@ -95,9 +97,10 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
         pool_.collect();
         on_progress_(settled_, unconfirmed_.size());
     }
-    // The system takes a while to free what a worker holds.
-    ending_ = std::async(std::launch::async,
-                         [slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
+    if (!config_.keeps_workers) {  // the system takes a while to free what a worker holds
+        ending_ = std::async(std::launch::async,
+                             [slots = std::exchange(slots_, {})]() mutable { slots.clear(); });
+    }
     for (auto& [k, record] : std::exchange(held_, {})) {  // only if the run ends early
         finish(k, std::move(record));
     }
@@ -107,6 +110,17 @@ RunLoop::End RunLoop::run(WorkerClient first, const vk_harness::DeviceInfo& devi
         }
     }
     return end_;
+}
+
+std::vector<WorkerClient> RunLoop::take_workers() {
+    std::vector<WorkerClient> workers;
+    for (Slot& slot : slots_) {
+        if (slot.client && slot.client->state() == WorkerClient::State::idle) {
+            workers.push_back(std::move(*slot.client));
+            slot.client.reset();
+        }
+    }
+    return workers;
 }
 
 int RunLoop::poll_timeout() const {
@@ -162,7 +176,9 @@ void RunLoop::feed(Slot& slot) {
     std::vector<const cases::Case*> batch;
     uint64_t bytes = 0;
     for (const size_t k : slot.batch->cases) {
-        check(journal_.write_begin(cases_[k].data.id, schedule_.attempts(k)));
+        if (journal_ != nullptr) {
+            check(journal_->write_begin(cases_[k].data.id, schedule_.attempts(k)));
+        }
         batch.push_back(&cases_[k].data);
         bytes += capture::capture_bytes(cases_[k].data);
     }
@@ -412,7 +428,9 @@ void RunLoop::finish(size_t k, CaseRecord record) {
             record.explain += " --layer " + std::to_string(f.layer.value_or(0));
         }
     }
-    check(journal_.write_end(record));
+    if (journal_ != nullptr) {
+        check(journal_->write_end(record));
+    }
     ++settled_;
     is_finished_[k] = true;
     unconfirmed_.erase(k);

@@ -43,6 +43,7 @@ struct LoopConfig {
     Schedule::Options schedule;  // its lanes: workers
     cases::Profile profile = cases::Profile::direct3d;
     bool requires_support = false;  // a case that is not supported counts as failed
+    bool keeps_workers = false;     // take_workers() is asked for
     ref::Limits limits;
     KeepPictures pictures = KeepPictures::failed;
 };
@@ -56,16 +57,19 @@ class RunLoop {
     // because they have failed: whatever comes of that is no expected result.
     using OnProgress = std::function<void(size_t settled, size_t unconfirmed)>;
 
-    RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal& journal,
+    // Without a journal the records go to `on_record` alone.
+    RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, report::Journal* journal,
             SignalFd& signals, OnRecord on_record, OnProgress on_progress);
 
     struct End {
         bool interrupted = false;
         std::string failure;  // why cases were left, or why the journal could not be written
     };
-    // `first` is a worker that has answered with `device`; another worker with another device ends
+    // The first of the workers has answered with `device`; another worker with another device ends
     // the run.
-    End run(WorkerClient first, const vk_harness::DeviceInfo& device);
+    End run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device);
+    // After run() with keeps_workers: those that wait for work, for another run.
+    std::vector<WorkerClient> take_workers();
 
   private:
     struct Slot {
@@ -98,7 +102,7 @@ class RunLoop {
 
     LoopConfig config_;
     const std::vector<PlannedCase>& cases_;
-    report::Journal& journal_;
+    report::Journal* journal_;
     SignalFd& signals_;
     OnRecord on_record_;
     OnProgress on_progress_;

@@ -15,6 +15,9 @@ inline constexpr Examples kExamples[] = {
     {"gtest",
      "  edgecase gtest --gtest_list_tests\n"
      "  edgecase gtest --gtest_filter='edgecase.ties/apex-up'\n"},
+    {"fuzz",
+     "  edgecase fuzz --time 10m -o out/hunt           what does my driver get wrong\n"
+     "  edgecase fuzz --time 10m --known out/hunt --seed 2\n"},
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
@@ -71,6 +74,7 @@ struct Group {
 inline constexpr Group kGroups[] = {
     {"run", "Checking a device"},
     {"gtest", "Checking a device"},
+    {"fuzz", "Checking a device"},
     {"report", "Checking a device"},
     {"compare", "Checking a device"},
     {"expect", "Checking a device"},

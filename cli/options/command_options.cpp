@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/options/command_options.hpp"
 
+#include <charconv>
 #include <map>
 
 #include "cli/options/command_examples.hpp"
@@ -88,6 +89,18 @@ void add_outputs(CLI::App* app, RunOptions& o, const char* folder, bool tells_ci
         ->group("Output");
 }
 
+void add_shard(CLI::App* app, Shard& shard, const char* what) {
+    app->add_option(
+           "--shard",
+           [&shard](const CLI::results_t& results) {
+               return parse_pair(results.back(), '/', shard.index, shard.count) &&
+                      shard.index >= 1 && shard.index <= shard.count;
+           },
+           what)
+        ->type_name("I/N")
+        ->group("Selection");
+}
+
 void define_run(CLI::App& app, RunOptions& o) {
     CLI::App* run =
         app.add_subcommand("run", "draw cases on a device and compare with the exact reference");
@@ -97,16 +110,7 @@ void define_run(CLI::App& app, RunOptions& o) {
         ->group("Selection");
     add_value(run, "--failed-in", o.failed_in,
               "only the cases that ended unexpectedly in an earlier run", "DIR", "Selection");
-    run->add_option(
-           "--shard",
-           [&o](const CLI::results_t& results) {
-               Shard& s = o.shard;
-               return parse_pair(results.back(), '/', s.index, s.count) && s.index >= 1 &&
-                      s.index <= s.count;
-           },
-           "the I-th of N parts, by a hash of the id; 1 <= I <= N")
-        ->type_name("I/N")
-        ->group("Selection");
+    add_shard(run, o.shard, "the I-th of N parts, by a hash of the id; 1 <= I <= N");
     run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
         ->group("Selection");
     add_value(run, "--seed", o.seed, "seed of --shuffle [1]", "N", "Selection")
@@ -165,6 +169,56 @@ void define_gtest(CLI::App& app, GtestOptions& o) {
     add_value(gtest, "-o,--output", o.run.output,
               "keep the reports, in a new folder below DIR for each process [not kept]", "DIR",
               "Output");
+}
+
+// "90", "90s", "10m", "2h", "1.5h": seconds.
+bool parse_duration(const std::string& text, double& seconds) {
+    const std::map<char, double> units = {{'s', 1}, {'m', 60}, {'h', 3600}};
+    const auto unit = text.empty() ? units.end() : units.find(text.back());
+    const std::string number = unit == units.end() ? text : text.substr(0, text.size() - 1);
+    const char* const end = number.data() + number.size();
+    const auto read = std::from_chars(number.data(), end, seconds);
+    if (number.empty() || read.ec != std::errc() || read.ptr != end || !(seconds > 0) ||
+        !(seconds < 1e9)) {
+        return false;
+    }
+    seconds *= unit == units.end() ? 1 : unit->second;
+    return true;
+}
+
+void define_fuzz(CLI::App& app, FuzzOptions& o) {
+    CLI::App* fuzz =
+        app.add_subcommand("fuzz", "draw cases that nobody wrote, and reduce what fails");
+    add_value(fuzz, "--seed", o.run.seed, "a seed and a number make a case [1]", "N", "Selection")
+        ->check(in_range<uint64_t>(0, UINT64_MAX));
+    add_value(fuzz, "--cases", o.cases, "the cases with numbers below N [no end]", "N", "Selection")
+        ->check(in_range<uint64_t>(1, uint64_t{1} << 48));
+    fuzz->add_option(
+            "--time",
+            [&o](const CLI::results_t& results) {
+                return parse_duration(results.back(), o.seconds);
+            },
+            "end after this time: 90s, 10m, 2h [no end]")
+        ->type_name("TIME")
+        ->group("Selection");
+    add_shard(fuzz, o.run.shard, "every N-th pose from the I-th on; 1 <= I <= N");
+    add_device(fuzz, o.run.device);
+    fuzz->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")
+        ->group("Device");
+    add_profile(fuzz, o.run.profile);
+    add_value(fuzz, "--known", o.known,
+              "the folder of an earlier hunt, whose causes are known; repeatable", "DIR", "Judging")
+        ->type_size(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_value(fuzz, "-j,--jobs", o.run.jobs, "workers, 1 to 256 [one a core, at most 4]", "N",
+              "Isolation")
+        ->envname("EDGECASE_JOBS")
+        ->check(in_range(1U, 256U));
+    add_value(fuzz, "--resume", o.run.resume, "go on with an interrupted hunt", "DIR", "Isolation");
+    add_value(fuzz, "-o,--output", o.run.output, "where the causes go [out/fuzz/<time>-<device>]",
+              "DIR", "Output");
+    fuzz->add_flag("-q,--quiet", o.run.quiet, "only causes and the summary")->group("Output");
 }
 
 // Rendering by others: what they get, and how it is judged.
@@ -338,6 +392,7 @@ void define(CLI::App& app, AllOptions& all) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     define_run(app, all.run);
     define_gtest(app, all.gtest);
+    define_fuzz(app, all.fuzz);
     define_others(app, all);
     for (CLI::App* command : app.get_subcommands({})) {
         command->set_help_flag("-h,--help", "this help");

@@ -22,6 +22,7 @@ struct AllOptions {
     DoctorOptions doctor;
     BenchOptions bench;
     ReportOptions report;
+    FuzzOptions fuzz;
     ExpectOptions expect;
     CompareOptions compare;
     std::string shell;  // of completion

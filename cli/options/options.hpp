@@ -73,6 +73,13 @@ struct GtestOptions {
     std::string filter = "*";
 };
 
+struct FuzzOptions {
+    RunOptions run;                  // its device, judging and output
+    uint64_t cases = 0;              // numbers from here on are not made; 0: no end
+    double seconds = 0;              // 0: no end
+    std::vector<std::string> known;  // folders of earlier hunts
+};
+
 struct ListOptions {
     SuiteOptions suite;
     bool long_form = false, ids = false, json = false;

@@ -1,0 +1,358 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "fuzz": hunts for causes that nobody wrote a case for.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include "cases/base/counted.hpp"
+#include "cases/base/printable.hpp"
+#include "cli/commands.hpp"
+#include "cli/prepare/device_answer.hpp"
+#include "cli/prepare/loop_config.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/run_plan.hpp"
+#include "fuzz/hunt.hpp"
+#include "fuzz/ledger.hpp"
+#include "run/session.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+using fuzz::Entry;
+using fuzz::Hunt;
+using fuzz::Ledger;
+
+namespace {
+
+// Where a hunt writes, held against another one until the program ends.
+class Folder {
+  public:
+    static OrStop<Folder> open(const fs::path& path) {
+        std::error_code error;
+        fs::create_directories(path / "found", error);
+        if (error) {
+            return tl::unexpected(
+                stop_with(report::kExitUsage,
+                          "the folder '" + path.string() + "' cannot be made: " + error.message()));
+        }
+        const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            ::close(fd);
+            return tl::unexpected(stop_with(
+                report::kExitUsage,
+                "another hunt is writing to '" + path.string() + "'; name another folder with -o"));
+        }
+        return Folder(path);
+    }
+    const fs::path& path() const { return path_; }
+
+  private:
+    explicit Folder(fs::path path) : path_(std::move(path)) {}
+    fs::path path_;
+};
+
+std::string plural(uint64_t n, std::string_view what) {
+    return cases::counted(n, std::string(what));
+}
+
+// One line while it goes on, on a terminal only.
+class Status {
+  public:
+    Status(const FuzzOptions& options)
+        : is_shown_(!options.run.quiet && options.run.progress == ProgressStyle::automatic &&
+                    ::isatty(STDERR_FILENO) != 0),
+          begin_(std::chrono::steady_clock::now()) {}
+    void show(const fuzz::HuntCounts& c, size_t causes) {
+        const double now = seconds();
+        if (!is_shown_ || now - last_ < 0.2) {
+            return;
+        }
+        last_ = now;
+        std::fprintf(
+            stderr, "\r%s\x1b[K",
+            fmt::format(
+                "{} judged, {:.0f}/s, {}, {}", plural(c.drawn, "case"),
+                c.drawing_seconds > 0 ? static_cast<double>(c.drawn) / c.drawing_seconds : 0.0,
+                plural(c.poses, "pose"), plural(causes, "cause"))
+                .c_str());
+        std::fflush(stderr);
+    }
+    void clear() const {
+        if (is_shown_) {
+            std::fputs("\r\x1b[K", stderr);
+            std::fflush(stderr);
+        }
+    }
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+  private:
+    bool is_shown_ = false;
+    std::chrono::steady_clock::time_point begin_;
+    double last_ = -1;
+};
+
+class FuzzCommand {
+  public:
+    FuzzCommand(const Program& program, const FuzzOptions& options)
+        : program_(program), options_(options), status_(options) {}
+
+    int run() {
+        if (auto read = read_earlier(); !read) {
+            return report_stop(read.error());
+        }
+        run::LoopConfig config = loop_config(program_, options_.run);
+        config.pictures = run::KeepPictures::none;
+        config.profile = ledger_.profile;
+        run::SignalFd signals;
+        OrStop<run::WorkerClient> worker = start_first_worker(config);
+        if (!worker) {
+            return report_stop(worker.error());
+        }
+        OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), signals);
+        if (!first) {
+            return report_stop(first.error());
+        }
+        set_limits(config, first->device);
+        if (auto named = name_device(to_report(first->device)); !named) {
+            return report_stop(named.error());
+        }
+        const OrStop<Folder> folder = Folder::open(folder_);
+        if (!folder) {
+            return report_stop(folder.error());
+        }
+        if (!options_.run.quiet) {
+            say(fmt::format("fuzzing {} with seed {} at profile {}, into {}\n", ledger_.device,
+                            ledger_.seed, cases::to_string(ledger_.profile), folder_.string()));
+        }
+        run::Session session(config, std::move(first->client), first->device, signals);
+        return hunt(session);
+    }
+
+  private:
+    // What earlier hunts found, and how far the one came that goes on.
+    OrStop<std::monostate> read_earlier() {
+        if (!options_.run.resume.empty()) {
+            auto loaded = fuzz::load_ledger(options_.run.resume);
+            if (!loaded) {
+                return tl::unexpected(
+                    stop_with(report::kExitInvalidFile, "--resume: " + loaded.error().message));
+            }
+            ledger_ = std::move(*loaded);
+            folder_ = options_.run.resume;
+            device_of_earlier_ = ledger_.device + ledger_.driver;
+            seconds_before_ = ledger_.seconds;
+        } else {
+            ledger_.tool_version = kVersion;
+            ledger_.arguments = program_.arguments;
+            ledger_.seed = options_.run.seed;
+            ledger_.shard = options_.run.shard.index;
+            ledger_.shards = options_.run.shard.count;
+            ledger_.profile = options_.run.profile;
+        }
+        for (const std::string& known : options_.known) {
+            auto loaded = fuzz::load_ledger(known);
+            if (!loaded) {
+                return tl::unexpected(
+                    stop_with(report::kExitInvalidFile, "--known: " + loaded.error().message));
+            }
+            for (Entry& entry : loaded->entries) {
+                entry.is_known = true;
+                entry.count = 0;
+                entry.file = (fs::absolute(known) / entry.file).lexically_normal().string();
+                ledger_.entries.push_back(std::move(entry));
+            }
+        }
+        return std::monostate{};
+    }
+
+    OrStop<std::monostate> name_device(const report::Device& device) {
+        ledger_.device = device.name;
+        ledger_.driver = device.driver_name + " " + device.driver_info;
+        if (!device_of_earlier_.empty() && device_of_earlier_ != ledger_.device + ledger_.driver) {
+            return tl::unexpected(
+                stop_with(report::kExitDevice,
+                          "the hunt cannot go on: it was on another device or driver than '" +
+                              ledger_.device + ", " + ledger_.driver + "'"));
+        }
+        if (folder_.empty()) {
+            folder_ =
+                options_.run.output.empty()
+                    ? fs::path("out") / "fuzz" / (utc_now(true) + "-" + file_name_of(device.name))
+                    : fs::path(options_.run.output);
+            std::error_code none;
+            if (fs::exists(folder_ / fuzz::kLedgerFile, none)) {
+                return tl::unexpected(stop_with(
+                    report::kExitUsage, "'" + folder_.string() +
+                                            "' holds a hunt already; go on with it by --resume, or "
+                                            "name another folder with -o"));
+            }
+        }
+        return std::monostate{};
+    }
+
+    int hunt(run::Session& session) {
+        fuzz::HuntOptions hunt;
+        hunt.seed = ledger_.seed;
+        hunt.first_case = ledger_.counts.next_case;
+        hunt.most_cases = options_.cases == 0 ? 0 : options_.cases;
+        hunt.shard = ledger_.shard;
+        hunt.shards = ledger_.shards;
+        if (options_.seconds > 0) {
+            hunt.deadline = std::chrono::steady_clock::now() +
+                            std::chrono::milliseconds(static_cast<int64_t>(options_.seconds * 1e3));
+        }
+        const fuzz::HuntCounts before = ledger_.counts;
+        Hunt hunter(hunt, session, std::move(ledger_.entries),
+                    [this](const fuzz::HuntCounts& counts, size_t causes) {
+                        status_.show(counts, causes);
+                    });
+        Hunt::State state = Hunt::State::goes_on;
+        while (state == Hunt::State::goes_on) {
+            state = hunter.step();
+            if (auto kept = keep(hunter, before, state == Hunt::State::done); !kept) {
+                status_.clear();
+                return report_stop(stop_with(report::kExitInternal, kept.error().message));
+            }
+        }
+        status_.clear();
+        return conclude_hunt(hunter, state);
+    }
+
+    // Writes new causes and the ledger: a hunt that is killed has lost nothing but its last step.
+    cases::Expected<void> keep(Hunt& hunter, const fuzz::HuntCounts& before, bool is_finished) {
+        for (Entry& entry : hunter.entries()) {
+            if (!entry.file.empty()) {
+                continue;
+            }
+            size_t number = 1;
+            const std::string what = entry.symptom.status == report::Status::fail
+                                         ? entry.symptom.rule
+                                         : std::string(report::to_string(entry.symptom.status));
+            std::error_code none;
+            do {
+                entry.file = fmt::format("found/{:03}-{}.toml", number++, what);
+            } while (is_taken(hunter, entry) || fs::exists(folder_ / entry.file, none));
+            if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
+                !written) {
+                return written;
+            }
+            tell(entry);
+        }
+        ledger_.entries = hunter.entries();
+        ledger_.counts = sum_of(before, hunter.counts());
+        ledger_.seconds = seconds_before_ + status_.seconds();
+        ledger_.is_finished = is_finished;
+        return replace_text(folder_ / fuzz::kLedgerFile, fuzz::to_json(ledger_));
+    }
+
+    static bool is_taken(Hunt& hunter, const Entry& entry) {
+        return std::any_of(
+            hunter.entries().begin(), hunter.entries().end(),
+            [&](const Entry& other) { return &other != &entry && other.file == entry.file; });
+    }
+
+    static fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
+        sum.next_case = now.next_case;
+        sum.poses = now.poses;
+        sum.pairs = now.pairs;
+        sum.drawn += now.drawn;
+        sum.triangles += now.triangles;
+        sum.failed += now.failed;
+        sum.unsupported += now.unsupported;
+        sum.empty += now.empty;
+        sum.unjudged += now.unjudged;
+        sum.reductions += now.reductions;
+        sum.reduction_cases += now.reduction_cases;
+        sum.drawing_seconds += now.drawing_seconds;
+        sum.reducing_seconds += now.reducing_seconds;
+        return sum;
+    }
+
+    void tell(const Entry& entry) const {
+        status_.clear();
+        std::string with;
+        for (const std::string& word : entry.essentials) {
+            with += (with.empty() ? "" : ", ") + word;
+        }
+        say(fmt::format("FOUND {}\n      {}\n      with {}\n", to_text(entry.symptom),
+                        (folder_ / entry.file).string(), with.empty() ? "nothing special" : with));
+        for (size_t k = 0; k < std::min<size_t>(entry.needs.size(), 6); ++k) {
+            say("      " + entry.needs[k] + "\n");
+        }
+        std::fflush(stdout);
+    }
+
+    int conclude_hunt(Hunt& hunter, Hunt::State state) {
+        size_t fresh = 0, known = 0, met = 0;
+        for (const Entry& entry : hunter.entries()) {
+            ++(entry.is_known ? known : fresh);
+            met += entry.is_known && entry.count > 0 ? 1U : 0U;
+        }
+        const fuzz::HuntCounts& c = ledger_.counts;
+        const double drawing = std::max(c.drawing_seconds, 1e-9);
+        say(fmt::format(
+            "{} and {} judged in {:.1f} s ({:.0f} cases/s, {:.0f} triangles/s while drawing); {} "
+            "unsupported, {} with nothing to judge; {}, {} of features\n",
+            plural(c.drawn, "case"), plural(c.triangles, "triangle"), ledger_.seconds,
+            static_cast<double>(c.drawn) / drawing, static_cast<double>(c.triangles) / drawing,
+            c.unsupported, c.empty, plural(c.poses, "pose"), plural(c.pairs, "pair")));
+        say(fmt::format("{} failed, by {}{}; {} took {:.1f} s and {}\n", plural(c.failed, "case"),
+                        plural(fresh, "cause"),
+                        known > 0 ? fmt::format(" and {} of {} known ones", met, known) : "",
+                        plural(c.reductions, "reduction"), c.reducing_seconds,
+                        plural(c.reduction_cases, "more case")));
+        for (const auto& [text, reason] : hunter.unjudged()) {
+            complain("a case could not be judged: " + reason);
+            const fs::path file = folder_ / "unjudged.toml";
+            if (auto written = replace_text(file, text); written) {
+                complain("  the last such case is kept as " + file.string() + "; please report it");
+            }
+        }
+        if (fresh > 0) {
+            say(fmt::format("look at them: edgecase run {} --no-expect\n",
+                            (folder_ / "found").string()));
+        }
+        if (state == Hunt::State::interrupted) {
+            say("interrupted; go on with 'edgecase fuzz --resume " + folder_.string() + "'\n");
+            return report::kExitInterrupted;
+        }
+        if (state == Hunt::State::failed) {
+            return report_stop(stop_with(report::kExitInternal, hunter.failure()));
+        }
+        if (c.unjudged > 0) {
+            return report::kExitInternal;
+        }
+        if (c.drawn == 0) {
+            complain("no case was judged, so nothing was proven");
+            return report::kExitAllSkipped;
+        }
+        return fresh > 0 ? report::kExitUnexpected : report::kExitOk;
+    }
+
+    const Program& program_;
+    const FuzzOptions& options_;
+    Status status_;
+    Ledger ledger_;
+    fs::path folder_;
+    std::string device_of_earlier_;
+    double seconds_before_ = 0;
+};
+
+}  // namespace
+
+int fuzz_command(const Program& program, const FuzzOptions& options) {
+    return FuzzCommand(program, options).run();
+}
+
+}  // namespace cli

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/loop_config.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/prepare/device_answer.hpp"
+
+namespace cli {
+
+run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
+    run::LoopConfig config;
+    config.command = worker_command(program);
+    config.worker = worker_options(options.device);
+    config.icd_from = options.device.icd_from;
+    config.timeout = std::chrono::milliseconds(static_cast<int64_t>(options.device.timeout * 1000));
+    config.schedule.lanes = options.jobs;
+    config.schedule.batch = options.batch;
+    config.schedule.repeat = options.repeat;
+    config.schedule.retries = options.retries;
+    config.schedule.suspects_first = options.fail_fast;
+    config.requires_support = options.require_support;
+    config.profile = options.profile;
+    config.pictures = options.capture;
+    return config;
+}
+
+void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
+    config.limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
+    // A device that rasterizes a sample only at the centre may have 0 bits, and asks for no offset.
+    config.limits.interpolation_offset_bits =
+        std::max(4, static_cast<int>(device.interpolation_offset_bits));
+    config.limits.mipmap_bits = std::max(4, static_cast<int>(device.mipmap_bits));
+}
+
+std::string file_name_of(const std::string& device) {
+    std::string name;
+    for (const char c : device) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '.';
+        const bool upper = c >= 'A' && c <= 'Z';
+        if (plain || upper) {
+            name += upper ? static_cast<char>(c - 'A' + 'a') : c;
+        } else if (!name.empty() && name.back() != '-') {
+            name += '-';
+        }
+    }
+    while (!name.empty() && name.back() == '-') {
+        name.pop_back();
+    }
+    return name.substr(0, 48);
+}
+
+}  // namespace cli

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a run's options mean for the loop that draws and judges.
+#pragma once
+
+#include "cli/options/options.hpp"
+#include "cli/options/program.hpp"
+#include "run/run_loop.hpp"
+
+namespace cli {
+
+run::LoopConfig loop_config(const Program& program, const RunOptions& options);
+
+// The limits that the device has told, by which it is judged.
+void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device);
+
+// "llvmpipe (LLVM 15.0.6, 256 bits)" -> "llvmpipe-llvm-15.0.6-256-bits", for a folder's name.
+std::string file_name_of(const std::string& device);
+
+}  // namespace cli

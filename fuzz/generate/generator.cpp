@@ -1,0 +1,431 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/generate/generator.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cases/load/loader.hpp"
+#include "fuzz/generate/dice.hpp"
+#include "fuzz/generate/geometry.hpp"
+
+namespace fuzz {
+
+namespace {
+
+// Streams of the dice (dice.hpp): poses take 1.
+constexpr uint64_t kStateStream = 2, kGeometryStream = 3;
+
+std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("[{}]", fmt::join(words, ", "));
+}
+
+// Multiples of 1/parts from low to high, in these units.
+double fraction(Dice& dice, int64_t low, int64_t high, int64_t parts) {
+    return static_cast<double>(dice.between(low, high)) / static_cast<double>(parts);
+}
+
+class CaseWriter {
+  public:
+    CaseWriter(const Pose& pose, const Dice& state, const Dice& geometry)
+        : pose_(pose), state_(state), dice_(geometry) {
+        static constexpr std::array<std::pair<std::string_view, std::array<uint32_t, 2>>, 6>
+            kSizes = {{{"16", {16, 16}},
+                       {"odd", {13, 9}},
+                       {"wide", {70, 5}},
+                       {"high", {3, 40}},
+                       {"64", {64, 64}},
+                       {"tiny", {4, 4}}}};
+        for (const auto& [name, size] : kSizes) {
+            if (pose.is("size", name)) {
+                width_ = size[0];
+                height_ = size[1];
+            }
+        }
+        samples_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("samples"))));
+        layers_ = static_cast<uint32_t>(std::stoul(std::string(pose.value("layers"))));
+        is_integer_ = pose.is("color", "r32-uint") || pose.is("color", "rgba8-uint");
+    }
+
+    std::string write() {
+        line("format = 1");
+        line("description = \"Made by edgecase fuzz.\"");
+        line("rules = [\"cover.inside\"]");
+        if (pose_.is("relation", "scissor-tiles")) {
+            line("relations = [{{ scissor-tiles = [{}, {}] }}]", state_.between(1, 9),
+                 state_.between(1, 9));
+        } else if (!pose_.is_default("relation")) {
+            line("relations = [\"{}\"]", pose_.value("relation"));
+        }
+        write_target();
+        const auto draws = static_cast<size_t>(std::stoul(std::string(pose_.value("draws"))));
+        for (size_t k = 0; k < draws; ++k) {
+            write_draw(k);
+        }
+        return std::move(text_);
+    }
+
+  private:
+    template <class... Args>
+    void line(fmt::format_string<Args...> format, Args&&... args) {
+        text_ += fmt::format(format, std::forward<Args>(args)...) + '\n';
+    }
+    // A key whose word is the feature's value.
+    void word(std::string_view key, std::string_view feature) {
+        if (!pose_.is_default(feature)) {
+            line("{} = \"{}\"", key, pose_.value(feature));
+        }
+    }
+
+    void write_target() {
+        line("\n[target]");
+        line("size = [{}, {}]", width_, height_);
+        if (samples_ > 1) {
+            line("samples = {}", samples_);
+        }
+        if (layers_ > 1) {
+            line("layers = {}", layers_);
+        }
+        word("depth", "depth");
+        if (!pose_.is_default("compare")) {
+            line("depth_clear = {}", fraction(state_, 0, 8, 8));
+        }
+        if (!pose_.is_default("sample-locations")) {
+            std::vector<std::string> places;
+            for (uint32_t s = 0; s < samples_; ++s) {
+                places.push_back(fmt::format("[{}, {}]", state_.below(16), state_.below(16)));
+            }
+            line("sample_locations = {}", joined(places));
+        }
+        word("resolve", "resolve");
+        word("depth_resolve", "depth-resolve");
+        if (!pose_.is_default("stencil")) {
+            line("stencil = true");
+        }
+        word("attachments", "attachments");
+        if (!pose_.is_default("color")) {
+            line("[target.color]\nformat = \"{}\"", pose_.value("color"));
+            if (state_.one_in(2)) {
+                line("clear = {}", color(state_));
+            }
+        }
+    }
+
+    std::string color(Dice& dice) const {
+        std::vector<std::string> numbers;
+        for (int k = 0; k < 4; ++k) {
+            numbers.push_back(is_integer_ ? fmt::format("{}", dice.below(256))
+                                          : fmt::format("{}", fraction(dice, 0, 16, 16)));
+        }
+        return joined(numbers);
+    }
+
+    // The state of each draw comes from the pose, so that all its cases share pipelines; what is
+    // dynamic in every driver (viewport, scissor, vertices) is each case's own.
+    void write_draw(size_t number) {
+        line("\n[[draw]]");
+        word("topology", "topology");
+        word("cull", "cull");
+        word("front_face", "front-face");
+        word("provoking", "provoking");
+        word("depth_volume", "depth-volume");
+        if (layers_ > 1) {
+            line("layer = {}", dice_.below(layers_));
+        }
+        if (!pose_.is_default("viewport-index")) {
+            line("viewport_index = {}", number);
+        }
+        if (!pose_.is_default("sample-mask")) {
+            line("sample_mask = {}", state_.between(1, (int64_t{1} << samples_) - 1));
+        }
+        if (!pose_.is_default("shader-mask")) {
+            line("shader_mask = {}", state_.between(1, (int64_t{1} << samples_) - 1));
+        }
+        if (!pose_.is_default("sample-shading")) {
+            line("min_sample_shading = {}", pose_.is("sample-shading", "half")   ? 0.5
+                                            : pose_.is("sample-shading", "full") ? 1.0
+                                                                                 : 0.0);
+        }
+        write_depth(number);
+        write_viewport();
+        write_scissor();
+        write_color();
+        const size_t vertices = write_vertices();
+        write_distances(vertices);
+        write_attributes(vertices);
+    }
+
+    void write_depth(size_t number) {
+        std::vector<std::string> keys;
+        const auto key = [&](std::string text) { keys.push_back(std::move(text)); };
+        // What a later draw is compared with has been written by an earlier one.
+        if (!pose_.is_default("compare") && (number > 0 || pose_.is("draws", "1"))) {
+            key(fmt::format("compare = \"{}\"", pose_.value("compare")));
+        }
+        if (!pose_.is_default("depth-write") && (number > 0 || pose_.is("draws", "1"))) {
+            key("write = false");
+        }
+        if (!pose_.is_default("bias")) {
+            const std::string_view bias = pose_.value("bias");
+            std::vector<std::string> parts;
+            if (bias != "slope") {
+                parts.push_back(fmt::format("constant = {}", state_.between(-9, 9)));
+            }
+            if (bias != "constant") {
+                parts.push_back(fmt::format("slope = {}", fraction(state_, -8, 8, 4)));
+            }
+            if (bias == "clamped") {
+                parts.push_back(fmt::format("clamp = {}", fraction(state_, -8, 8, 64)));
+            }
+            key(fmt::format("bias = {{ {} }}", fmt::join(parts, ", ")));
+        }
+        if (!pose_.is_default("depth-clamp")) {
+            key("clamp = true");
+        }
+        if (!pose_.is_default("depth-clip")) {
+            key(fmt::format("clip = {}", pose_.value("depth-clip")));
+        }
+        if (!keys.empty()) {
+            line("depth = {{ {} }}", fmt::join(keys, ", "));
+        }
+    }
+
+    void write_viewport() {
+        const int64_t w = width_, h = height_;
+        const std::string_view viewport = pose_.value("viewport");
+        if (viewport == "inner") {
+            const int64_t x = dice_.between(0, w - 1), y = dice_.between(0, h - 1);
+            line("viewport = [{}, {}, {}, {}]", x, y, dice_.between(1, w - x),
+                 dice_.between(1, h - y));
+        } else if (viewport == "beyond") {
+            line("viewport = [{}, {}, {}, {}]", dice_.between(-w, w), dice_.between(-h, h),
+                 dice_.between(1, 3 * w), dice_.between(1, 3 * h));
+        } else if (viewport == "flipped") {
+            line("viewport = [0, {}, {}, {}]", h, w, -h);
+        } else if (viewport == "fractional") {
+            line("viewport = [{}, {}, {}, {}]", fraction(dice_, -8, 8, 4),
+                 fraction(dice_, -8, 8, 4), static_cast<double>(w) + fraction(dice_, 0, 16, 8),
+                 static_cast<double>(h) + fraction(dice_, 0, 16, 8));
+        } else if (viewport == "depth") {
+            line("viewport = {{ depth = [{}, {}] }}", fraction(dice_, 0, 8, 8),
+                 fraction(dice_, 0, 8, 8));
+        }
+    }
+
+    void write_scissor() {
+        const int64_t w = width_, h = height_;
+        const std::string_view scissor = pose_.value("scissor");
+        if (scissor == "inner") {
+            const int64_t x = dice_.between(0, w - 1), y = dice_.between(0, h - 1);
+            line("scissor = [{}, {}, {}, {}]", x, y, dice_.between(1, w - x),
+                 dice_.between(1, h - y));
+        } else if (scissor == "beyond") {
+            line("scissor = [{}, {}, {}, {}]", dice_.between(0, w / 2), dice_.between(0, h / 2),
+                 3 * w, dice_.one_in(2) ? 3 * h : int64_t{1} << 30);
+        } else if (scissor == "thin") {
+            line("scissor = [{}, {}, {}, {}]", dice_.between(0, w - 1), 0, dice_.one_in(2) ? 1 : 2,
+                 h);
+        }
+    }
+
+    void write_color() {
+        if (pose_.is_default("color")) {
+            return;
+        }
+        const bool by_attribute = !pose_.is_default("color-from");
+        std::string keys =
+            by_attribute ? "attribute = \"c\"" : fmt::format("value = {}", color(state_));
+        if (pose_.is("blend", "factors")) {
+            static constexpr std::array<std::string_view, 8> kFactors = {
+                "zero",      "one",           "src-color",
+                "dst-color", "src-alpha",     "one-minus-src-alpha",
+                "dst-alpha", "constant-color"};
+            static constexpr std::array<std::string_view, 5> kOps = {
+                "add", "subtract", "reverse-subtract", "min", "max"};
+            keys += fmt::format(
+                ", blend = {{ source = \"{}\", destination = \"{}\", op = \"{}\" }}, constants = "
+                "{}",
+                state_.of(kFactors), state_.of(kFactors), state_.of(kOps), color(state_));
+        } else if (!pose_.is_default("blend")) {
+            keys += fmt::format(", blend = \"{}\"", pose_.value("blend"));
+        }
+        if (!pose_.is_default("write-mask")) {
+            keys += fmt::format(", write_mask = \"{}\"", pose_.value("write-mask"));
+        }
+        line("color = {{ {} }}", keys);
+    }
+
+    // The number of vertices written.
+    size_t write_vertices() {
+        const Connection connection = pose_.is("topology", "triangle-list")    ? Connection::list
+                                      : pose_.is("topology", "triangle-strip") ? Connection::strip
+                                                                               : Connection::fan;
+        const bool with_restart = pose_.is("indices", "restart");
+        const Shape shape = make_shape(dice_, connection, !pose_.is_default("indices"),
+                                       with_restart, width_, height_);
+        const bool in_clip = pose_.is("space", "clip") || pose_.is("w", "behind");
+        if (in_clip) {
+            line("space = \"clip\"");
+        }
+        const double common = fraction(dice_, 1, 64, 16);
+        std::vector<std::string> vertices;
+        for (const Position& p : shape.vertices) {
+            const double w = w_of(common);
+            const double z = pose_.is("z", "plane")    ? fraction(dice_, 0, 64, 64)
+                             : pose_.is("z", "beyond") ? fraction(dice_, -32, 96, 64)
+                                                       : 0.5;
+            if (in_clip) {
+                const auto along = [w](double v, uint32_t side) {
+                    return static_cast<double>(static_cast<float>((v * 2 / side - 1) * w));
+                };
+                vertices.push_back(fmt::format("[{}, {}, {}, {}]", along(p.x, width_),
+                                               along(p.y, height_),
+                                               static_cast<double>(static_cast<float>(z * w)), w));
+            } else if (!pose_.is_default("w")) {
+                vertices.push_back(fmt::format("[{}, {}, {}, {}]", p.x, p.y, z, w));
+            } else if (!pose_.is_default("z")) {
+                vertices.push_back(fmt::format("[{}, {}, {}]", p.x, p.y, z));
+            } else {
+                vertices.push_back(fmt::format("[{}, {}]", p.x, p.y));
+            }
+        }
+        line("vertices = {}", joined(vertices));
+        if (!shape.indices.empty()) {
+            std::vector<std::string> indices;
+            for (const int64_t k : shape.indices) {
+                indices.push_back(k < 0 ? "\"restart\"" : std::to_string(k));
+            }
+            line("indices = {}", joined(indices));
+        }
+        return shape.vertices.size();
+    }
+
+    // Exact in binary32: four significant bits.
+    double w_of(double common) {
+        const std::string_view w = pose_.value("w");
+        if (w == "equal") {
+            return common;
+        }
+        if (w == "unequal") {
+            return fraction(dice_, 1, 15, 4);
+        }
+        if (w == "steep") {
+            return std::ldexp(1.0, static_cast<int>(dice_.between(-6, 6)));
+        }
+        if (w == "behind") {
+            return fraction(dice_, 1, 15, 4) * (dice_.one_in(4) ? -1 : 1);
+        }
+        return 1;
+    }
+
+    void write_distances(size_t vertices) {
+        for (const auto& [feature, key] :
+             {std::pair{"clip-distances", "clip_distance"}, {"cull-distances", "cull_distance"}}) {
+            const auto count = std::stoul(std::string(pose_.value(feature)));
+            for (size_t k = 0; k < count; ++k) {
+                line("[[draw.{}]]", key);
+                if (dice_.one_in(2)) {
+                    line("half_space = [{}, {}, {}, {}]", dice_.between(-3, 3),
+                         dice_.between(-3, 3), dice_.between(-1, 1), fraction(dice_, -8, 8, 8));
+                    continue;
+                }
+                std::vector<std::string> values;
+                for (size_t v = 0; v < vertices; ++v) {
+                    values.push_back(fmt::format("{}", fraction(dice_, -8, 8, 4)));
+                }
+                line("values = {}", joined(values));
+            }
+        }
+    }
+
+    void write_values(size_t vertices, size_t components, bool is_whole) {
+        std::vector<std::string> values;
+        for (size_t v = 0; v < vertices; ++v) {
+            std::vector<std::string> one;
+            for (size_t c = 0; c < components; ++c) {
+                one.push_back(is_whole ? fmt::format("{}", dice_.below(256))
+                                       : fmt::format("{}", fraction(dice_, 0, 32, 32)));
+            }
+            values.push_back(joined(one));
+        }
+        line("values = {}", joined(values));
+    }
+
+    void write_attributes(size_t vertices) {
+        if (!pose_.is_default("color-from") && !pose_.is_default("color")) {
+            line("[[draw.attribute]]\nname = \"c\"");
+            if (is_integer_) {
+                line("interpolation = \"flat\"");
+            } else {
+                write_interpolation(0);
+            }
+            write_values(vertices, 4, is_integer_);
+        }
+        const std::string_view count = pose_.value("attributes");
+        const size_t attributes = count == "none"  ? 0U
+                                  : count == "one" ? 1U
+                                  : count == "two" ? 2U
+                                                   : 3U;
+        for (size_t a = 0; a < attributes; ++a) {
+            line("[[draw.attribute]]");
+            write_interpolation(a);
+            word("auxiliary", "auxiliary");
+            // One of them is a plain input, if there are several.
+            if (a == 0 && !pose_.is_default("source")) {
+                line("source = \"{}\"", pose_.value("source"));
+                continue;
+            }
+            const std::string_view probe = pose_.value("probe");
+            size_t components = 1 + state_.below(4);
+            if (a == 0 && probe != "value") {
+                line("probe = \"{}\"", probe);
+                if (probe == "at-sample") {
+                    line("sample = {}", state_.below(samples_));
+                } else if (probe == "at-offset") {
+                    line("offset = [{}, {}]", fraction(state_, -8, 7, 16),
+                         fraction(state_, -8, 7, 16));
+                } else if (probe == "query-lod") {
+                    line("texture = [{}, {}]", 1U << state_.below(9), 1U << state_.below(9));
+                    components = 2;
+                }
+            }
+            write_values(vertices, components, false);
+        }
+    }
+
+    void write_interpolation(size_t attribute) {
+        static constexpr std::array<std::string_view, 3> kModes = {"smooth", "noperspective",
+                                                                   "flat"};
+        const std::string_view mode = pose_.is("interpolation", "mixed")
+                                          ? kModes.at(attribute % 3)
+                                          : pose_.value("interpolation");
+        if (mode != "smooth") {
+            line("interpolation = \"{}\"", mode);
+        }
+    }
+
+    const Pose& pose_;
+    Dice state_, dice_;
+    std::string text_;
+    uint32_t width_ = 16, height_ = 16, samples_ = 1, layers_ = 1;
+    bool is_integer_ = false;
+};
+
+}  // namespace
+
+std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uint64_t number) {
+    return CaseWriter(pose, Dice(seed, kStateStream, pose_number),
+                      Dice(seed, kGeometryStream, number))
+        .write();
+}
+
+bool is_case(uint64_t seed, const Pose& pose, uint64_t pose_number) {
+    return cases::load_text(case_text(seed, pose, pose_number, 0), "fuzz", "fuzz").has_value();
+}
+
+}  // namespace fuzz

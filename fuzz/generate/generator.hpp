@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cases out of everything that the case format can say. A seed and a number make a case, on every
+// machine alike.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "fuzz/generate/pose.hpp"
+
+namespace fuzz {
+
+// The text of a case file: `pose` with a geometry of its own for each number. Not every pose is a
+// case; the loader says which.
+std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uint64_t number);
+
+// Whether the loader takes the pose's cases.
+bool is_case(uint64_t seed, const Pose& pose, uint64_t pose_number);
+
+}  // namespace fuzz

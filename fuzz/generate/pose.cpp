@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/generate/pose.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "fuzz/generate/dice.hpp"
+
+namespace fuzz {
+
+namespace {
+
+size_t index_of(std::string_view name) {
+    const std::vector<Feature>& all = features();
+    const auto at =
+        std::find_if(all.begin(), all.end(), [&](const Feature& f) { return f.name == name; });
+    if (at == all.end()) {
+        std::abort();  // a name that this folder misspells
+    }
+    return static_cast<size_t>(at - all.begin());
+}
+
+}  // namespace
+
+const std::vector<Feature>& features() {
+    static const std::vector<Feature> kAll = {
+        {"samples", {"1", "4", "2", "8"}},
+        {"size", {"16", "odd", "wide", "high", "64", "tiny"}},
+        {"layers", {"1", "2", "3"}},
+        {"depth", {"d32-float", "d16-unorm", "d24-unorm"}},
+        {"attachments", {"all", "color", "color+depth"}},
+        {"color",
+         {"none", "rgba8-unorm", "bgra8-unorm", "rgba8-srgb", "rgb10a2-unorm", "r5g6b5-unorm",
+          "rgba16-unorm", "rgba16-float", "rg16-float", "rgba32-float", "r32-float", "r32-uint",
+          "rgba8-uint"}},
+        {"blend",
+         {"none", "additive", "alpha", "premultiplied", "multiply", "reverse-subtract", "min",
+          "max", "factors"}},
+        {"color-from", {"value", "attribute"}},
+        {"write-mask", {"rgba", "rgb", "r", "gb", "ra"}},
+        {"stencil", {"false", "true"}},
+        {"resolve", {"none", "average", "sample-zero"}},
+        {"depth-resolve", {"none", "sample-zero", "min", "max", "average"}},
+        {"sample-locations", {"standard", "own"}},
+        {"draws", {"1", "2", "3"}},
+        {"topology", {"triangle-list", "triangle-strip", "triangle-fan"}},
+        {"indices", {"none", "given", "restart"}},
+        {"space", {"pixels", "clip"}},
+        {"cull", {"none", "back", "front"}},
+        {"front-face", {"counter-clockwise", "clockwise"}},
+        {"provoking", {"first", "last"}},
+        {"depth-volume", {"zero-to-one", "negative-one-to-one"}},
+        {"compare",
+         {"always", "less", "less-or-equal", "greater", "greater-or-equal", "equal", "not-equal"}},
+        {"depth-write", {"true", "false"}},
+        {"bias", {"none", "constant", "slope", "both", "clamped"}},
+        {"depth-clamp", {"false", "true"}},
+        {"depth-clip", {"default", "true", "false"}},
+        {"sample-mask", {"all", "given"}},
+        {"shader-mask", {"all", "given"}},
+        {"sample-shading", {"off", "half", "full", "least"}},
+        {"attributes", {"none", "one", "two", "three"}},
+        {"interpolation", {"smooth", "noperspective", "flat", "mixed"}},
+        {"auxiliary", {"none", "centroid", "sample"}},
+        {"source", {"vertex", "barycentric", "sample-mask-in", "sample-id", "sample-position"}},
+        {"probe",
+         {"value", "at-centroid", "at-sample", "at-offset", "dfdx", "dfdy", "fwidth", "dfdx-fine",
+          "dfdy-fine", "dfdx-coarse", "dfdy-coarse", "query-lod"}},
+        {"clip-distances", {"0", "1", "2"}},
+        {"cull-distances", {"0", "1"}},
+        {"viewport", {"target", "inner", "beyond", "flipped", "fractional", "depth"}},
+        {"scissor", {"target", "inner", "beyond", "thin"}},
+        {"viewport-index", {"0", "other"}},
+        {"relation",
+         {"none", "same-twice", "other-clears", "write-masks", "fewer-attributes",
+          "more-attributes", "scissor-tiles"}},
+        {"w", {"one", "equal", "unequal", "steep", "behind"}},
+        {"z", {"half", "plane", "beyond"}},
+    };
+    return kAll;
+}
+
+Pose::Pose() : values_(features().size(), 0) {}
+
+std::string_view Pose::value(std::string_view feature) const {
+    const size_t k = index_of(feature);
+    return features()[k].values[values_[k]];
+}
+
+bool Pose::is_default(std::string_view feature) const {
+    return values_[index_of(feature)] == 0;
+}
+
+std::vector<std::pair<size_t, size_t>> Pose::active() const {
+    std::vector<std::pair<size_t, size_t>> out;
+    for (size_t k = 0; k < values_.size(); ++k) {
+        if (values_[k] != 0) {
+            out.emplace_back(k, values_[k]);
+        }
+    }
+    return out;
+}
+
+std::string Pose::text() const {
+    std::string text;
+    for (const auto& [feature, value] : active()) {
+        text += std::string(text.empty() ? "" : " ") + std::string(features()[feature].name) + "=" +
+                std::string(features()[feature].values[value]);
+    }
+    return text.empty() ? "plain" : text;
+}
+
+Pose Poses::draw(size_t candidate) const {
+    constexpr uint64_t kStream = 1;
+    Dice dice(seed_, kStream, count_ * 4096 + candidate);
+    Pose pose;
+    // Few features at a time: what many switch off between them is never seen otherwise.
+    const uint64_t count = 1 + dice.below(7);
+    for (uint64_t k = 0; k < count; ++k) {
+        const size_t feature = dice.below(features().size());
+        pose.set(feature, dice.below(features()[feature].values.size()));
+    }
+    return pose;
+}
+
+size_t Poses::fresh_pairs(const Pose& pose) const {
+    size_t fresh = 0;
+    const auto active = pose.active();
+    for (size_t a = 0; a < active.size(); ++a) {
+        for (size_t b = a; b < active.size(); ++b) {  // a feature with itself: it alone
+            fresh += seen_.contains({active[a].first * 64 + active[a].second,
+                                     active[b].first * 64 + active[b].second})
+                         ? 0U
+                         : 1U;
+        }
+    }
+    return fresh;
+}
+
+void Poses::take(const Pose& pose) {
+    const auto active = pose.active();
+    for (size_t a = 0; a < active.size(); ++a) {
+        for (size_t b = a; b < active.size(); ++b) {
+            seen_.insert(
+                {active[a].first * 64 + active[a].second, active[b].first * 64 + active[b].second});
+        }
+    }
+    ++count_;
+}
+
+}  // namespace fuzz

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pose is what a generated case has besides its geometry: the features whose change costs a
+// driver a pipeline or an attachment. Many geometries are drawn with each.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace fuzz {
+
+// One dimension of the swarm. Value 0 is the case format's default.
+struct Feature {
+    std::string_view name;
+    std::vector<std::string_view> values;
+};
+// All features, in a fixed order.
+const std::vector<Feature>& features();
+
+class Pose {
+  public:
+    Pose();  // all defaults
+    // The value of a feature by its name, which must be one of features().
+    std::string_view value(std::string_view feature) const;
+    bool is(std::string_view feature, std::string_view value) const {
+        return this->value(feature) == value;
+    }
+    bool is_default(std::string_view feature) const;
+    void set(size_t feature, size_t value) { values_[feature] = value; }
+    // (feature, value) of all that are no defaults.
+    std::vector<std::pair<size_t, size_t>> active() const;
+    std::string text() const;  // "samples=4 topology=triangle-fan"
+
+  private:
+    std::vector<size_t> values_;  // by index of features()
+};
+
+// The poses of a seed, one after the other: a few random features are switched on in each [Groce
+// et al., "Swarm Testing", ISSTA 2012], and of some such candidates the one is taken with the most
+// pairs of features that no earlier pose had. `is_valid` says which candidates are cases at all;
+// it must depend on the pose alone, so that a seed means the same on every machine.
+class Poses {
+  public:
+    explicit Poses(uint64_t seed) : seed_(seed) {}
+    template <class IsValid>
+    Pose next(IsValid&& is_valid) {
+        Pose best;
+        size_t most = 0;
+        bool found = false;
+        for (size_t k = 0; k < kCandidates || !found; ++k) {
+            Pose candidate = draw(k);
+            const size_t fresh = fresh_pairs(candidate);
+            if ((!found || fresh > most) && is_valid(candidate)) {
+                best = std::move(candidate);
+                most = fresh;
+                found = true;
+            }
+        }
+        take(best);
+        return best;
+    }
+    size_t count() const { return count_; }
+    size_t pairs() const { return seen_.size(); }
+
+  private:
+    static constexpr size_t kCandidates = 12;
+    Pose draw(size_t candidate) const;
+    size_t fresh_pairs(const Pose& pose) const;
+    void take(const Pose& pose);
+
+    uint64_t seed_ = 0;
+    size_t count_ = 0;
+    std::set<std::pair<uint64_t, uint64_t>> seen_;
+};
+
+}  // namespace fuzz

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/ledger.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "cases/base/printable.hpp"
+
+namespace fuzz {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kSchema = "edgecase-fuzz-1";
+
+Json also_of(const Entry& entry) {
+    Json all = Json::array();
+    for (const auto& [kind, rule] : entry.also) {
+        all.push_back({{"kind", diff::to_string(kind)}, {"rule", rule}});
+    }
+    return all;
+}
+
+Json to_json(const Entry& entry) {
+    return {{"symptom", to_text(entry.symptom)},
+            {"file", entry.file},
+            {"is_known", entry.is_known},
+            {"is_minimal", entry.is_minimal},
+            {"first_case", entry.first_case},
+            {"count", entry.count},
+            {"essentials", entry.essentials},
+            {"needs", entry.needs},
+            {"also", also_of(entry)}};
+}
+
+// Throws nlohmann's exceptions, which load_ledger() turns into an error.
+Entry entry_of(const Json& json, const fs::path& folder) {
+    Entry entry;
+    const std::string symptom = json.at("symptom");
+    const auto parsed = parse_symptom(symptom);
+    if (!parsed) {
+        throw std::runtime_error("'" + symptom + "' is no symptom");
+    }
+    entry.symptom = *parsed;
+    entry.file = json.at("file");
+    entry.is_minimal = json.at("is_minimal");
+    entry.first_case = json.at("first_case");
+    entry.count = json.at("count");
+    entry.essentials = json.at("essentials").get<std::set<std::string>>();
+    entry.needs = json.at("needs").get<std::vector<std::string>>();
+    for (const Json& also : json.at("also")) {
+        for (size_t k = 0; k < diff::kFindingKinds; ++k) {
+            const auto kind = static_cast<diff::FindingKind>(k);
+            if (also.at("kind") == diff::to_string(kind)) {
+                entry.also.insert({kind, also.at("rule")});
+            }
+        }
+    }
+    std::ifstream in(folder / entry.file, std::ios::binary);
+    entry.text.assign(std::istreambuf_iterator<char>(in), {});
+    if (!in) {
+        throw std::runtime_error("the file '" + entry.file + "' cannot be read");
+    }
+    return entry;
+}
+
+}  // namespace
+
+std::string to_json(const Ledger& ledger) {
+    const HuntCounts& c = ledger.counts;
+    Json entries = Json::array();
+    for (const Entry& entry : ledger.entries) {
+        entries.push_back(to_json(entry));
+    }
+    const Json json = {{"schema", kSchema},
+                       {"tool_version", ledger.tool_version},
+                       {"device", cases::printable(ledger.device)},
+                       {"driver", cases::printable(ledger.driver)},
+                       {"arguments", ledger.arguments},
+                       {"seed", ledger.seed},
+                       {"shard", ledger.shard},
+                       {"shards", ledger.shards},
+                       {"profile", cases::to_string(ledger.profile)},
+                       {"seconds", ledger.seconds},
+                       {"is_finished", ledger.is_finished},
+                       {"next_case", c.next_case},
+                       {"judged_cases", c.drawn},
+                       {"triangles", c.triangles},
+                       {"failed_cases", c.failed},
+                       {"unsupported_cases", c.unsupported},
+                       {"empty_cases", c.empty},
+                       {"unjudged_cases", c.unjudged},
+                       {"poses", c.poses},
+                       {"pairs_of_features", c.pairs},
+                       {"reductions", c.reductions},
+                       {"reduction_cases", c.reduction_cases},
+                       {"drawing_seconds", c.drawing_seconds},
+                       {"reducing_seconds", c.reducing_seconds},
+                       {"causes", std::move(entries)}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+cases::Expected<Ledger> load_ledger(const fs::path& folder) {
+    const fs::path file = folder / kLedgerFile;
+    std::ifstream in(file, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    if (!in) {
+        return cases::failure("'{}' is not the folder of a hunt: {} cannot be read",
+                              folder.string(), kLedgerFile);
+    }
+    try {
+        const Json json = Json::parse(text);
+        if (json.at("schema") != kSchema) {
+            return cases::failure("{} has another schema than {}", file.string(), kSchema);
+        }
+        Ledger ledger;
+        ledger.tool_version = json.at("tool_version");
+        ledger.device = json.at("device");
+        ledger.driver = json.at("driver");
+        ledger.arguments = json.at("arguments").get<std::vector<std::string>>();
+        ledger.seed = json.at("seed");
+        ledger.shard = json.at("shard");
+        ledger.shards = json.at("shards");
+        const auto profile = cases::parse_profile(json.at("profile").get<std::string>());
+        if (!profile) {
+            return cases::failure("{} names no profile", file.string());
+        }
+        ledger.profile = *profile;
+        ledger.seconds = json.at("seconds");
+        ledger.is_finished = json.at("is_finished");
+        HuntCounts& c = ledger.counts;
+        c.next_case = json.at("next_case");
+        c.drawn = json.at("judged_cases");
+        c.triangles = json.at("triangles");
+        c.failed = json.at("failed_cases");
+        c.unsupported = json.at("unsupported_cases");
+        c.empty = json.at("empty_cases");
+        c.unjudged = json.at("unjudged_cases");
+        c.poses = json.at("poses");
+        c.pairs = json.at("pairs_of_features");
+        c.reductions = json.at("reductions");
+        c.reduction_cases = json.at("reduction_cases");
+        c.drawing_seconds = json.at("drawing_seconds");
+        c.reducing_seconds = json.at("reducing_seconds");
+        for (const Json& entry : json.at("causes")) {
+            ledger.entries.push_back(entry_of(entry, folder));
+            ledger.entries.back().is_known = entry.at("is_known");
+        }
+        return ledger;
+    } catch (const std::exception& e) {
+        return cases::failure("{} is malformed: {}", file.string(), cases::printable(e.what()));
+    }
+}
+
+std::string found_text(const Entry& entry, const Ledger& ledger) {
+    std::string text = fmt::format("# {}, found by 'edgecase fuzz --seed {}' in case {} on {}.\n",
+                                   to_text(entry.symptom), ledger.seed, entry.first_case,
+                                   cases::printable(ledger.device));
+    for (const std::string& need : entry.needs) {
+        text += fmt::format("# It passes, or fails otherwise: {}.\n", need);
+    }
+    if (!entry.is_minimal) {
+        text += "# The reduction ended early: it may be larger than it has to be.\n";
+    }
+    return text + entry.text;
+}
+
+}  // namespace fuzz

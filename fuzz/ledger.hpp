@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// fuzz.json of a hunt's folder: what was asked, how far it came, and what it found. A hunt that was
+// cut off goes on from it, and another one takes what it found for known.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cases/base/error.hpp"
+#include "cases/model/profile.hpp"
+#include "fuzz/hunt.hpp"
+
+namespace fuzz {
+
+struct Ledger {
+    std::string tool_version, device, driver;
+    std::vector<std::string> arguments;  // of the command that began
+    uint64_t seed = 1;
+    uint32_t shard = 1, shards = 1;
+    cases::Profile profile = cases::Profile::direct3d;
+    double seconds = 0;
+    bool is_finished = false;
+    HuntCounts counts;
+    std::vector<Entry> entries;  // with their files' texts, which stand in files of their own
+};
+
+inline constexpr const char* kLedgerFile = "fuzz.json";
+
+// The JSON of a ledger (docs/schema/fuzz-1.json); the entries' texts are left out.
+std::string to_json(const Ledger& ledger);
+
+// Reads FOLDER/fuzz.json and the files of its entries. Errors: what is missing or malformed.
+cases::Expected<Ledger> load_ledger(const std::filesystem::path& folder);
+
+// A found case's file: what was found, by which hunt, what it needs, then the case.
+std::string found_text(const Entry& entry, const Ledger& ledger);
+
+}  // namespace fuzz

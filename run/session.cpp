@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/session.hpp"
+
+#include <map>
+#include <utility>
+
+namespace run {
+
+Session::Session(LoopConfig config, WorkerClient first, vk_harness::DeviceInfo device,
+                 SignalFd& signals)
+    : config_(std::move(config)), device_(std::move(device)), signals_(signals) {
+    config_.keeps_workers = true;
+    workers_.push_back(std::move(first));
+}
+
+Session::Results Session::draw(std::vector<cases::Case> cases,
+                               const std::function<bool(size_t)>& on_progress) {
+    Results results;
+    std::vector<PlannedCase> plan(cases.size());
+    std::map<std::string, size_t> index;
+    for (size_t k = 0; k < cases.size(); ++k) {
+        results.records.push_back(make_record(cases[k]));
+        index.emplace(cases[k].id, k);
+        plan[k].data = std::move(cases[k]);
+    }
+    bool goes_on = true;
+    RunLoop loop(
+        config_, plan, nullptr, signals_,
+        [&](const report::CaseRecord& record) {
+            results.records[index.at(record.id)] = record;
+            return goes_on;
+        },
+        [&](size_t done, size_t) { goes_on = goes_on && (!on_progress || on_progress(done)); });
+    const RunLoop::End end = loop.run(std::move(workers_), device_);
+    workers_ = loop.take_workers();
+    results.interrupted = end.interrupted;
+    results.failure = end.failure;
+    return results;
+}
+
+}  // namespace run

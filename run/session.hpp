@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Draws and judges cases on one device, call by call, with the isolation of a run and with workers
+// that live on from call to call: for whoever decides by results what is drawn next.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "report/record/run.hpp"
+#include "run/run_loop.hpp"
+
+namespace run {
+
+class Session {
+  public:
+    // `first` is a worker that has answered with `device`, whose limits the config has.
+    Session(LoopConfig config, WorkerClient first, vk_harness::DeviceInfo device,
+            SignalFd& signals);
+
+    struct Results {
+        std::vector<report::CaseRecord> records;  // of the cases, in their order
+        bool interrupted = false;                 // by a signal; then some are not_run
+        std::string failure;                      // why some are not_run: no device any more
+    };
+    // The ids of the cases differ. `on_progress` is called at least five times a second with the
+    // number of cases that are done; false ends the call, and what has no result by then is
+    // skipped.
+    Results draw(std::vector<cases::Case> cases,
+                 const std::function<bool(size_t done)>& on_progress = {});
+
+    // Unexpected failures are drawn again so often.
+    void set_retries(uint32_t retries) { config_.schedule.retries = retries; }
+
+  private:
+    LoopConfig config_;
+    std::vector<WorkerClient> workers_;
+    vk_harness::DeviceInfo device_;
+    SignalFd& signals_;
+};
+
+}  // namespace run
