@@ -197,6 +197,9 @@ class Parser {
         if (word == "inf" || word == "nan") {
             fail(fmt::format("{} is no number here", word));
         }
+        if (const std::string why = names_.why ? names_.why(word) : ""; !why.empty()) {
+            fail(why);
+        }
         const std::string nearest = nearest_name(word, names_.known);
         if (!nearest.empty()) {
             fail(fmt::format("the name {} is unknown; did you mean {}?", word, nearest));

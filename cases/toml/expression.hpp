@@ -19,6 +19,8 @@ namespace cases {
 struct Names {
     std::function<std::optional<Number>(std::string_view)> find;
     std::vector<std::string> known;  // for "did you mean"
+    // Why a known name has no number; "" for an unknown one.
+    std::function<std::string(std::string_view)> why = {};
 };
 
 // The exact value of an expression:

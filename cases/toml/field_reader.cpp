@@ -74,6 +74,16 @@ Names LeafContext::names(const std::vector<std::pair<std::string, Number>>& more
         }
         return std::nullopt;
     };
+    names.why = [this](std::string_view word) -> std::string {
+        const TomlValue* value = parameter(word);
+        if (value == nullptr) {
+            return "";
+        }
+        return fmt::format(
+            "the value of the matrix key {} in line {} is no number; there, expressions have no "
+            "names",
+            word, value->where.line);
+    };
     return names;
 }
 
