@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -42,10 +43,10 @@ double median(std::vector<double> values) {
     return values.empty() ? 0 : values[values.size() / 2];
 }
 
-// Runs a command to its end with its output in `file` ("/dev/null" drops it); seconds it took, or
-// nothing if it could not be started or was killed by a signal.
+// Runs a command to its end with its output in `file` ("/dev/null" drops it) and its errors in
+// `errors`; seconds it took, or nothing if it could not be started or was killed by a signal.
 std::optional<double> timed(const std::vector<std::string>& command, const std::string& file,
-                            int& exit_code) {
+                            const std::string& errors, int& exit_code) {
     std::vector<char*> argv;
     for (const std::string& word : command) {
         argv.push_back(const_cast<char*>(word.c_str()));
@@ -54,7 +55,8 @@ std::optional<double> timed(const std::vector<std::string>& command, const std::
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 1, file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 2, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0644);
     const Clock::time_point begin = Clock::now();
     pid_t pid = -1;
     const int failed = posix_spawn(&pid, argv[0], &actions, nullptr, argv.data(), environ);
@@ -65,6 +67,17 @@ std::optional<double> timed(const std::vector<std::string>& command, const std::
     }
     exit_code = WEXITSTATUS(status);
     return seconds_since(begin);
+}
+
+// What the command that failed said itself, else its exit code.
+void tell_failure(const std::string& command, const std::string& errors, int exit_code) {
+    std::ifstream in(errors);
+    const std::string said{std::istreambuf_iterator<char>(in), {}};
+    if (said.empty()) {
+        fmt::print(stderr, "edgecase: {} ended with exit code {}\n", command, exit_code);
+    } else {
+        std::fputs(said.c_str(), stderr);
+    }
 }
 
 // The words that start the program again, under its driver's C library if there is one.
@@ -233,6 +246,7 @@ int bench_command(const Program& program, const BenchOptions& options) {
         return report::kExitInternal;
     }
     const std::string text = folder + "/bare.txt";
+    const std::string errors = folder + "/errors.txt";
     std::vector<std::string> run = self(program, "run");
     std::vector<std::string> bare = self(program, "bench");
     bare.emplace_back("--bare");
@@ -248,18 +262,16 @@ int bench_command(const Program& program, const BenchOptions& options) {
     std::vector<double> runs, bares, ratios, helps;
     for (uint32_t k = 0; k <= options.runs && !failed; ++k) {
         std::filesystem::remove_all(folder + "/run");
-        const std::optional<double> a = timed(run, "/dev/null", exit_code);
+        const std::optional<double> a = timed(run, "/dev/null", errors, exit_code);
         failed = !a || exit_code > report::kExitUnexpected;
         if (failed) {
-            fmt::print(stderr,
-                       "edgecase: 'run' ended with exit code {}; call it by hand to see why\n",
-                       exit_code);
+            tell_failure("'run'", errors, exit_code);
             break;
         }
-        const std::optional<double> b = timed(bare, text, exit_code);
+        const std::optional<double> b = timed(bare, text, errors, exit_code);
         failed = !b || exit_code != 0;
         if (failed) {
-            fmt::print(stderr, "edgecase: bare drawing ended with exit code {}\n", exit_code);
+            tell_failure("bare drawing", errors, exit_code);
             break;
         }
         if (k > 0) {  // the first pair warms the disk cache
@@ -270,13 +282,13 @@ int bench_command(const Program& program, const BenchOptions& options) {
     }
     if (!failed) {
         setenv("EDGECASE_BENCH_TWICE", "1", 1);
-        failed = !timed(bare, text, exit_code) || exit_code != 0;
+        failed = !timed(bare, text, errors, exit_code) || exit_code != 0;
         unsetenv("EDGECASE_BENCH_TWICE");
         double cold = 0;
         std::ifstream(text) >> cold >> figures.bare_warm;
         for (int k = 0; k < 15; ++k) {
             if (const std::optional<double> t =
-                    timed(self(program, "--help"), "/dev/null", exit_code)) {
+                    timed(self(program, "--help"), "/dev/null", errors, exit_code)) {
                 helps.push_back(*t);
             }
         }

@@ -96,7 +96,8 @@ std::vector<std::string> unknown_folders(const fs::path& captures,
     for (fs::recursive_directory_iterator it(captures, error), end; !error && it != end;
          it.increment(error)) {
         std::error_code ignored;
-        if (!it->is_regular_file(ignored) || it->path().extension() == ".json") {
+        if (!it->is_regular_file(ignored) || it->path().extension() == ".json" ||
+            it->path().lexically_relative(captures).begin()->string() == kCarried) {
             continue;  // an export may lie in the same folder
         }
         const std::string folder = it->path().parent_path().lexically_relative(captures).string();
@@ -132,7 +133,8 @@ OrStop<std::monostate> check_captures(const DiffOptions& options,
             more + (more.empty() ? " belongs" : " belong") + " to no case of the suite" +
             cases::did_you_mean(unknown.front(), folders,
                                 "; folders have the names that 'edgecase export' writes, and cases "
-                                "of your own are named by their file or folder, as there")));
+                                "of your own are known by --exported DIR or by their file or "
+                                "folder, as there")));
 }
 
 // The cases of an export, by its list.
@@ -243,8 +245,11 @@ std::string skipped_text(const std::map<std::string, size_t>& skipped) {
 
 }  // namespace
 
-int diff_command(const Program& program, const DiffOptions& options) {
+int diff_command(const Program& program, const DiffOptions& given) {
     run::SignalFd signals;
+    DiffOptions options = given;
+    options.run.suite.carried =
+        (fs::path(given.exported.empty() ? given.captures : given.exported) / kCarried).string();
     const RunOptions& o = options.run;
     OrStop<Selection> selection = select_cases(program, o);
     if (!selection) {

@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -70,6 +73,7 @@ int export_command(const Program& program, const ExportOptions& options) {
     }
     const fs::path folder = options.output;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    std::map<std::string, std::string> carried;  // files outside the suite, by their place
     for (const size_t k : suite->selected) {
         const cases::Case& c = suite->cases[k];
         const std::string name = capture::folder_of(c.id);
@@ -77,10 +81,20 @@ int export_command(const Program& program, const ExportOptions& options) {
             !written) {
             return report_stop({report::kExitUsage, {written.error().message}});
         }
+        if (k >= suite->outside) {
+            carried[c.id.substr(0, c.id.find(':')) + ".toml"] = c.where.file;
+        }
         list.push_back({{"id", c.id},
                         {"file", name + ".json"},
                         {"folder", name},
                         {"needs", capture::needs_of(c)}});
+    }
+    for (const auto& [place, file] : carried) {
+        std::ifstream in(file, std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        if (auto written = write_below(folder / kCarried / place, text); !written) {
+            return report_stop({report::kExitUsage, {written.error().message}});
+        }
     }
     const nlohmann::ordered_json index = {{"schema", "edgecase-export-1"},
                                           {"tool", {{"name", "edgecase"}, {"version", kVersion}}},

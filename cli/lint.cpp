@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,47 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
     return errors;
 }
 
+void tell_no_strength(const std::string& what) {
+    complain(what + ": its strength cannot be told before its errors are mended");
+}
+
+// The selected cases of files without an error; the other files are told.
+std::vector<size_t> without_errors(const LoadedSuite& suite, const cases::Errors& errors) {
+    std::set<std::string> wrong;
+    for (const cases::Error& error : errors) {
+        wrong.insert(error.where.file);
+    }
+    std::set<std::string> left_out;
+    std::vector<size_t> selected;
+    for (const size_t k : suite.selected) {
+        const std::string& file = suite.cases[k].where.file;
+        if (!wrong.contains(file)) {
+            selected.push_back(k);
+        } else if (left_out.insert(file).second) {
+            tell_no_strength(file);
+        }
+    }
+    return selected;
+}
+
+// What can be said of the files that can be read where others cannot.
+void lint_readable(const Program& program, const LintOptions& options) {
+    LintOptions readable = options;
+    std::erase_if(readable.suite.selectors, [&](const std::string& selector) {
+        SuiteOptions alone = options.suite;
+        alone.selectors = {selector};
+        const bool is_wrong = !load_and_select(program, alone);
+        if (is_wrong) {
+            tell_no_strength(selector);
+        }
+        return is_wrong;
+    });
+    if (!readable.suite.selectors.empty() &&
+        readable.suite.selectors.size() < options.suite.selectors.size()) {
+        lint_command(program, readable);
+    }
+}
+
 void tell(const cases::Case& c, const ref::Exercise& exercise) {
     const char* const unit = c.blit ? "texels" : "samples";
     std::string text = c.id + "\n";
@@ -122,6 +164,10 @@ void tell(const cases::Case& c, const ref::Exercise& exercise) {
 }  // namespace
 
 int lint_command(const Program& program, const LintOptions& options) {
+    if (options.quiet && options.verbose) {
+        return report_stop(
+            {report::kExitUsage, {"-q and -v contradict each other; leave one out"}});
+    }
     if (options.strength && options.suite.selectors.empty()) {
         return report_stop({report::kExitUsage,
                             {"--strength draws each case with each fault, which takes long for a "
@@ -131,8 +177,12 @@ int lint_command(const Program& program, const LintOptions& options) {
     if (!suite) {
         const int code = report_stop(suite.error());
         if (!options.quiet && code == report::kExitInvalidFile) {
-            std::printf("the suite cannot be read, %s\n",
+            std::printf("%s cannot be read, %s\n",
+                        options.suite.selectors.empty() ? "the suite" : "what is selected",
                         counted(suite.error().lines.size(), "error").c_str());
+        }
+        if (options.strength && code == report::kExitInvalidFile) {
+            lint_readable(program, options);
         }
         return code;
     }
@@ -170,8 +220,8 @@ int lint_command(const Program& program, const LintOptions& options) {
     if (options.suite.selectors.empty()) {
         add(check_expectation_files(*suite, expectation_files));
     }
-    if (options.strength && errors.empty()) {
-        add(tell_strength(*suite, options.quiet));
+    if (options.strength) {
+        add(tell_strength(*suite, without_errors(*suite, errors), options.quiet));
     }
     for (const cases::Error& error : errors) {
         complain(cases::to_string(error));

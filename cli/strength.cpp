@@ -84,19 +84,20 @@ void tell(const std::string& file, const Catches& catches) {
 
 }  // namespace
 
-cases::Errors tell_strength(const LoadedSuite& suite, bool quiet) {
+cases::Errors tell_strength(const LoadedSuite& suite, const std::vector<size_t>& selected,
+                            bool quiet) {
     std::vector<software::Fault> faults;
     for (const software::FaultInfo& info : software::all_faults()) {
         faults.push_back(info.fault);
     }
     std::mutex mutex;
     std::map<std::string, Catches> files;
-    for (const size_t k : suite.selected) {
+    for (const size_t k : selected) {
         files[suite.cases[k].where.file];  // also of those that catch nothing
     }
     std::map<size_t, cases::Error> errors;  // by number of the case: in its order
-    for_each_on_threads(suite.selected.size(), [&](size_t k) {
-        const cases::Case& c = suite.cases[suite.selected[k]];
+    for_each_on_threads(selected.size(), [&](size_t k) {
+        const cases::Case& c = suite.cases[selected[k]];
         Catches own;
         std::string why;
         try {

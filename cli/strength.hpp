@@ -13,6 +13,7 @@ namespace cli {
 // cases catch: the level, the rule, what the device does wrong, and how many families of the suite
 // catch it, too; the rarest first. Errors: cases with which the device has a finding without any
 // fault, so that they say nothing.
-cases::Errors tell_strength(const LoadedSuite& suite, bool quiet);
+cases::Errors tell_strength(const LoadedSuite& suite, const std::vector<size_t>& selected,
+                            bool quiet);
 
 }  // namespace cli

@@ -40,6 +40,19 @@ CaseRecord taken(std::map<size_t, CaseRecord>& from, size_t k) {
     return record;
 }
 
+// A rerun line that draws the case so many times at least.
+std::string repeating(std::string rerun, uint32_t already, uint32_t times) {
+    if (already >= times) {
+        return rerun;
+    }
+    const std::string old = " --repeat " + std::to_string(already);
+    const size_t at = already > 1 ? rerun.rfind(old) : std::string::npos;
+    if (at != std::string::npos) {
+        rerun.erase(at, old.size());
+    }
+    return rerun + " --repeat " + std::to_string(times);
+}
+
 // Of a duration in seconds.
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -312,6 +325,7 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
                             " has other bits than the first, which counted as " +
                             std::string(report::to_string(record.status));
             record.status = Status::flake;
+            record.rerun = repeating(record.rerun, config_.schedule.repeat, schedule_.attempts(k));
             settle(k, std::move(record));
             break;
         }

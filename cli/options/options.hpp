@@ -17,6 +17,10 @@
 
 namespace cli {
 
+// The folder of an export that holds the case files from outside the suite, by their ids: 'diff'
+// finds them there.
+inline constexpr char kCarried[] = "own-cases";
+
 enum class When { automatic, always, never };
 enum class ProgressStyle { automatic, plain, none };
 enum class Ci { automatic, github, gitlab, none };
@@ -25,6 +29,8 @@ enum class Ci { automatic, github, gitlab, none };
 struct SuiteOptions {
     std::string suite;  // empty: found by find_suite_root
     std::vector<std::string> selectors;
+    // Cases that an export carries: part of the suite where it lists them, without being named.
+    std::string carried = {};
 };
 
 struct DeviceOptions {

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <string_view>
 
 #include "cases/model/rule.hpp"
+#include "cases/model/rule_ids.hpp"
 #include "cli/prepare/on_threads.hpp"
 
 namespace cli {
@@ -15,6 +17,13 @@ namespace {
 
 // The fewest subpixel bits that a device may have [Vulkan, "Required Limits"].
 constexpr int kFewestSubpixelBits = 4;
+
+// What a rule asks for beside what its samples are, where a file may seem to have it.
+std::string_view condition_of(const std::string& rule) {
+    return rule == cases::rule::depth_repeat
+               ? "; both draws must have the same state, the depth test included"
+               : "";
+}
 
 }  // namespace
 
@@ -80,8 +89,8 @@ cases::Errors check_claims(const std::vector<cases::Case>& all,
             }
             errors.push_back({file->first->where,
                               fmt::format("no sample exercises the rule {}; one does {}, so take "
-                                          "the rule away or add a triangle",
-                                          rule, ref::exercise_of(rule))});
+                                          "the rule away or add a triangle{}",
+                                          rule, ref::exercise_of(rule), condition_of(rule))});
         }
     }
     return errors;

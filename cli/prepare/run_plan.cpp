@@ -194,7 +194,11 @@ std::string selector_of(const RunOptions& options, const std::string& id) {
     const size_t end = std::min(id.find(':'), id.size());
     const std::string base = id.substr(0, end);
     const std::string leaf = id.substr(end);
-    for (const std::string& selector : options.suite.selectors) {
+    std::vector<std::string> selectors = options.suite.selectors;
+    if (!options.suite.carried.empty()) {
+        selectors.push_back(options.suite.carried);
+    }
+    for (const std::string& selector : selectors) {
         const fs::path own = selector.substr(0, selector.find(".toml:") + 5);
         if (selector.find(".toml:") != std::string::npos && own.stem() == base) {
             return own.string() + leaf;
@@ -254,8 +258,11 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
 }
 
 std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id) {
-    std::vector<std::string> words = {program.arguments.front(), "diff",
-                                      selector_of(options.run, id), "--captures", options.captures};
+    RunOptions named = options.run;
+    named.suite.carried.clear();  // what the export carries is known by its id
+    std::vector<std::string> words = {program.arguments.front(), "diff", selector_of(named, id),
+                                      "--captures", options.captures};
+    add_given(words, "--exported", options.exported);
     add_suite_and_profile(words, options.run);
     add_subpixel_bits(words, options.subpixel_bits);
     add_given(words, "--name", options.name);

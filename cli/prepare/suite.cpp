@@ -159,10 +159,35 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
     return selectors;
 }
 
+// Adds the cases that an export carries, but for those that selectors have named already.
+OrStop<std::monostate> load_carried(const std::string& folder, LoadedSuite& suite) {
+    if (folder.empty() || !is_folder(folder)) {
+        return std::monostate{};
+    }
+    cases::Suite carried = cases::load_suite(folder);
+    if (!carried.errors.empty()) {
+        return tl::unexpected(invalid_files(carried.errors));
+    }
+    std::set<std::string> known;
+    for (const cases::Case& c : suite.cases) {
+        known.insert(c.id);
+    }
+    for (cases::Case& c : carried.cases) {
+        if (!known.contains(c.id)) {
+            suite.cases.push_back(std::move(c));
+        }
+    }
+    return std::monostate{};
+}
+
 OrStop<LoadedSuite> select_of(LoadedSuite suite, const SuiteOptions& options) {
+    suite.outside = suite.cases.size();
     const OrStop<std::vector<std::string>> selectors = load_outside_files(options, suite);
     if (!selectors) {
         return tl::unexpected(selectors.error());
+    }
+    if (auto carried = load_carried(options.carried, suite); !carried) {
+        return tl::unexpected(carried.error());
     }
     cases::Expected<std::vector<size_t>> selected =
         cases::select(suite.cases, *selectors, std::cin);

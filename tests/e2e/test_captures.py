@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Planes that renderers elsewhere deliver: what is judged, and wrong input."""
 import array
+import json
 import math
+import re
 import shutil
 import struct
 import unittest
@@ -253,6 +255,41 @@ class WrongInput(Captures):
         (self.captures / "fam/c1").rename(self.folder / "away")
         self.assertEqual(self.edgecase(*words, check=4).stderr,
                          f"edgecase: no case is selected: '{self.captures}' holds a folder of none\n")
+
+    def test_an_export_carries_cases_of_ones_own(self):
+        text = (self.suite / CASE).with_suffix(".toml").read_text()
+        own = self.folder / "mine" / "sub" / "own.toml"
+        own.parent.mkdir(parents=True)
+        own.write_text(text.replace("[target]", "[matrix]\nfirst = [0, 1]\n[target]").replace("[[draw]]", '[[draw]]\nfirst = "first"'))
+        self.edgecase("export", CASE, own.parent.parent, "-o", "exported", check=0)
+        ids = [c["id"] for c in json.loads((self.folder / "exported/index.json").read_text())["cases"]]
+        leaves = ["sub/own:first=0", "sub/own:first=1"]
+        self.assertEqual(ids, [CASE, *leaves])
+        shutil.rmtree(own.parent.parent)  # the export has all that is needed
+        folders = {c["id"]: c["folder"] for c in json.loads((self.folder / "exported/index.json").read_text())["cases"]}
+        for case in ids:
+            self.deliver("coverage.u8", bytes(INSIDE), folders[case])
+        words = ("diff", "--captures", self.captures, "--exported", "exported", "-o", self.out)
+        self.edgecase(*words, check=None)
+        self.assertEqual(set(self.statuses()), set(ids))
+        # A selector judges the suite's case alone, and the carried ones are no mistake.
+        self.edgecase(*words, CASE, check=0)
+        self.assertEqual(self.statuses(), {CASE: "pass"})
+        # The printed commands name carried cases so that they are found.
+        self.deliver("coverage.u8", bytes(SIDE * SIDE), folders[leaves[1]])
+        done = self.edgecase(*words, leaves[1], check=1)
+        rerun = re.search(r"rerun: \S+ (.*)", done.stdout)[1].split()
+        self.assertIn(leaves[1], rerun)
+        shutil.rmtree(self.out)
+        self.edgecase(*rerun, "-o", self.out, check=1)
+        self.assertEqual(list(self.statuses().values()), ["fail"])
+        explain = re.search(r"explain: \S+ (.*)", done.stdout)[1].split()
+        self.assertIn("exported/own-cases/sub/own.toml:first=1", explain)
+        self.edgecase(*explain, check=0)
+        # Drawn into the folder of the export, it needs no option.
+        shutil.copytree(self.folder / "exported", self.captures, dirs_exist_ok=True)
+        self.edgecase("diff", "--captures", self.captures, "-o", self.out, check=1)
+        self.assertEqual(set(self.statuses()), set(ids))
 
     def test_unknown_selector(self):
         self.captures.mkdir()

@@ -359,6 +359,32 @@ class Listing(ProgramTest):
         self.assertIn("    draws_nothing: ", told)
         self.assertNotIn("ties_right_too", told)  # no sample lies on an edge
 
+    def test_strength_is_told_of_files_beside_one_with_an_error(self):
+        good = (self.suite / "fam/c3.toml").read_text()
+        own, unread, wrong = (self.folder / f"{name}.toml" for name in ("good", "unread", "wrong"))
+        own.write_text(good)
+        unread.write_text("format = 1\n")
+        wrong.write_text(good.replace('"cover.inside"', '"cover.inside", "depth.repeat"'))
+        for bad in (unread, wrong):
+            done = self.edgecase("lint", "--strength", own, bad, check=3)
+            self.assertRegex(done.stdout, r"(?m)^\S+/good\.toml catches \d+ of \d+ known faults$")
+            self.assertIn(f"edgecase: {bad}: its strength cannot be told before its errors are mended\n", done.stderr)
+            self.assertNotIn(f"{bad} catches", done.stdout)
+        self.assertIn("both draws must have the same state, the depth test included", done.stderr)
+
+    def test_options_that_contradict_each_other_are_refused(self):
+        for words, told in ((("list", "--ids", "--long"), "--ids, --long and --json are three forms of one list; give one"),
+                            (("list", "--long", "--json"), "--ids, --long and --json are three forms of one list; give one"),
+                            (("lint", "-q", "-v"), "-q and -v contradict each other; leave one out")):
+            self.assertEqual(self.edgecase(*words, check=2).stderr, f"edgecase: {told}\n")
+
+    def test_bench_says_what_run_says(self):
+        words = ("--icd", self.folder / "none.json", "fam/c1")
+        said = self.edgecase("run", "-q", *words, "-o", "out").stderr
+        done = self.edgecase("bench", *words)
+        self.assertIn("none.json", said)
+        self.assertEqual(done.stderr, said)
+
     def test_lint_finds_a_wrong_picture(self):
         picture = "\\n".join(["........"] * 8)
         self.write_case("fam/c3", (self.suite / "fam/c3.toml").read_text() + f'[expect]\nhits = "{picture}"\n')

@@ -63,7 +63,11 @@ class Charging(ProgramTest):
         self.assertEqual(len(case["findings"]), 3)
 
     def test_flake(self):
-        self.charge("flake", "flake")
+        self.assertTrue(self.charge("flake", "flake")["rerun"].endswith(" --repeat 2"))
+
+    def test_the_rerun_line_of_a_flake_has_the_larger_repeat(self):
+        rerun = self.charge("flake", "flake", "--repeat", "3")["rerun"]
+        self.assertEqual(re.findall(r"--repeat (\d+)", rerun), ["3"])
 
     def test_flake_without_retries_is_a_fail(self):
         self.charge("flake", "fail", "--retries", "0")

@@ -82,6 +82,16 @@ class Lit(RecipeTest):
         del expected["fam/c9"]
         self.assertEqual(told, expected)
         self.assertIn("(1,4): expected 0 front, 1 back, got 1 front, 1 back;", done)  # of a failure, what the run says
+        report = re.search(r"report\s+(\S+/report\.html)", done)[1]
+        self.assertTrue(pathlib.Path(report).is_file(), report)
+
+    def test_a_misspelt_selector_is_one_sentence(self):
+        variables = {"EDGECASE_PROGRAM": PROGRAM, "EDGECASE_SELECTORS": "nosuch/**", "TMPDIR": str(self.folder)}
+        done = subprocess.run([sys.executable, LIT, "-v", str(SOURCE / "docs/ci/lit")], env=self.environment("") | variables,
+                              cwd=self.folder, capture_output=True, text=True, timeout=200, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"fatal: edgecase: .*nosuch")
+        self.assertNotIn("Traceback", done.stderr)
 
 
 DRIVERS = pathlib.Path(os.environ.get("EDGECASE_DRIVERS", pathlib.Path.home() / ".cache/edgecase-drivers"))

@@ -3,6 +3,7 @@
 """Lists and runs Edgecase's cases for lit; a module of its own, since lit sends tests to processes."""
 import os
 import shlex
+import shutil
 import subprocess
 import tempfile
 
@@ -17,12 +18,18 @@ RESULTS = {0: lit.Test.PASS, 1: lit.Test.FAIL, 6: lit.Test.UNSUPPORTED}
 class Edgecase(lit.formats.TestFormat):
     def getTestsInDirectory(self, suite, path_in_suite, lit_config, local_config):
         selectors = shlex.split(os.environ.get("EDGECASE_SELECTORS", ""))
-        listed = subprocess.run([PROGRAM, "list", "--ids", "--", *selectors], stdout=subprocess.PIPE, text=True, check=True)
+        listed = subprocess.run([PROGRAM, "list", "--ids", "--", *selectors], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                text=True, check=False)
+        if listed.returncode != 0:
+            lit_config.fatal(listed.stderr.strip())
         return [lit.Test.Test(suite, (case,), local_config) for case in listed.stdout.split()]
 
     def execute(self, test, lit_config):
-        with tempfile.TemporaryDirectory() as folder:
-            words = [PROGRAM, "run", "-o", folder, "--progress", "none", "--ci", "none",
-                     *shlex.split(os.environ.get("EDGECASE_OPTIONS", "")), "--", *test.path_in_suite]
-            done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        return RESULTS.get(done.returncode, lit.Test.UNRESOLVED), done.stdout
+        folder = tempfile.mkdtemp(prefix="case-", dir=test.suite.exec_root)
+        words = [PROGRAM, "run", "-o", folder, "--progress", "none", "--ci", "none",
+                 *shlex.split(os.environ.get("EDGECASE_OPTIONS", "")), "--", *test.path_in_suite]
+        done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        result = RESULTS.get(done.returncode, lit.Test.UNRESOLVED)
+        if result in (lit.Test.PASS, lit.Test.UNSUPPORTED):
+            shutil.rmtree(folder)  # what failed keeps its report, which the output names
+        return result, done.stdout
