@@ -36,7 +36,7 @@ j = [1,2])~"),
 f:6:1: error: the matrix key j is used nowhere; use it or leave it out)~"},
     {kHead + "[matrix]\na = [\"b\"]\nb = [1]\n" + kTarget +
          "[[draw]]\nvertices = [[0,0],[8,0],[\"a\",\"8*b\"]]\n",
-     R"~(f:10:26: error: x of vertex 2: "a" is not a number: the value of the matrix key a in line 5 is no number; there, expressions have no names (in the leaf a=b,b=1))~"},
+     R"~(f:10:26: error: x of vertex 2: "a" is not a number: the value of the matrix key a in line 5 is no number; there, expressions have no names)~"},
     {top(R"~(matrix = 1)~"),
      R"~(f:4:10: error: matrix is not a table of arrays; write [matrix] with key = [value, ...] or leave it out)~"},
     {leaves(R"~(vertices = [[0,0],[8,0],["1/(1-k)",8]])~"),
