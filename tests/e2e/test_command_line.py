@@ -373,10 +373,8 @@ class Listing(ProgramTest):
         self.assertIn("both draws must have the same state, the depth test included", done.stderr)
 
     def test_options_that_contradict_each_other_are_refused(self):
-        for words, told in ((("list", "--ids", "--long"), "--ids, --long and --json are three forms of one list; give one"),
-                            (("list", "--long", "--json"), "--ids, --long and --json are three forms of one list; give one"),
-                            (("lint", "-q", "-v"), "-q and -v contradict each other; leave one out")):
-            self.assertEqual(self.edgecase(*words, check=2).stderr, f"edgecase: {told}\n")
+        told = self.edgecase("lint", "-q", "-v", check=2).stderr
+        self.assertEqual(told, "edgecase: -q and -v contradict each other; leave one out\n")
 
     def test_bench_says_what_run_says(self):
         words = ("--icd", self.folder / "none.json", "fam/c1")
