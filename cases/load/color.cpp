@@ -13,27 +13,6 @@ namespace {
 
 using Kind = TomlValue::Kind;
 
-constexpr std::array<std::string_view, 8> kPresets = {
-    "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
-
-Blend preset(size_t index) {
-    using F = BlendFactor;
-    const auto both = [](F source, F destination, BlendOp op) {
-        return Blend{{source, destination, op}, {source, destination, op}};
-    };
-    const std::array<Blend, kPresets.size()> presets = {
-        {{},
-         {{F::src_alpha, F::one_minus_src_alpha, BlendOp::add},
-          {F::one, F::one_minus_src_alpha, BlendOp::add}},
-         both(F::one, F::one_minus_src_alpha, BlendOp::add),
-         both(F::one, F::one, BlendOp::add),
-         both(F::dst_color, F::zero, BlendOp::add),
-         both(F::one, F::one, BlendOp::reverse_subtract),
-         both(F::one, F::one, BlendOp::min),
-         both(F::one, F::one, BlendOp::max)}};
-    return presets.at(index);
-}
-
 // Four numbers, and for integer formats whole ones that the format holds.
 std::optional<glm::vec4> read_color(LeafContext& context, const TomlValue& value,
                                     const std::string& what, ColorFormat format) {
@@ -84,8 +63,8 @@ std::optional<Blend> read_blend(LeafContext& context, const TomlValue& value,
             context.known_keys(*alpha, "blend.alpha", {"source", "destination", "op"});
             out->alpha = read_equation(context, *alpha);
         }
-    } else if (const auto word = context.word(value, "blend", kPresets); word && *word > 0) {
-        out = preset(*word);
+    } else if (const auto word = context.word(value, "blend", kBlendWords); word && *word > 0) {
+        out = blend_of_word(*word);
     }
     if (out && is_integer(target.format)) {
         context.error(value.where, fmt::format("a target of integers ({}) is not blended; leave "
@@ -152,6 +131,24 @@ int32_t read_attribute_name(LeafContext& context, const TomlValue& value, const 
 }
 
 }  // namespace
+
+Blend blend_of_word(size_t index) {
+    using F = BlendFactor;
+    const auto both = [](F source, F destination, BlendOp op) {
+        return Blend{{source, destination, op}, {source, destination, op}};
+    };
+    const std::array<Blend, kBlendWords.size()> presets = {
+        {{},
+         {{F::src_alpha, F::one_minus_src_alpha, BlendOp::add},
+          {F::one, F::one_minus_src_alpha, BlendOp::add}},
+         both(F::one, F::one_minus_src_alpha, BlendOp::add),
+         both(F::one, F::one, BlendOp::add),
+         both(F::dst_color, F::zero, BlendOp::add),
+         both(F::one, F::one, BlendOp::reverse_subtract),
+         both(F::one, F::one, BlendOp::min),
+         both(F::one, F::one, BlendOp::max)}};
+    return presets.at(index);
+}
 
 std::optional<ColorTarget> read_color_target(LeafContext& context, const TomlValue& value) {
     if (!context.table(value, "color")) {

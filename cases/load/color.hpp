@@ -4,13 +4,21 @@
 // The keys that speak of colour: [target] color, [[draw]] color, a format.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "cases/model/case.hpp"
 #include "cases/toml/field_reader.hpp"
 
 namespace cases {
+
+// What `blend` may be instead of a table; the first word turns blending off.
+inline constexpr std::array<std::string_view, 8> kBlendWords = {
+    "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
+// The equations of a word, by its index from 1; the constants are 0.
+Blend blend_of_word(size_t index);
 
 // The word of a format.
 std::optional<ColorFormat> read_format(LeafContext& context, const TomlValue& value);

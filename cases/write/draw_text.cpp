@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/write/draw_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "cases/load/color.hpp"
+#include "cases/model/float_bits.hpp"
+#include "cases/model/words.hpp"
+#include "cases/write/toml_text.hpp"
+#include "cases/write/vertex_text.hpp"
+
+namespace cases {
+
+namespace {
+
+// Adds the word of an enumeration, if the value is not the default.
+template <class Enum>
+void add_word(TableText& table, const char* key, Enum value, Enum otherwise) {
+    if (value != otherwise) {
+        table.add(key, string_toml(word_of(value)));
+    }
+}
+
+void add_number(TableText& table, const char* key, float value, float otherwise) {
+    if (!same_bits(value, otherwise)) {
+        table.add(key, number_toml(value, Reading::nearest));
+    }
+}
+
+std::string numbers(std::initializer_list<float> values) {
+    std::vector<std::string> items;
+    for (const float value : values) {
+        items.push_back(number_toml(value, Reading::nearest));
+    }
+    return list_toml(items);
+}
+
+bool same_color(const glm::vec4& a, const glm::vec4& b) {
+    return same_bits(a.r, b.r) && same_bits(a.g, b.g) && same_bits(a.b, b.b) && same_bits(a.a, b.a);
+}
+
+// Vertices and what belongs to them are read by triangles in a list without indices.
+size_t group_of(const Draw& draw) {
+    return draw.topology == Topology::triangle_list && !draw.indices ? 3 : 0;
+}
+
+// `count` components of each entry; the same at every vertex is `constant`.
+void add_values(TableText& table, const std::vector<std::vector<float>>& values, size_t group) {
+    std::vector<std::string> items;
+    for (const std::vector<float>& value : values) {
+        std::vector<std::string> components;
+        for (const float component : value) {
+            components.push_back(number_toml(component, Reading::nearest));
+        }
+        items.push_back(components.size() == 1 ? components[0] : list_toml(components, ","));
+    }
+    const bool is_constant =
+        !items.empty() &&
+        std::adjacent_find(items.begin(), items.end(), std::not_equal_to<>()) == items.end();
+    if (is_constant) {
+        table.add("constant", items[0]);
+    } else {
+        table.add("values", array_toml(items, group));
+    }
+}
+
+std::string indices_text(const Draw& draw) {
+    std::vector<std::string> items;
+    for (const uint32_t index : *draw.indices) {
+        items.push_back(draw.primitive_restart && index == kRestartIndex ? "\"restart\""
+                                                                         : std::to_string(index));
+    }
+    return array_toml(items, draw.topology == Topology::triangle_list ? 3 : 0);
+}
+
+void add_viewport(TableText& table, const Viewport& v, const Target& target) {
+    const Viewport whole = {
+        0, 0, static_cast<float>(target.width), static_cast<float>(target.height), 0, 1};
+    const bool is_whole = same_bits(v.x, whole.x) && same_bits(v.y, whole.y) &&
+                          same_bits(v.width, whole.width) && same_bits(v.height, whole.height);
+    const std::string rect = numbers({v.x, v.y, v.width, v.height});
+    if (same_bits(v.min_depth, whole.min_depth) && same_bits(v.max_depth, whole.max_depth)) {
+        if (!is_whole) {
+            table.add("viewport", rect);
+        }
+        return;
+    }
+    TableText viewport;
+    if (!is_whole) {
+        viewport.add("rect", rect);
+    }
+    viewport.add("depth", numbers({v.min_depth, v.max_depth}));
+    table.add("viewport", viewport.in_line());
+}
+
+void add_scissor(TableText& table, const Rect& s, const Target& target) {
+    if (s.x != 0 || s.y != 0 || s.width != target.width || s.height != target.height) {
+        table.add("scissor", fmt::format("[{}, {}, {}, {}]", s.x, s.y, s.width, s.height));
+    }
+}
+
+std::string bias_text(const DepthBias& bias) {
+    const DepthBias usual;
+    TableText table;
+    add_number(table, "constant", bias.constant, usual.constant);
+    add_number(table, "slope", bias.slope, usual.slope);
+    add_number(table, "clamp", bias.clamp, usual.clamp);
+    add_word(table, "representation", bias.representation, usual.representation);
+    table.add_flag("exact", bias.is_exact, usual.is_exact);
+    if (table.is_empty()) {
+        table.add("constant", "0");  // enabled, and of no effect
+    }
+    return table.in_line();
+}
+
+void add_depth(TableText& table, const DepthState& depth) {
+    const DepthState usual;
+    TableText inner;
+    add_word(inner, "compare", depth.compare, usual.compare);
+    inner.add_flag("write", depth.write, usual.write);
+    if (depth.bias) {
+        inner.add("bias", bias_text(*depth.bias));
+    }
+    inner.add_flag("clamp", depth.clamp, usual.clamp);
+    if (depth.clip) {
+        inner.add_flag("clip", *depth.clip, !*depth.clip);
+    }
+    if (!inner.is_empty()) {
+        table.add("depth", inner.in_line());
+    }
+    if (depth.negative_one_to_one) {
+        table.add("depth_volume", string_toml(kVolumeWords[1]));
+    }
+}
+
+// A bit mask; hexadecimal digits show the bits of a large one.
+std::string mask_text(uint32_t mask) {
+    return mask < 10 ? std::to_string(mask) : fmt::format("{:#x}", mask);
+}
+
+void add_multisample(TableText& table, const Multisample& state) {
+    if (state.sample_mask != Multisample().sample_mask) {
+        table.add("sample_mask", mask_text(state.sample_mask));
+    }
+    if (state.shader_mask) {
+        table.add("shader_mask", mask_text(*state.shader_mask));
+    }
+    if (state.min_sample_shading) {
+        table.add("min_sample_shading", number_toml(*state.min_sample_shading, Reading::nearest));
+    }
+}
+
+TableText equation_text(const BlendEquation& equation) {
+    const BlendEquation usual;
+    TableText table;
+    add_word(table, "source", equation.source, usual.source);
+    add_word(table, "destination", equation.destination, usual.destination);
+    add_word(table, "op", equation.op, usual.op);
+    if (table.is_empty()) {
+        table.add("source", string_toml(word_of(usual.source)));
+    }
+    return table;
+}
+
+std::string blend_text(const Blend& blend) {
+    for (size_t k = 1; k < kBlendWords.size(); ++k) {
+        const Blend named = blend_of_word(k);
+        if (named.color == blend.color && named.alpha == blend.alpha) {
+            return string_toml(kBlendWords.at(k));
+        }
+    }
+    TableText table = equation_text(blend.color);
+    if (!(blend.alpha == blend.color)) {
+        table.add("alpha", equation_text(blend.alpha).in_line());
+    }
+    return table.in_line();
+}
+
+std::string color_output_text(const Draw& draw) {
+    const ColorOutput& color = draw.color;
+    TableText table;
+    if (color.attribute >= 0 && static_cast<size_t>(color.attribute) < draw.attributes.size()) {
+        table.add("attribute",
+                  string_toml(draw.attributes[static_cast<size_t>(color.attribute)].name));
+    } else {
+        table.add("value", color_text(color.value));
+    }
+    if (color.blend) {
+        table.add("blend", blend_text(*color.blend));
+        if (!same_color(color.blend->constants, Blend().constants)) {
+            table.add("constants", color_text(color.blend->constants));
+        }
+    }
+    if (color.write_mask != ColorOutput().write_mask) {
+        std::string letters;
+        for (size_t k = 0; k < 4; ++k) {
+            if ((static_cast<unsigned>(color.write_mask) >> k & 1U) != 0) {
+                letters += std::string_view("rgba")[k];
+            }
+        }
+        table.add("write_mask", string_toml(letters));
+    }
+    return table.in_line();
+}
+
+// The tables of clip or cull distances.
+std::string distances_text(const char* name, const std::vector<glm::vec4>& distances,
+                           uint32_t count, size_t group) {
+    std::string out;
+    for (uint32_t k = 0; k < std::min(count, 4U); ++k) {
+        std::vector<std::vector<float>> values;
+        for (const glm::vec4& distance : distances) {
+            values.push_back({distance[static_cast<glm::vec4::length_type>(k)]});
+        }
+        TableText table;
+        add_values(table, values, group);
+        out += fmt::format("[[draw.{}]]\n{}", name, table.lines());
+    }
+    return out;
+}
+
+std::string attribute_text(const Attribute& attribute, size_t index, size_t group) {
+    const Attribute usual;
+    TableText table;
+    if (attribute.name != fmt::format("attribute{}", index)) {
+        table.add("name", string_toml(attribute.name));
+    }
+    add_word(table, "source", attribute.source, usual.source);
+    add_word(table, "interpolation", attribute.interpolation, usual.interpolation);
+    add_word(table, "auxiliary", attribute.auxiliary, usual.auxiliary);
+    if (attribute.source == Source::vertex) {
+        std::vector<std::vector<float>> values;
+        for (const glm::vec4& value : attribute.values) {
+            std::vector<float>& components = values.emplace_back();
+            for (uint32_t k = 0; k < std::min(attribute.components, 4U); ++k) {
+                components.push_back(value[static_cast<glm::vec4::length_type>(k)]);
+            }
+        }
+        add_values(table, values, group);
+    }
+    add_word(table, "probe", attribute.probe, usual.probe);
+    if (attribute.probe == Probe::at_sample) {
+        table.add("sample", std::to_string(attribute.probe_sample));
+    }
+    if (attribute.probe == Probe::at_offset) {
+        table.add("offset", numbers({attribute.probe_offset[0], attribute.probe_offset[1]}));
+    }
+    if (attribute.probe == Probe::lod) {
+        table.add("texture",
+                  fmt::format("[{}, {}]", attribute.texture_size[0], attribute.texture_size[1]));
+    }
+    return "[[draw.attribute]]\n" + table.lines();
+}
+
+}  // namespace
+
+std::string color_text(const glm::vec4& color) {
+    return numbers({color.r, color.g, color.b, color.a});
+}
+
+std::string draw_text(const Draw& draw, const Target& target) {
+    const Draw usual;
+    const size_t group = group_of(draw);
+    TableText table;
+    add_word(table, "topology", draw.topology, usual.topology);
+    const VertexText vertices = vertex_text(draw);
+    if (!vertices.is_pixels) {
+        table.add("space", string_toml("clip"));
+    }
+    table.add("vertices", array_toml(vertices.vertices, group));
+    if (draw.indices) {
+        table.add("indices", indices_text(draw));
+    }
+    add_viewport(table, draw.viewport, target);
+    add_scissor(table, draw.scissor, target);
+    if (draw.viewport_index != usual.viewport_index) {
+        table.add("viewport_index", std::to_string(draw.viewport_index));
+    }
+    if (draw.layer != usual.layer) {
+        table.add("layer", std::to_string(draw.layer));
+    }
+    add_word(table, "cull", draw.cull, usual.cull);
+    add_word(table, "front_face", draw.front_face, usual.front_face);
+    add_word(table, "provoking", draw.provoking, usual.provoking);
+    table.add_flag("rasterizer_discard", draw.rasterizer_discard, usual.rasterizer_discard);
+    add_depth(table, draw.depth);
+    add_multisample(table, draw.multisample);
+    if (target.color) {
+        table.add("color", color_output_text(draw));
+    }
+    std::string out = "[[draw]]\n" + table.lines();
+    const ClipDistances& d = draw.distances;
+    out += distances_text("clip_distance", d.clip, d.clip_count, group);
+    out += distances_text("cull_distance", d.cull, d.cull_count, group);
+    for (size_t i = 0; i < draw.attributes.size(); ++i) {
+        out += attribute_text(draw.attributes[i], i, group);
+    }
+    return out;
+}
+
+}  // namespace cases

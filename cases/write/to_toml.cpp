@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/write/to_toml.hpp"
+
+#include <fmt/format.h>
+
+#include "cases/load/loader.hpp"
+#include "cases/model/float_bits.hpp"
+#include "cases/model/words.hpp"
+#include "cases/wire/case_bytes.hpp"
+#include "cases/write/draw_text.hpp"
+#include "cases/write/toml_text.hpp"
+
+namespace cases {
+
+namespace {
+
+std::string strings_text(const std::vector<std::string>& texts) {
+    std::vector<std::string> items;
+    for (const std::string& text : texts) {
+        items.push_back(string_toml(text));
+    }
+    return array_toml(items, 0);
+}
+
+std::string relations_text(const std::vector<Relation>& relations) {
+    std::vector<std::string> items;
+    for (const Relation& relation : relations) {
+        const std::string_view word = word_of(relation.kind);
+        items.push_back(relation.kind == RelationKind::scissor_tiles
+                            ? fmt::format("{{ {} = [{}, {}] }}", word, relation.tile[0],
+                                          relation.tile[1])
+                            : string_toml(word));
+    }
+    return array_toml(items, 0);
+}
+
+std::string head_text(const Case& c) {
+    TableText table;
+    table.add("format", "1");
+    table.add("description", string_toml(c.description));
+    if (!c.catches.empty()) {
+        table.add("catches", string_toml(c.catches));
+    }
+    table.add("rules", strings_text(c.rules));
+    if (!c.links.empty()) {
+        table.add("links", strings_text(c.links));
+    }
+    if (!c.relations.empty()) {
+        table.add("relations", relations_text(c.relations));
+    }
+    return table.lines();
+}
+
+std::string locations_text(const std::vector<std::array<uint8_t, 2>>& locations) {
+    std::vector<std::string> items;
+    for (const std::array<uint8_t, 2>& location : locations) {
+        items.push_back(fmt::format("[{}, {}]", location[0], location[1]));
+    }
+    return array_toml(items, 0);
+}
+
+std::string target_text(const Target& t) {
+    const Target usual;
+    TableText table;
+    const auto add_number = [&](const char* key, uint32_t value, uint32_t otherwise) {
+        if (value != otherwise) {
+            table.add(key, std::to_string(value));
+        }
+    };
+    const auto add_word = [&](const char* key, auto value, auto otherwise) {
+        if (value != otherwise) {
+            table.add(key, string_toml(word_of(value)));
+        }
+    };
+    table.add("size", fmt::format("[{}, {}]", t.width, t.height));
+    add_number("samples", t.samples, usual.samples);
+    add_number("layers", t.layers, usual.layers);
+    add_word("depth", t.depth_format, usual.depth_format);
+    if (!same_bits(t.depth_clear, usual.depth_clear)) {
+        table.add("depth_clear", number_toml(t.depth_clear, Reading::nearest));
+    }
+    if (!t.sample_locations.empty()) {
+        table.add("sample_locations", locations_text(t.sample_locations));
+    }
+    add_word("resolve", t.color_resolve, usual.color_resolve);
+    add_word("depth_resolve", t.depth_resolve, usual.depth_resolve);
+    table.add_flag("stencil", t.has_stencil, usual.has_stencil);
+    if (!t.has_instruments) {
+        table.add("attachments", string_toml(t.has_depth ? "color+depth" : "color"));
+    }
+    std::string out = "\n[target]\n" + table.lines();
+    if (t.color) {
+        TableText color;
+        color.add("format", string_toml(word_of(t.color->format)));
+        const std::string clear = color_text(t.color->clear);
+        if (clear != color_text(ColorTarget().clear)) {
+            color.add("clear", clear);
+        }
+        out += "[target.color]\n" + color.lines();
+    }
+    return out;
+}
+
+std::string corners_text(const Corners& c) {
+    return fmt::format("[{}, {}, {}, {}]", c.x0, c.y0, c.x1, c.y1);
+}
+
+std::string blit_text(const Blit& b, const Target& t) {
+    const Blit usual;
+    const auto whole = [](uint32_t width, uint32_t height) {
+        return Corners{0, 0, static_cast<int32_t>(width), static_cast<int32_t>(height)};
+    };
+    TableText table;
+    table.add("size", fmt::format("[{}, {}]", b.source_width, b.source_height));
+    if (!t.color || b.source_format != t.color->format) {
+        table.add("format", string_toml(word_of(b.source_format)));
+    }
+    if (b.pattern != usual.pattern) {
+        table.add("pattern", string_toml(word_of(b.pattern)));
+    }
+    if (b.seed != usual.seed) {
+        table.add("seed", std::to_string(b.seed));
+    }
+    if (b.filter != usual.filter) {
+        table.add("filter", string_toml(word_of(b.filter)));
+    }
+    if (b.source != whole(b.source_width, b.source_height)) {
+        table.add("from", corners_text(b.source));
+    }
+    if (b.destination != whole(t.width, t.height)) {
+        table.add("to", corners_text(b.destination));
+    }
+    return "\n[blit]\n" + table.lines();
+}
+
+// One picture, or an array of them: one a sample, and one a layer.
+std::string expect_text(const ExpectedHits& expected, const Target& t) {
+    const size_t pictures = size_t{t.samples} * t.layers;
+    std::string out = pictures == 1 ? "\n[expect]\nhits = " : "\n[expect]\nhits = [\n";
+    for (size_t p = 0; p < pictures; ++p) {
+        out += "\"\"\"\n";
+        for (size_t j = p * t.height; j < (p + 1) * t.height && j < expected.rows.size(); ++j) {
+            out += expected.rows[j] + "\n";
+        }
+        out += pictures == 1 ? "\"\"\"\n" : "\"\"\",\n";
+    }
+    return out + (pictures == 1 ? "" : "]\n");
+}
+
+std::vector<std::string> rows_of(const Case& c) {
+    return c.expected_hits ? c.expected_hits->rows : std::vector<std::string>();
+}
+
+// Why the text does not say all that the case is; empty if it does.
+std::string objection(const std::string& text, const Case& c) {
+    const ExpectedAll<std::vector<Case>> loaded = load_text(text, "", c.id);
+    if (!loaded) {
+        return loaded.error().front().message;
+    }
+    const Case& back = loaded->front();
+    const bool same_words = back.description == c.description && back.catches == c.catches &&
+                            back.rules == c.rules && back.links == c.links &&
+                            back.variation == c.variation && rows_of(back) == rows_of(c);
+    return same_words && to_bytes(back) == to_bytes(c)
+               ? std::string()
+               : "it holds what no key of a case file says";
+}
+
+}  // namespace
+
+Expected<std::string> to_toml(const Case& c) {
+    size_t vertices = 0;
+    size_t indices = 0;
+    for (const Draw& draw : c.draws) {
+        vertices += draw.positions.size();
+        indices += draw.indices ? draw.indices->size() : 0;
+    }
+    if (vertices > kMaxWrittenVertices || indices > kMaxWrittenIndices) {
+        return failure(
+            "{} has {} vertices and {} indices; a case file is written of at most {} and {}", c.id,
+            vertices, indices, kMaxWrittenVertices, kMaxWrittenIndices);
+    }
+    std::string text = head_text(c) + target_text(c.target);
+    for (const Draw& draw : c.draws) {
+        text += "\n" + draw_text(draw, c.target);
+    }
+    if (c.blit) {
+        text += blit_text(*c.blit, c.target);
+    }
+    if (c.expected_hits) {
+        text += expect_text(*c.expected_hits, c.target);
+    }
+    if (const std::string why = objection(text, c); !why.empty()) {
+        return failure("{} cannot be written as a case file: {}", c.id, why);
+    }
+    return text;
+}
+
+}  // namespace cases

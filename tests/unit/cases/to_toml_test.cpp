@@ -1,0 +1,325 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cases written as files, and read again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "cases/load/loader.hpp"
+#include "cases/wire/case_bytes.hpp"
+#include "cases/write/to_toml.hpp"
+
+namespace cases {
+
+namespace {
+
+const std::string kHead = "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n";
+
+std::optional<Case> load_one(const std::string& toml, const std::string& id) {
+    ExpectedAll<std::vector<Case>> loaded = load_text(toml, "f.toml", id);
+    if (!loaded) {
+        ADD_FAILURE() << id << ": " << to_string(loaded.error().front()) << "\n" << toml;
+        return std::nullopt;
+    }
+    return loaded->size() == 1 ? std::optional(std::move(loaded->front())) : std::nullopt;
+}
+
+std::string written(const std::string& toml) {
+    const std::optional<Case> c = load_one(toml, "family/name");
+    const Expected<std::string> text = c ? to_toml(*c) : Expected<std::string>("");
+    EXPECT_TRUE(text) << (text ? "" : to_string(text.error()));
+    return text.value_or("");
+}
+
+// What follows the key in the first line that starts with it; empty without one.
+std::string value_of(const std::string& text, const std::string& key) {
+    size_t at = text.find("\n" + key + " ");
+    if (at == std::string::npos) {
+        return "";
+    }
+    at = text.find("= ", at) + 2;
+    return text.substr(at, text.find('\n', at) - at);
+}
+
+// The vertices as they are written, of a draw with these in a target of 8 x 8 pixels.
+std::string vertices_of(const std::string& draw) {
+    return value_of(written(kHead + "[target]\nsize = [8, 8]\n[[draw]]\n" + draw), "vertices");
+}
+
+std::vector<std::string> rows_of(const Case& c) {
+    return c.expected_hits ? c.expected_hits->rows : std::vector<std::string>();
+}
+
+}  // namespace
+
+// Every leaf of the suite that is not too large for a file.
+TEST(ToToml, GivesBackEveryLeafOfTheSuite) {
+    const Suite suite = load_suite(std::string(EDGECASE_SOURCE_DIR) + "/cases/suite");
+    ASSERT_TRUE(suite.errors.empty());
+    size_t written_leaves = 0;
+    size_t leaves_in_clip = 0;
+    for (const Case& c : suite.cases) {
+        const Expected<std::string> text = to_toml(c);
+        if (!text) {
+            const auto is_large = [](const Draw& d) {
+                return d.positions.size() > kMaxWrittenVertices ||
+                       (d.indices && d.indices->size() > kMaxWrittenIndices);
+            };
+            EXPECT_TRUE(std::any_of(c.draws.begin(), c.draws.end(), is_large))
+                << to_string(text.error());
+            continue;
+        }
+        const std::optional<Case> back = load_one(*text, c.id);
+        ASSERT_TRUE(back);
+        EXPECT_EQ(to_bytes(*back), to_bytes(c)) << c.id << "\n" << *text;
+        EXPECT_EQ(back->description, c.description);
+        EXPECT_EQ(back->catches, c.catches);
+        EXPECT_EQ(back->rules, c.rules);
+        EXPECT_EQ(back->links, c.links);
+        EXPECT_EQ(rows_of(*back), rows_of(c)) << c.id;
+        const Expected<std::string> again = to_toml(*back);
+        ASSERT_TRUE(again);
+        EXPECT_EQ(*again, *text);
+        ++written_leaves;
+        leaves_in_clip += text->find("= \"clip\"") != std::string::npos ? 1U : 0U;
+    }
+    EXPECT_GT(written_leaves * 100, suite.cases.size() * 99);
+    EXPECT_GT(leaves_in_clip, 0U);
+    EXPECT_LT(leaves_in_clip * 10, written_leaves);
+}
+
+// A plain case has the keys that it cannot do without; whoever reads it sees what is special.
+TEST(ToToml, LeavesDefaultsOut) {
+    const std::string plain = R"(format      = 1
+description = "One \"triangle\"."
+rules       = ["cover.inside"]
+
+[target]
+size = [8, 8]
+
+[[draw]]
+vertices = [[0,0], [8,0], [0,7.5]]
+)";
+    EXPECT_EQ(written(plain), plain);
+    // The same with every default spelt out.
+    EXPECT_EQ(written(R"(
+format = 1
+description = "One \"triangle\"."
+rules = ["cover.inside"]
+links = []
+relations = []
+[target]
+size = [8, 8]
+samples = 1
+layers = 1
+depth = "d32-float"
+depth_clear = 0.375
+resolve = "none"
+depth_resolve = "none"
+stencil = false
+attachments = "all"
+[[draw]]
+topology = "triangle-list"
+space = "pixels"
+vertices = [[0,0,0.5,1], [8,0,0.5,1], [0,"15/2",0.5,1]]
+viewport = { rect = [0, 0, 8, 8], depth = [0, 1] }
+scissor = [0, 0, 8, 8]
+depth = { compare = "always", write = true, clamp = false }
+viewport_index = 0
+layer = 0
+cull = "none"
+front_face = "counter-clockwise"
+sample_mask = 0xffffffff
+provoking = "first"
+depth_volume = "zero-to-one"
+rasterizer_discard = false
+mirror = "none"
+)"),
+              plain);
+}
+
+// One case with nearly every key, as it is written; loading it gives the same text.
+TEST(ToToml, IsWrittenAsPeopleWriteIt) {
+    const std::string text = R"toml(format      = 1
+description = "All of it."
+catches     = "much"
+rules       = ["cover.inside", "blend.equation"]
+links       = ["https://example.org"]
+relations   = ["same-twice", { scissor-tiles = [4, 4] }]
+
+[target]
+size             = [8, 4]
+samples          = 2
+depth_clear      = 0.25
+sample_locations = [[0, 15], [8, 8]]
+resolve          = "average"
+depth_resolve    = "min"
+stencil          = true
+[target.color]
+format = "rgba16-float"
+clear  = [0, 0.1, "2^-20", 1]
+
+[[draw]]
+topology           = "triangle-strip"
+vertices           = [[0,0,0.5,1], [8,0,0.25,2], [0,4,0.5,1], ["2+2/3",4,0.5,1]]
+indices            = [0, 1, 2, "restart", 1, 2, 3]
+viewport           = { rect = [0, 4, 8, -4], depth = [0.25, 1] }
+scissor            = [1, 0, 7, 4]
+viewport_index     = 3
+cull               = "back"
+front_face         = "clockwise"
+provoking          = "last"
+rasterizer_discard = true
+depth              = { compare = "less", write = false, bias = { slope = 1.5 }, clip = true }
+depth_volume       = "negative-one-to-one"
+sample_mask        = 3
+shader_mask        = 0xff
+min_sample_shading = 0.5
+color              = { attribute = "c", blend = "alpha", constants = [0, 0, 0, 1], write_mask = "rb" }
+[[draw.attribute]]
+name   = "c"
+values = [[1,0], [0.1,0], [0,1], [0,"-2^-30"]]
+[[draw.attribute]]
+interpolation = "noperspective"
+constant      = 7
+probe         = "at-offset"
+offset        = [0.25, -0.5]
+[[draw.attribute]]
+source    = "barycentric"
+auxiliary = "centroid"
+
+[[draw]]
+space    = "clip"
+vertices = [["nan",0,0,1], ["-inf",-0.0,"bits(0x7fc00001)",0], ["2^-149","0.1f",16777216,1],  [0,1,2,3]]
+color    = { value = [1, 1, 1, 1], blend = { destination = "one", alpha = { source = "zero" } } }
+[[draw.clip_distance]]
+values = [1, -1, 0.33333334,  2]
+[[draw.clip_distance]]
+constant = -0.0
+[[draw.cull_distance]]
+constant = 4
+
+[expect]
+hits = [
+"""
+??......
+........
+........
+........
+""",
+"""
+........
+........
+........
+.......?
+""",
+]
+)toml";
+    EXPECT_EQ(written(text), text);
+}
+
+// One row a way to write a number: what is given, and the vertices that come of it.
+TEST(ToToml, WritesNumbersShortest) {
+    struct Row {
+        const char* given;
+        const char* written;
+    };
+    const Row rows[] = {
+        // Pixels: a grid of a power of two, then decimals, then fractions.
+        {R"([[0,0], [8,0], ["3+1/65536",5]])", R"([[0,0], [8,0], ["3+1/65536",5]])"},
+        {R"([[0,0], [8,0], ["-1-1/256",5]])", R"([[0,0], [8,0], ["-1-1/256",5]])"},
+        {R"([[0,0], [8,0], [0.1,"-8/3"]])", R"([[0,0], [8,0], [0.1,"-2-2/3"]])"},
+        {R"([[0,0], [8,0], ["5/7","1/1000"]])", R"([[0,0], [8,0], ["5/7",0.001]])"},
+        // z and w: as short as the longest vertex allows.
+        {R"([[0,0], [8,0], [0,8,0.5,1]])", "[[0,0], [8,0], [0,8]]"},
+        {R"([[0,0], [8,0], [0,8,-0.0]])", "[[0,0,0.5], [8,0,0.5], [0,8,-0.0]]"},
+        {R"([[0,0], [8,0], [0,8,"1/3",-3]])", R"([[0,0,0.5,1], [8,0,0.5,1], [0,8,"1/3",-3]])"},
+        {R"([[0,0], [8,0], [4,4,0,"1/3"]])", "[[0,0,0.5,1], [8,0,0.5,1], [4,4,0,0.33333334]]"},
+    };
+    for (const Row& row : rows) {
+        EXPECT_EQ(vertices_of(std::string("vertices = ") + row.given), row.written);
+    }
+    const std::string clip = "space = \"clip\"\nvertices = ";
+    // Clip space where no pixel says it: -0 with a positive w; far away; a tiny offset from the
+    // centre, which is pixel 4.
+    for (const char* same :
+         {"[[-0.0,0,0,1], [1,0,0,1], [0,1,0,1]]", "[[10000000000,0,0,1], [1,0,0,1], [0,1,0,1]]",
+          R"([["2^-100",0,0,1], [1,0,0,1], [0,1,0,1]])", "[[0,0,0,0], [1,0,0,1], [0,1,0,1]]"}) {
+        EXPECT_EQ(vertices_of(clip + same), same);
+    }
+    // And pixels where one does.
+    EXPECT_EQ(vertices_of(clip + "[[-1,-1,0,1], [1,0,0,1], [\"0x1.555556p-2\",1,0,1]]"),
+              R"([[0,0,0], [8,4,0], ["5+1/3",8,0]])");
+    EXPECT_EQ(vertices_of("viewport = [1, 2, 0.5, -3]\n" + clip +
+                          "[[-1,-1,0.5,1], [1,0,0.5,1], [0,1,0.5,1]]"),
+              "[[1,2], [1.5,0.5], [1.25,-1]]");
+}
+
+// No bits are lost, whatever they are: all exponents and the ends of each.
+TEST(ToToml, KeepsEveryBit) {
+    std::optional<Case> c = load_one(kHead + "[target]\nsize = [8, 8]\n[[draw]]\nspace = \"clip\"\n"
+                                             "vertices = [[0,0,0,1],[1,0,0,1],[0,1,0,1]]\n"
+                                             "[[draw.attribute]]\nconstant = 1\n",
+                                     "family/name");
+    ASSERT_TRUE(c);
+    std::vector<glm::vec4>& positions = c->draws[0].positions;
+    std::vector<glm::vec4>& values = c->draws[0].attributes[0].values;
+    for (uint32_t exponent = 0; exponent < 256; ++exponent) {
+        for (const uint32_t mantissa : {0x0U, 0x1U, 0x2aaaabU, 0x555555U, 0x7fffffU}) {
+            const uint32_t bits = exponent << 23U | mantissa;
+            const auto value = std::bit_cast<float>(bits);
+            positions.emplace_back(value, -value, std::bit_cast<float>(bits ^ 1U), value);
+            // Attributes end at 2^126, or are not finite.
+            const bool is_large = exponent >= 126 + 127 && exponent < 255;
+            values.emplace_back(is_large ? 1.0F : -value, 0, 0, 0);
+        }
+    }
+    const Expected<std::string> text = to_toml(*c);
+    ASSERT_TRUE(text) << to_string(text.error());
+    const std::optional<Case> back = load_one(*text, c->id);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(to_bytes(*back), to_bytes(*c));
+}
+
+TEST(ToToml, SaysWhatCannotBeWritten) {
+    const std::optional<Case> plain =
+        load_one(kHead + "[target]\nsize = [8, 8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8]]\n",
+                 "family/name");
+    ASSERT_TRUE(plain);
+    const auto error_of = [](const Case& c) {
+        const Expected<std::string> text = to_toml(c);
+        return text ? *text : to_string(text.error());
+    };
+    Case c = *plain;
+    c.draws[0].positions.resize(kMaxWrittenVertices + 1, {0, 0, 0, 1});
+    EXPECT_EQ(error_of(c),
+              "error: family/name has 4097 vertices and 0 indices; a case file is written of at "
+              "most 4096 and 24576");
+    c.draws[0].positions.pop_back();
+    EXPECT_TRUE(to_toml(c));
+    c = *plain;
+    c.draws[0].indices = std::vector<uint32_t>(kMaxWrittenIndices + 1, 0);
+    EXPECT_EQ(error_of(c),
+              "error: family/name has 3 vertices and 24577 indices; a case file is written of at "
+              "most 4096 and 24576");
+    c = *plain;
+    c.draws[0].color.write_mask = 1;  // of no colour target
+    EXPECT_EQ(error_of(c),
+              "error: family/name cannot be written as a case file: it holds what no key of a case "
+              "file says");
+    c = *plain;
+    c.variation.other_clears = true;
+    EXPECT_EQ(error_of(c),
+              "error: family/name cannot be written as a case file: it holds what no key of a case "
+              "file says");
+    c = *plain;
+    c.rules.clear();
+    EXPECT_EQ(error_of(c),
+              "error: family/name cannot be written as a case file: rules is empty, so "
+              "the case claims nothing; name at least one rule of docs/rules.md");
+}
+
+}  // namespace cases
