@@ -75,6 +75,11 @@ void add_keys(const TomlValue& table, const std::string& path, std::set<std::str
                 words.insert("color");
             }
             add_keys(value, is_top ? entry.key : name, words);
+        } else if (entry.key == "relations") {
+            for (const TomlValue& relation : value.array) {
+                words.insert("relation " + (relation.table.empty() ? relation.string
+                                                                   : relation.table.front().key));
+            }
         } else if (value.is(TomlValue::Kind::array) && !value.array.empty() &&
                    value.array.front().is(TomlValue::Kind::table)) {
             if (entry.key == "draw" && value.array.size() > 1) {
@@ -93,11 +98,6 @@ void add_keys(const TomlValue& table, const std::string& path, std::set<std::str
         } else if (entry.key == "samples" || value.is(TomlValue::Kind::boolean)) {
             words.insert(entry.key == "samples" ? "several samples"
                                                 : name + (value.boolean ? "=true" : "=false"));
-        } else if (entry.key == "relations") {
-            for (const TomlValue& relation : value.array) {
-                words.insert("relation " + (relation.table.empty() ? relation.string
-                                                                   : relation.table.front().key));
-            }
         } else {
             words.insert(name);
         }

@@ -41,6 +41,15 @@ std::string quoted(const std::string& text) {
     return out + '"';
 }
 
+// A key with signs that a bare one may not have stands in quotes.
+std::string key_text(const std::string& key) {
+    const bool is_bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '-';
+    });
+    return is_bare ? key : quoted(key);
+}
+
 std::string text_of(double value) {
     if (std::isnan(value)) {
         return std::signbit(value) ? "-nan" : "nan";
@@ -78,7 +87,7 @@ std::string inline_text(const Document& value) {
             return fmt::format("[{}]", fmt::join(parts, ", "));
         case Kind::table:
             for (const TomlEntry& entry : value.table) {
-                parts.push_back(entry.key + " = " + inline_text(entry.value));
+                parts.push_back(key_text(entry.key) + " = " + inline_text(entry.value));
             }
             return parts.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(parts, ", "));
         case Kind::date_time:
@@ -89,11 +98,11 @@ std::string inline_text(const Document& value) {
 
 // "key = value", an array that is too long for a line with as many elements a line as fit.
 std::string line(const std::string& key, const Document& value) {
-    std::string text = key + " = " + inline_text(value) + '\n';
+    std::string text = key_text(key) + " = " + inline_text(value) + '\n';
     if (text.size() <= kLineLength || !value.is(Kind::array)) {
         return text;
     }
-    text = key + " = [\n";
+    text = key_text(key) + " = [\n";
     std::string row;
     for (const Document& element : value.array) {
         const std::string part = inline_text(element) + ",";
@@ -124,7 +133,7 @@ std::string table_text(const Document& table, const std::string& path) {
         if (!stands_apart(path, entry)) {
             continue;
         }
-        const std::string below = path.empty() ? entry.key : path + "." + entry.key;
+        const std::string below = (path.empty() ? "" : path + ".") + key_text(entry.key);
         if (entry.value.is(Kind::table)) {
             text += fmt::format("\n[{}]\n{}", below, table_text(entry.value, below));
             continue;

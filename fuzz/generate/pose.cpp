@@ -3,6 +3,7 @@
 #include "fuzz/generate/pose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "fuzz/generate/dice.hpp"
@@ -20,6 +21,25 @@ size_t index_of(std::string_view name) {
     }
     return static_cast<size_t>(at - all.begin());
 }
+
+// What a feature needs to mean anything, as the other one's value of that number.
+struct Need {
+    std::string_view feature, other;
+    size_t value;
+};
+constexpr std::array<Need, 21> kNeeds = {{
+    {"resolve", "samples", 1},          {"resolve", "color", 1},
+    {"depth-resolve", "samples", 1},    {"sample-locations", "samples", 1},
+    {"sample-mask", "samples", 1},      {"shader-mask", "samples", 1},
+    {"sample-shading", "samples", 1},   {"attachments", "color", 1},
+    {"blend", "color", 1},              {"color-from", "color", 1},
+    {"write-mask", "color", 1},         {"compare", "draws", 1},
+    {"compare", "z", 1},                {"bias", "z", 1},
+    {"depth-clamp", "z", 2},            {"interpolation", "attributes", 1},
+    {"auxiliary", "attributes", 1},     {"source", "attributes", 1},
+    {"probe", "attributes", 1},         {"provoking", "attributes", 1},
+    {"viewport-index", "draws", 1},
+}};
 
 }  // namespace
 
@@ -120,6 +140,15 @@ Pose Poses::draw(size_t candidate) const {
     for (uint64_t k = 0; k < count; ++k) {
         const size_t feature = dice.below(features().size());
         pose.set(feature, dice.below(features()[feature].values.size()));
+    }
+    for (const Need& need : kNeeds) {
+        if (!pose.is_default(need.feature) && pose.is_default(need.other)) {
+            pose.set(index_of(need.other), need.value);
+        }
+    }
+    if (!pose.is_default("relation") && pose.value("relation").ends_with("-attributes") &&
+        pose.is_default("attributes")) {
+        pose.set(index_of("attributes"), 1);
     }
     return pose;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -28,16 +29,20 @@ size_t keys_of(const Document& value) {
 }
 
 // How large a case is; nothing if the document is none.
-using Size = std::array<uint64_t, 5>;
+using Size = std::array<uint64_t, 6>;
 std::optional<Size> size_of(const Document& document, const std::string& text) {
     const auto loaded = cases::load_text(text, "reduced", "reduced");
     if (!loaded || loaded->size() != 1) {
         return std::nullopt;
     }
     const cases::Case& c = loaded->front();
+    const uint64_t digits =
+        std::accumulate(text.begin(), text.end(), uint64_t{0}, [](uint64_t sum, char letter) {
+            return sum + (letter >= '0' && letter <= '9' ? static_cast<uint64_t>(letter - '0') : 0);
+        });
     return Size{c.draws.size(), cases::assemble(c).size(), keys_of(document),
                 uint64_t{c.target.width} * c.target.height * c.target.samples * c.target.layers,
-                text.size()};
+                text.size(), digits};
 }
 
 struct Candidate {

@@ -31,7 +31,7 @@ struct Reduced {
 // `document` is a case of one leaf that shows it. The same document and answers give the same
 // result. Each round takes the most valuable step that still shows it, and on top of it as many of
 // the others as go with it. Every step makes the case smaller in an order without an infinite
-// descent: draws, triangles, keys, samples of the target, length of the text.
+// descent: draws, triangles, keys, samples of the target, length of the text, its digits.
 Reduced reduce(Document document, const Shows& shows, const ReduceOptions& options = {});
 
 }  // namespace fuzz
