@@ -15,6 +15,7 @@
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
+#include "cli/reproducer/reproducer.hpp"
 #include "report/files/ci.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
@@ -127,6 +128,10 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     for (run::PlannedCase& c : p.plan) {
         c.rerun = rerun_line(program, options, c.data.id);
         c.explain = explain_line(program, options, c.data.id, device.subpixel_bits);
+        c.no_reproducer = undrawable_part(c.data);
+        if (c.no_reproducer.empty()) {
+            c.reproducer = reproducer_line(program, options, c.data.id, device.subpixel_bits);
+        }
     }
     if (p.folder.empty()) {
         p.folder = fs::path("out") / (utc_now(true) + "-" + file_name_of(device.name));

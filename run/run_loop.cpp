@@ -442,6 +442,12 @@ void RunLoop::finish(size_t k, CaseRecord record) {
             record.explain += " --layer " + std::to_string(f.layer.value_or(0));
         }
     }
+    const bool died = record.status == Status::crash || record.status == Status::timeout ||
+                      record.status == Status::device_lost;
+    if (died || !record.findings.empty()) {
+        record.reproducer = cases_[k].reproducer;
+        record.no_reproducer = cases_[k].no_reproducer;
+    }
     if (journal_ != nullptr) {
         check(journal_->write_end(record));
     }

@@ -30,9 +30,10 @@ namespace run {
 struct PlannedCase {
     cases::Case data;
     std::optional<ExpectationLine> expected;
-    std::string error;           // not empty: not rendered, status error
-    bool alone = false;          // was in flight when an earlier run was cut off
-    std::string rerun, explain;  // command lines without --pixel
+    std::string error;                      // not empty: not rendered, status error
+    bool alone = false;                     // was in flight when an earlier run was cut off
+    std::string rerun, explain;             // command lines without --pixel
+    std::string reproducer, no_reproducer;  // as in report::CaseRecord
 };
 
 struct LoopConfig {

@@ -279,6 +279,16 @@ std::string explain_line(const Program& program, const RunOptions& options, cons
     return join(words);
 }
 
+std::string reproducer_line(const Program& program, const RunOptions& options,
+                            const std::string& id, uint32_t subpixel_bits) {
+    std::vector<std::string> words = {program.arguments.front(), "export", "--reproducer",
+                                      selector_of(options, id)};
+    add_suite_and_profile(words, options);
+    add_subpixel_bits(words, subpixel_bits);
+    words.insert(words.end(), {"-o", "repro.c"});
+    return join(words);
+}
+
 std::vector<std::pair<std::string, std::string>> recorded_environment() {
     constexpr std::array<std::string_view, 14> kPrefixes = {
         "VK_",         "EDGECASE_",  "LP_",          "LVP_",         "MESA_",

@@ -41,6 +41,9 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
 std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id);
 std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
                          uint32_t subpixel_bits);
+// Writes the case as a C program into the working directory.
+std::string reproducer_line(const Program& program, const RunOptions& options,
+                            const std::string& id, uint32_t subpixel_bits);
 
 // What was set of the variables that choose or change drivers, and PWD.
 std::vector<std::pair<std::string, std::string>> recorded_environment();

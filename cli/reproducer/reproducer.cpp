@@ -71,27 +71,6 @@ std::string_view missing_of(const cases::Draw& d) {
     });
 }
 
-// A part of the case that the program cannot draw or judge; empty if there is none.
-std::string_view missing_of(const cases::Case& c) {
-    constexpr size_t kMaxDraws = 0x7fff;  // the shader packs their number into 16 bits
-    const cases::Target& t = c.target;
-    for (const cases::Draw& draw : c.draws) {
-        if (const std::string_view missing = missing_of(draw); !missing.empty()) {
-            return missing;
-        }
-    }
-    return first_of({
-        {c.blit.has_value(), "a blit"},
-        {!c.relations.empty(), "a relation to another drawing of itself"},
-        {t.color.has_value(), "a colour target"},
-        {t.layers > 1, "several layers"},
-        {!t.sample_locations.empty(), "sample locations of its own"},
-        {t.has_stencil, "a stencil"},
-        {t.depth_resolve != cases::Resolve::none, "a resolve"},
-        {c.draws.size() > kMaxDraws, "more than 32,767 draws"},
-    });
-}
-
 // The text inside a C string or comment: what could end either is left out.
 std::string quoted(std::string_view text) {
     std::string out;
@@ -125,9 +104,29 @@ std::string target_text(const cases::Target& t, const ref::Limits& limits, size_
 
 }  // namespace
 
+std::string_view undrawable_part(const cases::Case& c) {
+    constexpr size_t kMaxDraws = 0x7fff;  // the shader packs their number into 16 bits
+    const cases::Target& t = c.target;
+    for (const cases::Draw& draw : c.draws) {
+        if (const std::string_view missing = missing_of(draw); !missing.empty()) {
+            return missing;
+        }
+    }
+    return first_of({
+        {c.blit.has_value(), "a blit"},
+        {!c.relations.empty(), "a relation to another drawing of itself"},
+        {t.color.has_value(), "a colour target"},
+        {t.layers > 1, "several layers"},
+        {!t.sample_locations.empty(), "sample locations of its own"},
+        {t.has_stencil, "a stencil"},
+        {t.depth_resolve != cases::Resolve::none, "a resolve"},
+        {c.draws.size() > kMaxDraws, "more than 32,767 draws"},
+    });
+}
+
 cases::Expected<std::string> reproducer(const cases::Case& c, const ref::Limits& limits,
                                         cases::Profile profile, std::string_view version) {
-    if (const std::string_view missing = missing_of(c); !missing.empty()) {
+    if (const std::string_view missing = undrawable_part(c); !missing.empty()) {
         return cases::failure(fmt::format(
             "the case '{}' has {}, which a reproducer cannot draw; send the case file with the "
             "output of 'edgecase run' instead",

@@ -14,6 +14,9 @@
 
 namespace cli {
 
+// The part of a case that no such program can draw or judge ("a blit"); empty if there is none.
+std::string_view undrawable_part(const cases::Case& c);
+
 // The program's text. It draws the case by the harness's own shaders and holds every sample to the
 // reference at the profile: hits, the last writer, and each value to the range of all numbers that
 // are right for it. Exit code 0: all are right; 1, with a line for each: some are wrong; 2: it

@@ -18,7 +18,7 @@ function makeCasePage(record, neighbours, onChange) {
   page.mark = (at) => {
     page.findings.forEach((f, k) => page.rows[k].setAttribute("aria-selected", String(f.x === at.x && f.y === at.y && f.sample === at.sample)));
   };
-  const heading = el("h1", {tabIndex: -1, id: "case-title", class: "id"}, record.id);
+  const heading = el("h1", {tabIndex: -1, id: "case-title", class: "id"}, idText(record.id));
   const step = (label, key, target) => el("button", {type: "button", disabled: !target, title: "key " + key, "data-step": key, onclick: () => openCase(target)}, label);
   const described = string(record.description), catches = string(record.catches);
   const head = el("header", {class: "case-head"},
@@ -98,8 +98,11 @@ function factsSection(record) {
 
 function commandsSection(record) {
   if (!record.rerun && !record.explain) { return null; }
-  const reproducer = record.explain && record.explain.replace(" explain ", " export --reproducer ").replace(/ --pixel .*$/, "") + " -o repro.c";
-  return el("section", {}, el("h2", {}, "Again"), command("rerun", record.rerun), command("explain", record.explain), command("reproducer", reproducer));
+  const settings = string(record.settings);
+  return el("section", {}, el("h2", {}, "Again"),
+    settings ? el("div", {class: "command"}, el("span", {class: "quiet"}, "settings"), el("div", {}, el("code", {}, settings.trim()), el("div", {class: "quiet small"}, "in front of " + (record.debug ? "rerun and debug, copied with them" : "rerun, copied with it")))) : null,
+    command("rerun", record.rerun, settings), command("debug", record.debug, settings), command("explain", record.explain), command("reproducer", record.reproducer),
+    record.no_reproducer ? el("div", {class: "command"}, el("span", {class: "quiet"}, "reproducer"), el("div", {}, "none: the case has " + record.no_reproducer + ", which such a program cannot draw")) : null);
 }
 
 const SHOWN_SHAPES = 64;

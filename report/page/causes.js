@@ -4,10 +4,13 @@
 // that the rule that leads in the most families.
 
 const SHOWN_CAUSES = 8;
+const SHOWN_BUGS = 3;  // of a cause
 
-const causes = data.causes.map((cause) => ({...cause, key: [cause.change, cause.status, cause.family, cause.rule, cause.kind].filter((part) => part !== undefined).join("|"),
-  records: cause.cases.map((k) => data.cases[k])}));
-const causeOf = new Map(causes.flatMap((cause) => cause.records.map((record) => [record, cause])));
+const openCause = (cause) => ({...cause, key: [cause.change, cause.status, cause.family, cause.rule, cause.kind].filter((part) => part !== undefined).join("|"),
+  records: cause.cases.map((k) => data.cases[k])});
+const causes = data.causes.map(openCause);
+const knownCauses = (data.known_causes || []).map(openCause);  // of expected failures
+const causeOf = new Map([...causes, ...knownCauses].flatMap((cause) => cause.records.map((record) => [record, cause])));
 
 function causeText(cause) {
   const rule = data.rules[cause.rule], record = cause.records[0];
@@ -16,14 +19,20 @@ function causeText(cause) {
 const causeTitle = (cause) => (cause.rule ? cause.rule + " \u00b7 " + cause.kind : word(cause.status) + " \u00b7 " + causeText(cause)) + " \u00b7 " + cause.family;
 
 function causeRow(cause, show) {
-  const findings = cause.records.reduce((sum, record) => sum + (record.finding_total || 0), 0), example = cause.records[0].id;
+  const findings = cause.records.reduce((sum, record) => sum + (record.finding_total || 0), 0), example = cause.records[0];
+  const link = el("a", {href: "#case=" + encodeURIComponent(example.id), class: "id"}, idText(example.id)), bugs = [...new Set(cause.records.map((record) => record.bug).filter(Boolean))];
   return el("tr", {"data-cause": cause.key},
     el("td", {}, cause.change ? cause.change : statusTag(cause.status)),
-    el("td", {}, cause.rule ? [ruleLink(cause.rule), " ", el("span", {class: "kind"}, cause.kind), " in " + cause.family] : null, el("div", {}, causeText(cause))),
+    el("td", {}, cause.rule ? [ruleLink(cause.rule), " ", el("span", {class: "kind"}, cause.kind), " in " + cause.family] : null, el("div", {}, causeText(cause)),
+      bugs.length ? el("div", {class: "quiet small"}, "known as " + bugs.slice(0, SHOWN_BUGS).join(", ") + (bugs.length > SHOWN_BUGS ? ", ..." : "")) : null),
     el("td", {}, cause.level ? [levelTag(cause.level), el("div", {class: "quiet small"}, data.meanings[cause.level])] : ""),
     el("td", {class: "right"}, el("button", {type: "button", class: "link", title: "show only these", onclick: () => show(cause.key)}, plural(cause.records.length, "case")),
       findings ? el("div", {class: "quiet small"}, plural(findings, "finding")) : null),
-    el("td", {}, el("a", {href: "#case=" + encodeURIComponent(example), class: "id"}, example)));
+    el("td", {}, link, example.rerun ? [" ", copyButton("copy rerun", "the rerun command of " + example.id, example.rerun, link)] : null));
+}
+
+function causesTable(rows) {
+  return el("div", {class: "framed"}, table("", [data.runs ? "change" : "status", "cause", "breaks", "cases", "smallest case"], rows, "cards causes"));
 }
 
 // `show(key)` is called to list the cases of one cause alone.
@@ -33,6 +42,13 @@ function causesSection(show) {
   const rest = rows.length > SHOWN_CAUSES + 1 ? rows.slice(SHOWN_CAUSES) : [];
   rest.forEach((row) => { row.hidden = true; });
   const more = rest.length ? el("button", {type: "button", class: "link more", onclick: () => { rest.forEach((row) => { row.hidden = false; }); more.remove(); }}, "show " + plural(rest.length, "more cause")) : null;
-  return el("section", {id: "causes"}, el("h2", {}, "Causes ", el("span", {class: "count"}, String(causes.length))),
-    el("div", {class: "framed"}, table("", [data.runs ? "change" : "status", "cause", "breaks", "cases", "smallest case"], rows, "cards")), more);
+  return el("section", {id: "causes"}, el("h2", {}, "Causes ", el("span", {class: "count"}, String(causes.length))), causesTable(rows), more);
+}
+
+// Failures that an expectation file names, folded: they are news to nobody who wrote it.
+function knownCausesSection(show) {
+  if (knownCauses.length === 0) { return null; }
+  const cases = knownCauses.reduce((sum, cause) => sum + cause.records.length, 0);
+  return el("details", {id: "known", class: "section"}, el("summary", {}, el("h2", {}, "Known failures by cause ", el("span", {class: "count"}, plural(knownCauses.length, "cause") + ", " + plural(cases, "case")))),
+    causesTable(knownCauses.map((cause) => causeRow(cause, show))));
 }

@@ -4,8 +4,8 @@
 // The page's data, and how its elements are made: text only, so that nothing of a case becomes markup.
 
 const data = JSON.parse(document.getElementById("data").textContent);
-const GLYPHS = {pass: "\u2713", unsupported: "\u2013", skip: "\u21b7", xfail: "x", xpass: "!", improved: "!", flake: "\u2248",
-  fail: "\u2717", device_lost: "\u26a1", timeout: "\u2026", crash: "\u2620", error: "E", not_run: "\u00b7"};
+const GLYPHS = {pass: "\u2713", unsupported: "\u2013", skip: "\u21b7", xfail: "\u25cb", xpass: "!", improved: "!", flake: "\u2248",
+  fail: "\u2717", device_lost: "\u26a1", timeout: "\u2026", crash: "\u2620", error: "?", not_run: "\u00b7"};
 const STATUSES = Object.keys(GLYPHS);
 const EXPECTED = new Set(["pass", "unsupported", "skip", "xfail"]);
 const SPECIFICATION = "https://registry.khronos.org/vulkan/specs/latest/html/vkspec.html#";
@@ -47,6 +47,9 @@ function markTheme(name) {
   byId("theme").setAttribute("aria-pressed", String(name === "dark"));
 }
 const otherTheme = () => theme() === "dark" ? "light" : "dark";
+
+// An id that breaks, where it must, after its own separators and not inside a word.
+const idText = (id) => id.split(/(?<=[:,=/])/).flatMap((part, k) => k === 0 ? [part] : [el("wbr"), part]);
 
 const numberClass = (text) => text.length > 20 ? "number" : "number whole";  // one that fits in a line is not broken
 
@@ -93,20 +96,34 @@ function table(caption, heads, rows, className) {
     rows.length && rows[0].tagName === "TBODY" ? rows : el("tbody", {}, rows));
 }
 
-// A command line and a button that copies it.
-function command(label, text) {
-  if (!text) { return null; }
-  const code = el("code", {}, text);
-  const button = el("button", {type: "button", "aria-label": "copy the " + label + " command"}, "copy");
+// Puts a text into the clipboard; false where that is not allowed.
+function copyText(text) {
+  const take = (event) => { event.clipboardData.setData("text/plain", text); event.preventDefault(); };
+  document.addEventListener("copy", take);
+  const isDone = document.execCommand("copy");
+  document.removeEventListener("copy", take);
+  return isDone;
+}
+
+// A button that copies a text, or else selects it in `shown`.
+function copyButton(title, what, text, shown) {
+  const button = el("button", {type: "button", "aria-label": "copy " + what}, title);
   button.addEventListener("click", () => {
-    const range = document.createRange();
-    range.selectNodeContents(code);
-    getSelection().removeAllRanges();
-    getSelection().addRange(range);
-    button.textContent = document.execCommand("copy") ? "copied" : "selected";
-    setTimeout(() => { button.textContent = "copy"; }, 1500);
+    const select = () => { getSelection().selectAllChildren(shown); };
+    select();
+    const isDone = copyText(text);
+    if (!isDone) { shown.textContent = text; select(); }
+    button.textContent = isDone ? "copied" : "selected";
+    setTimeout(() => { button.textContent = title; }, 1500);
   });
-  return el("div", {class: "command"}, el("span", {class: "quiet"}, label), code, button);
+  return button;
+}
+
+// A command line and a button that copies it. `settings` in front of it are copied and not shown: they stand above.
+function command(label, text, settings = "") {
+  if (!text) { return null; }
+  const code = el("code", {}, text.startsWith(settings) ? text.slice(settings.length) : text);
+  return el("div", {class: "command"}, el("span", {class: "quiet"}, label), code, copyButton("copy", "the " + label + " command", text, code));
 }
 
 function finding(row) {

@@ -46,7 +46,7 @@ const isWorstTold = (record) => Boolean(record.worst) && (!record.finding_total 
 function caseRow(entry) {
   const record = entry.record;
   return el("tr", {class: "case-row " + (isExpected(record) ? "" : "unexpected"), "data-case": record.id, onclick: (event) => { if (event.target.tagName !== "A") { openCase(record.id); } }},
-    el("td", {}, statusTag(record.status)), el("td", {}, el("a", {class: "id", href: "#case=" + encodeURIComponent(record.id)}, record.id)),
+    el("td", {}, statusTag(record.status)), el("td", {}, el("a", {class: "id", href: "#case=" + encodeURIComponent(record.id)}, idText(record.id))),
     el("td", {class: "quiet what"}, happened(record)), el("td", {class: "number right", "data-label": "findings"}, entry.wrong ? String(entry.wrong) : ""),
     el("td", {class: "number right told", "data-label": "budgets"}, isWorstTold(record) ? record.worst[1] : ""), el("td", {class: "number right quiet", "data-label": "time"}, record.time));
 }
@@ -62,7 +62,7 @@ function groupBody(name, members, total, anySearch) {
     window.scrollTo(0, scroll);
     const again = [...document.querySelectorAll("button.group")].find((b) => b.dataset.key === key);
     if (again) { again.focus({preventScroll: true}); }
-  }, "data-key": key}, el("span", {class: "turn", "aria-hidden": "true"}, open ? "\u25be" : "\u25b8"), name);
+  }, "data-key": key}, el("span", {class: "turn", "aria-hidden": "true"}, open ? "\u25be" : "\u25b8"), el("span", {}, idText(name)));
   const hidden = total - members.length;
   const body = el("tbody", {}, el("tr", {class: "group-row"}, el("th", {colspan: 6, scope: "rowgroup"}, el("div", {class: "group-line"}, button, el("span", {class: "quiet count"}, String(members.length)),
     statusBar(members), hidden > 0 ? el("span", {class: "quiet"}, hidden + " hidden") : null))));
@@ -105,7 +105,7 @@ function showList() {
   list.append(...bodies);
   byId("shown").textContent = shown + " of " + entries.length + " cases" + (listing.cause ? " of one cause" : "");
   byId("clear").hidden = !(words.length || listing.cause || listing.off.size);
-  for (const row of document.querySelectorAll("#causes tr[data-cause]")) { row.setAttribute("aria-selected", String(row.dataset.cause === listing.cause)); }
+  for (const row of document.querySelectorAll(".causes tr[data-cause]")) { row.setAttribute("aria-selected", String(row.dataset.cause === listing.cause)); }
   for (const button of document.querySelectorAll("#statuses button")) { button.setAttribute("aria-pressed", String(!listing.off.has(button.dataset.status))); }
 }
 
@@ -115,7 +115,8 @@ function buildOverview() {
     if (!listing.off.delete(status)) { listing.off.add(status); }
     changed();
   }}, el("span", {class: "tally"}, String(data.totals[status])), statusTag(status))));
-  add(byId("causes-slot"), causesSection((key) => { listing.cause = listing.cause === key ? "" : key; changed(); }));
+  const show = (key) => { listing.cause = listing.cause === key ? "" : key; changed(); };
+  add(byId("causes-slot"), causesSection(show), knownCausesSection(show));
   if (data.without_pictures) {
     byId("causes-slot").append(el("p", {class: "note"}, "To keep this page small, the pictures of " + plural(data.without_pictures, "case") + " stand in ",
       el("a", {href: partName(data.part + 1)}, partName(data.part + 1)), ". Every cause has one here."));

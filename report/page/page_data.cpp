@@ -17,6 +17,7 @@
 #include "cases/model/rule.hpp"
 #include "report/journal/json_codec.hpp"
 #include "report/text/causes.hpp"
+#include "report/text/commands.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -153,6 +154,10 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
     }
     put(json, "rerun", r.rerun);
     put(json, "explain", r.explain);
+    put(json, "debug", debug_line(r));
+    put(json, "reproducer", r.reproducer);
+    put(json, "no_reproducer", r.no_reproducer);
+    json["settings"] = strings.number_of(std::string(settings_of(r.rerun)));
     return json;
 }
 
@@ -308,6 +313,7 @@ PageData page_data(const Run& run, size_t part) {
                      {"part", part},
                      {"without_pictures", data.left_out.size()},
                      {"causes", causes_json(run, all)},
+                     {"known_causes", causes_json(run, known_causes(run))},
                      {"strings", strings.list()},
                      {"cases", std::move(list)}};
     return data;

@@ -170,7 +170,10 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     Pictures pictures;
     Reference reference;  // of a case that passes and whose pictures were not kept
     std::string explain;  // command line that explains the first wrong sample; empty if none
-    Geometry geometry;    // with pictures or the reference
+    // Of a failure: the command line that writes the case as a program for a bug report, or what
+    // of the case such a program cannot draw ("a blit").
+    std::string reproducer, no_reproducer;
+    Geometry geometry;                     // with pictures or the reference
     std::vector<SampleEvidence> evidence;  // of wrong samples and some of their neighbours
     static void fields(auto&& visit, auto&... r) {
         PlannedCase::fields(visit, r...);
@@ -192,6 +195,8 @@ struct CaseRecord : PlannedCase, diff::Outcome {
         visit("messages", r.messages...);
         diff::Outcome::fields(visit, r...);
         visit("explain", r.explain...);
+        visit({"reproducer", cases::kOlderLackIt}, r.reproducer...);
+        visit({"no_reproducer", cases::kOlderLackIt}, r.no_reproducer...);
         visit({"evidence", cases::kOlderLackIt}, r.evidence...);
         visit({"pictures", cases::kLeftOutIfEmpty}, r.pictures...);  // of most cases none are kept
         visit({"reference", cases::kLeftOutIfEmpty}, r.reference...);

@@ -48,7 +48,8 @@ int rank(const Cause& cause) {
                                    Status::device_lost, Status::fail,  Status::flake,
                                    Status::improved,    Status::xpass};
     const auto place = std::find(kOrder.begin(), kOrder.end(), cause.status) - kOrder.begin();
-    const bool is_failure = cause.status == Status::fail;  // vulkan, practice, direct3d
+    // vulkan, practice, direct3d
+    const bool is_failure = cause.status == Status::fail || cause.status == Status::xfail;
     return static_cast<int>(4 * place) + (is_failure ? static_cast<int>(cause.level) : 0);
 }
 
@@ -65,13 +66,12 @@ std::ptrdiff_t number_of(std::string_view rule) {
            all.begin();
 }
 
-}  // namespace
-
-std::vector<Cause> causes(const Run& run) {
+// The causes of those results of a run that `is_meant` picks by their status.
+std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status)) {
     std::vector<Cause> list;
     std::map<std::tuple<Status, std::string, std::string, std::string>, size_t> index;
     for (const CaseRecord& record : run.cases) {
-        if (is_expected(record.status)) {
+        if (!is_meant(record.status)) {
             continue;
         }
         const Signature s = signature_of(record);
@@ -100,6 +100,16 @@ std::vector<Cause> causes(const Run& run) {
     std::stable_sort(list.begin(), list.end(),
                      [&](const Cause& a, const Cause& b) { return order(b) < order(a); });
     return list;
+}
+
+}  // namespace
+
+std::vector<Cause> causes(const Run& run) {
+    return causes_of(run, [](Status status) { return !is_expected(status); });
+}
+
+std::vector<Cause> known_causes(const Run& run) {
+    return causes_of(run, [](Status status) { return status == Status::xfail; });
 }
 
 const CaseRecord& smallest_case(const Cause& cause) {

@@ -29,6 +29,9 @@ struct Cause {
 // here and there. The pointers are into `run`.
 std::vector<Cause> causes(const Run& run);
 
+// The causes of known failures (xfail) alone, in the same order.
+std::vector<Cause> known_causes(const Run& run);
+
 // The case that shows the cause with the fewest samples, and among those with the fewest findings.
 const CaseRecord& smallest_case(const Cause& cause);
 

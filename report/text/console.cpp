@@ -12,6 +12,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "report/text/causes.hpp"
+#include "report/text/commands.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
 #include "report/text/wrap.hpp"
@@ -137,11 +138,23 @@ std::string death_text(const CaseRecord& record) {
                               lines.size() > kMaxPrintedLines ? ", in the end" : "") +
                   printed;
     }
-    return printed +
-           fmt::format("{}debug: {} --debugger gdb\n", kIndent, cases::printable(record.rerun));
+    return printed + fmt::format("{}debug: {}\n", kIndent, cases::printable(debug_line(record)));
 }
 
-// The causes of a run's unexpected results, one line each with its smallest case.
+// The settings in front of the rerun lines of the first causes, if all have the same.
+std::string_view shared_settings(const std::vector<Cause>& list, size_t count) {
+    const auto settings = [](const Cause& cause) {
+        return settings_of(smallest_case(cause).rerun);
+    };
+    const std::string_view first = count > 0 ? settings(list.front()) : std::string_view();
+    const bool is_shared =
+        std::all_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count),
+                    [&](const Cause& cause) { return settings(cause) == first; });
+    return is_shared ? first : std::string_view();
+}
+
+// The causes of a run's unexpected results, one line each with its smallest case. Settings that all
+// rerun lines have in front, a driver's path often, are told once: they would hide the causes.
 std::string causes_text(const Run& run, const ConsoleStyle& style) {
     std::vector<Cause> list = causes(run);
     std::erase_if(list, [](const Cause& cause) { return cause.status == Status::not_run; });
@@ -152,15 +165,23 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
     if (results <= kHandful && !style.verbose) {
         return {};  // each has been told
     }
-    std::string text = list.empty() ? "" : "causes, the worst first:\n";
     const size_t told = style.verbose ? list.size() : std::min(list.size(), kMaxCauses);
+    const std::string_view settings = shared_settings(list, told);
+    std::string text = list.empty() ? "" : "causes, the worst first:\n";
+    if (!settings.empty()) {
+        text = fmt::format(
+            "causes, the worst first; put the settings in front of each rerun:\n"
+            "  settings: {}\n",
+            cases::printable(std::string(settings.substr(0, settings.size() - 1))));
+    }
     for (size_t k = 0; k < told; ++k) {
         const Cause& cause = list[k];
         const std::string level =
             cause.rule.empty() ? "" : fmt::format(" [{}]", cases::to_string(cause.level));
+        const std::string& rerun = smallest_case(cause).rerun;
         text += fmt::format("  {}{}   rerun: {}\n",
                             painted(cause_title(cause), color_of(cause.status), style), level,
-                            cases::printable(smallest_case(cause).rerun));
+                            cases::printable(rerun.substr(settings.size())));
     }
     if (told < list.size()) {
         text += fmt::format("  and {} more: see the report, or use -v\n", list.size() - told);

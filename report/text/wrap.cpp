@@ -23,8 +23,8 @@ size_t columns(std::string_view text) {
 }
 
 bool starts_as_command(std::string_view text) {
-    constexpr std::array<std::string_view, 4> kWords = {
-        "rerun: ", "explain: ", "update: ", "debug: "};
+    constexpr std::array<std::string_view, 5> kWords = {
+        "rerun: ", "explain: ", "update: ", "debug: ", "settings: "};
     return std::any_of(kWords.begin(), kWords.end(),
                        [text](std::string_view word) { return text.starts_with(word); });
 }

@@ -95,5 +95,48 @@ class FirstSight(PageTest):
         self.assertEqual(told, [False, True, False, False, True, True])
 
 
+class Known(PageTest):
+    """A run in which every failure was expected."""
+    cases = CASES
+
+    @classmethod
+    def make_run(cls):
+        first, known = cls.folder / "first", cls.folder / "known.txt"
+        cls.edgecase("run", "--renderer=reference", "-o", first, check=1, fault=cls.fault)
+        cls.edgecase("expect", known, "--update", first, "--bug", "bug#17")
+        cls.edgecase("run", "--renderer=reference", "--expect", known, "-o", cls.out, fault=cls.fault)
+
+    def test_causes_of_known_failures_are_folded(self):
+        page = self.open()
+        self.assertEqual(page.count("#causes"), 0)
+        self.assertEqual(page.text("#known summary"), "Known failures by cause 3 causes, 3 cases")
+        self.assertFalse(page.run("byId('known').open"))
+        page.click_seen("#known summary")
+        self.assertTrue(page.run("byId('known').open"))
+        self.assertEqual(page.count("#known tr[data-cause]"), 3)
+        rows = page.run("[...document.querySelectorAll('#known tr[data-cause]')].map((r) => r.innerText)")
+        self.assertTrue(any("family/wrong" in row and "cover.outside" in row for row in rows), rows)
+        self.assertTrue(all("known as bug#17" in row for row in rows), rows)
+        page.run("[...document.querySelectorAll('#known tr[data-cause]')].find((r) => r.innerText.includes('blit')).querySelector('button').click()")
+        self.assertEqual(page.run("[...document.querySelectorAll('tr.case-row')].map((r) => r.dataset.case)"), ["texels/blit"])
+
+    def test_a_run_without_known_failures_has_no_such_list(self):
+        out = self.folder / "unknown"
+        self.edgecase("run", "--renderer=reference", "-o", out, check=1, fault=self.fault)
+        self.assertEqual(self.open(file=out / "report.html").count("#known"), 0)
+
+    def test_the_bars_of_families_begin_at_one_place(self):
+        for width in WIDTHS:
+            page = self.open(width=width)
+            lefts = page.run("[...document.querySelectorAll('.group-line .bar')].map((b) => b.getBoundingClientRect().left)")
+            self.assertEqual(len(lefts), 3)
+            self.assertEqual(len(set(lefts)), 1, (width, lefts))
+
+    def test_no_status_reads_twice(self):
+        glyphs = self.open().run("GLYPHS")
+        for status, glyph in glyphs.items():
+            self.assertNotEqual(glyph.lower(), status[0], status)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -238,6 +238,7 @@ Run hostile_run() {
         }
         r.file = r.description = r.bug = r.reason = r.step = r.signal = r.stderr_text = kHostile;
         r.rerun = r.explain = r.worst_quantity = kHostile;
+        r.reproducer = r.no_reproducer = kHostile;
         r.expectation = r.expired = r.bits = r.hit_bits = kHostile;
         r.rules = r.links = r.messages = {kHostile};
         for (diff::Finding& f : r.findings) {

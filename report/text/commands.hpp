@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command lines of a case, as reports show them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "report/record/run.hpp"
+
+namespace report {
+
+// The settings in front of a command line, each with the space after it: "VK_DRIVER_FILES=a.json "
+// of "VK_DRIVER_FILES=a.json edgecase run x". A value may be quoted as a shell does by ' and \.
+// Empty without any; a view of `command`.
+std::string_view settings_of(std::string_view command);
+
+// The command line that runs a case that crashed or hung under a debugger; empty of any other.
+std::string debug_line(const CaseRecord& record);
+
+}  // namespace report
