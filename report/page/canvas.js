@@ -19,7 +19,7 @@ function paint(canvas, scene, shot) {
   context.translate(-shot.left, -shot.top);
   const zoom = shot.zoom, margin = zoom;
   const range = (from, length, size) => [Math.max(0, Math.floor((from - margin) / zoom)), Math.min(size - 1, Math.ceil((from + length - margin) / zoom))];
-  const view = {context, palette, zoom, p, theme: shot.theme, margin, above: 0, lettered: new Set(), labels: [], columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
+  const view = {context, palette, zoom, p, theme: shot.theme, margin, above: 0, lettered: new Set(), told: [], labels: [], columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
   context.fillStyle = palette.paper;
   context.fillRect(margin, margin, p.width * zoom, p.height * zoom);
   paintCells(view, scene, shot);
@@ -66,6 +66,7 @@ function paintCells(view, scene, shot) {
   const plane = shot.kind === "expected" && shot.options.colors ? p.expectedColors : shot.kind === "device" && shot.options.colors ? p.colors : null;
   eachCell(view, scene, (k, x, y, w, h) => {
     const mark = p.marks[k];
+    if (mark > 1 && (shot.kind === "difference" || shot.kind === "error")) { view.told.push([x, y, x + w, y + h]); }
     if (plane) {
       fill("rgb(" + plane[k] + "," + plane[p.count + k] + "," + plane[2 * p.count + k] + ")", x, y, w, h);
     } else if (shot.kind === "device" && shot.options.depth && p.depths) {
@@ -82,6 +83,7 @@ function paintCells(view, scene, shot) {
         if (hits > 1 && shot.kind !== "difference" && Math.min(w, h) >= 14) {
           drawLetter(context, String(hits), x + w / 2, y + h / 2, Math.min(16, h * .5));
           view.lettered.add(k);
+          view.told.push([x, y, x + w, y + h]);
         }
       }
     }
@@ -206,6 +208,9 @@ function strokeTwice(view, width) {
   context.stroke();
 }
 
+// Whether clipping leaves something of a triangle that is drawn beside its edges.
+const isDashed = (triangle) => triangle.piece.length >= 4;
+
 // Edges as thin lines where they are; along top and left edges, which own their samples, a thick one on the owner's side. What
 // clipping leaves is dashed.
 function paintTriangles(view, triangles) {
@@ -227,8 +232,7 @@ function paintTriangles(view, triangles) {
   stroke(edges, thin, 0);
   stroke(edges.filter((e) => e.hasArea && ownsTies(e.kind)), thick, thick / 2);
   context.setLineDash([6, 4]);
-  for (const {piece} of triangles) {
-    if (piece.length < 4) { continue; }
+  for (const {piece} of triangles.filter(isDashed)) {
     context.beginPath();
     for (let k = 0; k + 1 < piece.length; k += 2) {
       const [x, y] = toScreen(view, piece[k], piece[k + 1]);
@@ -310,4 +314,27 @@ function sampleUnder(scene, zoom, x, y) {
     sample = Math.min(p.samples - 1, clamp((py - j) * p.rows, p.rows) * p.columns + clamp((px - i) * p.columns, p.columns));
   }
   return {x: p.left + i, y: p.top + j, sample};
+}
+
+// An entry of a legend: `draw` paints a sample of 18 by 18.
+function legendItem(text, draw) {
+  const canvas = el("canvas", {width: 36, height: 36, "aria-hidden": "true"}), context = canvas.getContext("2d");
+  context.scale(2, 2);
+  draw(context);
+  return el("li", {}, canvas, text);
+}
+const legendBox = (color) => (context) => { context.fillStyle = color; context.fillRect(0, 0, 18, 18); };
+
+// What lies over the pixels: edges, what clipping leaves of them, samples on them.
+function outlineItems(scene) {
+  if (!scene.geometry || scene.geometry.triangles.length === 0) { return []; }
+  const {line} = PALETTES[theme()];
+  const list = [legendItem("top or left edge", (c) => { c.fillStyle = line; c.fillRect(0, 7, 18, 4); }), legendItem("other edge", (c) => { c.fillStyle = line; c.fillRect(0, 8.5, 18, 1); })];
+  if (scene.geometry.triangles.some(isDashed)) {
+    list.push(legendItem("what clipping leaves", (c) => { c.strokeStyle = line; c.lineWidth = 1.5; c.setLineDash([6, 4]); c.beginPath(); c.moveTo(1, 9); c.lineTo(17, 9); c.stroke(); }));
+  }
+  if (scene.ties.size) {
+    list.push(legendItem("sample exactly on an edge", (c) => { c.strokeStyle = line; c.fillStyle = line; c.lineWidth = 2; c.beginPath(); c.arc(9, 9, 6, 0, 7); c.stroke(); c.beginPath(); c.arc(9, 9, 1.6, 0, 7); c.fill(); }));
+  }
+  return list;
 }

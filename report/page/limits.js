@@ -107,25 +107,45 @@ function edgesOn(cut, piece) {
   return found;
 }
 
-// Names beside the lines, over everything else.
+const LABEL_HEIGHT = 14;
+const overlap = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+
+// Names beside the lines, over everything else but the marks of samples and other names: each at the first of its places that
+// is free, or nowhere; the legend has its line, too.
 function paintLabels(view) {
-  const {context} = view;
+  const {context, p, zoom} = view, taken = [...view.told], right = (p.width + 2) * zoom, bottom = (p.height + 2) * zoom;
   context.font = "600 11px system-ui, sans-serif";
   context.textAlign = "left";
   context.textBaseline = "bottom";
   context.lineJoin = "round";
   context.lineWidth = 4;
   context.strokeStyle = view.palette.paper;
-  for (const [kind, text, x, y] of view.zoom < 16 ? [] : view.labels) {
-    context.strokeText(text, x, y);
+  for (const {kind, text, places} of zoom < 16 ? [] : view.labels) {
+    const width = context.measureText(text).width;
+    const boxes = places.map(([x, y]) => [x, y - LABEL_HEIGHT, x + width, y]);
+    const box = boxes.find((b) => b[0] >= 0 && b[1] >= 0 && b[2] <= right && b[3] <= bottom && !taken.some((other) => overlap(b, other)));
+    if (!box) { continue; }
+    taken.push(box);
+    context.strokeText(text, box[0], box[3]);
     context.fillStyle = LIMIT_COLOR[view.theme][kind];
-    context.fillText(text, x, y);
+    context.fillText(text, box[0], box[3]);
   }
+}
+
+// Along the sides of a rectangle, outside and then inside: beginning above it at the left, or below it if `isBelow`.
+function placesAlong([x0, y0, x1, y1], isBelow, step) {
+  const above = [y0 - 3, y1 + LABEL_HEIGHT], inside = [y0 + LABEL_HEIGHT, y1 - 3];
+  const rows = isBelow ? [above[1], above[0], inside[1], inside[0]] : [...above, ...inside];
+  const places = [];
+  for (const y of rows) {
+    for (let x = x0; x < Math.max(x1, x0 + 1); x += step) { places.push([x, y]); }
+  }
+  return places;
 }
 
 // Over the triangles of one layer.
 function paintLimits(view, scene, triangles, options) {
-  const {context, p, zoom, margin} = view, draws = new Set(triangles.map((t) => t.draw));
+  const {context, p, zoom} = view, draws = new Set(triangles.map((t) => t.draw)), right = (p.width + 2) * zoom, bottom = (p.height + 2) * zoom;
   const inside = (value, size) => Math.min(Math.max(value, 2), size - 2);  // of what lies beyond the picture, its near side
   for (const kind of ["scissor", "viewport"]) {
     for (const limit of options[kind] ? scene.limits[kind] : []) {
@@ -134,8 +154,9 @@ function paintLimits(view, scene, triangles, options) {
       context.beginPath();
       context.rect(x0, y0, x1 - x0, y1 - y0);
       strokeLimit(view, kind, 2);
-      if (x1 < 0 || y1 < 0 || x0 > (p.width + 2) * zoom || y0 > (p.height + 2) * zoom) { continue; }  // the legend tells where it is
-      view.labels.push([kind, kind, inside(x0, (p.width + 2) * zoom - 50), inside(kind === "scissor" ? y0 - 3 : y1 + 14, (p.height + 2) * zoom - margin / 2)]);
+      if (x1 < 0 || y1 < 0 || x0 > right || y0 > bottom) { continue; }  // the legend tells where it is
+      const seen = [inside(x0, right - 60), Math.max(y0, LABEL_HEIGHT + 3), inside(x1, right), Math.min(y1, bottom - LABEL_HEIGHT)];
+      view.labels.push({kind, text: kind, places: placesAlong(seen, kind === "viewport", zoom / 2)});
     }
   }
   for (const t of triangles) {
@@ -146,7 +167,8 @@ function paintLimits(view, scene, triangles, options) {
         context.moveTo(ax, ay);
         context.lineTo(bx, by);
         strokeLimit(view, "planes", 2.5);
-        view.labels.push(["planes", planeName(cut.plane).replace("plane ", ""), (ax + bx) / 2 + 4, (ay + by) / 2]);
+        const along = (share) => [ax + (bx - ax) * share + 4, ay + (by - ay) * share];
+        view.labels.push({kind: "planes", text: planeName(cut.plane).replace("plane ", ""), places: [.5, .35, .65, .2, .8, .05, .95].map(along)});
       }
     }
     for (const box of options.boxes ? t.boxes.filter(isWide) : []) {

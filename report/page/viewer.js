@@ -96,11 +96,12 @@ function makeViewer(record, onSample, onChange) {
     return {kind, canvas, sizer, frame, title, figure: el("figure", {class: "pane"}, title, frame)};
   }
 
+  const refreshLegend = () => legendList.replaceChildren(...legendEntries(scene, shownView(), shownPlane()), ...limitEntries(scene, draw));
   function rebuild() {
     clearInterval(viewer.timer);
     panes = panesOf(shownView()).map(makePane);
     stage.replaceChildren(...panes.map((pane) => pane.figure));
-    legendList.replaceChildren(...legendEntries(scene, shownView()), ...limitEntries(scene, draw));
+    refreshLegend();
     for (const button of bar.querySelectorAll("[data-view]")) { button.setAttribute("aria-pressed", String(button.dataset.view === shownView())); }
     viewer.blinkOn = false;
     if (shownView() === "blink" && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
@@ -122,7 +123,7 @@ function makeViewer(record, onSample, onChange) {
       el("button", {type: "button", title: "key 0", onclick: () => viewer.setZoom(0)}, "Fit")),
     el("div", {class: "checks"}, (isBlitScene(scene) ? [["outlines", "Region"], ["grid", "Grid"]] : [["outlines", "Triangles"], ["samples", "Samples"], ["grid", "Grid"]]).map(([name, title]) =>
       el("label", {}, el("input", {type: "checkbox", checked: viewing[name], "data-option": name, onchange: (event) => { viewing[name] = event.target.checked; draw(); }}), title))),
-    pictures.colors || pictures.depths ? el("label", {}, "show ", el("select", {onchange: (event) => { viewing.show = event.target.value; draw(); }},
+    pictures.colors || pictures.depths ? el("label", {}, "show ", el("select", {onchange: (event) => { viewing.show = event.target.value; refreshLegend(); draw(); }},
       [["hits", "hits"], pictures.colors && ["colour", "colour"], pictures.depths && ["depth", "depth"]].filter(Boolean).map(([value, title]) =>
         el("option", {value, selected: shownPlane() === value}, title)))) : null);
 
@@ -187,36 +188,43 @@ function pictureText(record, scene, kind) {
     ", " + (wrong || "no wrong sample") + (counts[1] ? ", " + counts[1] + " free" : "") + ". " + (p.isReference ? "What must be covered, as the rules say." : "The table of findings says the same.");
 }
 
-function legendEntries(scene, view) {
-  const entry = (text, draw) => {
-    const canvas = el("canvas", {width: 36, height: 36, "aria-hidden": "true"});
-    const context = canvas.getContext("2d");
-    context.scale(2, 2);
-    draw(context);
-    return el("li", {}, canvas, text);
-  };
-  const palette = PALETTES[theme()], p = scene.pictures, present = new Set(p.marks);
-  const box = (color) => (c) => { c.fillStyle = color; c.fillRect(0, 0, 18, 18); };
-  const list = [];
-  if (view === "error") {
+// What each picture of a view is painted by: hits, colours, depths or errors.
+function paintedBy(kind, p, plane) {
+  if (kind === "error" || kind === "difference") { return kind; }
+  if (plane === "colour") { return (kind === "device" ? p.colors : p.expectedColors) ? "colour" : "hits"; }
+  return plane === "depth" && kind === "device" && p.depths ? "depth" : "hits";
+}
+
+// Names for what the pictures of this view show of this case, and for nothing else.
+function legendEntries(scene, view, plane) {
+  const palette = PALETTES[theme()], p = scene.pictures;
+  const kinds = panesOf(view).flatMap((kind) => kind === "blink" ? ["expected", "device"] : [kind]), list = [], hits = new Set(), marks = new Set();
+  const isPainted = (by) => kinds.some((kind) => paintedBy(kind, p, plane) === by);
+  let isOk = false, isFree = false;
+  for (const kind of kinds) {
+    const by = paintedBy(kind, p, plane);
+    for (let k = 0; k < p.count; ++k) {
+      const mark = p.marks[k], count = kind === "device" ? p.device[k] : p.expected[k];
+      if (by === "difference" && mark > 1) { marks.add(mark); }
+      else if (by === "error" && mark > 1 && !(p.errors && p.errors[k])) { marks.add(mark); }
+      else if (by === "hits" || by === "difference") {
+        if (kind !== "device" && (count === SEVERAL || (by === "difference" && mark === 1))) { isFree = true; }
+        else if (by === "difference") { isOk = isOk || count > 0; }
+        else if (count > 0) { hits.add(Math.min(count, 3)); }
+      }
+    }
+  }
+  if (isPainted("error")) {
     const ramp = el("canvas", {width: 320, height: 28, class: "ramp", "aria-hidden": "true"}), context = ramp.getContext("2d");
     for (let x = 0; x < 320; ++x) { context.fillStyle = heatColor(Math.round(128 + 8 * HEAT_SPAN * (x / 160 - 1)), theme()); context.fillRect(x, 0, 1, 28); }
     list.push(el("li", {class: "scale"}, "\u2264 1/256", ramp, "\u2265 256 budgets; " + Math.round(MOST_BUDGETS) + " are accepted. Framed: not accepted"));
-  } else {
-    if (isBlitScene(scene)) { list.push(entry("written", box(palette.hits[1]))); }
-    else { list.push(entry("1 hit", box(palette.hits[1])), entry("2 hits", box(palette.hits[2]))); }
-    if (present.has(1)) { list.push(entry("free", (c) => drawFree(c, palette, 0, 0, 18, 18))); }
   }
-  if (view === "difference" || view === "side" || view === "error") {
-    for (let mark = 2; mark < MARKS.length; ++mark) {
-      if (present.has(mark) && (view !== "error" || !p.errors)) { list.push(entry(MARKS[mark], (c) => drawMark(c, mark, 0, 0, 18, 18))); }
-    }
+  if (isPainted("depth")) { list.push(legendItem("depth " + shortNumber(p.depthLow, 4), legendBox(grey(1))), legendItem("depth " + shortNumber(p.depthHigh, 4), legendBox(grey(255)))); }
+  for (const count of [...hits].sort()) {
+    list.push(legendItem(isBlitScene(scene) ? "written" : count === 1 ? "1 hit" : count === 2 ? "2 hits" : "3 hits or more", legendBox(palette.hits[count])));
   }
-  if (scene.geometry && scene.geometry.triangles.length) {
-    list.push(entry("top or left edge", (c) => { c.fillStyle = palette.line; c.fillRect(0, 7, 18, 4); }), entry("other edge", (c) => { c.fillStyle = palette.line; c.fillRect(0, 8.5, 18, 1); }));
-    if (scene.ties.size) {
-      list.push(entry("sample exactly on an edge", (c) => { c.strokeStyle = palette.line; c.fillStyle = palette.line; c.lineWidth = 2; c.beginPath(); c.arc(9, 9, 6, 0, 7); c.stroke(); c.beginPath(); c.arc(9, 9, 1.6, 0, 7); c.fill(); }));
-    }
-  }
-  return list;
+  if (isOk) { list.push(legendItem(isBlitScene(scene) ? "written as expected" : "covered as expected", legendBox(palette.ok))); }
+  if (isFree) { list.push(legendItem("free", (c) => drawFree(c, palette, 0, 0, 18, 18))); }
+  for (const mark of [...marks].sort()) { list.push(legendItem(MARKS[mark], (c) => drawMark(c, mark, 0, 0, 18, 18))); }
+  return [...list, ...outlineItems(scene)];
 }
