@@ -76,6 +76,9 @@ bool show_same_hits(const Pictures& a, const Pictures& b);
 
 // "regressions: 2 cases got worse"
 std::string heading(Change change, size_t count);
+// What counts, in a few words: "3 cases got worse, 1 vanished, 2 got better"; "No case got worse, 4
+// fail in other ways"; "All 12 cases are the same bit for bit".
+std::string comparison_headline(const Comparison& comparison);
 // "exit 1: regressions", "exit 1: cases vanished"
 std::string exit_words(const Comparison& comparison);
 

@@ -7,6 +7,7 @@
 #include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
 #include "report/compare/comparison.hpp"
+#include "report/journal/json_codec.hpp"
 #include "report/journal/picture_codec.hpp"
 #include "report/page/page_parts.hpp"
 #include "report/text/causes.hpp"
@@ -24,7 +25,15 @@ constexpr std::string_view kPage =
 constexpr std::string_view kScripts[] = {
 #include "embedded/dom.js.inc"
     ,
+#include "embedded/exact.js.inc"
+    ,
+#include "embedded/geometry.js.inc"
+    ,
 #include "embedded/pictures.js.inc"
+    ,
+#include "embedded/limits.js.inc"
+    ,
+#include "embedded/canvas.js.inc"
     ,
 #include "embedded/causes.js.inc"
     ,
@@ -34,9 +43,11 @@ constexpr std::string_view kScripts[] = {
 
 constexpr size_t kMostPictures = size_t{6} << 20;  // bytes, as they stand in the page
 
-// The hits of each run, if they are there for two runs at least, of the same pixels, and differ.
+// The hits of each run and the triangles of the first, if they are there for two runs at least, of
+// the same pixels, and differ.
 Json pictures_of(const ComparedCase& c) {
     const Pictures* first = nullptr;
+    const Geometry* geometry = nullptr;
     bool differs = false;
     Json hits = Json::array();
     for (const CaseRecord* record : c.records) {
@@ -47,6 +58,7 @@ Json pictures_of(const ComparedCase& c) {
             continue;
         }
         differs = differs || (first != nullptr && p->device_hits != first->device_hits);
+        geometry = first == nullptr ? &record->geometry : geometry;
         first = first == nullptr ? p : first;
         hits.push_back(encode_picture(p->device_hits));
     }
@@ -58,7 +70,8 @@ Json pictures_of(const ComparedCase& c) {
                 {"left", first->left},
                 {"top", first->top},
                 {"layer_height", first->layer_height},
-                {"hits", hits}};
+                {"hits", hits},
+                {"geometry", encode(*geometry)}};
 }
 
 Json result_of(const CaseRecord* record) {
@@ -215,10 +228,10 @@ std::string table(const Comparison& comparison) {
 
 std::string comparison_html(const std::vector<NamedRun>& runs, const Comparison& comparison,
                             const std::vector<std::string>& reports) {
-    std::string title = "edgecase:", script;
+    const std::string headline = comparison_headline(comparison);
+    std::string title = "edgecase: " + headline, script;
     for (size_t k = 0; k < runs.size(); ++k) {
-        title +=
-            fmt::format("{} {}", k == 0 ? "" : " and", cases::printable(runs[k].run.device.name));
+        title += fmt::format("{} {}", k == 0 ? "," : " and", cases::printable(runs[k].folder));
     }
     for (const std::string_view part : kScripts) {
         script += part;
@@ -226,6 +239,7 @@ std::string comparison_html(const std::vector<NamedRun>& runs, const Comparison&
     const PageField fields[] = {
         {"{{TITLE}}", cases::markup(title)},
         {"{{CSS}}", std::string(page_style())},
+        {"{{HEADLINE}}", cases::markup(headline)},
         {"{{VERDICT}}", cases::markup(exit_words(comparison))},
         {"{{TABLE}}", table(comparison)},
         {"{{DATA}}", script_data(data_of(runs, comparison, reports).dump())},

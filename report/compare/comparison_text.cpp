@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "report/compare/comparison.hpp"
 #include "report/journal/json_codec.hpp"
@@ -95,6 +96,31 @@ std::string heading(Change change, size_t count) {
         "the same bit for bit: {} {}"};
     return fmt::format(fmt::runtime(kHeadings.at(static_cast<size_t>(change))), count,
                        count == 1 ? "case" : "cases");
+}
+
+std::string comparison_headline(const Comparison& comparison) {
+    const auto count = [&](Change change) {
+        return comparison.counts.at(static_cast<size_t>(change));
+    };
+    const size_t all = comparison.cases.size();
+    if (all > 0 && count(Change::same) == all) {
+        return all == 1 ? "The one case is the same bit for bit"
+                        : fmt::format("All {} cases are the same bit for bit", all);
+    }
+    const size_t worse = count(Change::regression), fails = count(Change::fails_otherwise);
+    std::string text =
+        worse == 0 ? "No case got worse" : cases::counted(worse, "case") + " got worse";
+    if (count(Change::vanished) > 0) {
+        text += fmt::format(", {} vanished", count(Change::vanished));
+    }
+    if (count(Change::fix) > 0) {
+        text += fmt::format(", {} got better", count(Change::fix));
+    }
+    if (fails > 0) {
+        text += fmt::format(", {} {} in {}", fails, fails == 1 ? "fails" : "fail",
+                            fails == 1 ? "another way" : "other ways");
+    }
+    return text;
 }
 
 std::string exit_words(const Comparison& comparison) {

@@ -45,48 +45,58 @@ function tiles() {
 // What two runs make of a sample: 0 nothing, 1 both hit it alike, 2 the first alone, 3 the other alone, 4 both, not as often.
 const relation = (a, b) => a === b ? (a === 0 ? 0 : 1) : a > 0 && b > 0 ? 4 : a > 0 ? 2 : 3;
 
-function paintHits(canvas, p, samples, code) {
-  const columns = Math.ceil(Math.sqrt(samples)), rows = Math.ceil(samples / columns), zoom = Math.max(2, Math.min(16, Math.floor(320 / Math.max(p.width, p.height))));
-  const palette = PALETTES[theme()], context = canvas.getContext("2d", {alpha: false});
-  canvas.width = p.width * zoom;
-  canvas.height = p.height * zoom;
-  context.fillStyle = palette.paper;
-  context.fillRect(0, 0, canvas.width, canvas.height);
-  for (let k = 0; k < p.width * p.height * samples; ++k) {
-    const pixel = Math.floor(k / samples), s = k % samples, w = zoom / columns, h = zoom / rows;
-    const x = pixel % p.width * zoom + s % columns * w, y = Math.floor(pixel / p.width) * zoom + Math.floor(s / columns) * h;
-    const drawn = code(k);
-    if (drawn.mark) { drawMark(context, drawn.mark, x, y, w, h); }
-    else if (drawn.hits) { context.fillStyle = palette.hits[Math.min(drawn.hits, 3)]; context.fillRect(x, y, w, h); }
-  }
+const RELATIONS = ["", "", (a) => "hit by " + a + " alone", (a, b) => "hit by " + b + " alone", () => "hit by both, not as often"];
+const WIDEST = 420;  // of a picture in CSS pixels, where its column has the room
+
+// What paint() shows of one run (its hits), or of two (where they differ).
+function sceneOf(entry, samples, hits, marks) {
+  const p = entry.pictures, columns = Math.ceil(Math.sqrt(samples));
+  const pictures = {width: p.width, height: p.height, left: p.left, top: p.top, layerHeight: p.layer_height || 0, expected: hits, device: hits, marks, samples, count: hits.length,
+    columns, rows: Math.ceil(samples / columns), errors: null, colors: null, expectedColors: null, depths: null};
+  const geometry = openGeometry(p.geometry), scene = {pictures, geometry, ties: tiesIn(geometry, pictures)};
+  scene.limits = limitsOf(scene);
+  return scene;
 }
 
 function picturePart(entry) {
   const p = entry.pictures, planes = p.hits.map((text) => text && decodePicture(text));
   const base = planes.findIndex(Boolean), samples = planes[base].length / (p.width * p.height);
-  const figures = [];
-  const figure = (title, text, code) => {
-    const canvas = el("canvas", {role: "img", "aria-label": text});
-    const repaint = () => paintHits(canvas, p, samples, code);
+  const figures = [], name = (k) => data.runs[k].name, none = new Uint8Array(planes[base].length), marksSeen = new Map(), hitsSeen = new Set();
+  const figure = (title, text, kind, hits, marks) => {
+    const canvas = el("canvas", {role: "img", "aria-label": text}), scene = sceneOf(entry, samples, hits, marks);
+    const repaint = () => {
+      const room = Math.min(WIDEST, (byId("list").clientWidth || WIDEST) - 32), zoom = Math.max(2, Math.min(32, Math.floor(room / (Math.max(p.width, p.height) + 2))));
+      paint(canvas, scene, {kind, zoom, left: 0, top: 0, width: (p.width + 2) * zoom, height: (p.height + 2) * zoom, cursor: null, theme: theme(),
+        options: {grid: true, outlines: true, samples: true, scissor: true, viewport: true, planes: true, boxes: true}});
+    };
     repaint();
     painters.add(repaint);
-    figures.push(el("figure", {}, el("figcaption", {}, title), el("div", {class: "frame"}, canvas)));
+    figures.push(el("figure", {}, el("figcaption", {}, title), el("div", {class: "frame", tabIndex: 0, role: "group", "aria-label": text}, canvas)));
+    return scene;
   };
-  const name = (k) => data.runs[k].name;
+  let scene = null;
   planes.forEach((plane, k) => {
-    if (plane) { figure(name(k) + ": " + data.runs[k].device, "hits of run " + name(k), (at) => ({hits: plane[at]})); }
+    if (!plane) { return; }
+    scene = figure([el("strong", {}, name(k) + ": " + data.runs[k].folder), el("div", {}, data.runs[k].device)], "hits of run " + name(k), "device", plane, none);
+    for (const hits of plane) { if (hits > 0) { hitsSeen.add(Math.min(hits, 3)); } }
   });
   planes.forEach((plane, k) => {
     if (!plane || k === base) { return; }
     const counts = [0, 0, 0, 0, 0];
-    plane.forEach((hits, at) => { ++counts[relation(planes[base][at], hits)]; });
+    const marks = plane.map((hits, at) => { const what = relation(planes[base][at], hits); ++counts[what]; return what > 1 ? what : 0; });
     const text = counts[2] + " samples hit by " + name(base) + " alone, " + counts[3] + " by " + name(k) + " alone, " + counts[4] + " by both, not as often";
-    figure("difference: " + text, text, (at) => {
-      const what = relation(planes[base][at], plane[at]);
-      return what > 1 ? {mark: what} : {hits: what};
-    });
+    for (const what of [2, 3, 4]) { if (counts[what]) { marksSeen.set(what, RELATIONS[what](name(base), planes.length > 2 ? "the other" : name(k))); } }
+    figure([el("strong", {}, "difference of " + name(base) + " and " + name(k)), el("div", {}, text)], text, "difference", planes[base], marks);
   });
-  return el("div", {class: "stage"}, figures);
+  const legend = el("ul", {class: "legend"});
+  const fillLegend = () => {
+    const palette = PALETTES[theme()];
+    legend.replaceChildren(...[...hitsSeen].sort().map((count) => legendItem(count === 1 ? "1 hit" : count === 2 ? "2 hits" : "3 hits or more", legendBox(palette.hits[count]))),
+      legendItem("hit alike", legendBox(palette.ok)), ...[...marksSeen].sort().map(([what, text]) => legendItem(text, (c) => drawMark(c, what, 0, 0, 18, 18))), ...outlineItems(scene));
+  };
+  fillLegend();
+  painters.add(fillLegend);
+  return el("div", {}, el("div", {class: "stage"}, figures), legend);
 }
 
 function resultCell(entry, k) {
@@ -112,7 +122,7 @@ function showList() {
   const text = (entry) => (entry.id + " " + entry.detail + " " + entry.results.map((r) => r ? r.status + " " + r.what + " " + r.why : "").join(" ")).toLowerCase();
   const shown = data.cases.filter((entry) => !hidden.has(entry.change) && words.every((w) => text(entry).includes(w)) && (!onlyCause || (causeOf.get(entry) || {}).key === onlyCause));
   byId("clear").hidden = !words.length && !onlyCause;
-  for (const row of document.querySelectorAll("#causes tr[data-cause]")) { row.setAttribute("aria-selected", String(row.dataset.cause === onlyCause)); }
+  for (const row of document.querySelectorAll(".causes tr[data-cause]")) { row.setAttribute("aria-selected", String(row.dataset.cause === onlyCause)); }
   byId("shown").textContent = shown.length + " of " + data.cases.length + " cases that are not the same" + (shown.length > MOST_ROWS ? ", the first " + MOST_ROWS + " here" : "");
   const sections = [];
   let left = MOST_ROWS;
@@ -123,7 +133,7 @@ function showList() {
     const hasDetail = !TOLD_BY_RESULTS.has(kind.name);
     sections.push(el("section", {"data-kind": kind.name}, el("h3", {}, kind.text), el("div", {class: "framed"},
       table("", ["case", ...data.runs.map((run) => run.name), hasDetail ? "detail" : []].flat(), entries.map((entry) => {
-        const button = el("button", {type: "button", class: "link id", "aria-expanded": "false"}, entry.id);
+        const button = el("button", {type: "button", class: "link id", "aria-expanded": "false"}, idText(entry.id));
         const row = el("tr", {class: "compared", "data-case": entry.id}, el("td", {}, button), data.runs.map((_, k) => resultCell(entry, k)), hasDetail ? el("td", {class: "quiet"}, entry.detail) : null);
         button.addEventListener("click", () => showDetail(entry, row));
         return row;

@@ -33,6 +33,10 @@ class ComparePage(PageTest):
         self.assertEqual(page.text("[data-kind=regression] .tally"), "2")
         self.assertEqual(page.text("[data-kind=same] .tally"), "3")
         self.assertEqual(page.text(".verdict"), "exit 1: regressions")
+        self.assertEqual(page.text("h1"), "2 cases got worse, 1 got better")
+        self.assertTrue(page.run("document.title").startswith("edgecase: 2 cases got worse, 1 got better, "))
+        tops = page.run("['h1', '#statuses', '#runs', '#causes'].map((s) => document.querySelector(s).getBoundingClientRect().top)")
+        self.assertEqual(tops, sorted(tops))
         self.assertIn("run of <A> & 1%", page.text("#runs"))
         row = page.text("tr[data-case='family/wrong']")
         for part in ("pass", "fail", "1 double of 64 samples"):
@@ -108,12 +112,16 @@ class ComparePage(PageTest):
     def test_pictures_stand_side_by_side(self):
         page = self.open(file=self.page)
         page.click_seen("tr[data-case='family/wrong'] button")
-        self.assertEqual(page.count(".detail canvas"), 3)
+        self.assertEqual(page.count(".detail .frame canvas"), 3)
         captions = page.run("[...document.querySelectorAll('.detail figcaption')].map((f) => f.innerText)")
-        self.assertEqual(captions[2], "difference: 0 samples hit by A alone, 0 by B alone, 1 by both, not as often")
+        self.assertEqual([caption.split("\n")[0] for caption in captions], [f"A: {self.a}", f"B: {self.b}", "difference of A and B"])
+        self.assertEqual(captions[2].split("\n")[1], "0 samples hit by A alone, 0 by B alone, 1 by both, not as often")
+        self.assertEqual(page.run("[...document.querySelectorAll('.detail .legend li')].map((e) => e.innerText)"),
+                         ["1 hit", "2 hits", "hit alike", "hit by both, not as often", "top or left edge", "other edge", "sample exactly on an edge"])
         # Of 64 pixels one is painted otherwise in B, the one with the cross in the difference.
-        other = page.run("(() => { const [a, b, d] = [...document.querySelectorAll('.detail canvas')], zoom = a.width / 8;"
-                         "const at = (c, i, j) => [...c.getContext('2d').getImageData(i * zoom + 2, (j + .5) * zoom, 1, 1).data].join();"
+        other = page.run("(() => { const [a, b, d] = [...document.querySelectorAll('.detail .frame canvas')], zoom = a.width / 10, ok = PALETTES[theme()].ok, one = PALETTES[theme()].hits[1];"
+                         "const hex = (d) => '#' + [...d].slice(0, 3).map((v) => v.toString(16).padStart(2, '0')).join('');"
+                         "const at = (c, i, j) => hex(c.getContext('2d').getImageData((i + 1.25) * zoom, (j + 1.75) * zoom, 1, 1).data).replace(ok, one);"
                          "const places = []; for (let j = 0; j < 8; ++j) for (let i = 0; i < 8; ++i) {"
                          "if (at(a, i, j) !== at(b, i, j)) places.push([i, j]); if (at(a, i, j) !== at(d, i, j)) places.push([i, j]); } return places; })()")
         self.assertEqual(len(other), 2)
@@ -122,6 +130,21 @@ class ComparePage(PageTest):
         self.assertEqual(page.count(".detail canvas"), 0)
         page.click_seen("tr[data-case='family/gone'] button")
         self.assertIn("No pictures of both", page.text(".detail"))
+
+    def test_pictures_have_axes_a_grid_and_the_triangles(self):
+        """As those of a case's page, by the same code."""
+        page = self.open(file=self.page)
+        page.run("(() => { const c = CanvasRenderingContext2D.prototype, {fillText, lineTo} = c; window.told = []; window.ends = 0;"
+                 "c.fillText = function (text) { window.told.push(text); return fillText.apply(this, arguments); };"
+                 "c.lineTo = function () { ++window.ends; return lineTo.apply(this, arguments); }; })()")
+        page.click_seen("tr[data-case='family/wrong'] button")
+        told, ends = page.run("[window.told, window.ends]")
+        for k in range(8):
+            self.assertGreaterEqual(told.count(str(k)), 6, told)  # a column and a row, in three pictures
+        self.assertGreaterEqual(ends, 3 * 6)
+        grid = page.run("(() => { const c = document.querySelector('.detail canvas'), zoom = c.width / 10, at = (x, y) => [...c.getContext('2d').getImageData(x, y, 1, 1).data].join();"
+                        "return [at(zoom * 3, zoom * 1.5), at(zoom * 3.2, zoom * 1.5)]; })()")
+        self.assertNotEqual(*grid)
 
     def test_links_lead_to_the_case_in_each_report(self):
         for column, status in ((2, "pass"), (3, "fail")):

@@ -61,6 +61,28 @@ TEST(comparison, bits_tell_what_statuses_do_not) {
     EXPECT_EQ(exit_code(*compare_runs(runs)), kExitInternal);  // the sample run is not whole
 }
 
+TEST(comparison, the_headline_says_what_counts) {
+    const auto headline_of = [](std::initializer_list<std::pair<Change, size_t>> counts) {
+        Comparison comparison;
+        for (const auto& [change, count] : counts) {
+            comparison.counts.at(static_cast<size_t>(change)) = count;
+            comparison.cases.resize(comparison.cases.size() + count);
+        }
+        return comparison_headline(comparison);
+    };
+    using enum Change;
+    EXPECT_EQ(headline_of({{regression, 3}, {fix, 1}, {same, 9}}),
+              "3 cases got worse, 1 got better");
+    EXPECT_EQ(headline_of({{regression, 1}, {vanished, 2}}), "1 case got worse, 2 vanished");
+    EXPECT_EQ(headline_of({{vanished, 49}}), "No case got worse, 49 vanished");
+    EXPECT_EQ(headline_of({{fails_otherwise, 1}}), "No case got worse, 1 fails in another way");
+    EXPECT_EQ(headline_of({{fails_otherwise, 2}, {fix, 1}}),
+              "No case got worse, 1 got better, 2 fail in other ways");
+    EXPECT_EQ(headline_of({{other_values, 5}, {same, 1}}), "No case got worse");
+    EXPECT_EQ(headline_of({{same, 12}}), "All 12 cases are the same bit for bit");
+    EXPECT_EQ(headline_of({{same, 1}}), "The one case is the same bit for bit");
+}
+
 TEST(comparison, more_findings_of_a_cause_are_worse) {
     std::vector<NamedRun> runs = {{"a", test::sample_run()}, {"b", test::sample_run()}};
     for (NamedRun& run : runs) {
