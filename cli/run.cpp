@@ -131,6 +131,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         c.no_reproducer = undrawable_part(c.data);
         if (c.no_reproducer.empty()) {
             c.reproducer = reproducer_line(program, options, c.data.id, device.subpixel_bits);
+            c.no_reproducer = may_be_too_large(c.data) ? "many values" : "";
         }
     }
     if (p.folder.empty()) {

@@ -76,7 +76,6 @@ class Tables {
         : case_(c), expectation_(ref::expect(c, limits, profile)), values_(c, limits, profile) {}
 
     cases::Expected<std::string> text() {
-        constexpr size_t kMostRanges = 400'000;  // some 10 MB, which a compiler takes in seconds
         std::string runs, last;
         size_t run = 0;
         for (size_t k = 0; k < expectation_.samples.size(); ++k) {

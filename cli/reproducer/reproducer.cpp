@@ -124,6 +124,15 @@ std::string_view undrawable_part(const cases::Case& c) {
     });
 }
 
+bool may_be_too_large(const cases::Case& c) {
+    size_t attributes = 0;
+    for (const cases::Draw& draw : c.draws) {
+        attributes = std::max(attributes, draw.attributes.size());
+    }
+    const cases::Target& t = c.target;
+    return size_t{t.width} * t.height * t.samples * (3 + 4 * attributes) > kMostRanges;
+}
+
 cases::Expected<std::string> reproducer(const cases::Case& c, const ref::Limits& limits,
                                         cases::Profile profile, std::string_view version) {
     if (const std::string_view missing = undrawable_part(c); !missing.empty()) {

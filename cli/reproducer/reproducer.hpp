@@ -17,6 +17,10 @@ namespace cli {
 // The part of a case that no such program can draw or judge ("a blit"); empty if there is none.
 std::string_view undrawable_part(const cases::Case& c);
 
+// Whether a program may have more ranges of values than are written (kMostRanges): where each
+// sample has its own for one triangle. Which they are is known only when all have been judged.
+bool may_be_too_large(const cases::Case& c);
+
 // The program's text. It draws the case by the harness's own shaders and holds every sample to the
 // reference at the profile: hits, the last writer, and each value to the range of all numbers that
 // are right for it. Exit code 0: all are right; 1, with a line for each: some are wrong; 2: it

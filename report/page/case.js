@@ -102,7 +102,8 @@ function commandsSection(record) {
   return el("section", {}, el("h2", {}, "Again"),
     settings ? el("div", {class: "command"}, el("span", {class: "quiet"}, "settings"), el("div", {}, el("code", {}, settings.trim()), el("div", {class: "quiet small"}, "in front of " + (record.debug ? "rerun and debug, copied with them" : "rerun, copied with it")))) : null,
     command("rerun", record.rerun, settings), command("debug", record.debug, settings), command("explain", record.explain), command("reproducer", record.reproducer),
-    record.no_reproducer ? el("div", {class: "command"}, el("span", {class: "quiet"}, "reproducer"), el("div", {}, "none: the case has " + record.no_reproducer + ", which such a program cannot draw")) : null);
+    record.no_reproducer ? el("div", {class: "command"}, el("span", {class: "quiet"}, record.reproducer ? "" : "reproducer"), el("div", {class: record.reproducer ? "quiet small" : ""},
+      record.reproducer ? "The case has " + record.no_reproducer + ", perhaps too many for one program; the command says so." : "none: the case has " + record.no_reproducer + ", which such a program cannot draw")) : null);
 }
 
 const SHOWN_SHAPES = 64;

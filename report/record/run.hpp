@@ -170,8 +170,9 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     Pictures pictures;
     Reference reference;  // of a case that passes and whose pictures were not kept
     std::string explain;  // command line that explains the first wrong sample; empty if none
-    // Of a failure: the command line that writes the case as a program for a bug report, or what
-    // of the case such a program cannot draw ("a blit").
+    // Of a failure: the command line that writes the case as a program for a bug report; and, if it
+    // is empty, what of the case such a program cannot draw ("a blit"), else what may be too much
+    // for one ("many values"), which the command finds out.
     std::string reproducer, no_reproducer;
     Geometry geometry;                     // with pictures or the reference
     std::vector<SampleEvidence> evidence;  // of wrong samples and some of their neighbours

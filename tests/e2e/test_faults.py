@@ -252,6 +252,17 @@ class Debugger(ProgramTest):
 
 
 class Order(ProgramTest):
+    def test_settings_of_all_causes_are_told_once(self):
+        env = self.environment(fault="flip-pixel,segv@fam/c2") | {"LP_NUM_THREADS": "1"}
+        done = self.edgecase("run", "--renderer=reference", "-o", self.out, env=env, check=1)
+        end = done.stdout[done.stdout.index("causes, the worst first"):]
+        self.assertRegex(end, r"^causes, the worst first; put the settings in front of each rerun:\n  settings: (\S+ )*LP_NUM_THREADS=1( \S+)*\n")
+        self.assertEqual(end.count("LP_NUM_THREADS=1"), 1)
+        self.assertEqual(len(re.findall(r"rerun: \S*edgecase run fam/c\d --renderer reference\n", end)), 2)
+        # In JSON a command is whole.
+        for case in self.results()["cases"]:
+            self.assertIn("LP_NUM_THREADS=1 ", case["rerun"])
+
     def test_two_runs_print_the_same(self):
         """Whatever the order in which two workers come to an end."""
         printed = []
@@ -263,8 +274,10 @@ class Order(ProgramTest):
         self.assertEqual(printed[0], printed[2])
         text = "\n".join(printed[0])
         self.assertEqual(re.findall(r"^(?:FAIL|CRASH) (\S+)", text, re.M), [f"fam/c{k}" for k in range(5)])
-        self.assertIn("\nmore unexpected results: their causes follow at the end; -v tells each\ncauses, the worst first:\n"
-                      "  crash: SIGSEGV during submit in fam, 1 case   rerun: ", text)
+        # Settings of the machine's own driver, if there are any, stand above the causes.
+        self.assertRegex(text, r"\nmore unexpected results: their causes follow at the end; -v tells each\n"
+                         r"causes, the worst first(:|; put the settings in front of each rerun:\n  settings: .*)\n"
+                         r"  crash: SIGSEGV during submit in fam, 1 case   rerun: ")
         self.assertIn("\n  fail: cover.outside double in fam, 9 cases [vulkan]   rerun: ", text)
 
 

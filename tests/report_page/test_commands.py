@@ -12,8 +12,8 @@ SETTINGS = "LP_NUM_THREADS=1 "
 
 
 class Commands(PageTest):
-    cases = CASES | {f"ends/{name}": SQUARE.format(more="", target="", draw="") for name in ("segv", "lost")}
-    fault = "flip-pixel@family/*,flip-pixel@samples/*,flip-pixel@texels/*,segv@ends/segv,device-lost@ends/lost"
+    cases = CASES | {"large/many": SQUARE.format(more="", target="", draw="[[draw.attribute]]\nvalues = [0, 1, 2, 3, 4, 5]").replace("[8, 8]", "[256, 256]")} | {f"ends/{name}": SQUARE.format(more="", target="", draw="") for name in ("segv", "lost")}
+    fault = "flip-pixel@family/*,flip-pixel@large/*,flip-pixel@samples/*,flip-pixel@texels/*,segv@ends/segv,device-lost@ends/lost"
 
     @classmethod
     def make_run(cls):
@@ -38,6 +38,11 @@ class Commands(PageTest):
                 words = shlex.split(told)
                 self.assertEqual(words[1:], ["export", "--reproducer", case_id, "-o", "repro.c"])
                 self.edgecase(*words[1:])
+
+    def test_what_may_be_too_large_is_said_beside_the_command(self):
+        for case_id in self.results:
+            told = "The case has many values, perhaps too many for one program; the command says so."
+            self.assertEqual(told in self.case(case_id).text(".columns"), case_id == "large/many", case_id)
 
     def test_a_crash_tells_how_to_debug_it(self):
         page = self.case("ends/segv")

@@ -46,8 +46,9 @@ TEST(commands, the_terminal_tells_shared_settings_once) {
         r.rerun = settings + r.rerun;
     }
     const std::string text = console_summary(run, "", {});
-    EXPECT_THAT(text, HasSubstr("causes, the worst first; put the settings in front of each rerun:\n"
-                                "  settings: VK_DRIVER_FILES='/a long/path' LP_NUM_THREADS=1\n"));
+    EXPECT_THAT(text,
+                HasSubstr("causes, the worst first; put the settings in front of each rerun:\n"
+                          "  settings: VK_DRIVER_FILES='/a long/path' LP_NUM_THREADS=1\n"));
     EXPECT_EQ(text.find("VK_DRIVER_FILES"), text.rfind("VK_DRIVER_FILES"));
     for (const Cause& cause : causes(run)) {
         if (cause.status != Status::not_run) {
