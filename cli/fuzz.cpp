@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
@@ -114,6 +115,7 @@ class FuzzCommand {
         run::LoopConfig config = loop_config(program_, options_.run);
         config.pictures = run::KeepPictures::none;
         config.profile = ledger_.profile;
+        config.schedule.retries = 0;  // a reduction begins with drawing the case again
         run::SignalFd signals;
         OrStop<run::WorkerClient> worker = start_first_worker(config);
         if (!worker) {
@@ -218,8 +220,10 @@ class FuzzCommand {
                         status_.show(counts, causes);
                     });
         Hunt::State state = Hunt::State::goes_on;
-        while (state == Hunt::State::goes_on) {
-            state = hunter.step();
+        for (bool is_first = true; state == Hunt::State::goes_on; is_first = false) {
+            if (!is_first) {
+                state = hunter.step();
+            }
             if (auto kept = keep(hunter, before, state == Hunt::State::done); !kept) {
                 status_.clear();
                 return report_stop(stop_with(report::kExitInternal, kept.error().message));
@@ -272,6 +276,7 @@ class FuzzCommand {
         sum.unsupported += now.unsupported;
         sum.empty += now.empty;
         sum.unjudged += now.unjudged;
+        sum.unrepeated += now.unrepeated;
         sum.reductions += now.reductions;
         sum.reduction_cases += now.reduction_cases;
         sum.drawing_seconds += now.drawing_seconds;
@@ -312,12 +317,19 @@ class FuzzCommand {
                         known > 0 ? fmt::format(" and {} of {} known ones", met, known) : "",
                         plural(c.reductions, "reduction"), c.reducing_seconds,
                         plural(c.reduction_cases, "more case")));
+        if (c.unrepeated > 0) {
+            say(fmt::format("{} did not come again when they were drawn alone\n",
+                            plural(c.unrepeated, "failure")));
+        }
+        std::set<std::string> told;
         for (const auto& [text, reason] : hunter.unjudged()) {
-            complain("a case could not be judged: " + reason);
-            const fs::path file = folder_ / "unjudged.toml";
-            if (auto written = replace_text(file, text); written) {
-                complain("  the last such case is kept as " + file.string() + "; please report it");
+            if (!told.insert(reason).second) {
+                continue;
             }
+            const fs::path file = folder_ / fmt::format("unjudged-{}.toml", told.size());
+            const auto written = replace_text(file, text);
+            complain("a case could not be judged: " + reason +
+                     (written ? "; it is kept as " + file.string() + ", please report it" : ""));
         }
         if (fresh > 0) {
             say(fmt::format("look at them: edgecase run {} --no-expect\n",
@@ -352,6 +364,10 @@ class FuzzCommand {
 }  // namespace
 
 int fuzz_command(const Program& program, const FuzzOptions& options) {
+    if (options.printed) {
+        say(fuzz::text_of_case(options.run.seed, *options.printed));
+        return report::kExitOk;
+    }
     return FuzzCommand(program, options).run();
 }
 

@@ -43,6 +43,11 @@ std::optional<cases::Case> load(const std::string& text, const std::string& id) 
     return std::move(loaded->front());
 }
 
+// A picture without anything in it could pass, so the judge refuses the case.
+bool is_empty(const CaseRecord& record) {
+    return record.reason.find("a black picture would pass") != std::string::npos;
+}
+
 std::set<std::string> essentials_of(const std::string& text) {
     const auto document = cases::read_toml(text, "fuzz");
     return document ? essentials(*document) : std::set<std::string>();
@@ -120,6 +125,15 @@ Document described(Document document, const Symptom& symptom) {
 }
 
 }  // namespace
+
+std::string text_of_case(uint64_t seed, uint64_t number) {
+    Poses poses(seed);
+    Pose pose;
+    for (uint64_t k = 0; k <= number / kGeometries; ++k) {
+        pose = poses.next([&](const Pose& candidate) { return is_case(seed, candidate, k); });
+    }
+    return case_text(seed, pose, number / kGeometries, number);
+}
 
 Hunt::Hunt(HuntOptions options, run::Session& session, std::vector<Entry> known,
            OnProgress on_progress)
@@ -202,7 +216,7 @@ Hunt::State Hunt::step() {
                 ++counts_.unsupported;
                 continue;
             case Status::error:
-                if (record.must_samples == 0) {
+                if (is_empty(record)) {
                     ++counts_.empty;
                 } else {
                     ++counts_.unjudged;
@@ -327,6 +341,7 @@ std::optional<Entry> Hunt::reduce_one(const Open& open) {
         return out;
     };
     if (!shown({to_text(*document)}).front()) {
+        ++counts_.unrepeated;
         return std::nullopt;
     }
     ReduceOptions options;

@@ -49,12 +49,16 @@ struct HuntCounts {
     uint64_t next_case = 0;  // all below have been made
     uint64_t drawn = 0, triangles = 0, failed = 0;
     uint64_t unsupported = 0;
-    uint64_t empty = 0;     // no sample must be covered: nothing to judge
-    uint64_t unjudged = 0;  // errors of the judge
+    uint64_t empty = 0;       // no sample must be covered: nothing to judge
+    uint64_t unjudged = 0;    // errors of the judge
+    uint64_t unrepeated = 0;  // failures that did not come again when they were to be reduced
     uint64_t poses = 0, pairs = 0;
     uint64_t reductions = 0, reduction_cases = 0;
     double drawing_seconds = 0, reducing_seconds = 0;
 };
+
+// The text of a hunt's case.
+std::string text_of_case(uint64_t seed, uint64_t number);
 
 class Hunt {
   public:

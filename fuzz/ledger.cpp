@@ -96,6 +96,7 @@ std::string to_json(const Ledger& ledger) {
                        {"unsupported_cases", c.unsupported},
                        {"empty_cases", c.empty},
                        {"unjudged_cases", c.unjudged},
+                       {"unrepeated_failures", c.unrepeated},
                        {"poses", c.poses},
                        {"pairs_of_features", c.pairs},
                        {"reductions", c.reductions},
@@ -142,6 +143,7 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         c.unsupported = json.at("unsupported_cases");
         c.empty = json.at("empty_cases");
         c.unjudged = json.at("unjudged_cases");
+        c.unrepeated = json.at("unrepeated_failures");
         c.poses = json.at("poses");
         c.pairs = json.at("pairs_of_features");
         c.reductions = json.at("reductions");

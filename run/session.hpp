@@ -32,9 +32,6 @@ class Session {
     Results draw(std::vector<cases::Case> cases,
                  const std::function<bool(size_t done)>& on_progress = {});
 
-    // Unexpected failures are drawn again so often.
-    void set_retries(uint32_t retries) { config_.schedule.retries = retries; }
-
   private:
     LoopConfig config_;
     std::vector<WorkerClient> workers_;

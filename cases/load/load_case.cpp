@@ -194,20 +194,25 @@ class CaseLoader {
                 return;  // what follows may be as large
             }
         }
-        check_layers(*draws);
+        check_routes(*draws);
     }
 
-    // The shaders that write gl_Layer have no clip and cull distances.
-    void check_layers(const TomlValue& draws) {
-        const bool is_named = std::any_of(c_.draws.begin(), c_.draws.end(),
-                                          [](const Draw& draw) { return draw.layer > 0; });
+    // The shaders that write gl_Layer and gl_ViewportIndex have no clip and cull distances.
+    void check_routes(const TomlValue& draws) {
+        const bool to_layers = std::any_of(c_.draws.begin(), c_.draws.end(),
+                                           [](const Draw& draw) { return draw.layer > 0; });
+        const bool to_viewports =
+            std::any_of(c_.draws.begin(), c_.draws.end(),
+                        [](const Draw& draw) { return draw.viewport_index > 0; });
         for (const TomlValue& table : draws.array) {
             for (const char* key : {"clip_distance", "cull_distance"}) {
-                if (const TomlValue* value = is_named ? table.find(key) : nullptr) {
+                const TomlValue* value = table.find(key);
+                if (value != nullptr && (to_layers || to_viewports)) {
                     context_.error(value->where,
-                                   fmt::format("{} does not go with draws to several layers; leave "
-                                               "out layer",
-                                               key));
+                                   fmt::format("{} does not go with draws to several {}; leave "
+                                               "out {}",
+                                               key, to_layers ? "layers" : "viewports",
+                                               to_layers ? "layer" : "viewport_index"));
                 }
             }
         }

@@ -27,10 +27,10 @@ std::string relations_text(const std::vector<Relation>& relations) {
     std::vector<std::string> items;
     for (const Relation& relation : relations) {
         const std::string_view word = word_of(relation.kind);
-        items.push_back(relation.kind == RelationKind::scissor_tiles
-                            ? fmt::format("{{ {} = [{}, {}] }}", word, relation.tile[0],
-                                          relation.tile[1])
-                            : string_toml(word));
+        items.push_back(
+            relation.kind == RelationKind::scissor_tiles
+                ? fmt::format("{{ {} = [{}, {}] }}", word, relation.tile[0], relation.tile[1])
+                : string_toml(word));
     }
     return array_toml(items, 0);
 }
@@ -162,9 +162,8 @@ std::string objection(const std::string& text, const Case& c) {
     const bool same_words = back.description == c.description && back.catches == c.catches &&
                             back.rules == c.rules && back.links == c.links &&
                             back.variation == c.variation && rows_of(back) == rows_of(c);
-    return same_words && to_bytes(back) == to_bytes(c)
-               ? std::string()
-               : "it holds what no key of a case file says";
+    return same_words && to_bytes(back) == to_bytes(c) ? std::string()
+                                                       : "it holds what no key of a case file says";
 }
 
 }  // namespace

@@ -62,10 +62,9 @@ std::string number_toml(float value, Reading reading) {
     const std::string plain = shortest(value);
     double read = 0;
     std::from_chars(plain.data(), plain.data() + plain.size(), read);
-    const bool is_plain = reading == Reading::exact
-                              ? !(read < static_cast<double>(value)) &&
-                                    !(read > static_cast<double>(value))
-                              : same_bits(static_cast<float>(read), value);
+    const bool is_plain = reading == Reading::exact ? !(read < static_cast<double>(value)) &&
+                                                          !(read > static_cast<double>(value))
+                                                    : same_bits(static_cast<float>(read), value);
     std::vector<std::string> ways;
     if (is_plain) {
         ways.push_back(plain);
@@ -80,10 +79,9 @@ std::string number_toml(float value, Reading reading) {
         ways.push_back(fmt::format("\"{}f\"", plain));
         ways.push_back(fmt::format("\"{:a}\"", value));
     }
-    return *std::min_element(ways.begin(), ways.end(),
-                             [](const std::string& a, const std::string& b) {
-                                 return a.size() < b.size();
-                             });
+    return *std::min_element(
+        ways.begin(), ways.end(),
+        [](const std::string& a, const std::string& b) { return a.size() < b.size(); });
 }
 
 std::string list_toml(const std::vector<std::string>& items, std::string_view separator) {

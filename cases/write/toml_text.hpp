@@ -32,9 +32,7 @@ std::string array_toml(const std::vector<std::string>& items, size_t group);
 // The keys of one table in the order of their adding.
 class TableText {
   public:
-    void add(std::string_view key, std::string value) {
-        keys_.emplace_back(key, std::move(value));
-    }
+    void add(std::string_view key, std::string value) { keys_.emplace_back(key, std::move(value)); }
     // The same for true and false, if the value is not the default.
     void add_flag(std::string_view key, bool value, bool otherwise);
     bool is_empty() const { return keys_.empty(); }

@@ -70,8 +70,8 @@ mpq_class multiple(const mpq_class& q, const mpz_class& n) {
 // The simplest number that is converted to `wanted` (a zero of any sign), if one is found: on a
 // grid of a power of two, a short decimal, a fraction, a decimal with as many digits as it takes.
 std::optional<Written> simplest(const Conversion& conversion, float wanted) {
-    const mpq_class about = exact(static_cast<double>(wanted)) / conversion.factor +
-                            conversion.origin;
+    const mpq_class about =
+        exact(static_cast<double>(wanted)) / conversion.factor + conversion.origin;
     if (abs(about) > kMostPixels) {
         return std::nullopt;
     }
@@ -131,7 +131,8 @@ std::vector<std::string> joined(const std::vector<std::array<std::string, 4>>& v
     std::vector<std::string> out;
     out.reserve(vertices.size());
     for (const std::array<std::string, 4>& v : vertices) {
-        out.push_back(list_toml({v.begin(), v.begin() + static_cast<std::ptrdiff_t>(numbers)}, ","));
+        out.push_back(
+            list_toml({v.begin(), v.begin() + static_cast<std::ptrdiff_t>(numbers)}, ","));
     }
     return out;
 }
@@ -159,8 +160,7 @@ std::optional<std::vector<std::string>> in_pixels(const Draw& draw) {
         }
         const mpq_class w = exact(static_cast<double>(p.w));
         const std::optional<Written> x = simplest({origin_x, w / half_x}, p.x);
-        const std::optional<Written> y =
-            x ? simplest({origin_y, w / half_y}, p.y) : std::nullopt;
+        const std::optional<Written> y = x ? simplest({origin_y, w / half_y}, p.y) : std::nullopt;
         std::optional<Written> z = y ? simplest({0, w}, p.z) : std::nullopt;
         if (!z) {
             return std::nullopt;
@@ -197,10 +197,10 @@ VertexText vertex_text(const Draw& draw) {
     }
     VertexText out;
     for (const glm::vec4& p : draw.positions) {
-        out.vertices.push_back(list_toml(
-            {number_toml(p.x, Reading::exact), number_toml(p.y, Reading::exact),
-             number_toml(p.z, Reading::exact), number_toml(p.w, Reading::exact)},
-            ","));
+        out.vertices.push_back(
+            list_toml({number_toml(p.x, Reading::exact), number_toml(p.y, Reading::exact),
+                       number_toml(p.z, Reading::exact), number_toml(p.w, Reading::exact)},
+                      ","));
     }
     return out;
 }

@@ -201,6 +201,9 @@ void define_fuzz(CLI::App& app, FuzzOptions& o) {
             "end after this time: 90s, 10m, 2h [no end]")
         ->type_name("TIME")
         ->group("Selection");
+    add_value(fuzz, "--print", o.printed, "print the case with this number, draw nothing", "N",
+              "Selection")
+        ->check(in_range<uint64_t>(0, uint64_t{1} << 24));
     add_shard(fuzz, o.run.shard, "every N-th pose from the I-th on; 1 <= I <= N");
     add_device(fuzz, o.run.device);
     fuzz->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")

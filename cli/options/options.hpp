@@ -80,10 +80,11 @@ struct GtestOptions {
 };
 
 struct FuzzOptions {
-    RunOptions run;                  // its device, judging and output
-    uint64_t cases = 0;              // numbers from here on are not made; 0: no end
-    double seconds = 0;              // 0: no end
-    std::vector<std::string> known;  // folders of earlier hunts
+    RunOptions run;                   // its device, judging and output
+    uint64_t cases = 0;               // numbers from here on are not made; 0: no end
+    double seconds = 0;               // 0: no end
+    std::vector<std::string> known;   // folders of earlier hunts
+    std::optional<uint64_t> printed;  // the number of a case to print; nothing is drawn then
 };
 
 struct ListOptions {

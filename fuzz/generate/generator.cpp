@@ -425,6 +425,13 @@ std::string case_text(uint64_t seed, const Pose& pose, uint64_t pose_number, uin
 }
 
 bool is_case(uint64_t seed, const Pose& pose, uint64_t pose_number) {
+    // No fragment shader is built for these (cmake/Shaders.cmake).
+    const bool has_source = !pose.is_default("source"), has_probe = !pose.is_default("probe");
+    if ((!pose.is_default("color") && (has_source || has_probe)) ||
+        (!pose.is_default("shader-mask") &&
+         (pose.is("source", "barycentric") || pose.is("probe", "query-lod")))) {
+        return false;
+    }
     // What the state allows shows in any geometry, but for the layer, which is the geometry's.
     constexpr uint64_t kTries = 8;
     for (uint64_t number = 0; number < kTries; ++number) {

@@ -40,9 +40,12 @@ std::optional<Size> size_of(const Document& document, const std::string& text) {
         std::accumulate(text.begin(), text.end(), uint64_t{0}, [](uint64_t sum, char letter) {
             return sum + (letter >= '0' && letter <= '9' ? static_cast<uint64_t>(letter - '0') : 0);
         });
-    return Size{c.draws.size(), cases::assemble(c).size(), keys_of(document),
+    return Size{c.draws.size(),
+                cases::assemble(c).size(),
+                keys_of(document),
                 uint64_t{c.target.width} * c.target.height * c.target.samples * c.target.layers,
-                text.size(), digits};
+                text.size(),
+                digits};
 }
 
 struct Candidate {

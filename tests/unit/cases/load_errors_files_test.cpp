@@ -227,6 +227,20 @@ layer = 1
      R"~(f:9:1: error: clip_distance does not go with draws to several layers; leave out layer)~"},
     {whole(R"~(format = 1
 description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[[draw.cull_distance]]
+values = [1, 1, -1]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+viewport_index = 1
+)~"),
+     R"~(f:8:1: error: cull_distance does not go with draws to several viewports; leave out viewport_index)~"},
+    {whole(R"~(format = 1
+description = "d"
 rules = ["blit.nearest"]
 [target]
 size = [8, 8]

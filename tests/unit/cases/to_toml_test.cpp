@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Cases written as files, and read again.
+#include "cases/write/to_toml.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 
 #include "cases/load/loader.hpp"
 #include "cases/wire/case_bytes.hpp"
-#include "cases/write/to_toml.hpp"
 
 namespace cases {
 
@@ -260,9 +261,10 @@ TEST(ToToml, WritesNumbersShortest) {
 
 // No bits are lost, whatever they are: all exponents and the ends of each.
 TEST(ToToml, KeepsEveryBit) {
-    std::optional<Case> c = load_one(kHead + "[target]\nsize = [8, 8]\n[[draw]]\nspace = \"clip\"\n"
-                                             "vertices = [[0,0,0,1],[1,0,0,1],[0,1,0,1]]\n"
-                                             "[[draw.attribute]]\nconstant = 1\n",
+    std::optional<Case> c = load_one(kHead +
+                                         "[target]\nsize = [8, 8]\n[[draw]]\nspace = \"clip\"\n"
+                                         "vertices = [[0,0,0,1],[1,0,0,1],[0,1,0,1]]\n"
+                                         "[[draw.attribute]]\nconstant = 1\n",
                                      "family/name");
     ASSERT_TRUE(c);
     std::vector<glm::vec4>& positions = c->draws[0].positions;

@@ -57,7 +57,8 @@ TEST(Symptom, TextsAreReadBack) {
         ASSERT_TRUE(symptom) << text;
         EXPECT_EQ(to_text(*symptom), text);
     }
-    for (const char* text : {"", "of", "extra of x", "extra of x [y]", "more of x [vulkan]", "pass"}) {
+    for (const char* text :
+         {"", "of", "extra of x", "extra of x [y]", "more of x [vulkan]", "pass"}) {
         EXPECT_FALSE(parse_symptom(text)) << text;
     }
 }
@@ -67,9 +68,10 @@ std::set<std::string> words(const char* text) {
 }
 
 TEST(Essentials, AreWhatAPlainCaseHasNot) {
-    EXPECT_THAT(words("format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = "
-                      "[8, 8]\n[[draw]]\nvertices = [[0, 0], [8, 0], [0, 8]]\n"),
-                testing::IsEmpty());
+    EXPECT_THAT(
+        words("format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = "
+              "[8, 8]\n[[draw]]\nvertices = [[0, 0], [8, 0], [0, 8]]\n"),
+        testing::IsEmpty());
     EXPECT_THAT(
         words("format = 1\nrelations = [\"same-twice\"]\n[target]\nsize = [8, 8]\nsamples = 4\n"
               "[target.color]\nformat = \"r32-float\"\n[[draw]]\nscissor = [1, 2, 3, 4]\n"

@@ -26,7 +26,8 @@ std::vector<std::string> suite_texts() {
     for (const auto& entry : fs::recursive_directory_iterator(EDGECASE_SOURCE_DIR "/cases/suite")) {
         if (entry.path().extension() == ".toml") {
             std::ifstream in(entry.path(), std::ios::binary);
-            texts.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+            texts.emplace_back(std::istreambuf_iterator<char>(in),
+                               std::istreambuf_iterator<char>());
         }
     }
     return texts;
@@ -207,12 +208,10 @@ TEST(Reduce, WhatNeverShowsStaysAsItIs) {
 TEST(Reduce, EndsAfterTheRoundsThatItMayTake) {
     ReduceOptions options;
     options.most_rounds = 2;
-    const Reduced reduced =
-        reduce(*cases::read_toml(kMuch, "f"),
-               [](const std::vector<std::string>& texts) {
-                   return std::vector<bool>(texts.size(), true);
-               },
-               options);
+    const Reduced reduced = reduce(
+        *cases::read_toml(kMuch, "f"),
+        [](const std::vector<std::string>& texts) { return std::vector<bool>(texts.size(), true); },
+        options);
     EXPECT_EQ(reduced.rounds, 2U);
     EXPECT_FALSE(reduced.is_minimal);
 }
