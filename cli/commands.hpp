@@ -24,6 +24,7 @@ struct RunTeller {
 int run_with(const Program& program, const RunOptions& options, const RunTeller& teller);
 int gtest_command(const Program& program, const GtestOptions& options);
 int fuzz_command(const Program& program, const FuzzOptions& options);
+int reduce_command(const Program& program, const ReduceOptions& options);
 int list_command(const Program& program, const ListOptions& options);
 int lint_command(const Program& program, const LintOptions& options);
 int explain_command(const Program& program, const ExplainOptions& options);

@@ -319,15 +319,32 @@ void Hunt::reduce_open(std::vector<Open> open) {
     }
 }
 
-// Nothing if the failure does not come again.
 std::optional<Entry> Hunt::reduce_one(const Open& open) {
-    const auto document = cases::read_toml(open.text, "fuzz");
-    if (!document) {
+    ++counts_.reductions;
+    std::optional<Entry> entry = reduce_case(
+        open.text, open.symptom,
+        [this](const std::vector<cases::Case>& cases) {
+            counts_.reduction_cases += cases.size();
+            return is_interrupted_ || !failure_.empty() ? std::vector<CaseRecord>(cases.size())
+                                                        : draw(cases).records;
+        },
+        options_.most_rounds);
+    if (!entry) {
+        ++counts_.unrepeated;
         return std::nullopt;
     }
-    ++counts_.reductions;
-    std::optional<cases::Case> original = load(open.text, "original");
-    const bool is_sound = original && can_fail_everywhere(*original);
+    entry->first_case = open.number;
+    return entry;
+}
+
+std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
+                                 size_t most_rounds) {
+    const auto document = cases::read_toml(text, "reduced");
+    const std::optional<cases::Case> original = load(text, "original");
+    if (!document || !original) {
+        return std::nullopt;
+    }
+    const bool is_sound = can_fail_everywhere(*original);
     std::optional<CaseRecord> last;  // of the smallest text that shows it
     std::string last_text;
     const Shows shown = [&](const std::vector<std::string>& texts) {
@@ -340,32 +357,29 @@ std::optional<Entry> Hunt::reduce_one(const Open& open) {
                 of.push_back(k);
             }
         }
-        if (is_interrupted_ || !failure_.empty() || cases.empty()) {
+        if (cases.empty()) {
             return out;
         }
-        counts_.reduction_cases += cases.size();
-        const run::Session::Results results = draw(cases);
+        const std::vector<CaseRecord> records = draw(cases);
         for (size_t k = 0; k < of.size(); ++k) {
-            out[of[k]] = shows(results.records[k], open.symptom) &&
-                         (!is_sound || can_fail_everywhere(cases[k]));
+            out[of[k]] = shows(records[k], symptom) && (!is_sound || can_fail_everywhere(cases[k]));
             if (out[of[k]] && (!last || texts[of[k]].size() <= last_text.size())) {
-                last = results.records[k];
+                last = records[k];
                 last_text = texts[of[k]];
             }
         }
         return out;
     };
     if (!shown({to_text(*document)}).front()) {
-        ++counts_.unrepeated;
         return std::nullopt;
     }
     ReduceOptions options;
-    options.most_rounds = options_.most_rounds;
+    options.most_rounds = most_rounds;
     const Reduced reduced = reduce(*document, shown, options);
     Entry entry;
-    entry.symptom = open.symptom;
+    entry.symptom = symptom;
     entry.essentials = essentials(reduced.document);
-    entry.text = to_text(described(reduced.document, open.symptom));
+    entry.text = to_text(described(reduced.document, symptom));
     if (const auto c = load(entry.text, "reduced"); c && !can_fail_everywhere(*c)) {
         entry.text =
             "# At profile vulkan no sample must be covered: a suite wants one triangle more.\n" +
@@ -373,11 +387,10 @@ std::optional<Entry> Hunt::reduce_one(const Open& open) {
     }
     entry.needs = reduced.needs;
     entry.is_minimal = reduced.is_minimal;
-    entry.first_case = open.number;
     entry.count = 1;
-    entry.also.insert({open.symptom.kind, open.symptom.rule});
-    for (const Symptom& symptom : last ? symptoms_of(*last) : std::vector<Symptom>()) {
-        entry.also.insert({symptom.kind, symptom.rule});
+    entry.also.insert({symptom.kind, symptom.rule});
+    for (const Symptom& other : last ? symptoms_of(*last) : std::vector<Symptom>()) {
+        entry.also.insert({other.kind, other.rule});
     }
     return entry;
 }

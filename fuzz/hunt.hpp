@@ -57,6 +57,14 @@ struct HuntCounts {
     double drawing_seconds = 0, reducing_seconds = 0;
 };
 
+// Draws and judges cases, whose ids differ.
+using Draw = std::function<std::vector<report::CaseRecord>(const std::vector<cases::Case>&)>;
+
+// Makes a case file of one leaf as small as it can be while it shows a symptom. Nothing if it does
+// not show it, or is no case.
+std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
+                                 size_t most_rounds);
+
 // The text of a hunt's case.
 std::string text_of_case(uint64_t seed, uint64_t number);
 

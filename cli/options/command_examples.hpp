@@ -18,6 +18,7 @@ inline constexpr Examples kExamples[] = {
     {"fuzz",
      "  edgecase fuzz --time 10m -o out/hunt           what does my driver get wrong\n"
      "  edgecase fuzz --time 10m --known out/hunt --seed 2\n"},
+    {"reduce", "  edgecase reduce combination/states:depth=d16-unorm -o smaller.toml\n"},
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
@@ -75,6 +76,7 @@ inline constexpr Group kGroups[] = {
     {"run", "Checking a device"},
     {"gtest", "Checking a device"},
     {"fuzz", "Checking a device"},
+    {"reduce", "Checking a device"},
     {"report", "Checking a device"},
     {"compare", "Checking a device"},
     {"expect", "Checking a device"},

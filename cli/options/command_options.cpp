@@ -224,6 +224,19 @@ void define_fuzz(CLI::App& app, FuzzOptions& o) {
     fuzz->add_flag("-q,--quiet", o.run.quiet, "only causes and the summary")->group("Output");
 }
 
+void define_reduce(CLI::App& app, ReduceOptions& o) {
+    CLI::App* reduce =
+        app.add_subcommand("reduce", "make a failing case as small as it can be, on the device");
+    add_case(reduce, o.run.suite);
+    add_device(reduce, o.run.device);
+    reduce->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")
+        ->group("Device");
+    add_profile(reduce, o.run.profile);
+    add_value(reduce, "-o,--output", o.run.output, "the case file to write [standard output]",
+              "FILE", "Output");
+    reduce->add_flag("-q,--quiet", o.run.quiet, "say nothing else")->group("Output");
+}
+
 // Rendering by others: what they get, and how it is judged.
 void define_images(CLI::App& app, AllOptions& all) {
     CLI::App* out = app.add_subcommand("export", "write cases as JSON that any program can draw");
@@ -396,6 +409,7 @@ void define(CLI::App& app, AllOptions& all) {
     define_run(app, all.run);
     define_gtest(app, all.gtest);
     define_fuzz(app, all.fuzz);
+    define_reduce(app, all.reduce);
     define_others(app, all);
     for (CLI::App* command : app.get_subcommands({})) {
         command->set_help_flag("-h,--help", "this help");

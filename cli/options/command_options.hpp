@@ -23,6 +23,7 @@ struct AllOptions {
     BenchOptions bench;
     ReportOptions report;
     FuzzOptions fuzz;
+    ReduceOptions reduce;
     ExpectOptions expect;
     CompareOptions compare;
     std::string shell;  // of completion

@@ -87,6 +87,10 @@ struct FuzzOptions {
     std::optional<uint64_t> printed;  // the number of a case to print; nothing is drawn then
 };
 
+struct ReduceOptions {
+    RunOptions run;  // its suite with exactly one case, device, judging and output
+};
+
 struct ListOptions {
     SuiteOptions suite;
     bool long_form = false, ids = false, json = false;

@@ -249,8 +249,8 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
     }
     for (const auto& [name, device] :
          {std::pair("run", &all.run.device), std::pair("gtest", &all.gtest.run.device),
-          std::pair("fuzz", &all.fuzz.run.device), std::pair("doctor", &all.doctor.device),
-          std::pair("bench", &all.bench.device)}) {
+          std::pair("fuzz", &all.fuzz.run.device), std::pair("reduce", &all.reduce.run.device),
+          std::pair("doctor", &all.doctor.device), std::pair("bench", &all.bench.device)}) {
         if (first == name) {
             if (const auto checked = check_device(*command, *device, words); !checked) {
                 return tl::unexpected(checked.error());

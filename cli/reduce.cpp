@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "reduce": a failing case as small as it can be.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "cases/base/counted.hpp"
+#include "cases/write/to_toml.hpp"
+#include "cli/commands.hpp"
+#include "cli/prepare/device_answer.hpp"
+#include "cli/prepare/loop_config.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
+#include "fuzz/hunt.hpp"
+#include "run/session.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+using report::CaseRecord;
+
+namespace {
+
+constexpr size_t kMostRounds = 200;
+
+OrStop<run::Session> start_session(const Program& program, const RunOptions& options,
+                                   run::SignalFd& signals) {
+    run::LoopConfig config = loop_config(program, options);
+    config.pictures = run::KeepPictures::none;
+    config.schedule.retries = 0;
+    OrStop<run::WorkerClient> worker = start_first_worker(config);
+    if (!worker) {
+        return tl::unexpected(worker.error());
+    }
+    OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), signals);
+    if (!first) {
+        return tl::unexpected(first.error());
+    }
+    set_limits(config, first->device);
+    return run::Session(config, std::move(first->client), first->device, signals);
+}
+
+// "2 draws, 14 triangles, 5 attributes, 64 x 64 with 4 samples".
+std::string size_text(const cases::Case& c) {
+    const cases::Target& t = c.target;
+    return fmt::format("{}, {}, {} x {}{}", cases::counted(c.draws.size(), "draw"),
+                       cases::counted(cases::assemble(c).size(), "triangle"), t.width, t.height,
+                       t.samples > 1 ? fmt::format(" with {} samples", t.samples) : "");
+}
+
+}  // namespace
+
+int reduce_command(const Program& program, const ReduceOptions& options) {
+    const OrStop<cases::Case> loaded = load_one_case(program, options.run.suite);
+    if (!loaded) {
+        return report_stop(loaded.error());
+    }
+    if (std::error_code none; !options.run.output.empty() && fs::exists(options.run.output, none)) {
+        return report_stop(stop_with(
+            report::kExitUsage,
+            "'" + options.run.output + "' exists; name another file with -o, or remove it"));
+    }
+    const cases::Expected<std::string> text = cases::to_toml(*loaded);
+    if (!text) {
+        return report_stop(
+            stop_with(report::kExitUsage, "the case cannot be reduced: " + text.error().message));
+    }
+    run::SignalFd signals;
+    OrStop<run::Session> session = start_session(program, options.run, signals);
+    if (!session) {
+        return report_stop(session.error());
+    }
+    size_t drawn = 0;
+    std::string failure;
+    bool is_interrupted = false;
+    const fuzz::Draw draw = [&](const std::vector<cases::Case>& cases) {
+        if (is_interrupted || !failure.empty()) {
+            return std::vector<CaseRecord>(cases.size());
+        }
+        drawn += cases.size();
+        run::Session::Results results = session->draw(cases);
+        is_interrupted = results.interrupted;
+        failure = results.failure;
+        return std::move(results.records);
+    };
+    cases::Case one = *loaded;
+    const CaseRecord record = draw({one}).front();
+    const std::optional<fuzz::Symptom> symptom = fuzz::symptom_of(record);
+    if (!failure.empty()) {
+        return report_stop(stop_with(report::kExitInternal, failure));
+    }
+    if (!symptom) {
+        return report_stop(
+            stop_with(report::kExitAllSkipped,
+                      fmt::format("{} does not fail here ({}), so there is nothing to reduce",
+                                  loaded->id, report::to_string(record.status))));
+    }
+    const std::optional<fuzz::Entry> entry = fuzz::reduce_case(*text, *symptom, draw, kMostRounds);
+    if (is_interrupted) {
+        complain("interrupted; nothing was written");
+        return report::kExitInterrupted;
+    }
+    if (!failure.empty()) {
+        return report_stop(stop_with(report::kExitInternal, failure));
+    }
+    if (!entry) {
+        return report_stop(stop_with(report::kExitUnexpected,
+                                     loaded->id + " did not fail the same way again: it is a flake "
+                                                  "of the driver, and cannot be reduced"));
+    }
+    std::string note = fmt::format("# {}, reduced from {}.\n", to_text(*symptom), loaded->id);
+    for (const std::string& need : entry->needs) {
+        note += fmt::format("# It passes, or fails otherwise: {}.\n", need);
+    }
+    const std::string out = note + entry->text;
+    if (options.run.output.empty()) {
+        say(out);
+    } else if (auto written = replace_text(options.run.output, out); !written) {
+        return report_stop(stop_with(report::kExitInternal, written.error().message));
+    }
+    const auto reduced = cases::load_text(entry->text, "reduced", "reduced");
+    if (!options.run.quiet && reduced) {
+        std::fprintf(stderr, "%s\n",
+                     fmt::format("from {} to {}, after drawing {}{}", size_text(*loaded),
+                                 size_text(reduced->front()), cases::counted(drawn, "case"),
+                                 entry->is_minimal ? "" : "; it may be larger than it has to be")
+                         .c_str());
+    }
+    return report::kExitOk;
+}
+
+}  // namespace cli
