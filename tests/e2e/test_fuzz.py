@@ -8,7 +8,9 @@ import subprocess
 import time
 import unittest
 
-from support import PROGRAM, ProgramTest
+import jsonschema
+
+from support import PROGRAM, SOURCE, ProgramTest
 
 
 class FuzzTest(ProgramTest):
@@ -26,6 +28,7 @@ class Hunts(FuzzTest):
     def test_causes_are_reduced_and_kept(self):
         done = self.fuzz("--cases=12288", check=1)
         ledger, found = self.ledger(), self.found()
+        jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
         self.assertTrue(ledger["is_finished"])
         self.assertEqual(ledger["unjudged_cases"], 0)
         self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 12289)
@@ -164,6 +167,43 @@ class WrongInput(FuzzTest):
         finally:
             program.kill()
             program.wait()
+
+
+class Reduce(ProgramTest):
+    def reduce(self, *words, fault="", check=None):
+        return self.edgecase("reduce", *words, fault=fault, check=check)
+
+    def test_a_case_of_the_suite(self):
+        """lavapipe's scissor with several samples: a mesh in four draws becomes two triangles."""
+        self.suite = SOURCE / "cases" / "suite"
+        done = self.reduce("multisample/scissor-tiled:samples=4", "-o", "smaller.toml", check=0)
+        self.assertRegex(done.stderr, r"\Afrom 4 draws, 248 triangles, 16 x 16 with 4 samples to 2 draws, 2 triangles, \d+ x \d+ with 4 samples")
+        text = (self.folder / "smaller.toml").read_text()
+        self.assertRegex(text, r"\A# double of scissor.half-open \[vulkan\], reduced from multisample/scissor-tiled:samples=4\.\n")
+        self.assertIn("# It passes, or fails otherwise: not with 1 sample.\n", text)
+        self.edgecase("lint", "smaller.toml", check=0)
+        self.edgecase("run", "smaller.toml", "--no-expect", "-o", "out", check=1)
+        # What it needs is true: without one of it, it passes.
+        (self.folder / "less.toml").write_text(text.replace("samples = 4\n", ""))
+        self.edgecase("run", "less.toml", "--no-expect", "-o", "out", check=0)
+        # A reduced case is not made smaller once more.
+        again = self.reduce("smaller.toml", check=0).stdout
+        self.assertEqual([line for line in again.splitlines() if not line.startswith("#")],
+                         [line for line in text.splitlines() if not line.startswith("#")])
+        self.assertIn("exists; name another file", self.reduce("smaller.toml", "-o", "less.toml", check=2).stderr)
+
+    def test_a_crash(self):
+        done = self.reduce("fam/c3", fault="segv@*,segv@*/*", check=0)
+        self.assertTrue(done.stdout.startswith("# crash by SIGSEGV, reduced from fam/c3.\n"), done.stdout)
+        self.assertEqual(done.stdout.count("[[draw]]"), 1)
+
+    def test_wrong_input(self):
+        self.assertIn("fam/c3 does not fail here (pass), so there is nothing to reduce", self.reduce("fam/c3", check=6).stderr)
+        self.assertIn("did not fail the same way again", self.reduce("fam/c3", fault="flip-pixel@fam/c3", check=1).stderr)
+        self.assertIn("give the id of one", self.reduce(check=2).stderr)
+        self.assertIn("no case matches", self.reduce("fam/c33", check=4).stderr)
+        self.assertIn("/nowhere.json", self.reduce("fam/c3", "--icd", "/nowhere.json", check=5).stderr)
+        self.assertIn("cannot be written", self.reduce("fam/c3", "-o", "no/where.toml", fault="segv@*,segv@*/*", check=7).stderr)
 
 
 if __name__ == "__main__":
