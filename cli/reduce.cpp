@@ -26,7 +26,7 @@ using report::CaseRecord;
 
 namespace {
 
-constexpr size_t kMostRounds = 200;
+constexpr size_t kMostRounds = 2000;
 
 OrStop<run::Session> start_session(const Program& program, const RunOptions& options,
                                    run::SignalFd& signals) {

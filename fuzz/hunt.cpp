@@ -111,10 +111,7 @@ bool explains(const Entry& entry, const Symptom& symptom,
 // The case as a file that can go into a suite: what it shows is what it claims, if lint agrees,
 // else some rule that it does exercise.
 Document described(Document document, const Symptom& symptom) {
-    Document text;
-    text.kind = Document::Kind::string;
-    text.string = "A device showed here: " + to_text(symptom) + ".";
-    set(document, "description", text);
+    set(document, "description", text("A device showed here: " + to_text(symptom) + "."));
     const std::optional<cases::Case> c = load(to_text(document), "described");
     if (!c) {
         return document;
@@ -128,8 +125,7 @@ Document described(Document document, const Symptom& symptom) {
     for (const ref::RuleShare& share :
          ref::exercise(*c, ref::Limits{}, rules, ref::Count::some).rules) {
         if (share.samples > 0) {
-            text.string = share.rule;
-            set(document, "rules", array({text}));
+            set(document, "rules", list({text(std::string(share.rule))}));
             break;
         }
     }
@@ -290,7 +286,7 @@ void Hunt::reduce_open(std::vector<Open> open) {
     std::map<Symptom, size_t> reduced;
     size_t all = 0;
     for (const Open& one : open) {
-        if (is_interrupted_ || !failure_.empty() || all >= kReductionsOfChunk) {
+        if (is_over() || is_interrupted_ || !failure_.empty() || all >= kReductionsOfChunk) {
             return;
         }
         const std::set<std::string> words = essentials_of(one.text);

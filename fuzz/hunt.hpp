@@ -27,7 +27,7 @@ struct HuntOptions {
     uint64_t most_cases = 0;  // numbers from here on are not made; 0: no end
     std::optional<std::chrono::steady_clock::time_point> deadline;
     uint32_t shard = 1, shards = 1;  // poses are dealt out in turn
-    size_t most_rounds = 60;         // of one reduction
+    size_t most_rounds = 400;        // of one reduction: batches of candidates
 };
 
 // One cause: the smallest case that shows it, and how often it was met.

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A case file as a tree that can be changed and written again.
+// A case file as a tree that can be changed and written down again.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cases/toml/toml_reader.hpp"
 
@@ -13,21 +14,31 @@ namespace fuzz {
 
 using Document = cases::TomlValue;
 
-// A case file's text: what it is about first, then the target, then the draws. Reading it gives the
-// same tree but for the order of keys, the places, and that whole floats are written as integers,
-// which mean the same.
-std::string to_text(const Document& document);
-
-// The entry of a key, or nullptr.
-Document* find(Document& table, std::string_view key);
-// Removes a key; false if there is none.
-bool erase(Document& table, std::string_view key);
-// Sets a key, at the end if it is new.
-void set(Document& table, std::string_view key, Document value);
-
+// --- making values ---
+// An integer if the number is whole, below 2^53 in magnitude and not -0; a float otherwise. A NaN
+// with a sign is the word "-nan": TOML's floats lose it.
 Document number(double value);
-Document array(std::vector<Document> elements);
-// Of an integer or a float; 0 for anything else.
-double number_of(const Document& value);
+Document text(std::string value);
+Document boolean(bool value);
+Document list(std::vector<Document> elements);
+Document numbers(const std::vector<double>& values);
+Document table();
+
+// --- changing tables ---
+// The entry of that key, or nullptr; of a value that is no table, too.
+Document* find(Document& table, std::string_view key);
+// Replaces the entry of that key where it stands, or adds one at the end.
+Document& set(Document& table, std::string_view key, Document value);
+// Whether there was such an entry.
+bool erase(Document& table, std::string_view key);
+
+// Whether two trees say the same: kinds, values (floats by their bits, all NaNs alike) and
+// keys, in any order. Where they stand in files does not matter.
+bool is_same(const Document& a, const Document& b);
+
+// The document as a readable case file. Reading it gives the same tree. Keys stand in an order of
+// their own: those of a file as docs/cases.md has them, vertices after the state of a draw. Floats
+// have the fewest digits that read back as the same binary64.
+std::string to_text(const Document& document);
 
 }  // namespace fuzz

@@ -4,182 +4,282 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cstdint>
+#include <deque>
+#include <map>
 #include <optional>
-#include <set>
+#include <span>
+#include <stdexcept>
+#include <unordered_set>
 #include <utility>
 
+#include "cases/base/checksum.hpp"
+#include "cases/base/parallel.hpp"
 #include "cases/load/loader.hpp"
-#include "cases/model/triangle.hpp"
-#include "fuzz/reduce/edits.hpp"
+#include "fuzz/reduce/measure.hpp"
+#include "fuzz/reduce/step.hpp"
 
 namespace fuzz {
 
 namespace {
 
-size_t keys_of(const Document& value) {
-    size_t keys = value.table.size();
-    for (const cases::TomlEntry& entry : value.table) {
-        keys += keys_of(entry.value);
-    }
-    for (const Document& element : value.array) {
-        keys += keys_of(element);
-    }
-    return keys;
+// What stands for a text in the list of answers, which would be large with whole texts: two
+// checksums, so 128 bits.
+using Key = std::array<uint64_t, 2>;
+Key key_of(const std::string& text) {
+    return {cases::checksum(1, text), cases::checksum(2, text)};
 }
 
-// How large a case is; nothing if the document is none.
-using Size = std::array<uint64_t, 6>;
-std::optional<Size> size_of(const Document& document, const std::string& text) {
-    const auto loaded = cases::load_text(text, "reduced", "reduced");
-    if (!loaded || loaded->size() != 1) {
+bool loads(const std::string& text) {
+    return cases::load_text(text, "case.toml", "case").has_value();
+}
+
+// What a step makes of a document, if it is simpler.
+std::optional<Document> applied(const Step& step, const Document& document, const Measure& before) {
+    Document after = document;
+    if (!step.apply(after) || !(measure(after) < before)) {
         return std::nullopt;
     }
-    const cases::Case& c = loaded->front();
-    const uint64_t digits =
-        std::accumulate(text.begin(), text.end(), uint64_t{0}, [](uint64_t sum, char letter) {
-            return sum + (letter >= '0' && letter <= '9' ? static_cast<uint64_t>(letter - '0') : 0);
-        });
-    return Size{c.draws.size(),
-                cases::assemble(c).size(),
-                keys_of(document),
-                uint64_t{c.target.width} * c.target.height * c.target.samples * c.target.layers,
-                text.size(),
-                digits};
+    return after;
 }
 
+// A step, the text that it leads to and whether that loads. The document is made again when it is
+// wanted: those of large cases are many times as large as their texts.
 struct Candidate {
-    const Edit* edit = nullptr;
-    Document document;
+    const Step* step = nullptr;
     std::string text;
+    bool is_valid = false;
 };
+
+// The candidates of some steps, in their order.
+std::vector<Candidate> candidates(const Document& document, std::span<const Step> steps) {
+    const Measure before = measure(document);
+    std::vector<Candidate> all(steps.size());
+    cases::for_each_index(all.size(), [&](size_t k) {
+        Candidate& candidate = all[k];
+        candidate.step = &steps[k];
+        if (const std::optional<Document> after = applied(steps[k], document, before)) {
+            candidate.text = to_text(*after);
+            candidate.is_valid = loads(candidate.text);
+        }
+    });
+    std::erase_if(all, [](const Candidate& c) { return !c.is_valid; });
+    return all;
+}
+
+// Whether two steps of one document remove some same thing.
+bool overlap(const Step& a, const Step& b) {
+    return a.of == b.of && !a.of.empty() && a.draw == b.draw && a.begin < b.end && b.begin < a.end;
+}
+
+// The document after several steps that were all made for it: what moves numbers of others comes
+// last, and from the back. Steps that take part of what another one took are left out.
+struct Together {
+    Document document;
+    std::vector<std::string> steps;  // in words
+};
+Together applied_together(const Document& document, const std::vector<const Step*>& steps) {
+    std::vector<const Step*> chosen;
+    for (const Step* step : steps) {
+        if (std::ranges::none_of(chosen, [&](const Step* s) { return overlap(*s, *step); })) {
+            chosen.push_back(step);
+        }
+    }
+    std::ranges::stable_sort(chosen, [](const Step* a, const Step* b) {
+        return std::pair(a->phase, b->begin) < std::pair(b->phase, a->begin);
+    });
+    Together out{document, {}};
+    for (const Step* step : chosen) {
+        if (std::optional<Document> after = applied(*step, out.document, measure(out.document))) {
+            out.document = std::move(*after);
+            out.steps.push_back(step->words);
+        }
+    }
+    return out;
+}
 
 class Reducer {
   public:
-    Reducer(Document document, const Shows& shows, const ReduceOptions& options)
-        : shows_(shows), options_(options) {
-        out_.document = std::move(document);
-        text_ = to_text(out_.document);
-        size_ = size_of(out_.document, text_).value_or(Size{});
+    Reducer(const Shows& shows, const ReduceOptions& options) : shows_(shows), options_(options) {
+        options_.batch = std::max<size_t>(options_.batch, 1);
     }
 
-    Reduced run() {
-        while (out_.rounds < options_.most_rounds && !out_.is_minimal) {
-            ++out_.rounds;
-            const std::vector<Edit> all = edits(out_.document);
-            out_.is_minimal = !round(all);
-            if (out_.is_minimal) {
-                tell_needs(all);
+    Reduced reduce(Document document) {
+        out_.document = std::move(document);
+        answers_.emplace(key_of(to_text(out_.document)), true);
+        // After a success the search goes on where it was; what was refused before is tried again
+        // in the end, when everything else has been.
+        Stage from = kStages.front();
+        while (!is_spent()) {
+            if (const std::optional<Stage> found = take_some(from)) {
+                from = *found;
+            } else if (from == kStages.front() && !is_spent()) {
+                out_.is_minimal = true;
+                break;
+            } else {
+                from = kStages.front();
             }
         }
+        tell_needs();
         return std::move(out_);
     }
 
   private:
-    // What an edit makes of a document, if that is a smaller case.
-    std::optional<Candidate> apply(const Edit& edit, const Document& to, const Size& size) const {
-        Candidate candidate{&edit, to, {}};
-        if (!edit.apply(candidate.document)) {
-            return std::nullopt;
+    bool is_spent() const { return out_.rounds >= options_.most_rounds; }
+
+    // Asks about all of the texts that have no answer yet, in one call.
+    void ask(const std::vector<std::string>& texts) {
+        std::vector<std::string> open;
+        for (const std::string& text : texts) {
+            if (answers_.emplace(key_of(text), false).second) {
+                open.push_back(text);
+            }
         }
-        candidate.text = to_text(candidate.document);
-        const std::optional<Size> now = size_of(candidate.document, candidate.text);
-        if (!now || *now >= size) {
-            return std::nullopt;
+        if (open.empty()) {
+            return;
         }
-        return candidate;
+        ++out_.rounds;
+        out_.tried += open.size();
+        const std::vector<bool> answers = shows_(open);
+        if (answers.size() != open.size()) {
+            throw std::logic_error("the reducer needs one answer a text");
+        }
+        for (size_t k = 0; k < open.size(); ++k) {
+            answers_[key_of(open[k])] = answers[k];
+        }
     }
 
-    std::vector<bool> ask(const std::vector<Candidate>& candidates) {
+    // Goes through the steps of the stages from `from` on until some show the finding, and takes as
+    // many of these as do so together. The stage where to go on, or nothing if no step showed it.
+    std::optional<Stage> take_some(Stage from) {
+        std::deque<std::vector<Step>> kept;  // candidates point to them
+        std::vector<Candidate> batch;
+        for (const Stage stage : kStages) {
+            if (stage < from) {
+                continue;
+            }
+            const std::span<const Step> steps = kept.emplace_back(steps_of(out_.document, stage));
+            for (size_t at = 0; at < steps.size() && !is_spent(); at += options_.batch) {
+                const size_t count = std::min(options_.batch, steps.size() - at);
+                for (Candidate& c : candidates(out_.document, steps.subspan(at, count))) {
+                    const auto known = answers_.find(key_of(c.text));
+                    if (known != answers_.end() && !known->second) {
+                        continue;
+                    }
+                    if (batch.size() == options_.batch) {
+                        if (const std::optional<Stage> found = settle(batch)) {
+                            return found;
+                        }
+                        batch.clear();
+                    }
+                    batch.push_back(std::move(c));
+                }
+            }
+        }
+        return settle(batch);
+    }
+
+    std::optional<Stage> settle(std::vector<Candidate>& batch) {
+        if (batch.empty() || is_spent()) {
+            return std::nullopt;
+        }
         std::vector<std::string> texts;
-        for (const Candidate& candidate : candidates) {
-            texts.push_back(candidate.text);
+        for (const Candidate& c : batch) {
+            texts.push_back(c.text);
         }
-        out_.tried += texts.size();
-        return texts.empty() ? std::vector<bool>() : shows_(texts);
+        ask(texts);
+        std::vector<Candidate*> good;
+        for (Candidate& c : batch) {
+            if (answers_[key_of(c.text)]) {
+                good.push_back(&c);
+            }
+        }
+        if (good.empty()) {
+            return std::nullopt;
+        }
+        const Stage found = batch.front().step->stage;
+        take(good);
+        return found;
     }
 
-    // False if no edit gives a smaller case that shows it.
-    bool round(const std::vector<Edit>& all) {
-        failed_.clear();
-        for (size_t next = 0; next < all.size();) {
-            std::vector<Candidate> batch;
-            for (; next < all.size() && batch.size() < options_.batch; ++next) {
-                std::optional<Candidate> candidate = apply(all[next], out_.document, size_);
-                if (candidate && tried_.contains(candidate->text)) {
-                    failed_.push_back(&all[next]);
-                } else if (candidate) {
-                    batch.push_back(std::move(*candidate));
-                }
+    // All of the candidates that show it at once, or the first half, quarter, ... of them: the most
+    // that do so still. The first alone is known to.
+    void take(const std::vector<Candidate*>& good) {
+        std::vector<Together> chain;
+        std::vector<std::string> texts;
+        for (size_t count = good.size(); count > 1 && texts.size() < options_.batch; count /= 2) {
+            std::vector<const Step*> steps;
+            for (size_t k = 0; k < count; ++k) {
+                steps.push_back(good[k]->step);
             }
-            const std::vector<bool> answers = ask(batch);
-            std::vector<const Edit*> good;
-            for (size_t k = 0; k < batch.size(); ++k) {
-                if (!answers[k]) {
-                    failed_.push_back(batch[k].edit);
-                    tried_.insert(batch[k].text);
-                } else {
-                    good.push_back(batch[k].edit);
-                }
-            }
-            if (!good.empty()) {
-                take(good);
-                return true;
+            Together together = applied_together(out_.document, steps);
+            std::string text = to_text(together.document);
+            if (loads(text)) {
+                chain.push_back(std::move(together));
+                texts.push_back(std::move(text));
             }
         }
-        return false;
-    }
-
-    // The first of the edits, each of which shows it alone, and as many more as show it together.
-    void take(const std::vector<const Edit*>& good) {
-        std::vector<Candidate> chain;
-        Document document = out_.document;
-        Size size = size_;
-        for (const Edit* edit : good) {
-            std::optional<Candidate> candidate = apply(*edit, document, size);
-            if (candidate) {
-                document = candidate->document;
-                size = *size_of(document, candidate->text);
-                chain.push_back(std::move(*candidate));
-            }
+        if (!is_spent()) {
+            ask(texts);
         }
-        std::vector<bool> answers{true};
-        if (chain.size() > 1) {
-            const std::vector<Candidate> rest(chain.begin() + 1, chain.end());
-            const std::vector<bool> more = ask(rest);
-            answers.insert(answers.end(), more.begin(), more.end());
-        }
-        size_t last = 0;
+        const Measure before = measure(out_.document);
+        Together next = applied_together(out_.document, {good.front()->step});
         for (size_t k = 0; k < chain.size(); ++k) {
-            last = answers[k] ? k : last;
+            const auto answer = answers_.find(key_of(texts[k]));
+            if (answer != answers_.end() && answer->second &&
+                measure(chain[k].document) < measure(next.document)) {
+                next = std::move(chain[k]);
+                break;
+            }
         }
-        out_.document = std::move(chain[last].document);
-        text_ = chain[last].text;
-        size_ = *size_of(out_.document, text_);
+        if (!(measure(next.document) < before)) {
+            throw std::logic_error("a step of the reducer did not make the case simpler");
+        }
+        out_.document = std::move(next.document);
+        out_.steps.insert(out_.steps.end(), next.steps.begin(), next.steps.end());
     }
 
-    void tell_needs(const std::vector<Edit>& all) {
-        for (const Edit& edit : all) {
-            if (edit.is_feature &&
-                std::find(failed_.begin(), failed_.end(), &edit) != failed_.end()) {
-                out_.needs.push_back("not " + edit.what);
+    // Of all steps that were refused, those with words for it: one for each text.
+    void tell_needs() {
+        std::unordered_set<std::string> told;
+        for (const Stage stage : kStages) {
+            std::vector<Step> steps = steps_of(out_.document, stage);
+            std::erase_if(steps, [](const Step& step) { return step.need.empty(); });
+            for (Candidate& c : candidates(out_.document, steps)) {
+                const auto answer = answers_.find(key_of(c.text));
+                if (answer != answers_.end() && !answer->second &&
+                    told.insert(std::move(c.text)).second) {
+                    out_.needs.push_back(c.step->need);
+                }
             }
         }
     }
 
     const Shows& shows_;
     ReduceOptions options_;
+    std::map<Key, bool> answers_;
     Reduced out_;
-    std::string text_;
-    Size size_{};
-    std::set<std::string> tried_;      // texts that did not show it
-    std::vector<const Edit*> failed_;  // of this round
 };
 
 }  // namespace
 
+std::vector<Simpler> simpler(const Document& document) {
+    const Measure before = measure(document);
+    std::vector<Simpler> out;
+    std::unordered_set<std::string> seen = {to_text(document)};
+    for (const Stage stage : kStages) {
+        const std::vector<Step> steps = steps_of(document, stage);
+        for (Candidate& c : candidates(document, steps)) {
+            if (seen.insert(std::move(c.text)).second) {
+                out.push_back({*applied(*c.step, document, before), c.step->words, c.step->need});
+            }
+        }
+    }
+    return out;
+}
+
 Reduced reduce(Document document, const Shows& shows, const ReduceOptions& options) {
-    return Reducer(std::move(document), shows, options).run();
+    return Reducer(shows, options).reduce(std::move(document));
 }
 
 }  // namespace fuzz

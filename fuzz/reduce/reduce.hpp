@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes a failing case as small as it can be while it shows what it shows.
+// Makes a case that shows a finding as small as it can be while it still shows it. What shows it is
+// asked of the caller, many candidates at once.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,26 +14,40 @@
 
 namespace fuzz {
 
-// For each text, a case that loads, whether it still shows it.
+// A document that is one step simpler than another.
+struct Simpler {
+    Document document;
+    std::string step;  // "without draw 1", "with 1 sample", "draw 0 without scissor"
+    // What it means that this one does not show the finding: "not with 1 sample". Empty for steps
+    // that only make numbers simpler.
+    std::string need;
+};
+
+// Everything one step simpler than a document, what makes a case easiest for a person first. What
+// does not load, stays the same text or is no simpler by measure.hpp is left out.
+std::vector<Simpler> simpler(const Document& document);
+
+// For each text of a case file: whether it still shows the finding. As many answers as texts.
 using Shows = std::function<std::vector<bool>(const std::vector<std::string>& texts)>;
 
 struct ReduceOptions {
-    size_t batch = 64;        // texts asked about at once, at most
-    size_t most_rounds = 80;  // a round ends with a smaller case, or is the last one
+    size_t batch = 64;          // texts that are asked about at once, at least 1
+    size_t most_rounds = 2000;  // calls of Shows
 };
 
 struct Reduced {
     Document document;
-    // What the case needs, as its nearest neighbours that do not show it: "not with 1 sample".
+    // What the finding needs: the neighbours of the document that do not show it, in words ("not
+    // with 1 sample", "not without blend").
     std::vector<std::string> needs;
-    size_t rounds = 0, tried = 0;
-    bool is_minimal = false;  // no step of edits() makes it smaller and still shows it
+    std::vector<std::string> steps;  // that were taken, in words, in this order
+    size_t tried = 0;                // texts that were asked about
+    size_t rounds = 0;               // calls of Shows
+    bool is_minimal = false;         // nothing in simpler(document) shows the finding
 };
 
-// `document` is a case of one leaf that shows it. The same document and answers give the same
-// result. Each round takes the most valuable step that still shows it, and on top of it as many of
-// the others as go with it. Every step makes the case smaller in an order without an infinite
-// descent: draws, triangles, keys, samples of the target, length of the text, its digits.
+// The document must show the finding itself, which is not asked. Is a function of its arguments and
+// of the answers alone. No text is asked about twice.
 Reduced reduce(Document document, const Shows& shows, const ReduceOptions& options = {});
 
 }  // namespace fuzz

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "fuzz/document/document.hpp"
+
+namespace fuzz {
+
+namespace {
+
+using Kind = Document::Kind;
+
+constexpr size_t kColumns = 100;  // of a line, where values allow it
+
+// The order in which docs/cases.md tells the keys of a table; all others follow.
+constexpr std::array<std::string_view, 53> kOrder = {
+    // a file
+    "format", "description", "catches", "rules", "links", "leaves", "relations", "matrix", "target",
+    "blit",
+    // [target], [target.color], [blit]
+    "size", "samples", "sample_locations", "layers", "resolve", "depth_resolve", "stencil",
+    "attachments", "clear",
+    // [[draw]]; what its triangles are stands last
+    "name", "source", "probe", "interpolation", "auxiliary", "topology", "space", "viewport",
+    "scissor", "viewport_index", "layer", "cull", "front_face", "rasterizer_discard", "provoking",
+    "sample_mask", "shader_mask", "min_sample_shading", "depth", "depth_volume", "depth_clear",
+    "color", "generate", "vertices", "indices", "mirror", "rotate", "offset", "winding", "first",
+    "order", "draw", "attribute", "expect"};
+
+size_t rank(const cases::TomlEntry& entry) {
+    return static_cast<size_t>(std::find(kOrder.begin(), kOrder.end(), entry.key) - kOrder.begin());
+}
+
+std::vector<const cases::TomlEntry*> ordered(const Document& table) {
+    std::vector<const cases::TomlEntry*> entries;
+    for (const cases::TomlEntry& entry : table.table) {
+        entries.push_back(&entry);
+    }
+    std::ranges::stable_sort(entries, {}, [](const cases::TomlEntry* e) { return rank(*e); });
+    return entries;
+}
+
+std::string float_text(double value) {
+    if (std::isnan(value)) {
+        return "nan";
+    }
+    if (std::isinf(value)) {
+        return value < 0 ? "-inf" : "inf";
+    }
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    std::string digits(buffer.data(), end);
+    if (digits.find_first_of(".e") == std::string::npos) {
+        digits += ".0";
+    }
+    return digits;
+}
+
+// Keys are written in one line.
+std::string quoted(const std::string& text, bool is_key = false) {
+    // Pictures and other texts of several lines stay so; three quotes would end them.
+    const bool is_block =
+        !is_key && text.find('\n') != std::string::npos && text.find('"') == std::string::npos;
+    std::string out = is_block ? "\"\"\"\n" : "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            out += '\\';
+            out += c;
+        } else if (c == '\n' && is_block) {
+            out += c;
+        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        } else {
+            out += c;
+        }
+    }
+    return out + (is_block ? "\"\"\"" : "\"");
+}
+
+std::string key_text(const std::string& key) {
+    constexpr std::string_view kBare =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    return !key.empty() && key.find_first_not_of(kBare) == std::string::npos ? key
+                                                                             : quoted(key, true);
+}
+
+std::string inline_text(const Document& value);
+
+std::string array_text(const Document& value) {
+    std::string out = "[";
+    for (const Document& element : value.array) {
+        out += (out.size() > 1 ? ", " : "") + inline_text(element);
+    }
+    return out + "]";
+}
+
+std::string inline_text(const Document& value) {
+    switch (value.kind) {
+        case Kind::boolean:
+            return value.boolean ? "true" : "false";
+        case Kind::integer:
+            return fmt::format("{}", value.integer);
+        case Kind::floating:
+            return float_text(value.floating);
+        case Kind::string:
+            return quoted(value.string);
+        case Kind::array:
+            return array_text(value);
+        case Kind::table: {
+            std::string out;
+            for (const cases::TomlEntry* entry : ordered(value)) {
+                out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", key_text(entry->key),
+                                   inline_text(entry->value));
+            }
+            return out.empty() ? "{}" : "{ " + out + " }";
+        }
+        case Kind::date_time:
+            break;
+    }
+    return "0001-01-01";  // no case has one, and the tree does not say which it was
+}
+
+// An array over several lines: one element a line if they are arrays, as many as fit otherwise.
+std::string wrapped(const Document& value) {
+    std::string out = "[";
+    std::string line;
+    for (const Document& element : value.array) {
+        const std::string next = inline_text(element) + ",";
+        if (!line.empty() &&
+            (element.is(Kind::array) || line.size() + 1 + next.size() > kColumns)) {
+            out += "\n" + line;
+            line.clear();
+        }
+        line += (line.empty() ? "    " : " ") + next;
+    }
+    if (!line.empty()) {
+        line.pop_back();
+    }
+    return out + "\n" + line + "\n]";
+}
+
+bool is_all_tables(const Document& value) {
+    return value.is(Kind::array) && !value.array.empty() &&
+           std::ranges::all_of(value.array, [](const Document& d) { return d.is(Kind::table); });
+}
+
+// Whether [name.key] tells it, not key = value inside of [name].
+bool has_header(const std::string& parent, const cases::TomlEntry& entry) {
+    if (entry.value.is(Kind::table)) {
+        return parent.empty() || parent == "target" || parent == "expect";
+    }
+    return is_all_tables(entry.value) && (parent.empty() || parent == "draw") &&
+           entry.key != "relations";
+}
+
+void write_entries(const std::string& parent, const Document& table, std::string& out) {
+    const std::vector<const cases::TomlEntry*> entries = ordered(table);
+    for (const cases::TomlEntry* entry : entries) {
+        if (has_header(parent, *entry)) {
+            continue;
+        }
+        const std::string line = key_text(entry->key) + " = ";
+        const std::string plain = inline_text(entry->value);
+        const bool is_long = entry->value.is(Kind::array) && !entry->value.array.empty() &&
+                             (entry->key == "vertices" || line.size() + plain.size() > kColumns);
+        out += line + (is_long ? wrapped(entry->value) : plain) + "\n";
+    }
+    for (const cases::TomlEntry* entry : entries) {
+        if (!has_header(parent, *entry)) {
+            continue;
+        }
+        const std::string name = (parent.empty() ? "" : parent + ".") + key_text(entry->key);
+        const bool is_list = entry->value.is(Kind::array);
+        const std::span<const Document> tables =
+            is_list ? std::span(entry->value.array) : std::span(&entry->value, 1);
+        for (const Document& one : tables) {
+            out += is_list ? fmt::format("\n[[{}]]\n", name) : fmt::format("\n[{}]\n", name);
+            write_entries(name, one, out);
+        }
+    }
+}
+
+}  // namespace
+
+std::string to_text(const Document& document) {
+    std::string out;
+    write_entries("", document, out);
+    return out;
+}
+
+}  // namespace fuzz
