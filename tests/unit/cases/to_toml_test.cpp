@@ -169,7 +169,6 @@ vertices           = [[0,0,0.5,1], [8,0,0.25,2], [0,4,0.5,1], ["2+2/3",4,0.5,1]]
 indices            = [0, 1, 2, "restart", 1, 2, 3]
 viewport           = { rect = [0, 4, 8, -4], depth = [0.25, 1] }
 scissor            = [1, 0, 7, 4]
-viewport_index     = 3
 cull               = "back"
 front_face         = "clockwise"
 provoking          = "last"
