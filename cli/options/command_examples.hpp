@@ -16,9 +16,9 @@ inline constexpr Examples kExamples[] = {
      "  edgecase gtest --gtest_list_tests\n"
      "  edgecase gtest --gtest_filter='edgecase.ties/apex-up'\n"},
     {"fuzz",
-     "  edgecase fuzz --time 10m -o out/hunt           what does my driver get wrong\n"
-     "  edgecase fuzz --time 10m --known out/hunt --seed 2\n"},
-    {"reduce", "  edgecase reduce combination/states:depth=d16-unorm -o smaller.toml\n"},
+     "  edgecase fuzz --cases 1024 -o out/hunt         what does my driver get wrong\n"
+     "  edgecase fuzz --cases 1024 --known out/hunt --seed 2\n"},
+    {"reduce", "  edgecase reduce multisample/scissor-tiled:samples=4 -o smaller.toml\n"},
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
