@@ -30,7 +30,10 @@ TrianglePlanes::TrianglePlanes(const std::array<WindowVertex, 3>& v, bool positi
             device.fault == Fault::reciprocal_area_12_bits ? reciprocal_12(det) : 1.0F / det;
         return positive ? det > 0 : det < 0;
     };
-    if (!place(device.basis == PlaneBasis::snapped)) {
+    // Where snapping has turned a sliver over, or a vertex that was cut off onto the line of the
+    // others, only the other positions have the triangle's area.
+    const bool is_snapped = device.basis == PlaneBasis::snapped;
+    if (!place(is_snapped) && !place(!is_snapped)) {
         place(true);
     }
 

@@ -330,6 +330,10 @@ CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quan
         } else if (has_area) {
             set.is_known = set.is_known && add_pieces(inputs, polygon, T{}, true, set) &&
                            add_pieces(inputs, polygon, set.margin, false, set);
+        } else {
+            // Its pieces have an area by the rounding of the device's cut points alone, and their
+            // planes may lie anyhow between the values there.
+            set.candidates.push_back({ref::BasisKind::clipped_piece, {}, true, false});
         }
     }
     if (set.candidates.empty()) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "value_case.hpp"
@@ -160,6 +161,33 @@ TEST(ValueClipped, PiecesInBinary32Pass) {
 }
 TEST(ValueClipped, PiecesOfTrianglesBehindTheEyePass) {
     expect_pieces_pass(22, true);
+}
+
+// The determinant of (x, y, w) is 0: the triangle lies in a plane through the eye, so that no
+// sample has to be hit, and what is cut from it near w = 0 may be anything between its values
+// there. Snapped, the three positions have an area, but a device that cuts the triangle does not
+// use them. At profile vulkan 1/w need not be a number there.
+TEST(ValueClipped, ThroughTheEyeIsBoundByTheHullAlone) {
+    const glm::vec4 v0(-0x1.6f66p+0F, 0x1.6f08p+0F, -0.5F, -1);
+    const glm::vec4 v1(-0x1.f25acp+1F, -0x1.8161p+0F, 1.625F, 3.25F);
+    const glm::vec4 v2(0x1.ad14ep+2F, -0x1.c69p-1F, -0.875F, -1.75F);
+    cases::Case c = value_test::make_case(4, {v0, v1, v2});
+    c.target.height = c.draws[0].scissor.height = 11;
+    c.draws[0].viewport.height = 11;
+    const cases::SampleId id{0, 0, 0};
+    for (const cases::Profile profile : cases::kProfiles) {
+        ref::ValueReference reference(c, ref::Limits{}, profile);
+        ref::FragmentValues v;
+        for (const float inv_w : {1.0F, 0x1p20F}) {
+            v.frag_coord = {0.5F, 0.5F, 0.5F, inv_w};
+            v.depth = 0.5F;
+            EXPECT_TRUE(reference.judge(0, id, v).ok)
+                << inv_w << " at " << cases::to_string(profile);
+        }
+        v.frag_coord.w = std::numeric_limits<float>::quiet_NaN();
+        EXPECT_EQ(reference.judge(0, id, v).ok, profile == cases::Profile::vulkan)
+            << cases::to_string(profile);
+    }
 }
 
 }  // namespace
