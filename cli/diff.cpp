@@ -17,6 +17,7 @@
 #include "cases/base/printable.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
+#include "cli/diagnose.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
 #include "cli/prepare/run_plan.hpp"
@@ -346,8 +347,16 @@ int diff_command(const Program& program, const DiffOptions& given) {
     if (auto written = journal->write_stop(header); !written && failure.empty()) {
         failure = written.error().message;
     }
-    return conclude(folder, o, Ci::none, console, style,
-                    {failure, "judging stopped early", skipped_text(skipped), {}});
+    Ending ending{failure, "judging stopped early", skipped_text(skipped), {}};
+    if (o.diagnosis) {
+        ending.complete = [&](report::Run& run) {
+            const auto each = [&](const auto& visit) {
+                std::for_each(selection->cases.begin(), selection->cases.end(), visit);
+            };
+            diagnose(run, each, *journal);
+        };
+    }
+    return conclude(folder, o, Ci::none, console, style, ending);
 }
 
 }  // namespace cli

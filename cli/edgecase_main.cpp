@@ -35,6 +35,7 @@ int edgecase_main(int argc, const char* const* argv) {
         {"gtest", [&] { return gtest_command(program, all.gtest); }},
         {"fuzz", [&] { return fuzz_command(program, all.fuzz); }},
         {"reduce", [&] { return reduce_command(program, all.reduce); }},
+        {"diagnose", [&] { return diagnose_command(program, all.diagnose); }},
         {"list", [&] { return list_command(program, all.list); }},
         {"lint", [&] { return lint_command(program, all.lint); }},
         {"explain", [&] { return explain_command(program, all.explain); }},

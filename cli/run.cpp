@@ -9,6 +9,7 @@
 
 #include "cases/base/regex.hpp"
 #include "cli/commands.hpp"
+#include "cli/diagnose.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/prepare/ci.hpp"
 #include "cli/prepare/device_answer.hpp"
@@ -209,8 +210,18 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     if (!failure.empty()) {
         failure = "the run stopped early: " + failure + resume;
     }
-    return conclude(p.folder, options, chosen_ci(options.ci), console, style,
-                    {failure, "the run stopped early", {}, "interrupted" + resume});
+    Ending ending{failure, "the run stopped early", {}, "interrupted" + resume};
+    if (options.diagnosis && teller == nullptr) {
+        ending.complete = [&](Run& run) {
+            const auto each = [&](const auto& visit) {
+                for (const run::PlannedCase& c : p.plan) {
+                    visit(c.data);
+                }
+            };
+            diagnose(run, each, *journal);
+        };
+    }
+    return conclude(p.folder, options, chosen_ci(options.ci), console, style, ending);
 }
 
 int run_told(const Program& program, const RunOptions& options, const RunTeller* teller) {

@@ -19,6 +19,9 @@ inline constexpr Examples kExamples[] = {
      "  edgecase fuzz --cases 1024 -o out/hunt         what does my driver get wrong\n"
      "  edgecase fuzz --cases 1024 --known out/hunt --seed 2\n"},
     {"reduce", "  edgecase reduce multisample/scissor-tiled:samples=4 -o smaller.toml\n"},
+    {"diagnose",
+     "  edgecase diagnose out/mine                what does the device do wrong\n"
+     "  edgecase diagnose out/mine --known        what do its expected failures come of\n"},
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
@@ -77,6 +80,7 @@ inline constexpr Group kGroups[] = {
     {"gtest", "Checking a device"},
     {"fuzz", "Checking a device"},
     {"reduce", "Checking a device"},
+    {"diagnose", "Checking a device"},
     {"report", "Checking a device"},
     {"compare", "Checking a device"},
     {"expect", "Checking a device"},

@@ -81,6 +81,10 @@ void add_outputs(CLI::App* app, RunOptions& o, const char* folder, bool tells_ci
     add_choice(app, "--capture", o.capture, kCaptureNames,
                "of which cases the reports keep pictures")
         ->group("Output");
+    app->add_flag_callback(
+           "--no-diagnosis", [&o] { o.diagnosis = false; },
+           "do not look for what the device does wrong, where cases fail")
+        ->group("Output");
     add_terminal(app, o.quiet, o.verbose, o.color);
     if (tells_ci) {
         add_ci(app, o.ci);
@@ -235,6 +239,14 @@ void define_reduce(CLI::App& app, ReduceOptions& o) {
     add_value(reduce, "-o,--output", o.run.output, "the case file to write [standard output]",
               "FILE", "Output");
     reduce->add_flag("-q,--quiet", o.run.quiet, "say nothing else")->group("Output");
+}
+
+void define_diagnose(CLI::App& app, DiagnoseOptions& o) {
+    CLI::App* diagnose = app.add_subcommand("diagnose", "say what the device of a run does wrong");
+    diagnose->add_option("DIR", o.directory, "the folder of a run")->required()->type_name("");
+    diagnose->add_flag("--known", o.known, "explain expected failures, too");
+    add_value(diagnose, "--suite", o.suite.suite, "where the cases are [as in the run]", "DIR",
+              "Selection");
 }
 
 // Rendering by others: what they get, and how it is judged.
@@ -410,6 +422,7 @@ void define(CLI::App& app, AllOptions& all) {
     define_gtest(app, all.gtest);
     define_fuzz(app, all.fuzz);
     define_reduce(app, all.reduce);
+    define_diagnose(app, all.diagnose);
     define_others(app, all);
     for (CLI::App* command : app.get_subcommands({})) {
         command->set_help_flag("-h,--help", "this help");

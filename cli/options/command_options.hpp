@@ -24,6 +24,7 @@ struct AllOptions {
     ReportOptions report;
     FuzzOptions fuzz;
     ReduceOptions reduce;
+    DiagnoseOptions diagnose;
     ExpectOptions expect;
     CompareOptions compare;
     std::string shell;  // of completion

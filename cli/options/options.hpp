@@ -50,7 +50,7 @@ struct RunOptions {
     SuiteOptions suite;
     DeviceOptions device;
     std::string failed_in, resume;
-    bool quick = false, fail_fast = false, require_support = false;
+    bool quick = false, fail_fast = false, require_support = false, diagnosis = true;
     Shard shard;
     bool shuffle = false;
     uint64_t seed = 1;
@@ -89,6 +89,12 @@ struct FuzzOptions {
 
 struct ReduceOptions {
     RunOptions run;  // its suite with exactly one case, device, judging and output
+};
+
+struct DiagnoseOptions {
+    SuiteOptions suite;
+    std::string directory;  // of a run
+    bool known = false;     // expected failures, too
 };
 
 struct ListOptions {

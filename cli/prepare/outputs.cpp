@@ -198,10 +198,13 @@ void print_errors(const cases::Errors& errors) {
 
 int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,
              std::FILE* console, const report::ConsoleStyle& style, const Ending& ending) {
-    const cases::Expected<report::Run> run = report::load_journal(folder);
+    cases::Expected<report::Run> run = report::load_journal(folder);
     if (!run) {
         print_errors({run.error()});
         return report::kExitInternal;
+    }
+    if (ending.complete) {
+        ending.complete(*run);
     }
     const ReportFiles files{folder, options.json, options.junit, options.html};
     cases::Errors errors = write_reports(*run, files);

@@ -53,6 +53,8 @@ struct Ending {
     std::string stopped;      // that in few words, for the summary
     std::string summary;      // printed before the summary
     std::string interrupted;  // printed if the run was interrupted
+    // What is found out of the records when all are there, and kept in the journal.
+    std::function<void(report::Run&)> complete = {};
 };
 // Writes reports from the journal alone, prints the summary, and returns the exit code.
 int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,

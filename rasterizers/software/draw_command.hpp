@@ -51,6 +51,7 @@ class DrawCommand {
     bool is_depth_clipped(const TrianglePlanes& planes, int64_t i, int64_t j, uint32_t s) const;
     glm::vec4 distances_of(uint32_t v, const Primitive& primitive, size_t k) const;
     bool inside_viewport(int64_t i, int64_t j, uint32_t s) const;
+    bool is_before_scissor(int64_t i, int64_t j, uint32_t s) const;
     // Sample s of pixel (i,j) is covered: with several samples the fragment waits until all of its
     // samples are known.
     void cover(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,

@@ -65,10 +65,21 @@ bool DrawCommand::is_depth_clipped(const TrianglePlanes& planes, int64_t i, int6
     return !(z >= low && z <= high);
 }
 
+// With the fault that the scissor is tested by the sample, half a pixel too early.
+bool DrawCommand::is_before_scissor(int64_t i, int64_t j, uint32_t s) const {
+    const double unit = std::ldexp(1.0, -device_.subpixel_bits);
+    const double x = static_cast<double>(i) + static_cast<double>(samples_[s].x) * unit;
+    const double y = static_cast<double>(j) + static_cast<double>(samples_[s].y) * unit;
+    return x < draw_.scissor.x - 0.5 || y < draw_.scissor.y - 0.5;
+}
+
 void DrawCommand::cover(const Primitive& primitive, const TrianglePlanes& planes,
                         const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s) {
     if (!inside_viewport(i, j, s) || is_distance_clipped(planes, i, j, s) ||
         is_depth_clipped(planes, i, j, s)) {
+        return;
+    }
+    if (device_.fault == Fault::scissor_half_early && is_before_scissor(i, j, s)) {
         return;
     }
     if (samples_.size() == 1) {
@@ -126,19 +137,25 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
                            const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
                            uint32_t covered) {
     const Fault fault = device_.fault;
-    const Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
+    Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
     if (!invocation.is_written) {
         return;
+    }
+    for (Place* place : {&invocation.centre, &invocation.sample, &invocation.centroid}) {
+        place->x += device_.place_x;
+        place->y += device_.place_y;
     }
     const size_t at = index_in(layer, i, j, s);
     const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
     const float sample_x = static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit;
     const float sample_y = static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit;
-    float z = planes.depth(sample_x, sample_y);
+    float z = planes.depth(sample_x + device_.place_x, sample_y + device_.place_y);
     if (fault == Fault::values_at_corner) {
         z = planes.depth(static_cast<float>(i), static_cast<float>(j));
     } else if (fault == Fault::depth_at_centre) {
         z = planes.depth(static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F);
+    } else if (fault == Fault::depth_samples_mirrored) {
+        z = planes.depth(2 * static_cast<float>(i) + 1 - sample_x, sample_y);
     }
     const float largest = fault == Fault::bias_exponent_of_sample ? std::fabs(z) : largest_z_;
     const cases::DepthFormat format = out_.target.depth_format;
@@ -167,10 +184,14 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     const float y = invocation.centre.y + corner;
     const float corner_xy = fault == Fault::frag_coord_corner ? -0.5F : 0.0F;
     const float inverse_w = planes.inverse_w(x, y);
+    float coord_z = planes.depth(x, y);
+    if (fault == Fault::depth_samples_mirrored) {
+        coord_z = planes.depth(static_cast<float>(i) + 1 - static_cast<float>(samples_[0].x) * unit,
+                               static_cast<float>(j) + static_cast<float>(samples_[0].y) * unit);
+    }
     const glm::vec4 older_frag_coord = out_.frag_coord[at];
     out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy, invocation.frag_coord.y + corner_xy,
-                           planes.depth(x, y),
-                           fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
+                           coord_z, fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};
     out_.frag_coord[at] = attachments_.color.beside(number_, out_.frag_coord[at], older_frag_coord);
 
     for (size_t a = 0; a < draw_.attributes.size(); ++a) {
@@ -192,6 +213,7 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
                               ? first.values[a]
                               : probe(draw_, device_, planes, samples_, a, i, j, place, invocation);
         if (fault == Fault::one_over_w_cached && !flat &&
+            !interpolates(draw_.attributes[a].probe) &&
             draw_.attributes[a].interpolation == cases::Interpolation::smooth) {
             value *= planes.inverse_w(place.x, place.y) / inverse_w;
         }

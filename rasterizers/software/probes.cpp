@@ -83,30 +83,42 @@ glm::vec4 Prober::whole_difference(bool along_x, bool is_coarse) const {
 
 }  // namespace
 
+bool interpolates(Probe probe) {
+    return probe == Probe::at_centroid || probe == Probe::at_sample || probe == Probe::at_offset;
+}
+
 glm::vec4 probe(const cases::Draw& draw, const Device& device, const TrianglePlanes& planes,
                 std::span<const SampleOffset> samples, size_t a, int64_t i, int64_t j, Place place,
                 const Invocation& invocation) {
     const cases::Attribute& attribute = draw.attributes[a];
     const Prober prober(device, planes, a, i, j, place);
+    const auto at = [&](float x, float y) {
+        const glm::vec4 value = planes.attribute(a, x, y);
+        const bool divides = attribute.interpolation == cases::Interpolation::smooth &&
+                             (device.fault == Fault::interpolate_at_centre_w ||
+                              device.fault == Fault::one_over_w_cached);
+        return divides ? value * (planes.inverse_w(x, y) /
+                                  planes.inverse_w(invocation.centre.x, invocation.centre.y))
+                       : value;
+    };
     switch (attribute.probe) {
         case Probe::value:
             break;
         case Probe::at_centroid:
-            return planes.attribute(a, samples.size() > 1 ? invocation.centroid.x : place.x,
-                                    samples.size() > 1 ? invocation.centroid.y : place.y);
+            return samples.size() > 1 ? at(invocation.centroid.x, invocation.centroid.y)
+                                      : at(place.x, place.y);
         case Probe::at_sample: {
             const float unit = std::ldexp(1.0F, -device.subpixel_bits);
             const SampleOffset& s = samples[attribute.probe_sample];
-            return planes.attribute(a, static_cast<float>(i) + static_cast<float>(s.x) * unit,
-                                    static_cast<float>(j) + static_cast<float>(s.y) * unit);
+            return at(static_cast<float>(i) + static_cast<float>(s.x) * unit,
+                      static_cast<float>(j) + static_cast<float>(s.y) * unit);
         }
         case Probe::at_offset: {
             const auto on_grid = [&](float offset) {
                 return device.fault == Fault::offset_ignored ? 0.0F : std::floor(offset * 16) / 16;
             };
-            return planes.attribute(
-                a, static_cast<float>(i) + 0.5F + on_grid(attribute.probe_offset[0]),
-                static_cast<float>(j) + 0.5F + on_grid(attribute.probe_offset[1]));
+            return at(static_cast<float>(i) + 0.5F + on_grid(attribute.probe_offset[0]),
+                      static_cast<float>(j) + 0.5F + on_grid(attribute.probe_offset[1]));
         }
         case Probe::dx:
         case Probe::dx_coarse:

@@ -17,4 +17,7 @@ glm::vec4 probe(const cases::Draw& draw, const Device& device, const TrianglePla
                 std::span<const SampleOffset> samples, size_t a, int64_t i, int64_t j, Place place,
                 const Invocation& invocation);
 
+// True for interpolateAtCentroid and its like: the shader names the place.
+bool interpolates(cases::Probe probe);
+
 }  // namespace software

@@ -10,6 +10,7 @@
 
 #include "cases/base/printable.hpp"
 #include "report/text/causes.hpp"
+#include "report/text/diagnosis_text.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -141,6 +142,10 @@ std::string to_github_summary(const Run& run) {
         }
     }
     text += fmt::format("| all | {} |\n", run.cases.size());
+    for (const Diagnosis& diagnosis : run.diagnoses) {
+        text += fmt::format("\n**Diagnosis: {}.** {}.\n", cell(what_it_does(diagnosis)),
+                            cell(evidence_for(diagnosis)));
+    }
     const std::vector<Cause> list = causes(run);
     if (list.empty()) {
         return text;

@@ -193,6 +193,7 @@ std::string to_json(const Run& run) {
                                    : Json{{"ratio", encode_number(worst->worst_ratio)},
                                           {"quantity", cases::printable(worst->worst_quantity)},
                                           {"case", cases::printable(worst->id)}}},
+        {"diagnoses", encode(run.diagnoses)},
         {"causes", causes_json(run)},
         {"cases", std::move(list)},
     };

@@ -35,6 +35,18 @@ function causesTable(rows) {
   return el("div", {class: "framed"}, table("", [data.runs ? "change" : "status", "cause", "breaks", "cases", "smallest case"], rows, "cards causes"));
 }
 
+// What the device does wrong, as far as it was found out, with the cases that show it best.
+function diagnosesSection() {
+  const list = data.diagnoses || [];
+  if (list.length === 0) { return null; }
+  const entries = list.map((diagnosis) => {
+    const shown = diagnosis.cases.map((k) => data.cases[k].id);
+    return el("div", {class: "diagnosis"}, el("p", {class: "what"}, diagnosis.what + "."), el("p", {class: "quiet small"}, diagnosis.evidence + "."),
+      el("p", {class: "small"}, "Seen in ", shown.flatMap((id, k) => [k ? ", " : "", el("a", {href: "#case=" + encodeURIComponent(id), class: "id"}, idText(id))])));
+  });
+  return el("section", {id: "diagnoses"}, el("h2", {}, "Diagnosis"), entries);
+}
+
 // `show(key)` is called to list the cases of one cause alone.
 function causesSection(show) {
   if (causes.length === 0) { return null; }

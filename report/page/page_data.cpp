@@ -18,6 +18,7 @@
 #include "report/journal/json_codec.hpp"
 #include "report/text/causes.hpp"
 #include "report/text/commands.hpp"
+#include "report/text/diagnosis_text.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -92,6 +93,26 @@ Json causes_json(const Run& run, const std::vector<Cause>& list) {
                             {"rule", cases::printable(cause.rule)},
                             {"kind", cases::printable(cause.kind)},
                             {"level", has_level ? cases::to_string(cause.level) : ""},
+                            {"cases", std::move(members)}});
+    }
+    return json;
+}
+
+// What the device does wrong: a sentence, on what it rests, and the numbers of the cases that show
+// it.
+Json diagnoses_json(const Run& run) {
+    Json json = Json::array();
+    for (const Diagnosis& d : run.diagnoses) {
+        Json members = Json::array();
+        for (const std::string& id : d.examples) {
+            const auto at = std::find_if(run.cases.begin(), run.cases.end(),
+                                         [&](const CaseRecord& r) { return r.id == id; });
+            if (at != run.cases.end()) {
+                members.push_back(at - run.cases.begin());
+            }
+        }
+        json.push_back(Json{{"what", cases::printable(what_it_does(d))},
+                            {"evidence", evidence_for(d)},
                             {"cases", std::move(members)}});
     }
     return json;
@@ -312,6 +333,7 @@ PageData page_data(const Run& run, size_t part) {
                      {"subpixel_bits", run.device.subpixel_bits},
                      {"part", part},
                      {"without_pictures", data.left_out.size()},
+                     {"diagnoses", diagnoses_json(run)},
                      {"causes", causes_json(run, all)},
                      {"known_causes", causes_json(run, known_causes(run))},
                      {"strings", strings.list()},

@@ -14,6 +14,7 @@
 
 #include "cases/model/profile.hpp"
 #include "diff/verdict.hpp"
+#include "report/record/diagnosis.hpp"
 #include "report/record/evidence.hpp"
 
 namespace report {
@@ -243,10 +244,12 @@ struct RunEnd {
     std::string ended;  // ISO 8601 UTC; empty if the run was cut off
     double seconds = 0;
     bool interrupted = false;
+    std::vector<Diagnosis> diagnoses;  // what the device does wrong; of most failures first
     static void fields(auto&& visit, auto&... e) {
         visit("ended", e.ended...);
         visit("seconds", e.seconds...);
         visit("interrupted", e.interrupted...);
+        visit({"diagnoses", cases::kLeftOutIfEmpty}, e.diagnoses...);
     }
 };
 

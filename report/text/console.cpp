@@ -13,6 +13,7 @@
 #include "cases/base/printable.hpp"
 #include "report/text/causes.hpp"
 #include "report/text/commands.hpp"
+#include "report/text/diagnosis_text.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
 #include "report/text/wrap.hpp"
@@ -189,6 +190,16 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
     return text;
 }
 
+// What the device does wrong, two lines each.
+std::string diagnoses_text(const Run& run, const ConsoleStyle& style) {
+    std::string text;
+    for (const Diagnosis& d : run.diagnoses) {
+        text += fmt::format("diagnosis: {}\n{}{}\n", painted(what_it_does(d), "1", style), kIndent,
+                            evidence_for(d));
+    }
+    return text;
+}
+
 // "free: 64 of 256 samples at profile vulkan, ...": those with which nothing is tested.
 std::string free_text(const Run& run) {
     uint64_t free = 0, samples = 0, count = 0;
@@ -258,7 +269,7 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
 std::string console_summary(const Run& run, const std::string& report_path,
                             const ConsoleStyle& style, const std::string& exit_words) {
     const auto count = totals(run);
-    std::string text = causes_text(run, style);
+    std::string text = diagnoses_text(run, style) + causes_text(run, style);
     text += fmt::format("{} {}", run.cases.size(), run.cases.size() == 1 ? "case" : "cases");
     for (size_t k = 0; k < kStatuses; ++k) {
         if (count.at(k) > 0) {

@@ -75,6 +75,9 @@ struct Device {
     BlitEdge blit_edge = BlitEdge::image;
     bool blit_steps = false;  // coordinates of a blit are summed up from texel to texel
     Fault fault = Fault::none;
+    // An error with a size: depths and inputs are evaluated so many pixels right of and below where
+    // they should be.
+    float place_x = 0, place_y = 0;
 };
 
 }  // namespace software

@@ -126,12 +126,14 @@ enum class Fault : uint8_t {
     shading_once,
     frag_coord_always_centre,
     depth_at_centre,
+    depth_samples_mirrored,
     // scissor
     discard_ignored,
     scissor_closed,
     scissor_off_by_one,
     scissor_ignored,
     scissor_follows_viewport,
+    scissor_half_early,
     // layers
     layer_ignored,
     layer_off_by_one,
@@ -164,6 +166,7 @@ enum class Fault : uint8_t {
     derivative_y_up,
     derivative_halved,
     offset_ignored,
+    interpolate_at_centre_w,
     lod_one_less,
     lod_norm,
     barycentric_rotated,

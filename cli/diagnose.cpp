@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "diagnose": what the device of a run does wrong.
+#include "cli/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "cases/base/printable.hpp"
+#include "cli/commands.hpp"
+#include "cli/options/parse.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "cli/prepare/suite.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "report/text/diagnosis_text.hpp"
+
+namespace cli {
+
+namespace {
+
+std::vector<report::Diagnosis> diagnoses_of(const report::Run& run, const EachCase& each_case) {
+    std::map<std::string_view, const cases::Case*> by_id;
+    each_case([&](const cases::Case& c) { by_id.emplace(c.id, &c); });
+    return diagnosis::diagnose(run, [&](const std::string& id) {
+        const auto found = by_id.find(id);
+        return found == by_id.end() ? nullptr : found->second;
+    });
+}
+
+}  // namespace
+
+void diagnose(report::Run& run, const EachCase& each_case, report::Journal& journal) {
+    run.diagnoses = diagnoses_of(run, each_case);
+    if (!run.diagnoses.empty()) {
+        if (auto written = journal.write_stop(run); !written) {
+            complain(written.error().message);
+        }
+    }
+}
+
+int diagnose_command(const Program& program, const DiagnoseOptions& options) {
+    cases::Expected<report::Run> run = report::load_journal(options.directory);
+    if (!run) {
+        return report_stop(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
+    }
+    SuiteOptions suite = options.suite;
+    suite.suite = suite.suite.empty() ? run->suite_root : suite.suite;
+    if (const auto own = parse_run_arguments(run->arguments)) {
+        for (const std::string& selector : own->suite.selectors) {
+            if (selector.ends_with(".toml")) {
+                suite.selectors.push_back(selector);
+            }
+        }
+    }
+    const OrStop<LoadedSuite> loaded = load_and_select(program, suite);
+    if (!loaded) {
+        return report_stop(loaded.error());
+    }
+    size_t failed = 0;
+    for (report::CaseRecord& record : run->cases) {
+        if (options.known && record.status == report::Status::xfail) {
+            record.status = report::Status::fail;
+        }
+        failed += record.status == report::Status::fail ? 1U : 0U;
+    }
+    if (failed == 0) {
+        say(fmt::format("no case failed unexpectedly{}\n",
+                        options.known ? "" : "; --known diagnoses expected failures, too"));
+        return report::kExitOk;
+    }
+    const std::vector<report::Diagnosis> list = diagnoses_of(*run, [&](const auto& visit) {
+        std::for_each(loaded->cases.begin(), loaded->cases.end(), visit);
+    });
+    for (const report::Diagnosis& d : list) {
+        say(fmt::format("{}\n  {}\n  in {}{}\n", report::what_it_does(d), report::evidence_for(d),
+                        cases::printable(fmt::format("{}", fmt::join(d.examples, ", "))),
+                        d.cases > d.examples.size() ? ", ..." : ""));
+    }
+    if (list.empty()) {
+        say("no diagnosis: no known error fails as the device did in the cases that were tried\n");
+    }
+    return report::kExitOk;
+}
+
+}  // namespace cli

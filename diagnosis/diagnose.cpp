@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/diagnose.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "cases/model/sample.hpp"
+#include "diagnosis/fit.hpp"
+#include "diagnosis/hypothesis.hpp"
+#include "diagnosis/match.hpp"
+#include "rasterizers/strength/recorded.hpp"
+#include "rasterizers/strength/strength.hpp"
+
+namespace diagnosis {
+
+namespace {
+
+using report::CaseRecord;
+using report::Diagnosis;
+
+constexpr uint64_t kMaxCost = 1U << 14U;  // of a subject: samples and vertices
+
+uint64_t cost_of(const cases::Case& c) {
+    uint64_t cost = uint64_t{c.target.width} * c.target.rows() * c.target.samples;
+    for (const cases::Draw& d : c.draws) {
+        cost += 8 * (d.indices ? d.indices->size() : d.positions.size());
+    }
+    return cost;
+}
+
+struct Choice {
+    const CaseRecord* record = nullptr;
+    const cases::Case* data = nullptr;
+    uint64_t cost = 0;
+};
+
+// The cheapest case of each family and first rule that it breaks, then the second of each, and so
+// on, at most kMaxSubjects.
+std::vector<Choice> by_turn(
+    const report::Run& run, const CaseOf& case_of,
+    const std::function<bool(const cases::Case&, const CaseRecord&)>& takes) {
+    std::map<std::string, std::vector<Choice>> kinds;
+    for (const CaseRecord& record : run.cases) {
+        const cases::Case* c = nullptr;
+        if ((record.status == report::Status::fail || record.status == report::Status::pass) &&
+            (c = case_of(record.id)) != nullptr && cost_of(*c) <= kMaxCost && takes(*c, record)) {
+            std::string kind = record.id.substr(0, record.id.find('/'));
+            if (!record.groups.empty()) {
+                kind += ' ' + record.groups.front().rule;
+            }
+            kinds[kind].push_back({&record, c, cost_of(*c)});
+        }
+    }
+    std::vector<Choice> out;
+    for (auto& [kind, list] : kinds) {
+        std::sort(list.begin(), list.end(), [](const Choice& a, const Choice& b) {
+            return std::tie(a.cost, a.record->id) < std::tie(b.cost, b.record->id);
+        });
+    }
+    for (size_t turn = 0; out.size() < kMaxSubjects; ++turn) {
+        const size_t before = out.size();
+        std::vector<Choice> of_turn;
+        for (const auto& [kind, list] : kinds) {
+            if (turn < list.size()) {
+                of_turn.push_back(list[turn]);
+            }
+        }
+        std::stable_sort(of_turn.begin(), of_turn.end(),
+                         [](const Choice& a, const Choice& b) { return a.cost < b.cost; });
+        out.insert(out.end(), of_turn.begin(), of_turn.end());
+        if (out.size() == before) {
+            break;
+        }
+    }
+    out.resize(std::min(out.size(), kMaxSubjects));
+    return out;
+}
+
+// What a hypothesis says of one failed case.
+enum class Says : uint8_t { nothing, explains, otherwise };
+struct Answer {
+    Says says = Says::nothing;
+    Match match;
+};
+
+struct Tally {
+    size_t hypothesis = 0;        // index
+    std::vector<Answer> answers;  // by subject
+    uint64_t passed_against = 0, passed_tried = 0;
+
+    size_t count(Says what) const {
+        return static_cast<size_t>(
+            std::count_if(answers.begin(), answers.end(),
+                          [what](const Answer& answer) { return answer.says == what; }));
+    }
+    // A device may have other errors, too, and choices that the software device has not: of the
+    // cases that a hypothesis speaks of a few may end otherwise. It stands while those are an
+    // half of what it explains, and those that passed against it an eighth.
+    bool is_plausible() const { return 2 * count(Says::otherwise) <= count(Says::explains); }
+    bool stands() const { return 8 * passed_against <= count(Says::explains); }
+    std::pair<size_t, int64_t> score() const {
+        return {count(Says::explains), -static_cast<int64_t>(count(Says::otherwise))};
+    }
+    bool is_alike(const Tally& other) const {
+        return std::equal(answers.begin(), answers.end(), other.answers.begin(),
+                          other.answers.end(),
+                          [](const Answer& a, const Answer& b) { return a.says == b.says; });
+    }
+};
+
+class Diagnoser {
+  public:
+    Diagnoser(const report::Run& run, const CaseOf& case_of)
+        : bits_(static_cast<int>(run.device.subpixel_bits)), profile_(run.profile) {
+        const auto is_failed = [](const cases::Case& c, const CaseRecord& record) {
+            return record.status == report::Status::fail && can_match(c, record);
+        };
+        for (const Choice& choice : by_turn(run, case_of, is_failed)) {
+            if (auto subject = make_subject(*choice.data, *choice.record, bits_, profile_)) {
+                subjects_.push_back(std::move(*subject));
+            }
+        }
+        if (subjects_.empty()) {
+            return;
+        }
+        passed_ = by_turn(run, case_of, [](const cases::Case&, const CaseRecord& record) {
+            return record.status == report::Status::pass;
+        });
+        for (const CaseRecord& record : run.cases) {
+            if (record.status == report::Status::pass) {
+                passed_ids_.insert(record.id);
+            }
+        }
+        case_of_ = &case_of;
+    }
+
+    std::vector<Diagnosis> run() {
+        std::vector<Diagnosis> out;
+        known_ = hypotheses();
+        answers_.assign(known_.size(), std::vector<std::optional<Answer>>(subjects_.size()));
+        std::vector<bool> is_explained(subjects_.size());
+        size_t seeds = 0;
+        for (size_t s = 0; s < subjects_.size() && seeds < kMaxSeeds; ++s) {
+            if (is_explained[s]) {
+                continue;
+            }
+            ++seeds;
+            const std::vector<Tally> best = best_for(s);
+            if (best.empty()) {
+                continue;
+            }
+            for (size_t k = 0; k < subjects_.size(); ++k) {
+                is_explained[k] = is_explained[k] || best.front().answers[k].says == Says::explains;
+            }
+            out.push_back(told(best));
+        }
+        std::stable_sort(out.begin(), out.end(),
+                         [](const Diagnosis& a, const Diagnosis& b) { return a.cases > b.cases; });
+        return out;
+    }
+
+  private:
+    // Those with a size that some values fit come first.
+    std::vector<Hypothesis> hypotheses() const {
+        std::vector<Hypothesis> out;
+        if (subjects_.empty()) {
+            return out;
+        }
+        size_t fits = 0;
+        for (size_t k = 0; k < subjects_.size() && fits < kMaxFits; ++k) {
+            const std::vector<Hypothesis> fitted = fitted_hypotheses(subjects_[k], bits_);
+            fits += fitted.empty() ? 0U : 1U;
+            for (const Hypothesis& h : fitted) {
+                if (std::none_of(out.begin(), out.end(),
+                                 [&](const Hypothesis& o) { return o.name == h.name; })) {
+                    out.push_back(h);
+                }
+            }
+        }
+        const std::vector<Hypothesis> known = known_hypotheses(bits_);
+        out.insert(out.end(), known.begin(), known.end());
+        return out;
+    }
+
+    // What a hypothesis says of a subject; each is asked once.
+    const Answer& ask(size_t h, size_t subject) {
+        std::optional<Answer>& answer = answers_[h][subject];
+        if (!answer) {
+            answer = answer_of(known_[h], subjects_[subject], false);
+        }
+        return *answer;
+    }
+
+    // The same, without a difference between what says nothing and what fails otherwise.
+    bool explains(size_t h, size_t subject) {
+        std::optional<Answer>& answer = answers_[h][subject];
+        if (answer) {
+            return answer->says == Says::explains;
+        }
+        const Answer now = answer_of(known_[h], subjects_[subject], true);
+        if (now.says == Says::explains) {
+            answer = now;
+        }
+        return now.says == Says::explains;
+    }
+
+    static Answer answer_of(const Hypothesis& h, const Subject& subject, bool is_in_short) {
+        const std::optional<capture::Capture> drawn = draw(h, *subject.data);
+        if (!drawn || software::same_bits(*drawn, subject.right) ||
+            (is_in_short && !may_match(subject, *drawn))) {
+            return {};
+        }
+        const diff::Verdict verdict = software::compare(*subject.data, subject.expectation, *drawn);
+        if (verdict.ok()) {
+            return {};
+        }
+        const Match m = match(*subject.record, verdict);
+        return {m.explains() ? Says::explains : Says::otherwise, m};
+    }
+
+    // The plausible hypotheses that explain subject `seed` and most others, all that are alike.
+    std::vector<Tally> best_for(size_t seed) {
+        std::vector<Tally> plausible;
+        for (size_t h = 0; h < known_.size(); ++h) {
+            if (!explains(h, seed)) {
+                continue;
+            }
+            Tally tally{h, {}, 0, 0};
+            for (size_t k = 0; k < subjects_.size(); ++k) {
+                tally.answers.push_back(ask(h, k));
+            }
+            if (tally.is_plausible()) {
+                plausible.push_back(std::move(tally));
+            }
+        }
+        std::stable_sort(plausible.begin(), plausible.end(),
+                         [](const Tally& a, const Tally& b) { return a.score() > b.score(); });
+        // Those that are worse than one that stands cannot be told.
+        std::vector<Tally> best;
+        for (Tally& tally : plausible) {
+            if (!best.empty() && !best.front().is_alike(tally)) {
+                continue;
+            }
+            try_passed(tally);
+            if (tally.stands()) {
+                best.push_back(std::move(tally));
+            }
+        }
+        const auto least = std::min_element(
+            best.begin(), best.end(),
+            [](const Tally& a, const Tally& b) { return a.passed_against < b.passed_against; });
+        if (least != best.end()) {
+            std::erase_if(best, [most = least->passed_against](const Tally& tally) {
+                return tally.passed_against > most;
+            });
+        }
+        if (best.size() > kMaxNamed) {
+            best.clear();
+        }
+        return best;
+    }
+
+    // Cases that passed would have failed; for a known fault, those that are known to catch it are
+    // asked first.
+    void try_passed(Tally& tally) {
+        const Hypothesis& h = known_[tally.hypothesis];
+        std::vector<const cases::Case*> list;
+        for (const software::Kill& kill : software::built_in_kills()) {
+            const bool is_asked = h.device.fault == kill.fault &&
+                                  kill.fault != software::Fault::none &&
+                                  passed_ids_.contains(kill.leaf);
+            const cases::Case* c = is_asked ? (*case_of_)(kill.leaf) : nullptr;
+            if (c != nullptr && cost_of(*c) <= kMaxCost) {
+                list.push_back(c);
+            }
+        }
+        for (const Choice& choice : passed_) {
+            list.push_back(choice.data);
+        }
+        for (const cases::Case* c : list) {
+            if (!tally.stands()) {
+                return;
+            }
+            ++tally.passed_tried;
+            const std::optional<capture::Capture> drawn = draw(h, *c);
+            const std::optional<Subject>& subject = drawn ? passed_subject(*c) : nothing_;
+            if (subject && !software::same_bits(*drawn, subject->right) &&
+                !software::compare(*c, subject->expectation, *drawn).ok()) {
+                ++tally.passed_against;
+            }
+        }
+    }
+
+    const std::optional<Subject>& passed_subject(const cases::Case& c) {
+        static const CaseRecord kNone;
+        const auto [at, is_new] = passed_subjects_.try_emplace(&c);
+        if (is_new) {
+            at->second = make_subject(c, kNone, bits_, profile_);
+        }
+        return at->second;
+    }
+
+    Diagnosis told(const std::vector<Tally>& best) const {
+        Diagnosis out;
+        for (const Tally& tally : best) {
+            out.what.push_back(known_[tally.hypothesis].what);
+            out.names.push_back(known_[tally.hypothesis].name);
+        }
+        const Tally& first = best.front();
+        out.tried = subjects_.size();
+        out.cases = first.count(Says::explains);
+        out.against = first.count(Says::otherwise);
+        out.passed_against = first.passed_against;
+        out.passed_tried = first.passed_tried;
+        for (size_t k = 0; k < subjects_.size(); ++k) {
+            if (first.answers[k].says == Says::explains) {
+                const Match& m = first.answers[k].match;
+                out.samples += m.wrong;
+                out.same_samples += m.same;
+                out.values += m.values;
+                out.same_values += m.same_values;
+                if (out.examples.size() < 3) {
+                    out.examples.push_back(subjects_[k].record->id);
+                }
+            }
+        }
+        return out;
+    }
+
+    int bits_;
+    cases::Profile profile_;
+    std::vector<Subject> subjects_;
+    std::vector<Choice> passed_;
+    std::set<std::string> passed_ids_;
+    const CaseOf* case_of_ = nullptr;
+    std::vector<Hypothesis> known_;
+    std::vector<std::vector<std::optional<Answer>>> answers_;  // [hypothesis][subject]
+    std::map<const cases::Case*, std::optional<Subject>> passed_subjects_;
+    const std::optional<Subject> nothing_;
+};
+
+}  // namespace
+
+std::vector<Diagnosis> diagnose(const report::Run& run, const CaseOf& case_of) {
+    return Diagnoser(run, case_of).run();
+}
+
+}  // namespace diagnosis

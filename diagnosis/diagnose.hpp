@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Says what a wrong device does: draws its failed cases with each of some 300 errors, and tells
+// those that fail in the same samples with the same values, and in no other.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "report/record/diagnosis.hpp"
+#include "report/record/run.hpp"
+
+namespace diagnosis {
+
+// The run's case with that id, or nothing if it is not at hand.
+using CaseOf = std::function<const cases::Case*(const std::string& id)>;
+
+// Diagnoses the unexpected failures of a run (status fail), what explains most of them first; what
+// no error explains is left out. The answer depends on the records alone, not on time or order:
+// at most kMaxSubjects small failed cases are looked at, of as many families as there are, and as
+// many that passed.
+std::vector<report::Diagnosis> diagnose(const report::Run& run, const CaseOf& case_of);
+
+inline constexpr size_t kMaxSubjects = 64;
+inline constexpr size_t kMaxSeeds = 24;  // failed cases that all errors are tried on
+inline constexpr size_t kMaxFits = 6;    // failed cases whose values sizes are fitted to
+inline constexpr size_t kMaxNamed = 4;   // errors that explain the same; of more none is told
+
+}  // namespace diagnosis

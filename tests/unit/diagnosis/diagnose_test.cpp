@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Devices with one error, drawn by the software device and judged as in a run: the diagnosis names
+// the error, and none is made of a device that has none.
+#include "diagnosis/diagnose.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/load/loader.hpp"
+#include "diagnosis/hypothesis.hpp"
+#include "run/judge.hpp"
+
+namespace {
+
+using diagnosis::Hypothesis;
+
+constexpr int kBits = 8;
+
+uint64_t samples_of(const cases::Case& c) {
+    return uint64_t{c.target.width} * c.target.rows() * c.target.samples;
+}
+
+// Small cases of the suite, one of each file, eight of each family.
+const std::vector<cases::Case>& small_suite() {
+    static const std::vector<cases::Case> kCases = [] {
+        const auto suite = cases::load_suite(std::string(EDGECASE_SOURCE_DIR) + "/cases/suite");
+        std::vector<cases::Case> out;
+        std::map<std::string, size_t> of_file;
+        std::map<std::string, size_t> of_family;
+        for (const cases::Case& c : suite.cases) {
+            const std::string file = c.id.substr(0, c.id.find(':'));
+            const std::string family = c.id.substr(0, c.id.find('/'));
+            if (samples_of(c) <= 1024 && c.draws.size() < 6 && of_file[file]++ < 1 &&
+                of_family[family]++ < 8) {
+                out.push_back(c);
+            }
+        }
+        return out;
+    }();
+    return kCases;
+}
+
+// The run of a device that does as the hypothesis says; nothing is done to other cases.
+report::Run run_of(const Hypothesis& h, cases::Profile profile = cases::Profile::direct3d) {
+    report::Run run;
+    run.profile = profile;
+    run.device.subpixel_bits = kBits;
+    Hypothesis right;
+    for (const cases::Case& c : small_suite()) {
+        report::CaseRecord record = run::make_record(c);
+        std::optional<capture::Capture> drawn = diagnosis::draw(h, c);
+        if (!drawn) {
+            drawn = diagnosis::draw(right, c);
+        }
+        run::judge(record, c, *drawn, {}, {kBits}, profile, run::KeepPictures::failed);
+        run.cases.push_back(std::move(record));
+    }
+    return run;
+}
+
+std::vector<report::Diagnosis> diagnose(const report::Run& run) {
+    std::map<std::string, const cases::Case*> by_id;
+    for (const cases::Case& c : small_suite()) {
+        by_id.emplace(c.id, &c);
+    }
+    return diagnosis::diagnose(run, [&](const std::string& id) {
+        const auto found = by_id.find(id);
+        return found == by_id.end() ? nullptr : found->second;
+    });
+}
+
+const Hypothesis& named(const std::string& name) {
+    static const std::vector<Hypothesis> kAll = diagnosis::known_hypotheses(kBits);
+    for (const Hypothesis& h : kAll) {
+        if (h.name == name) {
+            return h;
+        }
+    }
+    throw std::runtime_error("no hypothesis is called " + name);
+}
+
+class Named : public testing::TestWithParam<const char*> {};
+
+TEST_P(Named, IsToldFirst) {
+    const std::vector<report::Diagnosis> list = diagnose(run_of(named(GetParam())));
+    ASSERT_FALSE(list.empty());
+    EXPECT_THAT(list.front().names, testing::Contains(GetParam()));
+    EXPECT_GT(list.front().cases, 0U);
+    EXPECT_EQ(list.front().samples, list.front().same_samples);
+    EXPECT_EQ(list.front().against, 0U);
+    EXPECT_EQ(list.front().passed_against, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Errors, Named,
+    testing::Values("viewport-mirrored-y", "scissor-wider", "draw-first-only", "strip-as-list",
+                    "position-w-one", "cull-back-always", "noperspective-as-flat",
+                    "depth-range-swapped", "never-as-always", "bias-no-slope", "src-alpha-as-one",
+                    "write-mask-no-alpha", "clip-distance-culls", "blit-mirrored-x",
+                    "ties_bottom_right", "floor_snapping", "affine", "provoking_last",
+                    "one_over_w_cached", "interpolate_at_centre_w", "scissor_half_early",
+                    "depth_samples_mirrored", "values_at_corner", "stencil_faces_exchanged",
+                    "resolve_one_sample", "subpixel-bits-4"),
+    [](const auto& test) {
+        std::string name = test.param;
+        std::replace(name.begin(), name.end(), '-', '_');
+        return name;
+    });
+
+TEST(Diagnose, SizesAreFitted) {
+    Hypothesis moved;
+    moved.moved_x = -0.1875F;
+    moved.moved_y = 0.3125F;
+    std::vector<report::Diagnosis> list = diagnose(run_of(moved));
+    ASSERT_FALSE(list.empty());
+    EXPECT_EQ(list.front().what.front(),
+              "Vertices lie 3/16 pixel too far left and 5/16 pixel too low");
+
+    Hypothesis values;
+    values.device.place_x = 0.25F;
+    list = diagnose(run_of(values));
+    ASSERT_FALSE(list.empty());
+    EXPECT_EQ(list.front().what.front(),
+              "Values are evaluated 1/4 pixel right of the place that is asked");
+}
+
+TEST(Diagnose, OfTwoErrorsBothAreTold) {
+    report::Run run = run_of(named("scissor_closed"));
+    const report::Run other = run_of(named("provoking_mode_ignored"));
+    size_t exchanged = 0;
+    for (size_t k = 0; k < run.cases.size(); ++k) {
+        if (other.cases[k].status == report::Status::fail &&
+            run.cases[k].status == report::Status::pass) {
+            run.cases[k] = other.cases[k];
+            ++exchanged;
+        }
+    }
+    ASSERT_GT(exchanged, 0U);
+    std::vector<std::string> names;
+    for (const report::Diagnosis& d : diagnose(run)) {
+        names.insert(names.end(), d.names.begin(), d.names.end());
+    }
+    EXPECT_THAT(names, testing::Contains("scissor_closed"));
+    EXPECT_THAT(names, testing::Contains("provoking_mode_ignored"));
+}
+
+TEST(Diagnose, NothingIsToldOfARightDevice) {
+    const report::Run run = run_of(Hypothesis{});
+    for (const report::CaseRecord& record : run.cases) {
+        EXPECT_EQ(record.status, report::Status::pass) << record.id << " " << record.reason;
+    }
+    EXPECT_TRUE(diagnose(run).empty());
+}
+
+// What fails as no error would have it is explained by none.
+TEST(Diagnose, NothingIsToldOfWrongSamplesHereAndThere) {
+    report::Run run = run_of(Hypothesis{});
+    uint32_t seed = 7;
+    size_t failed = 0;
+    for (size_t k = 0; k < run.cases.size(); k += 5) {
+        const cases::Case& c = small_suite()[k];
+        if (!c.target.has_instruments || c.blit) {
+            continue;
+        }
+        capture::Capture drawn = *diagnosis::draw(Hypothesis{}, c);
+        for (int n = 0; n < 3; ++n) {
+            seed = seed * 1664525U + 1013904223U;
+            drawn.hits[(seed >> 8U) % drawn.hits.size()] += glm::vec4(1, 0, 0, 1);
+        }
+        run.cases[k] = run::make_record(c);
+        run::judge(run.cases[k], c, drawn, {}, {kBits}, run.profile, run::KeepPictures::failed);
+        failed += run.cases[k].status == report::Status::fail ? 1U : 0U;
+    }
+    ASSERT_GT(failed, 20U);
+    EXPECT_TRUE(diagnose(run).empty());
+}
+
+// The records alone decide: another order of the cases changes nothing.
+TEST(Diagnose, OrderDoesNotMatter) {
+    report::Run run = run_of(named("cull-none"));
+    const std::vector<report::Diagnosis> list = diagnose(run);
+    std::reverse(run.cases.begin(), run.cases.end());
+    EXPECT_EQ(diagnose(run), list);
+    EXPECT_FALSE(list.empty());
+}
+
+}  // namespace
