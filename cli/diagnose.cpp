@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 
+#include "cases/base/checksum.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/options/parse.hpp"
@@ -30,10 +31,49 @@ std::vector<report::Diagnosis> diagnoses_of(const report::Run& run, const EachCa
     });
 }
 
+EachCase each_of(const LoadedSuite& suite) {
+    return [&suite](const auto& visit) {
+        std::for_each(suite.cases.begin(), suite.cases.end(), visit);
+    };
+}
+
+// The cases that a run was about: those of its suite, or of `root` if that is not empty, and files
+// of one's own.
+OrStop<LoadedSuite> cases_of(const Program& program, const report::Run& run,
+                             const std::string& root) {
+    SuiteOptions suite;
+    suite.suite = root.empty() ? run.suite_root : root;
+    if (const auto own = parse_run_arguments(run.arguments)) {
+        for (const std::string& selector : own->suite.selectors) {
+            if (selector.ends_with(".toml")) {
+                suite.selectors.push_back(selector);
+            }
+        }
+    }
+    return load_and_select(program, suite);
+}
+
 }  // namespace
 
-void diagnose(report::Run& run, const EachCase& each_case, report::Journal& journal) {
+void diagnose(report::Run& run, const EachCase& each_case) {
     run.diagnoses = diagnoses_of(run, each_case);
+}
+
+void diagnose_again(const Program& program, report::Run& run) {
+    run.diagnoses.clear();
+    const bool has_failed = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& record) {
+        return record.status == report::Status::fail;
+    });
+    if (!has_failed) {
+        return;
+    }
+    const OrStop<LoadedSuite> loaded = cases_of(program, run, "");
+    if (loaded && run.suite_hash == cases::hex(suite_hash(loaded->root))) {
+        diagnose(run, each_of(*loaded));
+    }
+}
+
+void keep_diagnoses(const report::Run& run, report::Journal& journal) {
     if (!run.diagnoses.empty()) {
         if (auto written = journal.write_stop(run); !written) {
             complain(written.error().message);
@@ -46,18 +86,12 @@ int diagnose_command(const Program& program, const DiagnoseOptions& options) {
     if (!run) {
         return report_stop(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
     }
-    SuiteOptions suite = options.suite;
-    suite.suite = suite.suite.empty() ? run->suite_root : suite.suite;
-    if (const auto own = parse_run_arguments(run->arguments)) {
-        for (const std::string& selector : own->suite.selectors) {
-            if (selector.ends_with(".toml")) {
-                suite.selectors.push_back(selector);
-            }
-        }
-    }
-    const OrStop<LoadedSuite> loaded = load_and_select(program, suite);
+    const OrStop<LoadedSuite> loaded = cases_of(program, *run, options.suite.suite);
     if (!loaded) {
         return report_stop(loaded.error());
+    }
+    if (!run->suite_hash.empty() && run->suite_hash != cases::hex(suite_hash(loaded->root))) {
+        complain("the suite has changed since that run; what is told of changed cases is wrong");
     }
     size_t failed = 0;
     for (report::CaseRecord& record : run->cases) {
@@ -71,9 +105,7 @@ int diagnose_command(const Program& program, const DiagnoseOptions& options) {
                         options.known ? "" : "; --known diagnoses expected failures, too"));
         return report::kExitOk;
     }
-    const std::vector<report::Diagnosis> list = diagnoses_of(*run, [&](const auto& visit) {
-        std::for_each(loaded->cases.begin(), loaded->cases.end(), visit);
-    });
+    const std::vector<report::Diagnosis> list = diagnoses_of(*run, each_of(*loaded));
     for (const report::Diagnosis& d : list) {
         say(fmt::format("{}\n  {}\n  in {}{}\n", report::what_it_does(d), report::evidence_for(d),
                         cases::printable(fmt::format("{}", fmt::join(d.examples, ", "))),

@@ -353,7 +353,8 @@ int diff_command(const Program& program, const DiffOptions& given) {
             const auto each = [&](const auto& visit) {
                 std::for_each(selection->cases.begin(), selection->cases.end(), visit);
             };
-            diagnose(run, each, *journal);
+            diagnose(run, each);
+            keep_diagnoses(run, *journal);
         };
     }
     return conclude(folder, o, Ci::none, console, style, ending);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "cli/commands.hpp"
+#include "cli/diagnose.hpp"
 #include "cli/options/command_table.hpp"
 #include "cli/prepare/ci.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -68,10 +69,11 @@ OrStop<Source> load_one(const ReportOptions& options) {
     return Source{std::move(*run), folder, {}};
 }
 
-OrStop<Source> load_merged(const ReportOptions& options) {
+OrStop<Source> load_merged(const Program& program, const ReportOptions& options) {
     Source source;
     source.folder = options.output.empty() ? "out/merged" : options.output;
     std::vector<report::Part> parts;
+    bool is_diagnosed = false;
     for (const std::string& directory : options.directories) {
         std::error_code none;
         if (fs::equivalent(directory, source.folder, none)) {
@@ -84,6 +86,7 @@ OrStop<Source> load_merged(const ReportOptions& options) {
         if (!run) {
             return tl::unexpected(Stop{report::kExitInvalidFile, {cases::to_string(run.error())}});
         }
+        is_diagnosed = is_diagnosed || !run->diagnoses.empty();
         parts.push_back({directory, std::move(*run)});
     }
     cases::Expected<report::Merged> merged = report::merge_runs(std::move(parts));
@@ -92,6 +95,9 @@ OrStop<Source> load_merged(const ReportOptions& options) {
     }
     source.run = std::move(merged->run);
     source.missing_shards = std::move(merged->missing_shards);
+    if (is_diagnosed) {
+        diagnose_again(program, source.run);
+    }
     if (const auto written = write_merged(source.run, source.folder); !written) {
         return tl::unexpected(Stop{report::kExitInternal, {written.error().message}});
     }
@@ -109,8 +115,8 @@ std::string shards_text(const std::vector<uint32_t>& shards) {
 
 }  // namespace
 
-int report_command(const Program&, const ReportOptions& options) {
-    const OrStop<Source> source = options.merge ? load_merged(options) : load_one(options);
+int report_command(const Program& program, const ReportOptions& options) {
+    const OrStop<Source> source = options.merge ? load_merged(program, options) : load_one(options);
     if (!source) {
         return report_stop(source.error());
     }

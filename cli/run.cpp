@@ -218,7 +218,12 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
                     visit(c.data);
                 }
             };
-            diagnose(run, each, *journal);
+            if (resumed) {
+                diagnose_again(program, run);
+            } else {
+                diagnose(run, each);
+            }
+            keep_diagnoses(run, *journal);
         };
     }
     return conclude(p.folder, options, chosen_ci(options.ci), console, style, ending);

@@ -66,6 +66,7 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
     Merged merged;
     Run& run = merged.run;
     run = first.run;
+    run.diagnoses.clear();  // they speak of a part
     std::set<uint32_t> shards = {run.shard};
     for (size_t k = 1; k < parts.size(); ++k) {
         Run& part = parts[k].run;
