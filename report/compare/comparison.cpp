@@ -17,8 +17,8 @@ namespace report {
 namespace {
 
 constexpr std::array<std::string_view, kChanges> kNames = {
-    "regression",   "vanished",     "fix", "fails otherwise", "fails alike", "other coverage",
-    "other values", "only in some", "same"};
+    "regression",     "vanished",     "fix",          "fails otherwise", "fails alike",
+    "other coverage", "other values", "only in some", "judged in none",  "same"};
 
 // How bad a status is; nothing for what was not judged.
 std::optional<int> severity(const CaseRecord* record) {
@@ -93,9 +93,7 @@ Change change_of(const std::vector<const CaseRecord*>& records) {
         return Change::fix;
     }
     if (!all) {
-        const bool all_there =
-            std::all_of(records.begin(), records.end(), [](const auto* r) { return r != nullptr; });
-        return some || !all_there ? Change::only_in_some : Change::same;
+        return some ? Change::only_in_some : Change::judged_in_none;
     }
     bool alike = true, same_bits = true, same_hits = true;
     for (const CaseRecord* record : records) {
@@ -190,6 +188,7 @@ std::string detail_of(const ComparedCase& c, const std::vector<std::string>& let
         }
         case Change::vanished:
         case Change::only_in_some:
+        case Change::judged_in_none:
             for (size_t k = 0; k < c.records.size(); ++k) {
                 if (c.records[k] != nullptr && !severity(c.records[k])) {
                     return letters[k] + ": " + why_it_happened(*c.records[k]);
@@ -274,16 +273,29 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs, Stri
     return result;
 }
 
+size_t compared_cases(const Comparison& comparison) {
+    size_t compared = comparison.cases.size();
+    for (const Change change : {Change::vanished, Change::only_in_some, Change::judged_in_none}) {
+        compared -= comparison.counts.at(static_cast<size_t>(change));
+    }
+    return compared;
+}
+
 int exit_code(const Comparison& comparison) {
     const auto count = [&](Change change) {
         return comparison.counts.at(static_cast<size_t>(change));
     };
-    const bool differs = comparison.cases.size() > count(Change::same) + count(Change::fails_alike);
+    const bool differs = comparison.cases.size() > count(Change::same) +
+                                                       count(Change::fails_alike) +
+                                                       count(Change::judged_in_none);
     if (count(Change::regression) + count(Change::vanished) > 0 ||
         (comparison.strictness.strict && differs)) {
         return kExitUnexpected;
     }
-    return comparison.unjudged > 0 ? kExitInternal : kExitOk;
+    if (comparison.unjudged > 0) {
+        return kExitInternal;
+    }
+    return compared_cases(comparison) == 0 ? kExitNothingSelected : kExitOk;
 }
 
 }  // namespace report

@@ -34,9 +34,10 @@ enum class Change : uint8_t {
     other_coverage,   // passes in all, other samples are hit: the reference allows both
     other_values,     // passes in all with the same hits and other bits
     only_in_some,     // not in the first run, or not judged in one (skipped, not run, error)
-    same,             // passes in all, bit for bit the same, or is judged in none
+    judged_in_none,   // unsupported, skipped, not run or an error wherever it is: not compared
+    same,             // passes in all, bit for bit the same
 };
-inline constexpr size_t kChanges = 9;
+inline constexpr size_t kChanges = 10;
 std::string_view to_string(Change change);  // "regression", "other coverage", ...
 
 // What makes a comparison fail, besides regressions and cases that vanished.
@@ -67,8 +68,11 @@ struct Comparison {
 cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs,
                                          Strictness strictness = {});
 
+// How many cases the first run and a later one judged, so that something is said of them.
+size_t compared_cases(const Comparison& comparison);
+
 // 1 with a regression, a case that vanished or, if strict, any difference; else 7 if a run is not
-// whole; else 0.
+// whole; else 4 if no case was compared; else 0.
 int exit_code(const Comparison& comparison);
 
 // Whether pictures show hits of the same samples of the same pixels.

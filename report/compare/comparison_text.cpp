@@ -36,7 +36,9 @@ size_t listed(Change change, bool verbose) {
         change == Change::fix) {
         return static_cast<size_t>(-1);
     }
-    return change == Change::other_values || change == Change::fails_alike ? 0 : kListed;
+    const bool is_told = change != Change::other_values && change != Change::fails_alike &&
+                         change != Change::judged_in_none;
+    return is_told ? kListed : 0;
 }
 
 // Where two devices hit other samples: '#' both, '.' none, 'A' and 'B' one of them, '2' another
@@ -93,6 +95,7 @@ std::string heading(Change change, size_t count) {
         "the reference allows both, other samples are hit: {} {}",
         "pass with the same hits and other values within the budgets: {} {}",
         "judged in some of the runs only: {} {}",
+        "judged in none of the runs, so not compared: {} {}",
         "the same bit for bit: {} {}"};
     return fmt::format(fmt::runtime(kHeadings.at(static_cast<size_t>(change))), count,
                        count == 1 ? "case" : "cases");
@@ -102,8 +105,11 @@ std::string comparison_headline(const Comparison& comparison) {
     const auto count = [&](Change change) {
         return comparison.counts.at(static_cast<size_t>(change));
     };
-    const size_t all = comparison.cases.size();
-    if (all > 0 && count(Change::same) == all) {
+    const size_t all = compared_cases(comparison);
+    if (all == 0 && count(Change::vanished) == 0) {
+        return "No case was compared";
+    }
+    if (all > 0 && count(Change::same) + count(Change::judged_in_none) == comparison.cases.size()) {
         return all == 1 ? "The one case is the same bit for bit"
                         : fmt::format("All {} cases are the same bit for bit", all);
     }
@@ -130,8 +136,9 @@ std::string exit_words(const Comparison& comparison) {
     const int code = exit_code(comparison);
     return fmt::format(
         "exit {}: {}", code,
-        code == kExitOk         ? "no regression"
-        : code == kExitInternal ? "no regression, but cases were not judged"
+        code == kExitOk                ? "no regression"
+        : code == kExitNothingSelected ? "0 cases compared: no two runs judged the same"
+        : code == kExitInternal        ? "no regression, but cases were not judged"
         : has(Change::regression)
             ? (has(Change::vanished) ? "regressions, and cases vanished" : "regressions")
         : has(Change::vanished) ? "cases vanished; --common compares those that all runs have"
@@ -143,11 +150,12 @@ std::string comparison_text(const std::vector<NamedRun>& runs, const Comparison&
     std::string text;
     for (size_t k = 0; k < runs.size(); ++k) {
         const Run& run = runs[k].run;
-        text += fmt::format(
-            "{}  {}  {}  {} {}  {} subpixel bits  profile {}  {} cases\n", comparison.letters[k],
-            cases::printable(runs[k].folder), cases::printable(run.device.name),
-            cases::printable(run.device.driver_name), cases::printable(run.device.driver_info),
-            run.device.subpixel_bits, cases::to_string(run.profile), run.cases.size());
+        text +=
+            fmt::format("{}  {}  {}  {} {}  {} subpixel bits  profile {}  {}\n",
+                        comparison.letters[k], cases::printable(runs[k].folder),
+                        cases::printable(run.device.name), cases::printable(run.device.driver_name),
+                        cases::printable(run.device.driver_info), run.device.subpixel_bits,
+                        cases::to_string(run.profile), cases::counted(run.cases.size(), "case"));
     }
     for (const std::string& remark : comparison.remarks) {
         text += "note: " + remark + "\n";

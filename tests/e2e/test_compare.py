@@ -63,6 +63,30 @@ class Compare(CompareTest):
         self.assertIn("the same bit for bit: 2 cases\n", done.stdout)
         self.edgecase("compare", b, a, check=0)  # more cases than before
 
+    def test_nothing_compared_is_no_success(self):
+        a, b = self.run_as("a", "fam/c1"), self.run_as("b", "fam/c2")
+        for words in ((), ("--strict",)):
+            done = self.compare(a, b, "--common", *words, check=4)
+            self.assertTrue(done.stdout.endswith("exit 4: 0 cases compared: no two runs judged the same\n"), done.stdout)
+        self.assertEqual(json.loads((self.folder / "c.json").read_text())["exit_code"], 4)
+        self.assertIn("profile direct3d  1 case\n", done.stdout)
+        # Cases that no run drew are the same in nothing.
+        fault = "unsupported@fam/c1,unsupported@fam/c2"
+        c, d = self.run_as("c", "fam/c1", "fam/c2", fault=fault), self.run_as("d", "fam/c1", "fam/c2", fault=fault)
+        for words in ((), ("--strict",)):
+            done = self.compare(c, d, *words, check=4)
+            self.assertIn("judged in none of the runs, so not compared: 2 cases\n", done.stdout)
+            self.assertNotIn("bit for bit", done.stdout)
+            self.assertEqual(set(self.changes().values()), {"judged in none"})
+        self.assertIn("No case was compared", self.edgecase("compare", c, d, "--html", "-", check=4).stdout)
+        # Beside a case that was drawn they count for nothing, and do no harm.
+        e, f = self.run_as("e", fault=fault), self.run_as("f", fault=fault)
+        done = self.compare(e, f, "--strict", check=0)
+        self.assertIn("judged in none of the runs, so not compared: 2 cases\nthe same bit for bit: 8 cases\n", done.stdout)
+        # A case that one run lacks and the other does not support is judged in none.
+        self.compare(self.run_as("g", "fam/c1", fault=fault), self.run_as("h", "fam/c2", fault=fault), check=4)
+        self.assertEqual(set(self.changes().values()), {"judged in none"})
+
     def test_another_kind_of_failure_is_a_regression(self):
         a = self.run_as("a", fault="flip-pixel@fam/c1,segv@fam/c2,flip-pixel@fam/c3")
         b = self.run_as("b", fault="shift-value@fam/c1,abort@fam/c2,flip-pixel+3@fam/c3")
