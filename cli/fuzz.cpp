@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
@@ -134,8 +135,14 @@ class FuzzCommand {
             return report_stop(folder.error());
         }
         if (!options_.run.quiet) {
-            say(fmt::format("fuzzing {} with seed {} at profile {}, into {}\n", ledger_.device,
-                            ledger_.seed, cases::to_string(ledger_.profile), folder_.string()));
+            // A hunt that goes on has no end of its own: --cases and --time are of each command.
+            const bool is_endless = options_.cases == 0 && !(options_.seconds > 0);
+            say(fmt::format("fuzzing {} with seed {} at profile {}, into {}{}{}\n", ledger_.device,
+                            ledger_.seed, cases::to_string(ledger_.profile), folder_.string(),
+                            options_.run.resume.empty()
+                                ? ""
+                                : fmt::format(", from case {} on", ledger_.counts.next_case),
+                            is_endless ? "; end it with ctrl-c" : ""));
         }
         run::Session session(config, std::move(first->client), first->device, signals);
         return hunt(session);
@@ -169,6 +176,9 @@ class FuzzCommand {
                     stop_with(report::kExitInvalidFile, "--known: " + loaded.error().message));
             }
             for (Entry& entry : loaded->entries) {
+                if (!entry.is_reduced) {
+                    continue;  // it would explain next to nothing
+                }
                 entry.is_known = true;
                 entry.count = 0;
                 entry.file = (fs::absolute(known) / entry.file).lexically_normal().string();
@@ -215,7 +225,13 @@ class FuzzCommand {
                             std::chrono::milliseconds(static_cast<int64_t>(options_.seconds * 1e3));
         }
         const fuzz::HuntCounts before = ledger_.counts;
-        Hunt hunter(hunt, session, std::move(ledger_.entries),
+        std::erase_if(ledger_.entries, [&](const Entry& entry) {
+            if (!entry.is_reduced) {
+                not_reduced_.insert(entry.file);
+            }
+            return !entry.is_reduced;
+        });
+        Hunt hunter(hunt, session, std::move(ledger_.entries), ledger_.waiting,
                     [this](const fuzz::HuntCounts& counts, size_t causes) {
                         status_.show(counts, causes);
                     });
@@ -254,10 +270,38 @@ class FuzzCommand {
             tell(entry);
         }
         ledger_.entries = hunter.entries();
+        if (auto kept = keep_not_reduced(hunter); !kept) {
+            return kept;
+        }
+        ledger_.waiting = hunter.waiting();
         ledger_.counts = sum_of(before, hunter.counts());
         ledger_.seconds = seconds_before_ + status_.seconds();
         ledger_.is_finished = is_finished;
         return replace_text(folder_ / fuzz::kLedgerFile, fuzz::to_json(ledger_));
+    }
+
+    // The files of what is not reduced change with each step: those that are reduced meanwhile go.
+    cases::Expected<void> keep_not_reduced(const Hunt& hunter) {
+        const std::set<std::string> before = std::exchange(not_reduced_, {});
+        for (Entry& entry : hunter.not_reduced()) {
+            entry.file = fmt::format("found/not-reduced-{}.toml", entry.first_case);
+            not_reduced_.insert(entry.file);
+            if (!before.contains(entry.file)) {
+                entry.text = fuzz::described(entry.text, entry.symptom);
+                if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
+                    !written) {
+                    return written;
+                }
+            }
+            ledger_.entries.push_back(std::move(entry));
+        }
+        for (const std::string& file : before) {
+            std::error_code none;
+            if (!not_reduced_.contains(file)) {
+                fs::remove(folder_ / file, none);
+            }
+        }
+        return {};
     }
 
     static bool is_taken(Hunt& hunter, const Entry& entry) {
@@ -286,6 +330,12 @@ class FuzzCommand {
 
     void tell(const Entry& entry) const {
         status_.clear();
+        if (!entry.is_reduced) {
+            say(fmt::format("FOUND {}, not reduced\n      {}\n      in {}\n",
+                            to_text(entry.symptom), (folder_ / entry.file).string(),
+                            plural(entry.count, "case")));
+            return;
+        }
         std::string with;
         for (const std::string& word : entry.essentials) {
             with += (with.empty() ? "" : ", ") + word;
@@ -300,7 +350,11 @@ class FuzzCommand {
 
     int conclude_hunt(Hunt& hunter, Hunt::State state) {
         size_t fresh = 0, known = 0, met = 0;
-        for (const Entry& entry : hunter.entries()) {
+        for (const Entry& entry : ledger_.entries) {
+            if (!entry.is_reduced) {
+                tell(entry);
+                continue;
+            }
             ++(entry.is_known ? known : fresh);
             met += entry.is_known && entry.count > 0 ? 1U : 0U;
         }
@@ -317,9 +371,23 @@ class FuzzCommand {
                         known > 0 ? fmt::format(" and {} of {} known ones", met, known) : "",
                         plural(c.reductions, "reduction"), c.reducing_seconds,
                         plural(c.reduction_cases, "more case")));
+        if (!ledger_.waiting.empty()) {
+            say(
+                fmt::format("not reduced, and explained by no cause: {}; go on with 'edgecase fuzz "
+                            "--resume {}'\n",
+                            plural(ledger_.waiting.size(), "failing case"), folder_.string()));
+        }
+        size_t number = 0;
+        for (const std::string& text : hunter.unrepeated()) {
+            const fs::path file = folder_ / fmt::format("unrepeated-{}.toml", ++number);
+            if (const auto written = replace_text(file, text); !written) {
+                return report_stop(stop_with(report::kExitInternal, written.error().message));
+            }
+        }
         if (c.unrepeated > 0) {
-            say(fmt::format("{} did not come again when they were drawn alone\n",
-                            plural(c.unrepeated, "failure")));
+            say(fmt::format("did not come again when drawn alone: {}; see {}\n",
+                            plural(c.unrepeated, "failing case"),
+                            (folder_ / "unrepeated-1.toml").string()));
         }
         std::set<std::string> told;
         for (const auto& [text, reason] : hunter.unjudged()) {
@@ -331,7 +399,7 @@ class FuzzCommand {
             complain("a case could not be judged: " + reason +
                      (written ? "; it is kept as " + file.string() + ", please report it" : ""));
         }
-        if (fresh > 0) {
+        if (fresh > 0 || !ledger_.waiting.empty()) {
             say(fmt::format("look at them: edgecase run {} --no-expect\n",
                             (folder_ / "found").string()));
         }
@@ -349,7 +417,9 @@ class FuzzCommand {
             complain("no case was judged, so nothing was proven");
             return report::kExitAllSkipped;
         }
-        return fresh > 0 ? report::kExitUnexpected : report::kExitOk;
+        // Nothing new may be said only of a hunt whose failures are all explained.
+        const bool is_explained = ledger_.waiting.empty() && c.unrepeated == 0;
+        return fresh > 0 || !is_explained ? report::kExitUnexpected : report::kExitOk;
     }
 
     const Program& program_;
@@ -357,6 +427,7 @@ class FuzzCommand {
     Status status_;
     Ledger ledger_;
     fs::path folder_;
+    std::set<std::string> not_reduced_;  // files of cases as they were drawn
     std::string device_of_earlier_;
     double seconds_before_ = 0;
 };

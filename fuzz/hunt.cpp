@@ -6,14 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "cases/load/loader.hpp"
-#include "cases/model/rule.hpp"
 #include "cases/model/triangle.hpp"
-#include "fuzz/document/document.hpp"
 #include "fuzz/generate/generator.hpp"
-#include "fuzz/reduce/reduce.hpp"
-#include "ref/exercise/exercise.hpp"
-#include "ref/expectation/expectation.hpp"
 
 namespace fuzz {
 
@@ -30,18 +24,13 @@ constexpr size_t kPosesOfChunk = 8;
 // that shows the same, which a cause that is not rare soon has.
 constexpr size_t kReductionsOfSymptom = 2;
 constexpr size_t kReductionsOfChunk = 6;
+// With so many open cases no other is drawn before all are reduced: each keeps its text.
+constexpr size_t kMostOpen = 4096;
+constexpr size_t kMostUnrepeated = 20;
 constexpr size_t kMostUnjudged = 20;
 
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-std::optional<cases::Case> load(const std::string& text, const std::string& id) {
-    auto loaded = cases::load_text(text, "fuzz", id);
-    if (!loaded || loaded->size() != 1) {
-        return std::nullopt;
-    }
-    return std::move(loaded->front());
 }
 
 // A picture without anything in it could pass, so the judge refuses the case.
@@ -49,108 +38,87 @@ bool is_empty(const CaseRecord& record) {
     return record.reason.find("a black picture would pass") != std::string::npos;
 }
 
-// Whether some sample must be covered at every profile, as a suite's cases want it.
-bool can_fail_everywhere(const cases::Case& c) {
-    return c.blit || ref::expect(c, ref::Limits{}, cases::Profile::vulkan).must_samples > 0;
-}
+}  // namespace
 
-std::set<std::string> essentials_of(const std::string& text) {
-    const auto document = cases::read_toml(text, "fuzz");
-    return document ? essentials(*document) : std::set<std::string>();
-}
+namespace {
 
-// All that a record shows, each in the gravest way.
-std::vector<Symptom> symptoms_of(const CaseRecord& record) {
-    std::vector<Symptom> all;
-    const std::optional<Symptom> gravest = symptom_of(record);
-    if (!gravest || gravest->status != Status::fail) {
-        return gravest ? std::vector<Symptom>{*gravest} : all;
-    }
-    for (const diff::FindingGroup& group : record.groups) {
-        const auto like = std::find_if(all.begin(), all.end(), [&](const Symptom& s) {
-            return s.kind == group.kind && s.rule == group.rule;
-        });
-        if (like == all.end()) {
-            all.push_back({Status::fail, group.kind, group.rule, group.level, {}});
-        } else {
-            like->level = std::min(like->level, group.level);
+// The texts of a hunt's cases, in the order of their numbers, which must rise.
+std::vector<std::string> texts_of_cases(uint64_t seed, const std::vector<uint64_t>& numbers) {
+    std::vector<std::string> texts;
+    Poses poses(seed);
+    Pose pose;
+    uint64_t made = 0;
+    for (const uint64_t number : numbers) {
+        for (; made <= number / kGeometries; ++made) {
+            pose =
+                poses.next([&](const Pose& candidate) { return is_case(seed, candidate, made); });
         }
+        texts.push_back(case_text(seed, pose, number / kGeometries, number));
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const Symptom& a, const Symptom& b) { return a.level < b.level; });
-    return all;
-}
-
-diff::FindingKind sort_of(diff::FindingKind kind) {
-    return kind == diff::FindingKind::double_hit ? diff::FindingKind::extra : kind;
-}
-
-bool explains(const Entry& entry, const Symptom& symptom,
-              const std::set<std::string>& of_the_case) {
-    if (!std::includes(of_the_case.begin(), of_the_case.end(), entry.essentials.begin(),
-                       entry.essentials.end())) {
-        return false;
-    }
-    if (symptom.status != Status::fail || entry.symptom.status != Status::fail) {
-        return entry.symptom.status == symptom.status && entry.symptom.signal == symptom.signal;
-    }
-    // What breaks a looser profile than the entry does is news.
-    if (entry.symptom.level > symptom.level) {
-        return false;
-    }
-    // By which rule a sample is missing depends on the triangle that misses it, and whether one hit
-    // too many is the only one on what else is drawn there: where the case has something special to
-    // blame, too few or too many is enough.
-    const bool is_value = symptom.kind == diff::FindingKind::value;
-    return std::any_of(entry.also.begin(), entry.also.end(), [&](const auto& known) {
-        return is_value || entry.essentials.empty() ? known == std::pair(symptom.kind, symptom.rule)
-                                                    : sort_of(known.first) == sort_of(symptom.kind);
-    });
-}
-
-// The case as a file that can go into a suite: what it shows is what it claims, if lint agrees,
-// else some rule that it does exercise.
-Document described(Document document, const Symptom& symptom) {
-    set(document, "description", text("A device showed here: " + to_text(symptom) + "."));
-    const std::optional<cases::Case> c = load(to_text(document), "described");
-    if (!c) {
-        return document;
-    }
-    std::vector<std::string> rules;
-    for (const cases::Rule& rule : cases::all_rules()) {
-        rules.emplace_back(rule.id);
-    }
-    std::stable_partition(rules.begin(), rules.end(),
-                          [&](const std::string& rule) { return rule == symptom.rule; });
-    for (const ref::RuleShare& share :
-         ref::exercise(*c, ref::Limits{}, rules, ref::Count::some).rules) {
-        if (share.samples > 0) {
-            set(document, "rules", list({text(std::string(share.rule))}));
-            break;
-        }
-    }
-    return document;
+    return texts;
 }
 
 }  // namespace
 
 std::string text_of_case(uint64_t seed, uint64_t number) {
-    Poses poses(seed);
-    Pose pose;
-    for (uint64_t k = 0; k <= number / kGeometries; ++k) {
-        pose = poses.next([&](const Pose& candidate) { return is_case(seed, candidate, k); });
-    }
-    return case_text(seed, pose, number / kGeometries, number);
+    return texts_of_cases(seed, {number}).front();
 }
 
 Hunt::Hunt(HuntOptions options, run::Session& session, std::vector<Entry> known,
-           OnProgress on_progress)
+           const std::vector<Waiting>& waiting, OnProgress on_progress)
     : options_(options),
       session_(session),
       on_progress_(std::move(on_progress)),
       poses_(options.seed),
-      entries_(std::move(known)) {
+      entries_(std::move(known)),
+      is_behind_(!waiting.empty()) {
     counts_.next_case = options_.first_case;
+    std::map<uint64_t, Waiting> by_number;
+    std::vector<uint64_t> numbers;
+    for (const Waiting& one : waiting) {
+        by_number[one.number] = one;
+    }
+    for (const auto& [number, one] : by_number) {
+        numbers.push_back(number);
+    }
+    for (std::string& text : texts_of_cases(options_.seed, numbers)) {
+        Waiting& one = by_number.at(numbers[open_.size()]);
+        std::set<std::string> words = essentials_of(text);
+        open_.push_back({std::move(one), std::move(text), std::move(words), {}});
+    }
+}
+
+std::vector<Waiting> Hunt::waiting() const {
+    std::vector<Waiting> all;
+    for (const Open& open : open_) {
+        all.push_back(open.waiting);
+    }
+    return all;
+}
+
+std::vector<Entry> Hunt::not_reduced() const {
+    std::map<Symptom, Entry> smallest;
+    for (const Open& open : open_) {
+        const Symptom& symptom = open.waiting.symptoms.front();
+        Entry& entry = smallest[symptom];
+        ++entry.count;
+        if (entry.count == 1 || open.text.size() < entry.text.size()) {
+            entry.symptom = symptom;
+            entry.essentials = open.essentials;
+            entry.text = open.text;
+            entry.first_case = open.waiting.number;
+            entry.is_reduced = false;
+            entry.also.clear();
+            for (const Symptom& other : open.waiting.symptoms) {
+                entry.also.insert({other.kind, other.rule});
+            }
+        }
+    }
+    std::vector<Entry> all;
+    for (auto& [symptom, entry] : smallest) {
+        all.push_back(std::move(entry));
+    }
+    return all;
 }
 
 bool Hunt::is_over() const {
@@ -174,7 +142,7 @@ Hunt::Chunk Hunt::make_chunk() {
         for (uint64_t k = std::max(begin, options_.first_case); k < std::min(next_case_, end);
              ++k) {
             std::string text = case_text(options_.seed, pose, number, k);
-            if (std::optional<cases::Case> c = load(text, std::to_string(k))) {
+            if (std::optional<cases::Case> c = load_one(text, std::to_string(k))) {
                 chunk.made.push_back({std::move(text), k});
                 chunk.cases.push_back(std::move(*c));
             }
@@ -199,14 +167,36 @@ run::Session::Results Hunt::draw(std::vector<cases::Case> cases) {
 }
 
 Hunt::State Hunt::step() {
-    if (!ahead_.valid()) {
-        ahead_ = std::async(std::launch::async, [this] { return make_chunk(); });
+    is_behind_ = !open_.empty() && (is_behind_ || open_.size() >= kMostOpen);
+    if (!is_behind_) {
+        if (!ahead_.valid()) {
+            ahead_ = std::async(std::launch::async, [this] { return make_chunk(); });
+        }
+        Chunk chunk = ahead_.get();
+        if (chunk.made.empty() && options_.most_cases != 0 &&
+            chunk.next_case >= options_.most_cases) {
+            if (open_.empty()) {
+                return State::done;
+            }
+            is_behind_ = true;
+        } else {
+            ahead_ = std::async(std::launch::async, [this] { return make_chunk(); });
+            draw_chunk(std::move(chunk));
+        }
     }
-    Chunk chunk = ahead_.get();
-    if (chunk.made.empty() && options_.most_cases != 0 && chunk.next_case >= options_.most_cases) {
-        return State::done;
+    if (!is_interrupted_ && failure_.empty()) {
+        const Clock::time_point begin = Clock::now();
+        reduce_open();
+        counts_.reducing_seconds += seconds_since(begin);
+        on_progress_(counts_, entries_.size());
     }
-    ahead_ = std::async(std::launch::async, [this] { return make_chunk(); });
+    if (is_interrupted_ || !failure_.empty()) {
+        return is_interrupted_ ? State::interrupted : State::failed;
+    }
+    return is_over() ? State::done : State::goes_on;
+}
+
+void Hunt::draw_chunk(Chunk chunk) {
     const Clock::time_point begin = Clock::now();
     for (const cases::Case& c : chunk.cases) {
         counts_.triangles += cases::assemble(c).size();
@@ -214,9 +204,8 @@ Hunt::State Hunt::step() {
     const run::Session::Results results = draw(std::move(chunk.cases));
     counts_.drawing_seconds += seconds_since(begin);
     if (is_interrupted_ || !failure_.empty()) {
-        return is_interrupted_ ? State::interrupted : State::failed;
+        return;
     }
-    std::vector<Open> open;
     for (size_t k = 0; k < results.records.size(); ++k) {
         const CaseRecord& record = results.records[k];
         switch (record.status) {
@@ -237,158 +226,105 @@ Hunt::State Hunt::step() {
                 break;
         }
         ++counts_.drawn;
-        if (!symptom_of(record)) {
-            continue;
-        }
-        ++counts_.failed;
-        if (std::optional<Symptom> symptom =
-                unexplained(record, essentials_of(chunk.made[k].text))) {
-            open.push_back({std::move(*symptom), chunk.made[k].text, chunk.made[k].number});
+        std::vector<Symptom> symptoms = symptoms_of(record);
+        if (!symptoms.empty()) {
+            ++counts_.failed;
+            Made& made = chunk.made[k];
+            std::set<std::string> words = essentials_of(made.text);
+            open_.push_back(
+                {{made.number, std::move(symptoms)}, std::move(made.text), std::move(words), {}});
         }
     }
     counts_.next_case = chunk.next_case;
     counts_.poses = chunk.poses;
     counts_.pairs = chunk.pairs;
-    const Clock::time_point reducing = Clock::now();
-    reduce_open(std::move(open));
-    counts_.reducing_seconds += seconds_since(reducing);
-    on_progress_(counts_, entries_.size());
-    if (is_interrupted_ || !failure_.empty()) {
-        return is_interrupted_ ? State::interrupted : State::failed;
-    }
-    return is_over() ? State::done : State::goes_on;
 }
 
-// The gravest symptom that no entry explains; the entry that explains the gravest of all counts the
-// case.
-std::optional<Symptom> Hunt::unexplained(const CaseRecord& record,
-                                         const std::set<std::string>& of_the_case) {
-    bool is_counted = false;
-    for (const Symptom& symptom : symptoms_of(record)) {
+// Takes from an open case the symptoms that an entry explains.
+void Hunt::explain(Open& open) const {
+    std::erase_if(open.waiting.symptoms, [&](const Symptom& symptom) {
         const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-            return explains(e, symptom, of_the_case);
+            return explains(e, symptom, open.essentials);
         });
         if (entry == entries_.end()) {
-            return symptom;
+            return false;
         }
-        if (!is_counted) {
-            ++entry->count;
-            is_counted = true;
-        }
-    }
-    return std::nullopt;
+        open.entry = open.entry.value_or(static_cast<size_t>(entry - entries_.begin()));
+        return true;
+    });
 }
 
-void Hunt::reduce_open(std::vector<Open> open) {
+// Counts a case of which nothing is open any more, for the entry that explains its gravest symptom.
+void Hunt::count(const Open& open) {
+    if (open.is_unrepeated) {
+        ++counts_.unrepeated;
+        if (unrepeated_.size() < kMostUnrepeated) {
+            unrepeated_.push_back(open.text);
+        }
+    } else {
+        ++entries_[*open.entry].count;
+    }
+}
+
+void Hunt::reduce_open() {
     // The shortest first: nearest to what it will be.
-    std::stable_sort(open.begin(), open.end(),
+    std::stable_sort(open_.begin(), open_.end(),
                      [](const Open& a, const Open& b) { return a.text.size() < b.text.size(); });
     std::map<Symptom, size_t> reduced;
     size_t all = 0;
-    for (const Open& one : open) {
-        if (is_over() || is_interrupted_ || !failure_.empty() || all >= kReductionsOfChunk) {
-            return;
-        }
-        const std::set<std::string> words = essentials_of(one.text);
-        const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-            return explains(e, one.symptom, words);
-        });
-        if (entry != entries_.end()) {
-            ++entry->count;
-            continue;
-        }
-        if (reduced[one.symptom]++ >= kReductionsOfSymptom) {
+    for (Open& open : open_) {
+        explain(open);
+        if (open.waiting.symptoms.empty() || is_over() || is_interrupted_ || !failure_.empty() ||
+            all >= kReductionsOfChunk ||
+            reduced[open.waiting.symptoms.front()] >= kReductionsOfSymptom) {
             continue;
         }
         ++all;
-        if (std::optional<Entry> fresh = reduce_one(one)) {
-            const auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-                return e.symptom == fresh->symptom && e.essentials == fresh->essentials;
-            });
-            if (same != entries_.end()) {
-                ++same->count;
-                same->also.insert(fresh->also.begin(), fresh->also.end());
-            } else {
-                entries_.push_back(std::move(*fresh));
-            }
-        }
+        ++reduced[open.waiting.symptoms.front()];
+        reduce_one(open);
+        explain(open);
     }
+    std::erase_if(open_, [&](Open& open) {
+        // Entries that came after its turn may explain it, too.
+        explain(open);
+        if (open.waiting.symptoms.empty()) {
+            count(open);
+        }
+        return open.waiting.symptoms.empty();
+    });
 }
 
-std::optional<Entry> Hunt::reduce_one(const Open& open) {
+// Makes an entry of an open case's gravest symptom, or finds that it is that of another one.
+void Hunt::reduce_one(Open& open) {
+    const Symptom symptom = open.waiting.symptoms.front();
     ++counts_.reductions;
-    std::optional<Entry> entry = reduce_case(
-        open.text, open.symptom,
+    std::optional<Entry> fresh = reduce_case(
+        open.text, symptom,
         [this](const std::vector<cases::Case>& cases) {
             counts_.reduction_cases += cases.size();
             return is_interrupted_ || !failure_.empty() ? std::vector<CaseRecord>(cases.size())
                                                         : draw(cases).records;
         },
         options_.most_rounds);
-    if (!entry) {
-        ++counts_.unrepeated;
-        return std::nullopt;
+    if (is_interrupted_ || !failure_.empty()) {
+        return;
     }
-    entry->first_case = open.number;
-    return entry;
-}
-
-std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
-                                 size_t most_rounds) {
-    const auto document = cases::read_toml(text, "reduced");
-    const std::optional<cases::Case> original = load(text, "original");
-    if (!document || !original) {
-        return std::nullopt;
+    open.waiting.symptoms.erase(open.waiting.symptoms.begin());
+    if (!fresh) {
+        open.is_unrepeated = true;
+        return;
     }
-    const bool is_sound = can_fail_everywhere(*original);
-    std::optional<CaseRecord> last;  // of the smallest text that shows it
-    std::string last_text;
-    const Shows shown = [&](const std::vector<std::string>& texts) {
-        std::vector<bool> out(texts.size(), false);
-        std::vector<cases::Case> cases;
-        std::vector<size_t> of;
-        for (size_t k = 0; k < texts.size(); ++k) {
-            if (std::optional<cases::Case> c = load(texts[k], std::to_string(k))) {
-                cases.push_back(std::move(*c));
-                of.push_back(k);
-            }
-        }
-        if (cases.empty()) {
-            return out;
-        }
-        const std::vector<CaseRecord> records = draw(cases);
-        for (size_t k = 0; k < of.size(); ++k) {
-            out[of[k]] = shows(records[k], symptom) && (!is_sound || can_fail_everywhere(cases[k]));
-            if (out[of[k]] && (!last || texts[of[k]].size() <= last_text.size())) {
-                last = records[k];
-                last_text = texts[of[k]];
-            }
-        }
-        return out;
-    };
-    if (!shown({to_text(*document)}).front()) {
-        return std::nullopt;
+    fresh->first_case = open.waiting.number;
+    fresh->count = 0;  // the case counts when nothing of it is open
+    const auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
+        return e.symptom == fresh->symptom && e.essentials == fresh->essentials;
+    });
+    open.entry = open.entry.value_or(static_cast<size_t>(same - entries_.begin()));
+    if (same != entries_.end()) {
+        same->also.insert(fresh->also.begin(), fresh->also.end());
+    } else {
+        entries_.push_back(std::move(*fresh));
     }
-    ReduceOptions options;
-    options.most_rounds = most_rounds;
-    const Reduced reduced = reduce(*document, shown, options);
-    Entry entry;
-    entry.symptom = symptom;
-    entry.essentials = essentials(reduced.document);
-    entry.text = to_text(described(reduced.document, symptom));
-    if (const auto c = load(entry.text, "reduced"); c && !can_fail_everywhere(*c)) {
-        entry.text =
-            "# At profile vulkan no sample must be covered: a suite wants one triangle more.\n" +
-            entry.text;
-    }
-    entry.needs = reduced.needs;
-    entry.is_minimal = reduced.is_minimal;
-    entry.count = 1;
-    entry.also.insert({symptom.kind, symptom.rule});
-    for (const Symptom& other : last ? symptoms_of(*last) : std::vector<Symptom>()) {
-        entry.also.insert({other.kind, other.rule});
-    }
-    return entry;
 }
 
 }  // namespace fuzz

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
-#include "fuzz/cause.hpp"
+#include "fuzz/entry.hpp"
 #include "fuzz/generate/pose.hpp"
 #include "run/session.hpp"
 
@@ -30,19 +30,11 @@ struct HuntOptions {
     size_t most_rounds = 400;        // of one reduction: batches of candidates
 };
 
-// One cause: the smallest case that shows it, and how often it was met.
-struct Entry {
-    Symptom symptom;
-    std::set<std::string> essentials;  // of the reduced case
-    // What else the reduced case breaks: in a case with the same essentials that is no news.
-    std::set<std::pair<diff::FindingKind, std::string>> also;
-    std::string text;                // of the reduced case
-    std::vector<std::string> needs;  // "not with 1 sample": the nearest cases that pass
-    bool is_minimal = false;
-    bool is_known = false;    // from an earlier hunt
-    std::string file;         // where it is kept; filled in by whoever keeps it
-    uint64_t first_case = 0;  // the number of the case it was reduced from
-    uint64_t count = 0;       // failing cases that it explains
+// A failing case of a hunt that waits for its reduction, and what no entry explains of it, the
+// gravest first.
+struct Waiting {
+    uint64_t number = 0;
+    std::vector<Symptom> symptoms;
 };
 
 struct HuntCounts {
@@ -57,14 +49,6 @@ struct HuntCounts {
     double drawing_seconds = 0, reducing_seconds = 0;
 };
 
-// Draws and judges cases, whose ids differ.
-using Draw = std::function<std::vector<report::CaseRecord>(const std::vector<cases::Case>&)>;
-
-// Makes a case file of one leaf as small as it can be while it shows a symptom. Nothing if it does
-// not show it, or is no case.
-std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
-                                 size_t most_rounds);
-
 // The text of a hunt's case.
 std::string text_of_case(uint64_t seed, uint64_t number);
 
@@ -72,19 +56,28 @@ class Hunt {
   public:
     // Called at least five times a second.
     using OnProgress = std::function<void(const HuntCounts&, size_t entries)>;
+    // `known`: entries of earlier hunts, and of this one if it goes on, as is what waits.
     Hunt(HuntOptions options, run::Session& session, std::vector<Entry> known,
-         OnProgress on_progress);
+         const std::vector<Waiting>& waiting, OnProgress on_progress);
 
     enum class State { goes_on, done, interrupted, failed };
-    // Draws some poses with their geometries, and reduces what is new. `failed`: failure() says
-    // why.
+    // Draws some poses with their geometries, and reduces what is new; draws none while too much
+    // waits for its reduction. Done when the time is over, or, by number, when nothing waits.
+    // `failed`: failure() says why.
     State step();
+    // What is reduced. With waiting() and counts().unrepeated each failing case counts once.
     const std::vector<Entry>& entries() const { return entries_; }
     std::vector<Entry>& entries() { return entries_; }
+    // The failing cases that no entry explains: a hunt that goes on reduces them first.
+    std::vector<Waiting> waiting() const;
+    // Of these the smallest of each gravest symptom, as it was drawn, and how many have it.
+    std::vector<Entry> not_reduced() const;
     const HuntCounts& counts() const { return counts_; }
     const std::string& failure() const { return failure_; }
     // Cases that could not be judged, with the reasons: each is an error of the judge.
     const std::vector<std::pair<std::string, std::string>>& unjudged() const { return unjudged_; }
+    // The texts of cases whose failure did not come again, some of many.
+    const std::vector<std::string>& unrepeated() const { return unrepeated_; }
 
   private:
     struct Made {
@@ -97,19 +90,22 @@ class Hunt {
         uint64_t next_case = 0;
         size_t poses = 0, pairs = 0;
     };
-    // A failing case that no entry explains.
+    // A failing case with symptoms that no entry explains.
     struct Open {
-        Symptom symptom;
+        Waiting waiting;
         std::string text;
-        uint64_t number = 0;
+        std::set<std::string> essentials;
+        std::optional<size_t> entry;  // that explains the gravest symptom of those explained
+        bool is_unrepeated = false;
     };
 
     Chunk make_chunk();
     bool is_over() const;
-    std::optional<Symptom> unexplained(const report::CaseRecord& record,
-                                       const std::set<std::string>& essentials);
-    void reduce_open(std::vector<Open> open);
-    std::optional<Entry> reduce_one(const Open& open);
+    void draw_chunk(Chunk chunk);
+    void explain(Open& open) const;
+    void count(const Open& open);
+    void reduce_open();
+    void reduce_one(Open& open);
     run::Session::Results draw(std::vector<cases::Case> cases);
 
     HuntOptions options_;
@@ -119,10 +115,13 @@ class Hunt {
     uint64_t next_case_ = 0;  // of the generator, which is a chunk ahead
     std::future<Chunk> ahead_;
     std::vector<Entry> entries_;
+    std::vector<Open> open_;
+    bool is_behind_ = false;  // what is open is reduced before another case is drawn
     HuntCounts counts_;
     std::string failure_;
     bool is_interrupted_ = false;
     std::vector<std::pair<std::string, std::string>> unjudged_;
+    std::vector<std::string> unrepeated_;
 };
 
 }  // namespace fuzz

@@ -27,10 +27,19 @@ Json also_of(const Entry& entry) {
     return all;
 }
 
+Json to_json(const Waiting& waiting) {
+    Json symptoms = Json::array();
+    for (const Symptom& symptom : waiting.symptoms) {
+        symptoms.push_back(to_text(symptom));
+    }
+    return {{"case", waiting.number}, {"symptoms", std::move(symptoms)}};
+}
+
 Json to_json(const Entry& entry) {
     return {{"symptom", to_text(entry.symptom)},
             {"file", entry.file},
             {"is_known", entry.is_known},
+            {"is_reduced", entry.is_reduced},
             {"is_minimal", entry.is_minimal},
             {"first_case", entry.first_case},
             {"count", entry.count},
@@ -39,15 +48,31 @@ Json to_json(const Entry& entry) {
             {"also", also_of(entry)}};
 }
 
-// Throws nlohmann's exceptions, which load_ledger() turns into an error.
+// These throw nlohmann's exceptions, which load_ledger() turns into an error.
+Symptom symptom_of(const std::string& text) {
+    const auto parsed = parse_symptom(text);
+    if (!parsed) {
+        throw std::runtime_error("'" + text + "' is no symptom");
+    }
+    return *parsed;
+}
+
+Waiting waiting_of(const Json& json) {
+    Waiting waiting;
+    waiting.number = json.at("case");
+    for (const Json& symptom : json.at("symptoms")) {
+        waiting.symptoms.push_back(symptom_of(symptom.get<std::string>()));
+    }
+    if (waiting.symptoms.empty()) {
+        throw std::runtime_error("a case waits without a symptom");
+    }
+    return waiting;
+}
+
 Entry entry_of(const Json& json, const fs::path& folder) {
     Entry entry;
-    const std::string symptom = json.at("symptom");
-    const auto parsed = parse_symptom(symptom);
-    if (!parsed) {
-        throw std::runtime_error("'" + symptom + "' is no symptom");
-    }
-    entry.symptom = *parsed;
+    entry.symptom = symptom_of(json.at("symptom").get<std::string>());
+    entry.is_reduced = json.at("is_reduced");
     entry.file = json.at("file");
     entry.is_minimal = json.at("is_minimal");
     entry.first_case = json.at("first_case");
@@ -78,6 +103,10 @@ std::string to_json(const Ledger& ledger) {
     for (const Entry& entry : ledger.entries) {
         entries.push_back(to_json(entry));
     }
+    Json waiting = Json::array();
+    for (const Waiting& one : ledger.waiting) {
+        waiting.push_back(to_json(one));
+    }
     const Json json = {{"schema", kSchema},
                        {"tool_version", ledger.tool_version},
                        {"device", cases::printable(ledger.device)},
@@ -103,7 +132,8 @@ std::string to_json(const Ledger& ledger) {
                        {"reduction_cases", c.reduction_cases},
                        {"drawing_seconds", c.drawing_seconds},
                        {"reducing_seconds", c.reducing_seconds},
-                       {"causes", std::move(entries)}};
+                       {"causes", std::move(entries)},
+                       {"waiting", std::move(waiting)}};
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -154,6 +184,9 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
             ledger.entries.push_back(entry_of(entry, folder));
             ledger.entries.back().is_known = entry.at("is_known");
         }
+        for (const Json& waiting : json.at("waiting")) {
+            ledger.waiting.push_back(waiting_of(waiting));
+        }
         return ledger;
     } catch (const std::exception& e) {
         return cases::failure("{} is malformed: {}", file.string(), cases::printable(e.what()));
@@ -164,6 +197,14 @@ std::string found_text(const Entry& entry, const Ledger& ledger) {
     std::string text = fmt::format("# {}, found by 'edgecase fuzz --seed {}' in case {} on {}.\n",
                                    to_text(entry.symptom), ledger.seed, entry.first_case,
                                    cases::printable(ledger.device));
+    if (!entry.shown_first.empty()) {
+        text +=
+            fmt::format("# A run of it tells first what it shows, too: {}.\n", entry.shown_first);
+    }
+    if (!entry.is_reduced) {
+        text += "# Not reduced: the hunt ended before. 'edgecase fuzz --resume' reduces it.\n";
+        return text + entry.text;
+    }
     for (const std::string& need : entry.needs) {
         text += fmt::format("# It passes, or fails otherwise: {}.\n", need);
     }

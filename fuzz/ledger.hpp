@@ -24,7 +24,9 @@ struct Ledger {
     double seconds = 0;
     bool is_finished = false;
     HuntCounts counts;
-    std::vector<Entry> entries;  // with their files' texts, which stand in files of their own
+    // With their files' texts, which stand in files of their own. What is not reduced comes last.
+    std::vector<Entry> entries;
+    std::vector<Waiting> waiting;
 };
 
 inline constexpr const char* kLedgerFile = "fuzz.json";

@@ -153,6 +153,44 @@ OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o,
     return std::monostate{};
 }
 
+// A hunt that goes on has the seed, shard and profile that it began with; where it ends, which
+// device of that name draws and what else is known may be said anew.
+OrStop<std::monostate> check_fuzz(const CLI::App& fuzz, const FuzzOptions& o,
+                                  const std::vector<std::string>& words) {
+    for (const char* name : {"--seed", "--shard", "--profile", "--output", "--print"}) {
+        if (!o.run.resume.empty() && is_given(fuzz, name, words)) {
+            return tl::unexpected(usage_error(
+                "--resume goes on with the seed, shard, profile and folder of the hunt, so " +
+                    std::string(name) + " cannot be given; leave it out or start a new hunt",
+                "fuzz"));
+        }
+    }
+    return std::monostate{};
+}
+
+OrStop<std::monostate> check_expect(const CLI::App& expect, const ExpectOptions& o,
+                                    const std::vector<std::string>& words) {
+    for (const char* name : {"--bits", "--bug", "--reason", "--until", "--dry-run"}) {
+        if (o.update.empty() && is_given(expect, name, words)) {
+            return tl::unexpected(usage_error(
+                std::string(name) + " says how a file is brought up to date; give --update too",
+                "expect"));
+        }
+    }
+    return std::monostate{};
+}
+
+OrStop<std::monostate> check_loudness(const CLI::App& command) {
+    for (const char* name : {"--quiet", "--verbose"}) {
+        const CLI::Option* option = command.get_option_no_throw(name);
+        if (option == nullptr || option->count() == 0) {
+            return std::monostate{};
+        }
+    }
+    return tl::unexpected(
+        usage_error("--quiet and --verbose exclude each other", command.get_name()));
+}
+
 // An algorithm has no driver, so these would be ignored.
 OrStop<std::monostate> check_device(const CLI::App& command, DeviceOptions& o,
                                     const std::vector<std::string>& words) {
@@ -257,10 +295,16 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
             }
         }
     }
-    if (first == "run") {
-        if (const auto checked = check_run(*command, all.run, words); !checked) {
-            return tl::unexpected(checked.error());
-        }
+    OrStop<std::monostate> checked = check_loudness(*command);
+    if (checked && first == "run") {
+        checked = check_run(*command, all.run, words);
+    } else if (checked && first == "fuzz") {
+        checked = check_fuzz(*command, all.fuzz, words);
+    } else if (checked && first == "expect") {
+        checked = check_expect(*command, all.expect, words);
+    }
+    if (!checked) {
+        return tl::unexpected(checked.error());
     }
     return first;
 }

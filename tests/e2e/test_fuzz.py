@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import time
+import tomllib
 import unittest
 
 import jsonschema
@@ -19,6 +20,10 @@ class FuzzTest(ProgramTest):
 
     def ledger(self, folder="hunt"):
         return json.loads((self.folder / folder / "fuzz.json").read_text())
+
+    def accounted(self, ledger):
+        """Each failing case counts once: in a cause, in one that is not reduced, or as one that did not come again."""
+        return sum(c["count"] for c in ledger["causes"]) + ledger["unrepeated_failures"]
 
     def found(self, folder="hunt"):
         return {p.name: p.read_text() for p in (self.folder / folder / "found").glob("*.toml")}
@@ -40,6 +45,8 @@ class Hunts(FuzzTest):
         # One entry a cause, not one a failing case.
         self.assertLess(len(ledger["causes"]), 16, done.stdout)
         self.assertGreater(ledger["failed_cases"], 50)
+        self.assertEqual(ledger["waiting"], [])
+        self.assertEqual(self.accounted(ledger), ledger["failed_cases"])
         self.assertEqual(len(found), len(ledger["causes"]))
         for cause in ledger["causes"]:
             path = self.folder / "hunt" / cause["file"]
@@ -95,9 +102,45 @@ class Hunts(FuzzTest):
         causes = self.ledger()["causes"]
         self.assertEqual([c["symptom"] for c in causes], ["crash by SIGSEGV"])
         self.assertEqual(causes[0]["essentials"], [])
-        # A death that does not come again in the reduced case is no cause that can be kept.
-        self.fuzz("--cases=128", fault="segv@77", out=self.folder / "one")
+        # A death that does not come again when the case is drawn alone is no cause, but the case is kept.
+        done = self.fuzz("--cases=128", fault="segv@77", out=self.folder / "one", check=1)
         self.assertNotIn("crash by SIGSEGV", [c["symptom"] for c in self.ledger("one")["causes"]])
+        self.assertEqual(self.ledger("one")["unrepeated_failures"], 1)
+        self.assertIn("did not come again when drawn alone: 1 failing case; see ", done.stdout)
+        self.assertEqual((self.folder / "one/unrepeated-1.toml").read_text(), self.edgecase("fuzz", "--print=77").stdout)
+
+    def test_what_waits_when_time_ends_is_kept(self):
+        """The time is over before the first reduction: nothing of what failed is lost."""
+        done = self.fuzz("--time=0.001s", fault="flip-pixel@*", check=1)
+        ledger, found = self.ledger(), self.found()
+        jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
+        self.assertEqual(ledger["reductions"], 0)
+        self.assertGreater(ledger["failed_cases"], 100)
+        self.assertEqual(len(ledger["waiting"]), ledger["failed_cases"])
+        self.assertEqual(self.accounted(ledger), ledger["failed_cases"])
+        self.assertIn(f"not reduced, and explained by no cause: {ledger['failed_cases']} failing cases; go on with", done.stdout)
+        self.assertEqual(sorted(found), sorted(c["file"].removeprefix("found/") for c in ledger["causes"]))
+        self.assertEqual(len({c["symptom"] for c in ledger["causes"]}), len(found))
+        for cause in ledger["causes"]:
+            self.assertFalse(cause["is_reduced"])
+            text = (self.folder / "hunt" / cause["file"]).read_text()
+            self.assertIn("\n# Not reduced: the hunt ended before.", text)
+            self.assertIn(f"FOUND {cause['symptom']}, not reduced\n", done.stdout)
+            # As it was drawn, but for what says what was shown.
+            drawn = tomllib.loads(self.edgecase("fuzz", f"--print={cause['first_case']}").stdout)
+            kept = tomllib.loads(text)
+            for key in ("description", "rules"):
+                kept.pop(key, None), drawn.pop(key, None)
+            self.assertEqual(kept, drawn)
+        # What is not reduced is not known to another hunt, and one that goes on reduces it first.
+        self.fuzz("--time=0.001s", "--known", self.folder / "hunt", fault="flip-pixel@*", out=self.folder / "b", check=1)
+        self.assertFalse([c for c in self.ledger("b")["causes"] if c["is_known"]])
+        done = self.edgecase("fuzz", "--resume", "hunt", "--cases", str(ledger["next_case"]), fault="flip-pixel@*", check=1)
+        after = self.ledger()
+        self.assertEqual((after["waiting"], after["next_case"]), ([], ledger["next_case"]))
+        self.assertTrue(all(c["is_reduced"] for c in after["causes"]))
+        self.assertEqual(self.accounted(after), ledger["failed_cases"])
+        self.assertFalse([name for name in self.found() if name.startswith("not-reduced")])
 
     def test_an_interrupted_hunt_goes_on(self):
         program = subprocess.Popen([PROGRAM, "fuzz", "-o", "hunt"], cwd=self.folder,
@@ -144,6 +187,11 @@ class WrongInput(FuzzTest):
         self.refused(["ties/**"], "ties/**")
         self.refused(["--renderer", "referenc"], "referenc")
         self.refused(["--icd", "/nowhere.json"], "/nowhere.json", 5)
+
+    def test_a_hunt_that_goes_on_cannot_change(self):
+        for words in (["--seed", "3"], ["--shard", "1/2"], ["--profile", "vulkan"], ["-o", "other"], ["--print", "7"]):
+            name = {"-o": "--output"}.get(words[0], words[0])
+            self.refused(["--resume", "hunt", *words], f"so {name} cannot be given; leave it out or start a new hunt")
 
     def test_folders(self):
         self.refused(["--resume", "nothing"], "'nothing' is not the folder of a hunt", 3)

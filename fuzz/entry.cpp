@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/entry.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "cases/load/loader.hpp"
+#include "cases/model/rule.hpp"
+#include "fuzz/document/document.hpp"
+#include "fuzz/reduce/reduce.hpp"
+#include "ref/exercise/exercise.hpp"
+#include "ref/expectation/expectation.hpp"
+
+namespace fuzz {
+
+using report::CaseRecord;
+using report::Status;
+
+namespace {
+
+// Whether some sample must be covered at every profile, as a suite's cases want it.
+bool can_fail_everywhere(const cases::Case& c) {
+    return c.blit || ref::expect(c, ref::Limits{}, cases::Profile::vulkan).must_samples > 0;
+}
+
+diff::FindingKind sort_of(diff::FindingKind kind) {
+    return kind == diff::FindingKind::double_hit ? diff::FindingKind::extra : kind;
+}
+
+// The case as a file that can go into a suite: what it shows is what it claims, if lint agrees,
+// else some rule that it does exercise.
+Document described(Document document, const Symptom& symptom) {
+    set(document, "description", text("A device showed here: " + to_text(symptom) + "."));
+    const std::optional<cases::Case> c = load_one(to_text(document), "described");
+    if (!c) {
+        return document;
+    }
+    std::vector<std::string> rules;
+    for (const cases::Rule& rule : cases::all_rules()) {
+        rules.emplace_back(rule.id);
+    }
+    std::stable_partition(rules.begin(), rules.end(),
+                          [&](const std::string& rule) { return rule == symptom.rule; });
+    for (const ref::RuleShare& share :
+         ref::exercise(*c, ref::Limits{}, rules, ref::Count::some).rules) {
+        if (share.samples > 0) {
+            set(document, "rules", list({text(std::string(share.rule))}));
+            break;
+        }
+    }
+    return document;
+}
+
+}  // namespace
+
+std::optional<cases::Case> load_one(const std::string& text, const std::string& id) {
+    auto loaded = cases::load_text(text, "fuzz", id);
+    if (!loaded || loaded->size() != 1) {
+        return std::nullopt;
+    }
+    return std::move(loaded->front());
+}
+
+std::set<std::string> essentials_of(const std::string& text) {
+    const auto document = cases::read_toml(text, "fuzz");
+    return document ? essentials(*document) : std::set<std::string>();
+}
+
+std::vector<Symptom> symptoms_of(const CaseRecord& record) {
+    std::vector<Symptom> all;
+    const std::optional<Symptom> gravest = symptom_of(record);
+    if (!gravest || gravest->status != Status::fail) {
+        return gravest ? std::vector<Symptom>{*gravest} : all;
+    }
+    for (const diff::FindingGroup& group : record.groups) {
+        const auto like = std::find_if(all.begin(), all.end(), [&](const Symptom& s) {
+            return s.kind == group.kind && s.rule == group.rule;
+        });
+        if (like == all.end()) {
+            all.push_back({Status::fail, group.kind, group.rule, group.level, {}});
+        } else {
+            like->level = std::min(like->level, group.level);
+        }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Symptom& a, const Symptom& b) { return a.level < b.level; });
+    return all;
+}
+
+std::string described(const std::string& text, const Symptom& symptom) {
+    const auto document = cases::read_toml(text, "drawn");
+    return document ? to_text(described(*document, symptom)) : text;
+}
+
+bool explains(const Entry& entry, const Symptom& symptom,
+              const std::set<std::string>& of_the_case) {
+    if (!std::includes(of_the_case.begin(), of_the_case.end(), entry.essentials.begin(),
+                       entry.essentials.end())) {
+        return false;
+    }
+    if (symptom.status != Status::fail || entry.symptom.status != Status::fail) {
+        return entry.symptom.status == symptom.status && entry.symptom.signal == symptom.signal;
+    }
+    // What breaks a looser profile than the entry does is news.
+    if (entry.symptom.level > symptom.level) {
+        return false;
+    }
+    // By which rule a sample is missing depends on the triangle that misses it, and whether one hit
+    // too many is the only one on what else is drawn there: where the case has something special to
+    // blame, too few or too many is enough.
+    const bool is_value = symptom.kind == diff::FindingKind::value;
+    return std::any_of(entry.also.begin(), entry.also.end(), [&](const auto& known) {
+        return is_value || entry.essentials.empty() ? known == std::pair(symptom.kind, symptom.rule)
+                                                    : sort_of(known.first) == sort_of(symptom.kind);
+    });
+}
+
+std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
+                                 size_t most_rounds) {
+    const auto document = cases::read_toml(text, "reduced");
+    const std::optional<cases::Case> original = load_one(text, "original");
+    if (!document || !original) {
+        return std::nullopt;
+    }
+    const bool is_sound = can_fail_everywhere(*original);
+    std::optional<CaseRecord> last;  // of the smallest text that shows it
+    std::string last_text;
+    const Shows shown = [&](const std::vector<std::string>& texts) {
+        std::vector<bool> out(texts.size(), false);
+        std::vector<cases::Case> cases;
+        std::vector<size_t> of;
+        for (size_t k = 0; k < texts.size(); ++k) {
+            if (std::optional<cases::Case> c = load_one(texts[k], std::to_string(k))) {
+                cases.push_back(std::move(*c));
+                of.push_back(k);
+            }
+        }
+        if (cases.empty()) {
+            return out;
+        }
+        const std::vector<CaseRecord> records = draw(cases);
+        for (size_t k = 0; k < of.size(); ++k) {
+            out[of[k]] = shows(records[k], symptom) && (!is_sound || can_fail_everywhere(cases[k]));
+            if (out[of[k]] && (!last || texts[of[k]].size() <= last_text.size())) {
+                last = records[k];
+                last_text = texts[of[k]];
+            }
+        }
+        return out;
+    };
+    if (!shown({to_text(*document)}).front()) {
+        return std::nullopt;
+    }
+    ReduceOptions options;
+    options.most_rounds = most_rounds;
+    const Reduced reduced = reduce(*document, shown, options);
+    Entry entry;
+    entry.symptom = symptom;
+    // What the reducer brought in, as a constant for values, is no need of the cause.
+    const std::set<std::string> before = essentials(*document);
+    const std::set<std::string> after = essentials(reduced.document);
+    std::set_intersection(after.begin(), after.end(), before.begin(), before.end(),
+                          std::inserter(entry.essentials, entry.essentials.end()));
+    entry.text = to_text(described(reduced.document, symptom));
+    if (const auto c = load_one(entry.text, "reduced"); c && !can_fail_everywhere(*c)) {
+        entry.text =
+            "# At profile vulkan no sample must be covered: a suite wants one triangle more.\n" +
+            entry.text;
+    }
+    entry.needs = reduced.needs;
+    entry.is_minimal = reduced.is_minimal;
+    entry.count = 1;
+    entry.also.insert({symptom.kind, symptom.rule});
+    if (last && !last->findings.empty()) {
+        // A run's line begins with the first finding of the gravest level.
+        const diff::Finding& leading =
+            *std::min_element(last->findings.begin(), last->findings.end(),
+                              [](const auto& a, const auto& b) { return a.level < b.level; });
+        const Symptom first{Status::fail, leading.kind, leading.rule, leading.level, {}};
+        entry.shown_first = first == symptom ? "" : to_text(first);
+    }
+    for (const Symptom& other : last ? symptoms_of(*last) : std::vector<Symptom>()) {
+        entry.also.insert({other.kind, other.rule});
+    }
+    return entry;
+}
+
+}  // namespace fuzz

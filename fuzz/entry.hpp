@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One cause of a hunt, with the smallest case that shows it, and which failures it explains.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cases/model/case.hpp"
+#include "fuzz/cause.hpp"
+
+namespace fuzz {
+
+// One cause: the smallest case that shows it, and how often it was met.
+struct Entry {
+    Symptom symptom;
+    std::set<std::string> essentials;  // of the reduced case that the failing one had
+    // What else the reduced case breaks: in a case with the same essentials that is no news.
+    std::set<std::pair<diff::FindingKind, std::string>> also;
+    std::string text;                // of the reduced case
+    std::vector<std::string> needs;  // "not with 1 sample": the nearest cases that pass
+    std::string shown_first;         // what a run of the text leads with, if not with the symptom
+    bool is_reduced = true;          // false: the text is as it was drawn, and explains no other
+    bool is_minimal = false;
+    bool is_known = false;    // from an earlier hunt
+    std::string file;         // where it is kept; filled in by whoever keeps it
+    uint64_t first_case = 0;  // the number of the case it was reduced from
+    uint64_t count = 0;       // failing cases that it explains
+};
+
+// Draws and judges cases, whose ids differ.
+using Draw = std::function<std::vector<report::CaseRecord>(const std::vector<cases::Case>&)>;
+
+// Makes a case file of one leaf as small as it can be while it shows a symptom. Nothing if it does
+// not show it, or is no case.
+std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
+                                 size_t most_rounds);
+
+// A case's text with a description of what it shows and a rule that it exercises, if there is one.
+std::string described(const std::string& text, const Symptom& symptom);
+
+// Whether an entry explains that a case with these essentials shows a symptom.
+bool explains(const Entry& entry, const Symptom& symptom,
+              const std::set<std::string>& of_the_case);
+
+// All that a record shows, each in the gravest way, the gravest first.
+std::vector<Symptom> symptoms_of(const report::CaseRecord& record);
+
+// essentials() of a case file's text; nothing if it is no TOML.
+std::set<std::string> essentials_of(const std::string& text);
+
+// The case of a text with one leaf; nothing if it is no such text.
+std::optional<cases::Case> load_one(const std::string& text, const std::string& id);
+
+}  // namespace fuzz
