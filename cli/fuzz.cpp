@@ -176,13 +176,16 @@ class FuzzCommand {
                     stop_with(report::kExitInvalidFile, "--known: " + loaded.error().message));
             }
             for (Entry& entry : loaded->entries) {
-                if (!entry.is_reduced) {
-                    continue;  // it would explain next to nothing
-                }
                 entry.is_known = true;
                 entry.count = 0;
                 entry.file = (fs::absolute(known) / entry.file).lexically_normal().string();
-                ledger_.entries.push_back(std::move(entry));
+                // What is not reduced explains next to nothing. Hunts that know the same third one
+                // each bring its causes.
+                if (entry.is_reduced &&
+                    std::none_of(ledger_.entries.begin(), ledger_.entries.end(),
+                                 [&](const Entry& e) { return e.file == entry.file; })) {
+                    ledger_.entries.push_back(std::move(entry));
+                }
             }
         }
         return std::monostate{};

@@ -46,8 +46,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
 std::string described(const std::string& text, const Symptom& symptom);
 
 // Whether an entry explains that a case with these essentials shows a symptom.
-bool explains(const Entry& entry, const Symptom& symptom,
-              const std::set<std::string>& of_the_case);
+bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& of_the_case);
 
 // All that a record shows, each in the gravest way, the gravest first.
 std::vector<Symptom> symptoms_of(const report::CaseRecord& record);

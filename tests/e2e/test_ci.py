@@ -309,7 +309,7 @@ class OneJob(CiTest):
         variables = flow["env"] | {"GITHUB_ACTIONS": "true", "GITHUB_WORKSPACE": str(self.folder),
                                    "GITHUB_STEP_SUMMARY": str(self.folder / "summary.md")}
         caches = [s["with"]["path"] for s in job["steps"] if s.get("uses", "").startswith("actions/cache")]
-        self.assertEqual(caches, ["edgecase", "edgecase-ccache"])
+        self.assertEqual(caches, ["edgecase", "edgecase-ccache", "edgecase", "edgecase-ccache"])
         for fault, code, cached in (("", 0, False), ("flip-pixel@fam/c1", 1, True)):
             for step in job["steps"]:
                 if cached and "cache-hit" in str(step.get("if")):
@@ -323,6 +323,36 @@ class OneJob(CiTest):
             self.assertEqual(sorted(self.statuses(self.folder / "out/edgecase").values()), ["fail"] * code + ["pass"] * (10 - code))
         self.assertEqual(done.stdout.count("::error file=cases/suite/fam/c1.toml"), 1)
         self.assertIn("exit 1", (self.folder / "summary.md").read_text())
+
+    def test_caches_are_kept_although_the_job_fails(self):
+        """actions/cache alone saves after a success only; what a failing step leaves is saved before it or always."""
+        for name in ("github-actions", "github-actions-fuzz"):
+            flow = yaml.safe_load((SOURCE / f"docs/ci/{name}.yml").read_text())
+            [job] = flow["jobs"].values()
+            uses = [step.get("uses", "") for step in job["steps"]]
+            self.assertFalse([word for word in uses if word.startswith("actions/cache@")], name)
+            [fails] = [k for k, step in enumerate(job["steps"]) if re.search(r"bin/edgecase (run|fuzz)", step.get("run", ""))]
+            of = {word: [(k, step) for k, step in enumerate(job["steps"]) if step.get("uses", "") == f"actions/cache/{word}@v4"]
+                  for word in ("restore", "save")}
+            self.assertEqual([(s["with"]["path"], s["with"]["key"]) for _, s in of["restore"]],
+                             [(s["with"]["path"], s["with"]["key"]) for _, s in of["save"]], name)
+            for k, step in of["save"]:
+                self.assertTrue(k < fails or "always()" in step["if"], step)
+        [job] = yaml.safe_load((SOURCE / "docs/ci/gitlab-ci.yml").read_text()).values()
+        self.assertEqual([c["when"] for c in job["cache"]], ["always", "always"])
+
+    def test_hunts_of_one_day(self):
+        """A second hunt on a day has a folder of its own, and knows what the first one found."""
+        flow = yaml.safe_load((SOURCE / "docs/ci/github-actions-fuzz.yml").read_text())
+        [job] = flow["jobs"].values()
+        (self.folder / "edgecase").symlink_to(self.BUILD)
+        self.assertEqual(self.shell("./build-my-driver", {}, "").returncode, 0)
+        [hunt] = [s["run"] for s in job["steps"] if "edgecase fuzz" in s.get("run", "")]
+        for number, attempt in ((7, 1), (7, 2), (8, 1)):
+            done = self.shell(hunt, flow["env"] | {"SHARD": "1", "HUNT_TIME": "0.001s", "GITHUB_RUN_ID": str(number),
+                                                   "GITHUB_RUN_ATTEMPT": str(attempt)}, "flip-pixel@*")
+            self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+            self.assertTrue((self.folder / f"hunts/{number}-{attempt}/fuzz.json").exists())
 
     def test_gitlab(self):
         [job] = yaml.safe_load((SOURCE / "docs/ci/gitlab-ci.yml").read_text()).values()

@@ -68,6 +68,11 @@ class Hunts(FuzzTest):
         self.assertLess(len(fresh), len(found) / 2, done.stdout)
         self.assertFalse(known & {(c["symptom"], *c["essentials"]) for c in fresh}, done.stdout)
         self.assertGreater(sum(c["count"] for c in again if c["is_known"]), 50)
+        # Two hunts that know a third one bring its causes once.
+        self.fuzz("--cases=128", "--known", self.folder / "hunt", "--known", self.folder / "again", out=self.folder / "third")
+        files = [c["file"] for c in self.ledger("third")["causes"] if c["is_known"]]
+        self.assertEqual(len(files), len(set(files)))
+        self.assertEqual(len(files), len(again))
 
     def test_a_planted_fault(self):
         """Known defects of the driver hide none."""
