@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "cases/base/parallel.hpp"
 #include "cases/model/sample.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/hypothesis.hpp"
@@ -22,7 +23,8 @@ namespace {
 using report::CaseRecord;
 using report::Diagnosis;
 
-constexpr uint64_t kMaxCost = 1U << 14U;  // of a subject: samples and vertices
+constexpr uint64_t kMaxCost = 1U << 14U;      // of a subject: samples and vertices
+constexpr uint64_t kMaxSeedCost = 1U << 14U;  // of all seeds: some seconds of one core
 
 uint64_t cost_of(const cases::Case& c) {
     uint64_t cost = uint64_t{c.target.width} * c.target.rows() * c.target.samples;
@@ -150,11 +152,14 @@ class Diagnoser {
         answers_.assign(known_.size(), std::vector<std::optional<Answer>>(subjects_.size()));
         std::vector<bool> is_explained(subjects_.size());
         size_t seeds = 0;
+        uint64_t cost = 0;
         for (size_t s = 0; s < subjects_.size() && seeds < kMaxSeeds; ++s) {
-            if (is_explained[s]) {
+            const uint64_t more = cost_of(*subjects_[s].data);
+            if (is_explained[s] || cost + more > kMaxSeedCost) {
                 continue;
             }
             ++seeds;
+            cost += more;
             const std::vector<Tally> best = best_for(s);
             if (best.empty()) {
                 continue;
@@ -230,15 +235,17 @@ class Diagnoser {
 
     // The plausible hypotheses that explain subject `seed` and most others, all that are alike.
     std::vector<Tally> best_for(size_t seed) {
+        std::vector<uint8_t> is_candidate(known_.size());
+        cases::for_each_index(known_.size(),
+                              [&](size_t h) { is_candidate[h] = explains(h, seed) ? 1 : 0; });
         std::vector<Tally> plausible;
         for (size_t h = 0; h < known_.size(); ++h) {
-            if (!explains(h, seed)) {
+            if (is_candidate[h] == 0) {
                 continue;
             }
-            Tally tally{h, {}, 0, 0};
-            for (size_t k = 0; k < subjects_.size(); ++k) {
-                tally.answers.push_back(ask(h, k));
-            }
+            Tally tally{h, std::vector<Answer>(subjects_.size()), 0, 0};
+            cases::for_each_index(subjects_.size(),
+                                  [&](size_t k) { tally.answers[k] = ask(h, k); });
             if (tally.is_plausible()) {
                 plausible.push_back(std::move(tally));
             }
