@@ -109,35 +109,6 @@ std::vector<std::string> unknown_folders(const fs::path& captures,
     return {unknown.begin(), unknown.end()};
 }
 
-OrStop<std::monostate> check_captures(const DiffOptions& options,
-                                      const std::vector<std::string>& ids) {
-    std::error_code ignored;
-    if (!fs::is_directory(options.captures, ignored)) {
-        return tl::unexpected(stop_with(report::kExitInvalidFile,
-                                        "--captures '" + options.captures +
-                                            "' is no folder; name the one with the planes that "
-                                            "were rendered"));
-    }
-    const std::vector<std::string> unknown = unknown_folders(options.captures, ids);
-    if (unknown.empty()) {
-        return std::monostate{};
-    }
-    std::vector<std::string> folders;
-    for (const std::string& id : ids) {
-        folders.push_back(capture::folder_of(id));
-    }
-    const std::string more =
-        unknown.size() == 1 ? "" : " and " + std::to_string(unknown.size() - 1) + " more";
-    return tl::unexpected(stop_with(
-        report::kExitInvalidFile,
-        "'" + cases::printable((fs::path(options.captures) / unknown.front()).string()) + "'" +
-            more + (more.empty() ? " belongs" : " belong") + " to no case of the suite" +
-            cases::did_you_mean(unknown.front(), folders,
-                                "; folders have the names that 'edgecase export' writes, and cases "
-                                "of your own are known by --exported DIR or by their file or "
-                                "folder, as there")));
-}
-
 // The cases of an export, by its list.
 OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
     const fs::path file = folder / "index.json";
@@ -158,6 +129,41 @@ OrStop<std::set<std::string>> exported_ids(const fs::path& folder) {
                                     "'" + cases::printable(file.string()) +
                                         "' is no list of exported cases; name the folder that "
                                         "'edgecase export' wrote"));
+}
+
+OrStop<std::monostate> check_captures(const DiffOptions& options,
+                                      const std::vector<std::string>& ids) {
+    std::error_code ignored;
+    if (!fs::is_directory(options.captures, ignored)) {
+        return tl::unexpected(stop_with(report::kExitInvalidFile,
+                                        "--captures '" + options.captures +
+                                            "' is no folder; name the one with the planes that "
+                                            "were rendered"));
+    }
+    if (!options.exported.empty()) {
+        // Without its list, cases of one's own would be told to be unknown.
+        if (const auto listed = exported_ids(options.exported); !listed) {
+            return tl::unexpected(listed.error());
+        }
+    }
+    const std::vector<std::string> unknown = unknown_folders(options.captures, ids);
+    if (unknown.empty()) {
+        return std::monostate{};
+    }
+    std::vector<std::string> folders;
+    for (const std::string& id : ids) {
+        folders.push_back(capture::folder_of(id));
+    }
+    const std::string more =
+        unknown.size() == 1 ? "" : " and " + std::to_string(unknown.size() - 1) + " more";
+    return tl::unexpected(stop_with(
+        report::kExitInvalidFile,
+        "'" + cases::printable((fs::path(options.captures) / unknown.front()).string()) + "'" +
+            more + (more.empty() ? " belongs" : " belong") + " to no case of the suite" +
+            cases::did_you_mean(unknown.front(), folders,
+                                "; folders have the names that 'edgecase export' writes, and cases "
+                                "of your own are known by --exported DIR or by their file or "
+                                "folder, as there")));
 }
 
 // Without selectors, what was exported or drawn is judged; the sentence says so.

@@ -44,6 +44,15 @@ struct Checked {
     ref::Exercise exercise;
 };
 
+// Whether each fragment that must be drawn fails a depth test: without the tests some sample must
+// be covered.
+bool fails_every_depth_test(cases::Case c, cases::Profile profile) {
+    for (cases::Draw& draw : c.draws) {
+        draw.depth.compare = cases::CompareOp::always;
+    }
+    return ref::expect(c, ref::Limits{}, profile).must_samples > 0;
+}
+
 // What is wrong with one case beyond its file's form: its picture, its rules, its control samples.
 cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
     cases::Errors errors;
@@ -59,6 +68,15 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
         return errors;  // the loader refuses empty regions
     }
     for (const cases::Profile profile : cases::kProfiles) {
+        if (exercise.must_samples.at(static_cast<size_t>(profile)) == 0 &&
+            fails_every_depth_test(c, profile)) {
+            errors.push_back(
+                {c.where, fmt::format("{}: at profile {} every fragment fails the depth test, so a "
+                                      "device that draws nothing would pass; depth is cleared to "
+                                      "{}: choose another depth_clear or compare",
+                                      c.id, cases::to_string(profile), c.target.depth_clear)});
+            return errors;
+        }
         if (exercise.must_samples.at(static_cast<size_t>(profile)) == 0) {
             errors.push_back(
                 {c.where, c.id + ": at profile " + std::string(cases::to_string(profile)) +
@@ -164,10 +182,6 @@ void tell(const cases::Case& c, const ref::Exercise& exercise) {
 }  // namespace
 
 int lint_command(const Program& program, const LintOptions& options) {
-    if (options.quiet && options.verbose) {
-        return report_stop(
-            {report::kExitUsage, {"-q and -v contradict each other; leave one out"}});
-    }
     if (options.strength && options.suite.selectors.empty()) {
         return report_stop({report::kExitUsage,
                             {"--strength draws each case with each fault, which takes long for a "

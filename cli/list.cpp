@@ -11,6 +11,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
+#include "cases/model/rule_hint.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/explain_text.hpp"
@@ -123,14 +124,9 @@ namespace {
 int explain_rule(const Program& program, const ExplainOptions& options) {
     const cases::Rule* rule = cases::find_rule(options.rule);
     if (rule == nullptr) {
-        std::vector<std::string> names;
-        for (const cases::Rule& known : cases::all_rules()) {
-            names.emplace_back(known.id);
-        }
         return report_stop(
             {report::kExitNothingSelected,
-             {"there is no rule '" + options.rule + "'" +
-              cases::did_you_mean(options.rule, names, "; docs/rules.md lists them")}});
+             {"there is no rule '" + options.rule + "'; " + cases::rule_hint(options.rule, '\'')}});
     }
     const OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
     if (!suite) {

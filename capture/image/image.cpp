@@ -41,7 +41,8 @@ cases::Expected<std::filesystem::path> find_module() {
     }
     return cases::failure(
         "image files need the module {}, which is neither in {} nor in {}; "
-        "build the target edgecase_image_io or set {} to its path",
+        "get it by 'sudo apt install libopenimageio-dev && scripts/build release', or set {} to "
+        "its path",
         kModule, (dir.parent_path() / "lib").string(), dir.string(), kVariable);
 }
 

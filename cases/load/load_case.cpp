@@ -12,6 +12,7 @@
 #include "cases/load/matrix.hpp"
 #include "cases/load/parts.hpp"
 #include "cases/model/rule.hpp"
+#include "cases/model/rule_hint.hpp"
 #include "cases/model/selector.hpp"
 #include "cases/toml/field_reader.hpp"
 #include "cases/toml/toml_reader.hpp"
@@ -97,18 +98,8 @@ class CaseLoader {
                 continue;
             }
             if (find_rule(*id) == nullptr) {
-                std::vector<std::string> known;
-                for (const Rule& rule : all_rules()) {
-                    known.emplace_back(rule.id);
-                }
-                const std::string nearest = nearest_name(*id, known);
-                context_.error(element.where,
-                               nearest.empty()
-                                   ? fmt::format("no rule is called \"{}\"; docs/rules.md lists "
-                                                 "all",
-                                                 *id)
-                                   : fmt::format("no rule is called \"{}\"; did you mean \"{}\"?",
-                                                 *id, nearest));
+                context_.error(element.where, fmt::format("no rule is called \"{}\"; {}", *id,
+                                                          rule_hint(*id, '"')));
             } else if (std::find(c_.rules.begin(), c_.rules.end(), *id) != c_.rules.end()) {
                 context_.error(element.where, fmt::format("the rule \"{}\" stands twice", *id));
             } else {

@@ -201,8 +201,10 @@ std::optional<size_t> LeafContext::word(const TomlValue& value, const std::strin
     }
     const std::string nearest =
         nearest_name(shown, std::vector<std::string>(words.begin(), words.end()));
+    // Who writes "perspective" does not mean "noperspective".
+    const bool is_opposite = nearest == "no" + shown;
     error(value.where,
-          nearest.empty()
+          nearest.empty() || is_opposite
               ? fmt::format("{} is \"{}\"; write {}", what, shown, alternatives(words))
               : fmt::format("{} is \"{}\"; did you mean \"{}\"?", what, shown, nearest));
     return std::nullopt;

@@ -188,7 +188,7 @@ OrStop<std::monostate> check_loudness(const CLI::App& command) {
         }
     }
     return tl::unexpected(
-        usage_error("--quiet and --verbose exclude each other", command.get_name()));
+        Stop{report::kExitUsage, {"-q and -v contradict each other; leave one out"}});
 }
 
 // An algorithm has no driver, so these would be ignored.

@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "cases/model/rule.hpp"
 #include "cases/model/rule_ids.hpp"
+#include "cases/toml/toml_reader.hpp"
 #include "cli/prepare/on_threads.hpp"
 
 namespace cli {
@@ -26,6 +29,21 @@ std::string_view condition_of(const std::string& rule) {
 }
 
 }  // namespace
+
+cases::SourceLocation rule_place(const cases::Case& c, std::string_view rule) {
+    std::ifstream in(c.where.file, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const auto document = cases::read_toml(text, c.where.file);
+    const cases::TomlValue* const rules = document ? document->find("rules") : nullptr;
+    if (rules != nullptr) {
+        for (const cases::TomlValue& element : rules->array) {
+            if (element.string == rule) {
+                return element.where;
+            }
+        }
+    }
+    return c.where;
+}
 
 std::vector<std::string> ClaimedFile::open_rules() const {
     std::vector<std::string> out;
@@ -87,7 +105,7 @@ cases::Errors check_claims(const std::vector<cases::Case>& all,
             if (cases::find_rule(rule) == nullptr) {
                 continue;  // an error of its own
             }
-            errors.push_back({file->first->where,
+            errors.push_back({rule_place(*file->first, rule),
                               fmt::format("no sample exercises the rule {}; one does {}, so take "
                                           "the rule away or add a triangle{}",
                                           rule, ref::exercise_of(rule), condition_of(rule))});

@@ -29,6 +29,9 @@ struct ClaimedFile {
     void note(const ref::Exercise& found);
 };
 
+// Where the case's file claims the rule; the case's place if that cannot be told. Reads the file.
+cases::SourceLocation rule_place(const cases::Case& c, std::string_view rule);
+
 // The files of the chosen cases (indices into `all`), by name. `all` stays where it is.
 std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>& all,
                                                  const std::vector<size_t>& chosen);

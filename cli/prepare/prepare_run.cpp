@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/prepare/prepare_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <set>
 
 #include "cases/base/checksum.hpp"
+#include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/prepare/claims.hpp"
@@ -43,9 +46,17 @@ void warn_of_idle_faults(const std::vector<std::string>& ids) {
 // So many cases of a file of one's own are looked at before they are drawn.
 constexpr size_t kFewOwnCases = 64;
 
+void warn(cases::Error error) {
+    if (error.where.line != 0) {
+        error.where.file += fmt::format(":{}:{}", error.where.line, error.where.column);
+    }
+    complain("warning: " + error.where.file + ": " + error.message);
+}
+
 // A claim that no sample of one's own file exercises passes on every device; 'lint' refuses it, and
-// who only runs the file hears of it, too.
-void warn_of_claims(const std::vector<cases::Case>& selected, const SuiteOptions& suite) {
+// who only runs the file hears of it, too; and of a claim that the run's profile does not judge.
+void warn_of_claims(const std::vector<cases::Case>& selected, const SuiteOptions& suite,
+                    cases::Profile profile) {
     const std::set<std::string> named(suite.selectors.begin(), suite.selectors.end());
     std::vector<size_t> own;
     for (size_t k = 0; k < selected.size(); ++k) {
@@ -68,7 +79,18 @@ void warn_of_claims(const std::vector<cases::Case>& selected, const SuiteOptions
         }
     }
     for (const cases::Error& error : check_claims(selected, files)) {
-        complain("warning: " + error.where.file + ": " + error.message);
+        warn(error);
+    }
+    for (const auto& [name, file] : files) {
+        for (const std::string& id : file.first->rules) {
+            const cases::Rule* const rule = cases::find_rule(id);
+            if (rule != nullptr && rule->profile > profile) {
+                warn({rule_place(*file.first, id),
+                      fmt::format("the rule {} is judged at profile {}, and this run is at {}: it "
+                                  "says nothing of it",
+                                  id, cases::to_string(rule->profile), cases::to_string(profile))});
+            }
+        }
     }
 }
 
@@ -152,7 +174,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     p.options = options;
     p.selection = std::move(*selection);
     warn_of_idle_faults(p.selection.suite_ids);
-    warn_of_claims(p.selection.cases, options.suite);
+    warn_of_claims(p.selection.cases, options.suite, options.profile);
     Run& header = p.header = new_header(program, options, p.selection.root);
     header.suite_hash = cases::hex(suite_hash(p.selection.root));
     header.shard = options.shard.index;

@@ -147,6 +147,11 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
         }
         for (cases::Case& c : *loaded) {
             if (const std::string known = file_of_id(suite, c.id); !known.empty()) {
+                if (known == c.where.file) {
+                    return tl::unexpected(
+                        Stop{report::kExitUsage,
+                             {"the file " + known + " is named twice; name it once"}});
+                }
                 return tl::unexpected(
                     Stop{report::kExitInvalidFile,
                          {c.where.file + ": error: its id '" + c.id + "' is already that of " +

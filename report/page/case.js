@@ -62,7 +62,7 @@ function findingsSection(page) {
     const row = el("tr", {class: "pick", tabIndex: 0, onclick: () => page.pin(f), onkeydown: (event) => {
       if (event.key === "Enter") { page.pin(f); }
     }}, el("td", {class: "number whole"}, pixelName((record.pictures || {}).layer_height, f.x, f.y) + (f.sample ? " s" + f.sample : "")), el("td", {}, f.kind), el("td", {}, ruleLink(f.rule)), el("td", {}, levelTag(f.level)),
-    el("td", {class: "number", "data-label": "expected"}, f.quantity ? f.quantity + ": " : "", unfolded(f.expected)), el("td", {class: numberClass(f.got), "data-label": "got"}, f.got), el("td", {class: "number right", "data-label": "budgets off"}, f.ratio || ""), el("td", {class: "why"}, f.why));
+    el("td", {class: "number", "data-label": "expected"}, f.quantity ? f.quantity + ": " : "", unfolded(f.expected)), el("td", {class: numberClass(f.got), "data-label": "got"}, f.got), el("td", f.ratio ? {class: "number right", "data-label": "budgets off"} : {class: "number right"}, f.ratio || ""), el("td", {class: "why"}, f.why));
     return row;
   });
   const rest = record.finding_total - page.findings.length;

@@ -55,8 +55,10 @@ function placeText(seen) {
   if (seen.place === "inside") { return "inside: every E > 0"; }
   if (seen.place === "outside") { return "outside: some E < 0"; }
   if (seen.place === "flat") { return "no area after snapping"; }
-  const kinds = seen.zero.map((e) => e.kind).join(" and ");
-  return (seen.zero.length > 1 ? "exactly on the corner of a " + kinds + " edge" : "exactly on a " + kinds + " edge") +
+  const kinds = seen.zero.map((e) => e.kind);
+  const alike = kinds.length === 2 && kinds[0] === kinds[1];
+  const edges = alike ? "two " + kinds[0] + " edges" : kinds.map((kind) => "a " + kind + " edge").join(" and ");
+  return "exactly on " + (kinds.length > 1 ? "the corner of " : "") + edges +
     (seen.owns ? ": the top-left rule gives it to this triangle" : ": the top-left rule gives it to the neighbour");
 }
 

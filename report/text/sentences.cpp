@@ -112,10 +112,12 @@ std::string counts_text(const CaseRecord& record) {
         }
     }
     if (has_more) {
-        return fmt::format("{} of {} samples wrong ({})", *record.wrong_samples,
-                           record.compared_samples, text);
+        return fmt::format("{} of {} wrong ({})", *record.wrong_samples,
+                           cases::counted(record.compared_samples, "sample"), text);
     }
-    return text.empty() ? text : fmt::format("{} of {} samples", text, record.compared_samples);
+    return text.empty()
+               ? text
+               : fmt::format("{} of {}", text, cases::counted(record.compared_samples, "sample"));
 }
 
 std::string what_happened(const CaseRecord& record) {
@@ -162,6 +164,10 @@ std::string what_happened(const CaseRecord& record) {
         case Status::skip:
         case Status::xfail:
         case Status::fail:
+            // --require-support makes a failure of it, which has no findings.
+            if (record.status == Status::fail && record.actual == Status::unsupported) {
+                text = "unsupported";
+            }
             break;
     }
     const std::string counts = counts_text(record);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cases/model/rule.hpp"
+#include "cases/model/rule_hint.hpp"
 #include "cases/model/selector.hpp"
 
 namespace run {
@@ -155,12 +156,8 @@ cases::Expected<void> add_cause_word(ExpectedCause& cause, std::string_view word
     if (group.rule == kUntold) {
         group.rule.clear();
     } else if (cases::find_rule(group.rule) == nullptr) {
-        std::vector<std::string> ids;
-        for (const cases::Rule& rule : cases::all_rules()) {
-            ids.emplace_back(rule.id);
-        }
-        return cases::failure("'{}' is no rule{}", group.rule,
-                              cases::did_you_mean(group.rule, ids, "; docs/rules.md lists them"));
+        return cases::failure("'{}' is no rule; {}", group.rule,
+                              cases::rule_hint(group.rule, '\''));
     }
     std::string_view bounds = word.substr(std::min(at + 1, word.size()));
     do {

@@ -252,6 +252,11 @@ class WrongInput(Captures):
         done = self.edgecase(*words, "--exported", "nowhere", check=3)
         self.assertEqual(done.stderr, "edgecase: 'nowhere/index.json' is no list of exported cases; name the folder that "
                          "'edgecase export' wrote\n")
+        # That comes first: only the list knows cases of one's own, of which there are captures.
+        (self.captures / "mine").mkdir()
+        (self.captures / "mine/hits.u8").write_bytes(bytes(64))
+        self.assertEqual(self.edgecase(*words, "--exported", "nowhere", check=3).stderr, done.stderr)
+        shutil.rmtree(self.captures / "mine")
         (self.captures / "fam/c1").rename(self.folder / "away")
         self.assertEqual(self.edgecase(*words, check=4).stderr,
                          f"edgecase: no case is selected: '{self.captures}' holds a folder of none\n")

@@ -4,6 +4,7 @@
 import json
 import re
 import resource
+import shutil
 import subprocess
 import unittest
 
@@ -315,7 +316,47 @@ class Listing(ProgramTest):
         self.assertNotIn("warning", self.edgecase("run", "mine.toml", "-o", "out", check=0).stderr)
         (self.folder / "mine.toml").write_text(text.replace('"cover.inside"', '"cover.inside", "depth.compare"'))
         done = self.edgecase("run", "mine.toml", "-o", "out", check=0)
-        self.assertIn("warning: mine.toml: no sample exercises the rule depth.compare; one does where", done.stderr)
+        self.assertIn("warning: mine.toml:3:26: no sample exercises the rule depth.compare; one does where", done.stderr)
+        # A claim that the profile does not judge.
+        (self.folder / "mine.toml").write_text(text.replace('"cover.inside"', '"cover.inside",\n"tie.top-left"'))
+        self.assertNotIn("is judged at", self.edgecase("run", "mine.toml", "-o", "out").stderr)
+        done = self.edgecase("run", "mine.toml", "--profile", "practice", "-o", "out")
+        self.assertIn("warning: mine.toml:4:1: the rule tie.top-left is judged at profile direct3d, and this run is at practice: "
+                      "it says nothing of it\n", done.stderr)
+
+    def test_render_without_the_module_for_images(self):
+        """The program alone, as it may be copied, names the package that doctor names."""
+        (self.folder / "bin").mkdir()
+        shutil.copy(PROGRAM, self.folder / "bin/edgecase")
+        done = subprocess.run([self.folder / "bin/edgecase", "render", "fam/c1", "-o", "x.png"], env=self.environment(""), cwd=self.folder,
+                              capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, 7)
+        self.assertIn("get it by 'sudo apt install libopenimageio-dev && scripts/build release', or set EDGECASE_IMAGE_IO", done.stderr)
+
+    def test_a_file_named_twice(self):
+        (self.folder / "mine.toml").write_text(CASE.format(n=0))
+        self.assertEqual(self.edgecase("run", "mine.toml", "mine.toml", check=2).stderr,
+                         "edgecase: the file mine.toml is named twice; name it once\n")
+
+    def test_lint_of_fragments_that_all_fail_the_depth_test(self):
+        text = CASE.format(n=0).replace('"cover.inside"', '"cover.inside", "depth.compare"')
+        text = text.replace("size = [8, 8]", 'size = [8, 8]\ndepth = "d32-float"').replace("[[draw]]", '[[draw]]\ndepth = { compare = "less" }')
+        self.write_case("fam/c3", text)
+        told = self.edgecase("lint", "fam/c3", check=3).stderr
+        self.assertIn("fam/c3: at profile vulkan every fragment fails the depth test, so a device that draws nothing would pass; "
+                      "depth is cleared to 0.375: choose another depth_clear or compare\n", told)
+        self.assertNotIn("triangle", told)
+        self.write_case("fam/c3", text.replace("[[draw]]", "depth_clear = 1\n[[draw]]"))
+        self.edgecase("lint", "fam/c3", check=0)
+        # Without a depth test it is a triangle that lacks.
+        self.write_case("fam/c3", CASE.format(n=0).partition("vertices")[0] + "vertices = [[20,20], [24,20], [20,24]]\n")
+        self.assertIn("add a triangle that must be seen", self.edgecase("lint", "fam/c3", check=3).stderr)
+
+    def test_counts_of_one_sample(self):
+        self.write_case("fam/one", CASE.format(n=0).replace("[8, 8]", "[1, 1]").partition("vertices")[0].replace(', "cover.shared-edge"', "")
+                        + "vertices = [[0,0], [4,0], [0,4]]\n")
+        done = self.edgecase("run", "fam/one", "-o", "out", fault="flip-pixel@fam/one", check=1)
+        self.assertRegex(done.stdout, r"FAIL fam/one +1 \w+ of 1 sample  ")
 
     def test_a_black_picture_never_passes(self):
         case = ('format = 1\ndescription = "A colour."\nrules = ["store.unorm"]\n[target]\nsize = [8, 8]\nattachments = "color"\n'
@@ -373,8 +414,13 @@ class Listing(ProgramTest):
         self.assertIn("both draws must have the same state, the depth test included", done.stderr)
 
     def test_options_that_contradict_each_other_are_refused(self):
-        told = self.edgecase("lint", "-q", "-v", check=2).stderr
-        self.assertEqual(told, "edgecase: -q and -v contradict each other; leave one out\n")
+        for command in (("lint",), ("run",), ("report", "out"), ("diff", "--captures", "c")):
+            told = self.edgecase(*command, "-q", "-v", check=2).stderr
+            self.assertEqual(told, "edgecase: -q and -v contradict each other; leave one out\n")
+        for words in (["--bits"], ["--bug", "x"], ["--reason", "x"], ["--until", "2099-01-01"], ["--dry-run"]):
+            told = self.edgecase("expect", "x.txt", *words, check=2).stderr
+            self.assertEqual(told, f"edgecase: {words[0]} says how a file is brought up to date; give --update too; "
+                             "see 'edgecase expect --help'\n")
 
     def test_bench_says_what_run_says(self):
         words = ("--icd", self.folder / "none.json", "fam/c1")

@@ -81,6 +81,7 @@ class Support(ExpectationTest):
         fault = "unsupported@fam/c3"
         self.run_suite(fault=fault, check=0)
         done = self.run_suite("--require-support", fault=fault, check=1)
+        self.assertIn("FAIL fam/c3   unsupported\n", done.stdout)
         self.assertIn("unsupported, where --require-support asks for support: unsupported on purpose", done.stdout)
         self.assertIn(" --require-support", done.stdout.partition("rerun: ")[2].partition("\n")[0])
         case = next(c for c in self.results()["cases"] if c["id"] == "fam/c3")

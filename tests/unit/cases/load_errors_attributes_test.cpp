@@ -43,7 +43,7 @@ f:8:1: error: [[draw.attribute]] has 0 of the keys values, constant, plane and f
      R"~(f:9:12: error: 0 components are given; write 1 to 4)~"},
     {attribute(R"~(interpolation = "perspective"
 constant = 1)~"),
-     R"~(f:9:17: error: interpolation is "perspective"; did you mean "noperspective"?)~"},
+     R"~(f:9:17: error: interpolation is "perspective"; write "smooth", "noperspective" or "flat")~"},
     {attribute(R"~(name = ""
 constant = 1)~"),
      R"~(f:9:8: error: name is empty; leave it out or write a word)~"},
