@@ -11,7 +11,6 @@
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/rule_hint.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/explain_text.hpp"

@@ -12,7 +12,6 @@
 #include "cases/load/matrix.hpp"
 #include "cases/load/parts.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/rule_hint.hpp"
 #include "cases/model/selector.hpp"
 #include "cases/toml/field_reader.hpp"
 #include "cases/toml/toml_reader.hpp"

@@ -292,4 +292,26 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
     return nearest.empty() ? otherwise : "; did you mean '" + nearest + "'?";
 }
 
+std::string rule_hint(std::string_view word, char quote) {
+    const std::string_view family = word.substr(0, word.find('.') + 1);  // "depth."
+    std::vector<std::string> all, endings;
+    std::string list;
+    for (const Rule& rule : all_rules()) {
+        all.emplace_back(rule.id);
+        if (!family.empty() && rule.id.starts_with(family)) {
+            endings.emplace_back(rule.id.substr(family.size()));
+            list += (list.empty() ? "" : ", ") + all.back();
+        }
+    }
+    std::string nearest = nearest_name(word, all);
+    if (!endings.empty()) {
+        const std::string ending = nearest_name(word.substr(family.size()), endings);
+        nearest = ending.empty() ? "" : std::string(family) + ending;
+    }
+    if (!nearest.empty()) {
+        return fmt::format("did you mean {}{}{}?", quote, nearest, quote);
+    }
+    return list.empty() ? "docs/rules.md lists all" : "there are " + list;
+}
+
 }  // namespace cases

@@ -33,4 +33,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
                          const std::string& otherwise = {});
 
+// "did you mean 'depth.bias'?", with that quote, if a rule is near; else the rules of the
+// family that the word names; else where all are listed. Inside a family only what follows the
+// point is compared, for "depth.test" is near to "depth.bias" by its family alone.
+std::string rule_hint(std::string_view word, char quote);
+
 }  // namespace cases

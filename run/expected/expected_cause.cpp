@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "cases/model/rule.hpp"
-#include "cases/model/rule_hint.hpp"
 #include "cases/model/selector.hpp"
 
 namespace run {

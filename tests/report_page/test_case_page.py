@@ -62,6 +62,20 @@ class Widths(PageTest):
                          ["1/2 = 0.5 or ", "1234\u2026/7654\u2026", ""])
         self.assertNotRegex(page.text(".findings"), r"\d{7,}/\d{7,}")
 
+    def test_a_cell_without_budgets_has_no_label(self):
+        """As a card, each cell is told by a label; missing and extra samples have no budgets."""
+        for case, labels in (("long", ["budgets off"]), ("four", [])):
+            page = self.open(f"#case=told%2F{case}", width=400)
+            told = page.run("[...document.querySelectorAll('.findings tbody tr:first-child td[data-label=\"budgets off\"]')].map((e) => e.dataset.label)")
+            self.assertEqual(told, labels, case)
+
+    def test_corners_are_told_in_plain_words(self):
+        page = self.open("#case=told%2Flong")
+        words = page.run("[['left', 'left'], ['left', 'right'], ['top']].map((kinds) => "
+                         "placeText({place: 'edge', owns: true, zero: kinds.map((kind) => ({kind}))}))")
+        self.assertEqual([text.partition(":")[0] for text in words],
+                         ["exactly on the corner of two left edges", "exactly on the corner of a left edge and a right edge", "exactly on a top edge"])
+
     def test_links_keep_to_their_column(self):
         page = self.open("#case=told%2Flong", width=1400)
         link, facts = page.run("(() => { const range = document.createRange(); range.selectNodeContents(document.querySelector('.plain a[href*=example]'));"
