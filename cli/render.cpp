@@ -165,7 +165,8 @@ capture::Image values_image(Reference& r) {
 capture::Image coverage_image(const Reference& r) {
     const cases::Target& target = r.c.target;
     capture::Image image{target.width, target.rows(), {"R", "G", "B"}, {}};
-    for (const ref::SampleExpectation& s : r.expectation.samples) {
+    for (size_t index = 0; index < r.expectation.samples.size(); ++index) {
+        const ref::SampleExpectation& s = r.expectation.samples[index];
         const float shade = s.hits.total_min > 0 ? 1.0F : s.hits.total_max > 0 ? 0.5F : 0.0F;
         image.pixels.insert(image.pixels.end(), 3, shade);
     }

@@ -32,169 +32,6 @@ bool faces_matter(const ref::HitBounds& b, uint32_t front, uint32_t back) {
     return (b.front_max > 0 || front > 0) && (b.back_max > 0 || back > 0);
 }
 
-std::string name_of(const ref::TriangleExplanation& t) {
-    return fmt::format("triangle {} of draw {}", t.triangle.primitive, t.triangle.draw);
-}
-
-std::string told(const ref::TriangleExplanation& t) {
-    return fmt::format("{}: {}", name_of(t), t.sentence);
-}
-
-template <class Fits>
-const ref::TriangleExplanation* first_that(const ref::SampleExplanation& s, Fits fits) {
-    const auto it = std::find_if(s.triangles.begin(), s.triangles.end(), fits);
-    return it == s.triangles.end() ? nullptr : &*it;
-}
-
-const ref::TriangleExplanation* first_with(const ref::SampleExplanation& s,
-                                           ref::Coverage coverage) {
-    return first_that(s, [&](const auto& t) { return t.decision.coverage == coverage; });
-}
-
-// A triangle that the top-left rule decides: if there is one, one that it gives the sample to
-// (takes it from).
-const ref::TriangleExplanation* first_tie(const ref::SampleExplanation& s, bool is_given) {
-    const auto asked = is_given ? ref::ReasonKind::top_left_in : ref::ReasonKind::top_left_out;
-    const auto* const t = first_that(s, [&](const auto& e) { return e.why() == asked; });
-    return t ? t : first_that(s, [](const auto& e) { return e.is_tie(); });
-}
-
-struct Cause {
-    std::string_view rule;
-    std::string why;
-};
-
-void tell(Finding& finding, const Cause& cause) {
-    finding.rule = cause.rule;
-    finding.why = cause.why;
-}
-
-Cause cause_of(const ref::TriangleExplanation& t, cases::Profile level) {
-    return {ref::rule_of(t.why(), level), told(t)};
-}
-
-Cause cause_of(const ref::SetExplanation& s, cases::Profile level) {
-    return {ref::rule_of(s.set.why, level), s.sentence};
-}
-
-// A reason of the sample as a whole: `triangle` and `number` are those that its sentence names.
-Cause cause_of(ref::ReasonKind why, cases::Profile level, const std::string& triangle = "",
-               uint32_t number = 0) {
-    return {ref::rule_of(why, level),
-            fmt::format(fmt::runtime(ref::text_of(why)), fmt::arg("triangle", triangle),
-                        fmt::arg("number", number))};
-}
-
-// A triangle that would cover the sample but for the state of its draw, or for planes and
-// distances: why it must not. A draw to another layer comes last: any other cause says more.
-std::optional<Cause> cause_of_suppressed(const ref::SampleExplanation& s, cases::Profile level) {
-    const auto is_here = [](const auto& t) {
-        return t.is_suppressed() && t.why() != ref::ReasonKind::other_layer;
-    };
-    const ref::TriangleExplanation* t = first_that(s, is_here);
-    t = t ? t : first_that(s, [](const auto& e) { return e.is_suppressed(); });
-    return t ? std::optional<Cause>(cause_of(*t, level)) : std::nullopt;
-}
-
-// Why a sample was written last by a triangle that must not cover it; nothing if one of those that
-// may have written it may.
-std::optional<Cause> cause_of_stray_writer(
-    const ref::SampleExplanation& s, const std::function<bool(const cases::Triangle&)>& wrote) {
-    ref::SampleExplanation writers = s;
-    std::erase_if(writers.triangles, [&](const auto& t) { return !wrote(t.triangle); });
-    if (writers.triangles.empty() ||
-        std::any_of(writers.triangles.begin(), writers.triangles.end(),
-                    [](const auto& t) { return t.decision.coverage != ref::Coverage::must_not; })) {
-        return std::nullopt;
-    }
-    if (std::optional<Cause> cause = cause_of_suppressed(writers, cases::Profile::vulkan)) {
-        return cause;
-    }
-    return cause_of(writers.triangles.front(), cases::Profile::vulkan);
-}
-
-// A hit too many of a triangle that must fail the depth test, or one too few of a triangle that
-// must pass it; the number alone does not tell which, so the last one that fits is named.
-std::optional<Cause> cause_of_depth(const cases::Case& c, const ref::SampleExplanation& s,
-                                    bool is_missing) {
-    const ref::DepthOutcome asked =
-        is_missing ? ref::DepthOutcome::passes : ref::DepthOutcome::fails;
-    const auto fits = [&](const ref::TriangleExplanation& t) {
-        return t.depth == asked && (!is_missing || t.decision.coverage == ref::Coverage::must);
-    };
-    const auto it = std::find_if(s.triangles.rbegin(), s.triangles.rend(), fits);
-    // Without a test nothing can have been lost to it.
-    const bool is_tested = std::any_of(s.triangles.begin(), s.triangles.end(), [&](const auto& t) {
-        return t.depth && c.draws[t.triangle.draw].depth.compare != cases::CompareOp::always;
-    });
-    if (it == s.triangles.rend() || !is_tested) {
-        return std::nullopt;
-    }
-    return Cause{ref::rule_of(it->depth_reason, cases::Profile::vulkan),
-                 fmt::format("{} {}", name_of(*it), it->depth_text)};
-}
-
-// Too many hits at a sample that no triangle may cover.
-Cause cause_of_extra(const ref::SampleExplanation& s, cases::Profile level) {
-    if (s.of_all) {
-        const auto* const t =
-            first_that(s, [&](const auto& e) { return e.is_suppressed() && e.why() == *s.of_all; });
-        if (t && *s.of_all != ref::ReasonKind::other_layer) {
-            return cause_of(*t, level);
-        }
-        return {ref::rule_of(*s.of_all, level), std::string(ref::text_of_all(*s.of_all))};
-    }
-    if (level == cases::Profile::direct3d) {
-        const auto* const t = first_that(s, [](const auto& e) {
-            return e.why() == ref::ReasonKind::top_left_out || e.why() == ref::ReasonKind::no_area;
-        });
-        return t ? cause_of(*t, level) : cause_of(ref::ReasonKind::nearest_positions, level);
-    }
-    if (const std::optional<Cause> cause = cause_of_suppressed(s, level)) {
-        return *cause;
-    }
-    const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must_not);
-    return t ? cause_of(*t, level) : cause_of(ref::ReasonKind::none_near, level);
-}
-
-// Too few hits, or too many where some hits are allowed.
-Cause cause_of_count(const ref::SampleExplanation& s, cases::Profile level, uint32_t total,
-                     bool is_missing) {
-    uint32_t must = 0, may = 0;
-    for (const ref::TriangleExplanation& t : s.triangles) {
-        must += t.decision.coverage == ref::Coverage::must ? 1U : 0U;
-        may += t.decision.coverage != ref::Coverage::must_not ? 1U : 0U;
-    }
-    const ref::TriangleExplanation* const covering = first_with(s, ref::Coverage::must);
-    if (level == cases::Profile::direct3d) {
-        const ref::TriangleExplanation* t = first_tie(s, is_missing);
-        t = t ? t : covering;
-        return t                 ? cause_of(*t, level)
-               : !s.sets.empty() ? cause_of(s.sets[0], level)
-                                 : cause_of(ref::ReasonKind::nearest_positions, level);
-    }
-    if (total >= must && total <= may) {
-        // Each triangle alone would allow it: what is broken is the number that some share, or the
-        // faces that they show.
-        return s.sets.empty() ? cause_of(ref::ReasonKind::area_sign, level)
-                              : cause_of(s.sets[0], level);
-    }
-    if (total < must) {
-        return cause_of(*covering, level);
-    }
-    if (const std::optional<Cause> cause = cause_of_suppressed(s, level)) {
-        return *cause;
-    }
-    // Whichever hit it once more: one that lies elsewhere, or one of these again.
-    if (may == 1) {
-        const auto* const t = first_that(
-            s, [](const auto& e) { return e.decision.coverage != ref::Coverage::must_not; });
-        return cause_of(ref::ReasonKind::once_alone, level, name_of(*t));
-    }
-    return cause_of(may == 0 ? ref::ReasonKind::none_may : ref::ReasonKind::once_each, level, "",
-                    may);
-}
-
 }  // namespace
 
 std::string to_text(const ref::HitBounds& b) {
@@ -262,20 +99,17 @@ void Attribution::attribute_writer(Finding& finding,
         return;
     }
     ++explained_;
-    const ref::SampleExplanation s = explainer(finding.level).explain(sample_of(finding));
+    const Causes causes(explainer(finding.level), case_, sample_of(finding), finding.level);
     if (finding.level == cases::Profile::vulkan) {
         // Whatever is granted, that triangle cannot have been the last. If it may not cover the
         // sample at all, that says more than the order.
-        if (const std::optional<Cause> cause = cause_of_stray_writer(s, wrote)) {
+        if (const std::optional<Cause> cause = causes.of_stray_writer(wrote)) {
             tell(finding, *cause);
         }
-        like_writer_.insert_or_assign(finding.level, finding);
-        return;
-    }
-    // A looser profile lets the writer cover the sample: it is a question of who owns it.
-    const bool is_direct3d = finding.level == cases::Profile::direct3d;
-    if (const auto* const tie = first_tie(s, true); is_direct3d && tie != nullptr) {
-        tell(finding, cause_of(*tie, finding.level));
+    } else if (const std::optional<Cause> tie = causes.of_tie();
+               tie && finding.level == cases::Profile::direct3d) {
+        // A looser profile lets the writer cover the sample: it is a question of who owns it.
+        tell(finding, *tie);
     } else {
         tell(finding, ref::ReasonKind::snapped_owner);
     }
@@ -317,27 +151,28 @@ void Attribution::attribute_hits(Finding& finding, uint32_t front, uint32_t back
 }
 
 void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, uint32_t total) {
-    const ref::SampleExplanation s = explainer(finding.level).explain(sample_of(finding));
+    const Causes causes(explainer(finding.level), case_, sample_of(finding), finding.level);
     if (finding.kind == FindingKind::value) {
         finding.quantity = "facing";
-        if (const auto* const tie = first_tie(s, true);
-            finding.level == cases::Profile::direct3d && tie != nullptr) {
-            tell(finding, cause_of(*tie, finding.level));
-            return;
-        }
-        tell(finding, ref::ReasonKind::area_sign);
-        if (const ref::TriangleExplanation* t = first_with(s, ref::Coverage::must)) {
-            finding.why = fmt::format("{}: {}", name_of(*t), finding.why);
+        if (const std::optional<Cause> tie = causes.of_tie();
+            tie && finding.level == cases::Profile::direct3d) {
+            tell(finding, *tie);
+        } else {
+            tell(finding, causes.of_facing());
         }
         return;
     }
-    if (const std::optional<Cause> depth = cause_of_depth(case_, s, total < asked.total_min)) {
+    if (const std::optional<Cause> depth = causes.of_depth(total < asked.total_min)) {
         tell(finding, *depth);
         return;
     }
-    tell(finding, asked.total_max == 0
-                      ? cause_of_extra(s, finding.level)
-                      : cause_of_count(s, finding.level, total, total < asked.total_min));
+    tell(finding, asked.total_max == 0 ? causes.of_extra()
+                                       : causes.of_count(total, total < asked.total_min));
+}
+
+void tell(Finding& finding, const Cause& cause) {
+    finding.rule = cause.rule;
+    finding.why = cause.words();
 }
 
 void tell(Finding& finding, ref::ReasonKind why) {

@@ -12,6 +12,7 @@
 
 #include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
+#include "diff/sample/causes.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
@@ -71,7 +72,8 @@ class Attribution {
     std::map<cases::Profile, Finding> like_writer_;  // wrong writers, by level
 };
 
-// Sets rule and why to those of a reason that needs no more words.
+// Sets rule and why to those of a cause, or of a reason that needs no more words.
+void tell(Finding& finding, const Cause& cause);
 void tell(Finding& finding, ref::ReasonKind why);
 
 // Writes "1", "0 or 1" or "1 to 3", and "1 front, 0 back" if both faces play a part.

@@ -34,6 +34,9 @@ class ColorComparison {
     // How often a sample was hit, as far as its colour tells: 0 if it holds what it was cleared to.
     // Pictures of targets without instruments show it.
     uint8_t hits_for_pictures(size_t index);
+    // Whether what is found of a colour depends on the sample's expectation, its codes and its
+    // witness alone: every draw writes one colour.
+    bool is_uniform() { return reference(expectation_.profile).is_uniform(); }
 
   private:
     ref::ColorReference& reference(cases::Profile profile);

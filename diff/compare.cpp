@@ -3,33 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
+#include "capture/runs.hpp"
 #include "cases/base/counted.hpp"
 #include "cases/model/derive.hpp"
 #include "diff/attribution.hpp"
 #include "diff/color.hpp"
-#include "diff/contradiction.hpp"
 #include "diff/last_fragment.hpp"
 #include "diff/pixel_check.hpp"
 #include "diff/resolve.hpp"
+#include "diff/sample/contradiction.hpp"
+#include "diff/sample/run_judge.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {
 
 namespace {
 
-// With so many findings a case that breaks profile vulkan, the loosest, has wrong values counted
-// only: they are known to break the asked profile, and count with the rule that the same quantity
-// broke before.
-constexpr uint64_t kMaxReasoned = 1000;
-
 // One comparison's state; the phases of a sample stand in judge_sample().
 class Comparison {
   public:
     Comparison(const cases::Case& c, const ref::Expectation& expectation,
-               const capture::CaptureView& capture, const ref::ValueSelection& selection)
+               const capture::CaptureView& capture, const ref::ValueSelection& selection,
+               bool is_by_sample)
         : case_(c),
           expectation_(expectation),
           capture_(capture),
@@ -37,8 +34,12 @@ class Comparison {
           values_(c, expectation.limits, expectation.profile),
           selection_(selection),
           last_fragment_(c, expectation, capture_, selection_, attribution_, values_),
-          has_pixel_rules_(selection.is_all() && c.target.has_instruments && has_pixel_rules(c)) {
+          has_pixel_rules_(selection.is_all() && c.target.has_instruments && has_pixel_rules(c)),
+          has_runs_(!is_by_sample && !has_pixel_rules_ && selection.is_all()),
+          run_judge_(c, expectation, capture_, values_) {
         values_.judge_only(selection);
+        values_.tell_only(
+            [this](const ref::ValueMismatch& m) { return last_fragment_.is_told(m, verdict_); });
         if (c.target.color) {
             color_.emplace(c, expectation, capture_, attribution_);
         }
@@ -61,24 +62,24 @@ class Comparison {
             verdict_.error_ratios.assign(count, -1.0F);
         }
         const cases::Target& target = case_.target;
-        size_t index = 0;
-        for (uint32_t row = 0; row < target.rows(); ++row) {
-            const uint32_t y = row % target.height;
-            const uint32_t layer = row / target.height;
-            for (uint32_t x = 0; x < target.width; ++x) {
-                for (uint32_t s = 0; s < target.samples; ++s, ++index) {
-                    judge_sample(index, {x, y, s, layer});
-                    if (!verdict_.error.empty()) {
-                        return std::move(verdict_);
-                    }
-                }
-                if (has_pixel_rules_) {
-                    for (Finding& finding :
-                         check_pixel(case_, expectation_, capture_, {x, y, 0, layer})) {
-                        add(std::move(finding));
-                    }
+        const size_t row = size_t{target.width} * target.samples;
+        for (size_t index = 0; index < count;) {
+            if (const size_t judged = judge_run(index, index - index % row + row); judged > 0) {
+                index += judged;
+                continue;
+            }
+            const cases::SampleId id = cases::sample_at(target, index);
+            judge_sample(index, id);
+            if (!verdict_.error.empty()) {
+                return std::move(verdict_);
+            }
+            if (has_pixel_rules_ && id.sample + 1 == target.samples) {
+                for (Finding& finding :
+                     check_pixel(case_, expectation_, capture_, {id.x, id.y, 0, id.layer})) {
+                    add(std::move(finding));
                 }
             }
+            ++index;
         }
         verdict_.error = judge_dependent_planes(
             capture_, expectation_.profile, [this](Finding finding) { add(std::move(finding)); });
@@ -108,6 +109,96 @@ class Comparison {
         return {};
     }
 
+    // Judges the samples from `index` to `row_end` that share an expectation as long as they are
+    // plainly right; returns how many they are.
+    size_t judge_run(size_t index, size_t row_end) {
+        const bool is_colour_alone = !case_.target.has_instruments && color_;
+        if (!has_runs_ || (is_colour_alone && (case_.target.has_depth || !color_->is_uniform()))) {
+            return 0;
+        }
+        const uint32_t number = expectation_.samples.number(index);
+        size_t count = 1;
+        while (index + count < row_end && expectation_.samples.number(index + count) == number) {
+            ++count;
+        }
+        RunJudge::Right right{count, std::nullopt, {}};
+        if (!is_colour_alone) {
+            right = run_judge_.judge(index, count);
+        } else if (capture::sample_state(capture_, index) != capture::SampleState::drawn) {
+            return 0;
+        }
+        if (right.count == 0) {
+            return 0;
+        }
+        right.count = color_ ? judge_color_run(index, right) : right.count;
+        note_run(index, right);
+        return right.count;
+    }
+
+    // The colours of a run: those like the first one are what the first one is, if no sample has a
+    // colour of its own.
+    size_t judge_color_run(size_t index, const RunJudge::Right& right) {
+        note_expected(index, 1);
+        const uint64_t before = verdict_.finding_total();
+        judge_color(index, cases::sample_at(case_.target, index), right.triangle);
+        if (verdict_.finding_total() != before || !color_->is_uniform()) {
+            return 1;
+        }
+        const size_t count = capture::count_same_color(capture_, index, right.count);
+        verdict_.compared_values += count - 1;
+        return count;
+    }
+
+    void note_run(size_t index, const RunJudge::Right& right) {
+        note_expected(index, right.count);
+        verdict_.compared_samples += right.count;
+        if (!case_.target.has_instruments) {
+            std::fill_n(verdict_.device_hits.begin() + static_cast<std::ptrdiff_t>(index),
+                        right.count, color_->hits_for_pictures(index));
+        }
+        if (!right.triangle) {
+            return;
+        }
+        std::fill_n(verdict_.device_hits.begin() + static_cast<std::ptrdiff_t>(index), right.count,
+                    uint8_t{1});
+        verdict_.compared_values += right.count * last_fragment_.values_of(*right.triangle);
+        size_t worst = 0;
+        for (size_t k = 0; k < right.count; ++k) {
+            verdict_.raise_error(index + k, right.ratios[k]);
+            worst = right.ratios[k] > right.ratios[worst] ? k : worst;
+        }
+        if (right.ratios[worst] > verdict_.worst_ratio) {
+            const cases::SampleId id = cases::sample_at(case_.target, index + worst);
+            const ref::FragmentVerdict v =
+                values_.judge(*right.triangle, id, values_at(capture_, index + worst));
+            note_worst(v.worst_ratio, v.worst_quantity, id);
+        }
+    }
+
+    // What pictures show of samples with one expectation, before anything is found there.
+    void note_expected(size_t index, size_t count) {
+        const ref::HitBounds& bounds = expectation_.samples[index].hits;
+        const auto first = static_cast<std::ptrdiff_t>(index);
+        std::fill_n(verdict_.expected_hits.begin() + first, count,
+                    bounds.total_min == bounds.total_max
+                        ? static_cast<uint8_t>(std::min(bounds.total_min, 254U))
+                        : uint8_t{255});
+        if (!bounds.is_decided()) {
+            std::replace(verdict_.marks.begin() + first,
+                         verdict_.marks.begin() + first + static_cast<std::ptrdiff_t>(count),
+                         SampleMark::ok, SampleMark::either);
+        }
+    }
+
+    void note_worst(double ratio, const std::optional<ref::QuantityId>& quantity,
+                    cases::SampleId id) {
+        if (ratio > verdict_.worst_ratio) {
+            verdict_.worst_ratio = ratio;
+            verdict_.worst_quantity = fmt::format("{} at {}", quantity ? to_text(*quantity) : "",
+                                                  cases::sample_text(case_.target, id));
+        }
+    }
+
     void judge_sample(size_t index, cases::SampleId id) {
         const ref::SampleExpectation& expected = expectation_.samples[index];
         const ref::HitBounds& bounds = expected.hits;
@@ -116,12 +207,7 @@ class Comparison {
             ++verdict_.compared_samples;  // marks and hits are zero already
             return;
         }
-        verdict_.expected_hits[index] = bounds.total_min == bounds.total_max
-                                            ? static_cast<uint8_t>(std::min(bounds.total_min, 254U))
-                                            : uint8_t{255};
-        if (!bounds.is_decided()) {
-            verdict_.marks[index] = SampleMark::either;
-        }
+        note_expected(index, 1);
         ++verdict_.compared_samples;
 
         if (!case_.target.has_instruments && state == capture::SampleState::drawn) {
@@ -177,12 +263,7 @@ class Comparison {
             return;
         }
         verdict_.compared_values += outcome.compared_values;
-        if (outcome.worst_ratio > verdict_.worst_ratio) {
-            verdict_.worst_ratio = outcome.worst_ratio;
-            verdict_.worst_quantity = fmt::format(
-                "{} at {}", outcome.worst_quantity ? to_text(*outcome.worst_quantity) : "",
-                cases::sample_text(case_.target, id));
-        }
+        note_worst(outcome.worst_ratio, outcome.worst_quantity, id);
         verdict_.raise_error(index, outcome.worst_ratio);
         judge_color(index, id, outcome.triangle);
         for (Finding& finding : outcome.values) {
@@ -226,22 +307,7 @@ class Comparison {
                                                             : FindingKind::double_hit;
     }
 
-    void add(Finding finding) {
-        const bool is_told = finding.kind != FindingKind::value || !finding.got.empty();
-        if (finding.kind == FindingKind::value) {
-            std::string& rule = value_rules_[finding.quantity];
-            if (is_told || rule.empty()) {
-                rule = finding.rule;
-            }
-            finding.rule = rule;  // if it is not told, taken to be wrong as the last one that was
-        }
-        verdict_.add(std::move(finding), case_.target, is_told);
-        if (!is_brief_ && verdict_.finding_total() >= kMaxReasoned &&
-            verdict_.level == cases::Profile::vulkan) {
-            is_brief_ = true;
-            values_.judge_briefly();
-        }
-    }
+    void add(Finding finding) { verdict_.add(std::move(finding), case_.target); }
 
     const cases::Case& case_;
     const ref::Expectation& expectation_;
@@ -251,9 +317,9 @@ class Comparison {
     ref::ValueSelection selection_;
     LastFragment last_fragment_;
     bool has_pixel_rules_ = false;
+    bool has_runs_ = false;  // what is plainly right is judged by runs of samples
+    RunJudge run_judge_;
     std::optional<ColorComparison> color_;
-    bool is_brief_ = false;                           // of values
-    std::map<std::string, std::string> value_rules_;  // that was broken last, by quantity
     Verdict verdict_;
 };
 
@@ -261,7 +327,12 @@ class Comparison {
 
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                 const capture::CaptureView& capture, const ref::ValueSelection& selection) {
-    return Comparison(c, expectation, capture, selection).run();
+    return Comparison(c, expectation, capture, selection, false).run();
+}
+
+Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,
+                          const capture::CaptureView& capture) {
+    return Comparison(c, expectation, capture, {}, true).run();
 }
 
 }  // namespace diff

@@ -51,18 +51,23 @@ LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
         ++out.compared_values;
         out.finding = judge_older_depth(id, expected, device);
     }
-    // FragCoord.xy, z, w; depth
-    out.compared_values += (selection_.frag_coord ? 3U : 0U) + (selection_.depth ? 1U : 0U);
-    const auto& draw = case_.draws[expectation_.triangles[t].draw];
-    for (size_t a = 0; a < draw.attributes.size(); ++a) {
-        out.compared_values += selection_.attributes.at(a) ? draw.attributes[a].components : 0U;
-    }
+    out.compared_values += values_of(t);
     out.worst_ratio = best.worst_ratio;
     out.worst_quantity = best.worst_quantity;
     for (ref::ValueMismatch& m : best.mismatches) {
         out.values.push_back(value_finding(id, std::move(m), t));
     }
     return out;
+}
+
+uint64_t LastFragment::values_of(uint32_t t) const {
+    // FragCoord.xy, z, w; depth
+    uint64_t count = (selection_.frag_coord ? 3U : 0U) + (selection_.depth ? 1U : 0U);
+    const auto& draw = case_.draws[expectation_.triangles[t].draw];
+    for (size_t a = 0; a < draw.attributes.size(); ++a) {
+        count += selection_.attributes.at(a) ? draw.attributes[a].components : 0U;
+    }
+    return count;
 }
 
 Finding LastFragment::value_finding(cases::SampleId id, ref::ValueMismatch mismatch,
@@ -93,7 +98,9 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
     finding.expected = expected.depth_may_be_clear ? "the clear value" : "";
     for (uint32_t k = 0; k < expected.depth_count; ++k) {
         const uint32_t t = expectation_.depth_writers[expected.depth_begin + k];
+        judges_older_depth_ = true;
         const ref::FragmentVerdict v = values_.judge(t, id, device, ref::FragmentPart::depth);
+        judges_older_depth_ = false;
         if (v.ok) {
             return std::nullopt;
         }

@@ -15,19 +15,12 @@
 #include "cases/model/case.hpp"
 #include "cases/model/sample.hpp"
 #include "diff/attribution.hpp"
+#include "diff/sample/fragment_part.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/value.hpp"
 
 namespace diff {
-
-// What of a fragment triangle `t` leaves in a sample: a draw that does not write depth leaves an
-// older fragment's depth.
-inline ref::FragmentPart part_of(const cases::Case& c, const ref::Expectation& expectation,
-                                 uint32_t t) {
-    return c.draws[expectation.triangles[t].draw].depth.write ? ref::FragmentPart::all
-                                                              : ref::FragmentPart::all_but_depth;
-}
 
 // What a capture with instruments holds at a sample; depth 0 if it has none.
 ref::FragmentValues values_at(const capture::CaptureView& capture, size_t index);
@@ -59,6 +52,15 @@ class LastFragment {
     // Judges a sample that was hit as often as it may be; `index` is that of `id`.
     Outcome judge(size_t index, cases::SampleId id);
 
+    // Whether anybody will read the texts of a wrong value that is judged now, given what has been
+    // found before.
+    bool is_told(const ref::ValueMismatch& mismatch, const Verdict& so_far) const {
+        return judges_older_depth_ ||
+               so_far.keeps(FindingKind::value, mismatch.rule, mismatch.level);
+    }
+    // How many numbers of a fragment of triangle t are compared.
+    uint64_t values_of(uint32_t t) const;
+
   private:
     bool wrote(const capture::Writer& writer, const cases::Triangle& t) const;
     bool is_provoking(const capture::Writer& writer) const;
@@ -76,6 +78,7 @@ class LastFragment {
     const ref::ValueSelection& selection_;
     Attribution& attribution_;
     ref::ValueReference& values_;
+    bool judges_older_depth_ = false;  // whose texts go into a finding of another rule
 };
 
 }  // namespace diff

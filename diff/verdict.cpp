@@ -35,7 +35,14 @@ void Verdict::raise_error(size_t index, double ratio) {
     }
 }
 
-void Verdict::add(Finding finding, const cases::Target& target, bool is_told) {
+bool Verdict::keeps(FindingKind kind, std::string_view rule, cases::Profile of_level) const {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& g) {
+        return g.kind == kind && g.rule == rule && g.level == of_level;
+    });
+    return findings.size() < kMaxFindings && (group == groups.end() || group->count < kMaxOfGroup);
+}
+
+void Verdict::add(Finding finding, const cases::Target& target) {
     const cases::SampleId id = sample_of(finding);
     const size_t index = cases::index_of(target, id);
     if (finding.kind == FindingKind::value && finding.ratio > 0) {
@@ -48,12 +55,13 @@ void Verdict::add(Finding finding, const cases::Target& target, bool is_told) {
     max_x = first ? id.x : std::max(max_x, id.x);
     max_y = first ? row : std::max(max_y, row);
     level = first ? finding.level : std::min(level, finding.level);
-    const uint64_t of_group = count(finding, 1);
+    const bool is_kept = keeps(finding.kind, finding.rule, finding.level);
+    count(finding, 1);
     if (index < marks.size() &&
         (marks[index] == SampleMark::ok || marks[index] == SampleMark::either)) {
         marks[index] = mark_of(finding.kind);
     }
-    if (is_told && of_group <= kMaxOfGroup && findings.size() < kMaxFindings) {
+    if (is_kept) {
         findings.push_back(std::move(finding));
     }
 }

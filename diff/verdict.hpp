@@ -153,10 +153,12 @@ struct Verdict : Outcome {
     bool has_unmarked = false;  // some wrong samples were counted, but have no mark
     bool ok() const { return error.empty() && counts == std::array<uint64_t, kFindingKinds>{}; }
 
-    // Counts a finding of a target; keeps it if it is among the first kMaxOfGroup of its group and
-    // fewer than kMaxFindings are kept, and if it is told. The first finding at a sample gives it
-    // its mark.
-    void add(Finding finding, const cases::Target& target, bool is_told = true);
+    // Counts a finding of a target; keeps it if keeps() says so. The first finding at a sample
+    // gives it its mark.
+    void add(Finding finding, const cases::Target& target);
+    // Whether the next finding of a group will be kept: it is among the group's first kMaxOfGroup,
+    // and fewer than kMaxFindings are kept. Of any other nobody reads the texts.
+    bool keeps(FindingKind kind, std::string_view rule, cases::Profile level) const;
     // Counts `count` findings like `finding`, without a word of each; returns how many its group
     // has now.
     uint64_t count(const Finding& finding, uint64_t count);
@@ -170,6 +172,10 @@ struct Verdict : Outcome {
 // unless all are.
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                 const capture::CaptureView& capture, const ref::ValueSelection& selection = {});
+// The same, one sample after another: the oracle of compare(), which judges runs of samples that
+// are plainly right at once.
+Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,
+                          const capture::CaptureView& capture);
 
 // Checks the hand-drawn picture of a case against the reference (profile direct3d, 8 subpixel
 // bits). Empty if it agrees or the case has none; else one sentence with the first pixel that

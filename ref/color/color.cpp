@@ -45,9 +45,7 @@ ColorReference::ColorReference(const cases::Case& c, const Expectation& expectat
 }
 
 std::span<const PossibleHit> ColorReference::hits_at(size_t index) const {
-    const auto begin = expectation_.fragments_begin[index];
-    return std::span(expectation_.fragments)
-        .subspan(begin, expectation_.fragments_begin[index + 1] - begin);
+    return expectation_.fragments_of(expectation_.samples[index]);
 }
 
 // Every set of fragments that the hit bounds allow; the empty list of sets if there are too many

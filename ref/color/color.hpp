@@ -66,6 +66,9 @@ class ColorReference {
     // write depth without a test, bias or clamp; true otherwise.
     bool explains_depth(size_t index, cases::SampleId id, float depth, float clear);
 
+    // Whether judge() depends on the sample's expectation, its codes and its witness alone.
+    bool is_uniform() const { return is_constant_; }
+
     // More open fragments at a sample than this are not tried out.
     static constexpr size_t kMaxOpen = 10;
     // Colours that are remembered at most: some 600 bytes each.

@@ -74,22 +74,6 @@ class Looks : public Onlooker {
     std::vector<Test> looks_;
 };
 
-std::span<const uint32_t> part_of(const std::vector<uint32_t>& all, uint32_t begin,
-                                  uint32_t count) {
-    return std::span(all).subspan(count == 0 ? 0 : begin, count);
-}
-
-// Whether a sample has the same hits, writers and depths in two expectations.
-bool is_same(const Expectation& a, const Expectation& b, size_t index) {
-    const SampleExpectation& one = a.samples[index];
-    const SampleExpectation& other = b.samples[index];
-    return one.hits == other.hits && one.depth_may_be_clear == other.depth_may_be_clear &&
-           std::ranges::equal(part_of(a.writers, one.writers_begin, one.writers_count),
-                              part_of(b.writers, other.writers_begin, other.writers_count)) &&
-           std::ranges::equal(part_of(a.depth_writers, one.depth_begin, one.depth_count),
-                              part_of(b.depth_writers, other.depth_begin, other.depth_count));
-}
-
 void look_without(const cases::Case& c, const Limits& limits, const Expectation& expected,
                   Claim& claim) {
     for (const Way& way : claim.row().ways) {

@@ -41,12 +41,11 @@ bool HitBounds::is_decided() const {
 
 namespace {
 
-// The spans of each row of pixels of the stacked layers, and, one row at a time, the triangles that
-// touch each sample.
-class HitTable {
+// The spans of each row of pixels of the stacked layers.
+class SpansByRow {
   public:
-    HitTable(const cases::Target& target, const std::vector<fast::Span>& spans)
-        : samples_(target.samples), row_begin_(size_t{target.rows()} + 1), sorted_(spans.size()) {
+    SpansByRow(const cases::Target& target, const std::vector<fast::Span>& spans)
+        : row_begin_(size_t{target.rows()} + 1), sorted_(spans.size()) {
         // A stable counting sort by row: the spans of a sample stay in drawing order.
         for (const fast::Span& s : spans) {
             ++row_begin_[s.y + 1];
@@ -56,48 +55,67 @@ class HitTable {
         for (const fast::Span& s : spans) {
             sorted_[next[s.y]++] = s;
         }
-        begin_.resize(size_t{target.width} * target.samples + 1);
     }
-    // How many hits all samples have together.
-    size_t size() const {
-        return std::accumulate(sorted_.begin(), sorted_.end(), size_t{0},
-                               [](size_t n, const fast::Span& s) { return n + s.x1 - s.x0; });
-    }
-    // Makes row j the current one; false if nothing touches it.
-    bool select_row(uint32_t j) {
-        const std::span<const fast::Span> row(sorted_.data() + row_begin_[j],
-                                              row_begin_[j + 1] - row_begin_[j]);
-        if (row.empty()) {
-            return false;
-        }
-        std::fill(begin_.begin(), begin_.end(), 0U);
-        for (const fast::Span& s : row) {
-            size_t at = size_t{s.x0} * samples_ + s.sample;
-            for (uint32_t x = s.x0; x < s.x1; ++x, at += samples_) {
-                ++begin_[at];
-            }
-        }
-        // Ends of the lists; filling from behind makes them the begins.
-        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-        hits_.resize(begin_.back());
-        for (auto s = row.rbegin(); s != row.rend(); ++s) {
-            size_t at = size_t{s->x0} * samples_ + s->sample;
-            for (uint32_t x = s->x0; x < s->x1; ++x, at += samples_) {
-                hits_[--begin_[at]] = {s->triangle, s->coverage};
-            }
-        }
-        return true;
-    }
-    // Sample k of the current row: pixel k / samples, sample k % samples.
-    std::span<const Hit> of(size_t k) const {
-        return {hits_.data() + begin_[k], begin_[k + 1] - begin_[k]};
+    std::span<const fast::Span> of(uint32_t row) const {
+        return std::span(sorted_).subspan(row_begin_[row], row_begin_[row + 1] - row_begin_[row]);
     }
 
   private:
-    uint32_t samples_;
     std::vector<size_t> row_begin_;
     std::vector<fast::Span> sorted_;
-    std::vector<uint32_t> begin_;
+};
+
+// Splits a row into runs of pixels whose sample of one number is touched by the same triangles.
+class RowRuns {
+  public:
+    struct Run {
+        uint32_t x0 = 0, x1 = 0;
+        size_t hits_begin = 0, hits_count = 0;
+    };
+
+    // Runs that something touches, from left to right.
+    const std::vector<Run>& split(std::span<const fast::Span> row, uint32_t sample) {
+        runs_.clear();
+        hits_.clear();
+        active_.clear();
+        starts_.clear();
+        for (uint32_t k = 0; k < row.size(); ++k) {
+            if (row[k].sample == sample && row[k].x0 < row[k].x1) {
+                starts_.push_back(k);
+            }
+        }
+        std::stable_sort(starts_.begin(), starts_.end(),
+                         [&](uint32_t a, uint32_t b) { return row[a].x0 < row[b].x0; });
+        size_t next = 0;
+        while (next < starts_.size() || !active_.empty()) {
+            // Spans begin and end at x; `active_` are those that reach beyond it, in drawing order.
+            const uint32_t x = active_.empty() ? row[starts_[next]].x0 : x_;
+            for (; next < starts_.size() && row[starts_[next]].x0 == x; ++next) {
+                active_.insert(std::upper_bound(active_.begin(), active_.end(), starts_[next]),
+                               starts_[next]);
+            }
+            x_ = next < starts_.size() ? row[starts_[next]].x0 : row[active_.front()].x1;
+            for (const uint32_t k : active_) {
+                x_ = std::min(x_, row[k].x1);
+            }
+            runs_.push_back({x, x_, hits_.size(), active_.size()});
+            for (const uint32_t k : active_) {
+                hits_.push_back({row[k].triangle, row[k].coverage});
+            }
+            std::erase_if(active_, [&](uint32_t k) { return row[k].x1 == x_; });
+        }
+        return runs_;
+    }
+    const std::vector<Run>& runs() const { return runs_; }  // of the last split()
+    std::span<const Hit> hits_of(const Run& run) const {
+        return std::span(hits_).subspan(run.hits_begin, run.hits_count);
+    }
+
+  private:
+    uint32_t x_ = 0;  // where the next run begins, if a span goes on there
+    std::vector<uint32_t> starts_;
+    std::vector<uint32_t> active_;
+    std::vector<Run> runs_;
     std::vector<Hit> hits_;
 };
 
@@ -148,51 +166,154 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     return expect(scene, onlooker);
 }
 
-Expectation expect(Scene& scene, Onlooker* onlooker) {
-    const cases::Case& c = scene.c;
-    Expectation out;
-    out.limits = scene.limits;
-    out.profile = scene.profile;
-    out.target = c.target;
-    out.triangles = scene.triangles;
-    HitTable table(c.target, scene.spans);
-    out.samples.resize(size_t{c.target.width} * c.target.rows() * c.target.samples);
-    out.writers.reserve(table.size());
-    size_t at = 0;
-    for (uint32_t row = 0; row < c.target.rows(); ++row) {
-        const uint32_t j = row % c.target.height;
-        const bool is_touched = table.select_row(row);
-        size_t k = 0;
-        for (uint32_t i = 0; i < c.target.width; ++i) {
-            for (uint32_t s = 0; s < c.target.samples; ++s, ++at, ++k) {
-                SampleExpectation& sample = out.samples[at];
-                const std::span<const Hit> hits = is_touched ? table.of(k) : std::span<const Hit>();
-                add_fragments(out, c, hits);
-                if (hits.empty() && onlooker == nullptr) {
-                    sample.writers_begin = static_cast<uint32_t>(out.writers.size());
+bool is_same(const Expectation& a, const Expectation& b, size_t index) {
+    const SampleExpectation& one = a.samples[index];
+    const SampleExpectation& other = b.samples[index];
+    return one.hits == other.hits && one.depth_may_be_clear == other.depth_may_be_clear &&
+           std::ranges::equal(a.writers_of(one), b.writers_of(other)) &&
+           std::ranges::equal(a.depth_writers_of(one), b.depth_writers_of(other));
+}
+
+namespace {
+
+// The expectation of a scene, row by row.
+class RowJudge {
+  public:
+    RowJudge(Scene& scene, Onlooker* onlooker)
+        : scene_(scene),
+          target_(scene.c.target),
+          spans_(target_, scene.spans),
+          onlooker_(onlooker) {
+        out_.limits = scene.limits;
+        out_.profile = scene.profile;
+        out_.target = target_;
+        out_.triangles = scene.triangles;
+        out_.samples = SampleExpectations(size_t{target_.width} * target_.rows() * target_.samples);
+        runs_.resize(target_.samples);
+        alone_.resize(scene.triangles.size());
+    }
+
+    Expectation run() {
+        for (uint32_t row = 0; row < target_.rows(); ++row) {
+            const std::span<const fast::Span> spans = spans_.of(row);
+            if (onlooker_ != nullptr) {
+                judge_each(row, spans);
+            } else if (!spans.empty()) {
+                judge_runs(row, spans);
+            }
+        }
+        return std::move(out_);
+    }
+
+  private:
+    size_t index_of(uint32_t row, uint32_t x, uint32_t s) const {
+        return (size_t{row} * target_.width + x) * target_.samples + s;
+    }
+
+    void judge_runs(uint32_t row, std::span<const fast::Span> spans) {
+        for (uint32_t s = 0; s < target_.samples; ++s) {
+            for (const RowRuns::Run& run : runs_[s].split(spans, s)) {
+                const std::span<const Hit> hits = runs_[s].hits_of(run);
+                if (scene_.narrowing.is_anywhere(hits)) {
+                    keep(index_of(row, run.x0, s), run.x1 - run.x0, number_of(hits));
                     continue;
                 }
-                const FixedPoint p = sample_position(i, j, s, c.target);
-                JudgeReasons reasons;
-                sample = scene.narrowing.judge(p, s, hits, out.writers, out.depth_writers,
-                                               onlooker != nullptr ? &reasons : nullptr);
-                if (onlooker != nullptr &&
-                    !onlooker->look({at,
-                                     {i, j, s, row / c.target.height},
-                                     p,
-                                     hits,
-                                     sample.hits,
-                                     std::span(out.writers).subspan(sample.writers_begin),
-                                     reasons},
-                                    scene.setups)) {
-                    onlooker = nullptr;
+                for (uint32_t x = run.x0; x < run.x1; ++x) {
+                    keep(index_of(row, x, s), 1, judge({x, row, s}, hits, nullptr));
                 }
-                out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
-                out.either_samples += sample.hits.is_decided() ? 0U : 1U;
             }
         }
     }
-    return out;
+
+    // The same sample by sample, which an onlooker sees in their order.
+    void judge_each(uint32_t row, std::span<const fast::Span> spans) {
+        std::vector<size_t> next(target_.samples, 0);
+        for (uint32_t s = 0; s < target_.samples; ++s) {
+            runs_[s].split(spans, s);
+        }
+        for (uint32_t x = 0; x < target_.width; ++x) {
+            for (uint32_t s = 0; s < target_.samples; ++s) {
+                const std::vector<RowRuns::Run>& runs = runs_[s].runs();
+                while (next[s] < runs.size() && runs[next[s]].x1 <= x) {
+                    ++next[s];
+                }
+                const bool is_touched = next[s] < runs.size() && runs[next[s]].x0 <= x;
+                const std::span<const Hit> hits =
+                    is_touched ? runs_[s].hits_of(runs[next[s]]) : std::span<const Hit>();
+                if (hits.empty() && onlooker_ == nullptr) {
+                    continue;
+                }
+                keep(index_of(row, x, s), 1, judge({x, row, s}, hits, onlooker_));
+            }
+        }
+    }
+
+    struct Place {
+        uint32_t x, row, s;
+    };
+
+    uint32_t judge(const Place& at, std::span<const Hit> hits, Onlooker* onlooker) {
+        const uint32_t y = at.row % target_.height;
+        const FixedPoint p = sample_position(at.x, y, at.s, target_);
+        JudgeReasons reasons;
+        SampleExpectation sample =
+            scene_.narrowing.judge(p, at.s, hits, out_.writers, out_.depth_writers,
+                                   onlooker != nullptr ? &reasons : nullptr);
+        add_fragments(out_, scene_.c, hits, sample);
+        if (onlooker != nullptr && !onlooker->look({index_of(at.row, at.x, at.s),
+                                                    {at.x, y, at.s, at.row / target_.height},
+                                                    p,
+                                                    hits,
+                                                    sample.hits,
+                                                    out_.writers_of(sample),
+                                                    reasons},
+                                                   scene_.setups)) {
+            onlooker_ = nullptr;
+        }
+        return hits.empty() ? SampleExpectations::kNothing : out_.samples.add(sample);
+    }
+
+    // The number of what these triangles come to wherever the sample lies.
+    uint32_t number_of(std::span<const Hit> hits) {
+        const bool is_alone = hits.size() == 1 && hits[0].coverage == Coverage::must;
+        uint32_t& known = is_alone ? alone_[hits[0].triangle] : last_number_;
+        const bool is_known =
+            known != SampleExpectations::kNothing &&
+            (is_alone || std::equal(hits.begin(), hits.end(), last_.begin(), last_.end(),
+                                    [](const Hit& a, const Hit& b) {
+                                        return a.triangle == b.triangle && a.coverage == b.coverage;
+                                    }));
+        if (!is_known) {
+            known = judge({0, 0, 0}, hits, nullptr);
+            if (!is_alone) {
+                last_.assign(hits.begin(), hits.end());
+            }
+        }
+        return known;
+    }
+
+    void keep(size_t first, size_t count, uint32_t number) {
+        const HitBounds& bounds = out_.samples.of_number(number).hits;
+        out_.samples.set(first, count, target_.samples, number);
+        out_.must_samples += bounds.total_min > 0 ? count : 0U;
+        out_.either_samples += bounds.is_decided() ? 0U : count;
+    }
+
+    Scene& scene_;
+    const cases::Target& target_;
+    SpansByRow spans_;
+    Onlooker* onlooker_;
+    std::vector<RowRuns> runs_;    // by sample of the pixel
+    std::vector<uint32_t> alone_;  // numbers by triangle: it alone must cover the sample
+    std::vector<Hit> last_;        // the last list of number_of() that is another one,
+    uint32_t last_number_ = SampleExpectations::kNothing;  // and its number
+    Expectation out_;
+};
+
+}  // namespace
+
+Expectation expect(Scene& scene, Onlooker* onlooker) {
+    return RowJudge(scene, onlooker).run();
 }
 
 }  // namespace ref

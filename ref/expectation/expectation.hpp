@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cases/model/case.hpp"
@@ -40,7 +41,9 @@ struct SampleExpectation {
     // does not write it (DepthTest::is_needed); otherwise it is the last writer's.
     uint32_t depth_begin = 0, depth_count = 0;
     bool depth_may_be_clear = false;  // or no fragment's
-    friend bool operator==(const SampleExpectation&, const SampleExpectation&) = default;
+    // Into Expectation::fragments, if the target has a colour: the triangles that must or may cover
+    // the sample, in drawing order.
+    uint32_t fragments_begin = 0, fragments_count = 0;
 };
 
 // Is a triangle that must or may cover a sample.
@@ -50,21 +53,64 @@ struct PossibleHit {
     friend bool operator==(const PossibleHit&, const PossibleHit&) = default;
 };
 
+// What is expected of every sample, by index_of (sample.hpp). Of most samples the same is expected
+// as of their neighbours, so each expectation is kept once, with a number, and a sample has four
+// bytes.
+class SampleExpectations {
+  public:
+    static constexpr uint32_t kNothing = 0;  // the number of what no triangle may hit
+
+    SampleExpectations() = default;  // of no sample
+    explicit SampleExpectations(size_t samples) : numbers_(samples, kNothing) {}
+
+    size_t size() const { return numbers_.size(); }
+    const SampleExpectation& operator[](size_t index) const { return table_[numbers_[index]]; }
+    // Samples with one number have one expectation; those with two numbers may have equal ones.
+    uint32_t number(size_t index) const { return numbers_[index]; }
+    const SampleExpectation& of_number(uint32_t number) const { return table_[number]; }
+
+    uint32_t add(const SampleExpectation& expected) {
+        table_.push_back(expected);
+        return static_cast<uint32_t>(table_.size() - 1);
+    }
+    // Gives a number to `count` samples from `first` on, each `step` after the one before.
+    void set(size_t first, size_t count, size_t step, uint32_t number) {
+        for (size_t k = 0; k < count; ++k) {
+            numbers_[first + k * step] = number;
+        }
+    }
+
+  private:
+    std::vector<uint32_t> numbers_;
+    std::vector<SampleExpectation> table_{SampleExpectation{}};  // by number
+};
+
 struct Expectation {
     Limits limits;
     cases::Profile profile = cases::Profile::direct3d;
     cases::Target target;
     std::vector<cases::Triangle> triangles;  // drawing order
-    std::vector<SampleExpectation> samples;  // by index_of, sample.hpp
+    SampleExpectations samples;
+    // What the samples' expectations point to.
     std::vector<uint32_t> writers;
     std::vector<uint32_t> depth_writers;
-    // If the target has a colour: the triangles that must or may cover sample i, in drawing order,
-    // are fragments[fragments_begin[i] .. fragments_begin[i + 1]).
     std::vector<PossibleHit> fragments;
-    std::vector<uint32_t> fragments_begin;
     uint64_t must_samples = 0;    // samples that must be hit at least once: the control of the case
     uint64_t either_samples = 0;  // samples where more than one answer is allowed
+
+    std::span<const uint32_t> writers_of(const SampleExpectation& s) const {
+        return std::span(writers).subspan(s.writers_begin, s.writers_count);
+    }
+    std::span<const uint32_t> depth_writers_of(const SampleExpectation& s) const {
+        return std::span(depth_writers).subspan(s.depth_begin, s.depth_count);
+    }
+    std::span<const PossibleHit> fragments_of(const SampleExpectation& s) const {
+        return std::span(fragments).subspan(s.fragments_begin, s.fragments_count);
+    }
 };
+
+// Whether a sample has the same hits, writers and depths in two expectations of one case.
+bool is_same(const Expectation& a, const Expectation& b, size_t index);
 
 class Onlooker;  // onlooker.hpp
 

@@ -16,6 +16,8 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     out.profile = profile;
     out.target = c.target;
     out.triangles = assemble(c);
+    out.samples = SampleExpectations(size_t{c.target.width} * c.target.rows() * c.target.samples);
+    size_t index = 0;
     TriangleSetups setups(c, out.triangles, limits, profile);
     std::optional<DepthTest> depth;
     if (DepthTest::is_needed(c)) {
@@ -40,12 +42,12 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                         hits.push_back({t, coverage});
                     }
                 }
-                add_fragments(out, c, hits);
-                const SampleExpectation sample =
+                SampleExpectation sample =
                     narrowing.judge(p, s, hits, out.writers, out.depth_writers);
+                add_fragments(out, c, hits, sample);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
-                out.samples.push_back(sample);
+                out.samples.set(index++, 1, 1, out.samples.add(sample));
             }
         }
     }

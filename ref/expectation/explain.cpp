@@ -146,13 +146,8 @@ Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId samp
     return out;
 }
 
-TriangleExplanation Explainer::explain_triangle(uint32_t t, const FixedPoint& p,
-                                                Decision decision) {
-    TriangleExplanation e;
-    e.index = t;
-    e.triangle = scene_.triangles[t];
-    e.decision = std::move(decision);
-    e.facing = scene_.setups[t].facing;
+void Explainer::add_details(TriangleExplanation& e, const FixedPoint& p) {
+    e.facing = scene_.setups[e.index].facing;
     const cases::Draw& draw = scene_.c.draws[e.triangle.draw];
     std::array<std::optional<FixedPoint>, 3> snapped;
     for (size_t k = 0; k < 3; ++k) {
@@ -164,7 +159,7 @@ TriangleExplanation Explainer::explain_triangle(uint32_t t, const FixedPoint& p,
         }
     }
     if (!snapped[0] || !snapped[1] || !snapped[2]) {
-        return e;
+        return;
     }
     const bool is_reversed = edge_in_pixels(*snapped[0], *snapped[1], *snapped[2]) < 0;
     for (const size_t from :
@@ -180,10 +175,27 @@ TriangleExplanation Explainer::explain_triangle(uint32_t t, const FixedPoint& p,
         edge.kind = kind_of(edge.a, edge.b);
         e.edges.push_back(std::move(edge));
     }
-    return e;
 }
 
-SampleExplanation Explainer::explain(cases::SampleId sample) {
+std::string Explainer::sentence(const TriangleExplanation& t, cases::SampleId sample) {
+    TriangleExplanation e = t;
+    e.edges.clear();
+    add_details(e, sample_position(sample.x, sample.y, sample.sample, scene_.c.target));
+    return sentence_of(e.decision.reasons.front(), e, scene_.c, sample);
+}
+
+std::string Explainer::depth_sentence(const TriangleExplanation& t, cases::SampleId sample) {
+    const FixedPoint p = sample_position(sample.x, sample.y, sample.sample, scene_.c.target);
+    return sentence_of(t.depth_reason, t.depth.value(),
+                       scene_.c.draws[t.triangle.draw].depth.compare,
+                       scene_.depth->range_text(t.index, p));
+}
+
+std::string Explainer::sentence(const FixedSet& set) {
+    return sentence_of(set, scene_.triangles);
+}
+
+SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
     SampleExplanation out;
     out.position = sample_position(sample.x, sample.y, sample.sample, scene_.c.target);
     const FixedPoint& p = out.position;
@@ -221,8 +233,14 @@ SampleExplanation Explainer::explain(cases::SampleId sample) {
             explained.push_back(is_told ? out.triangles.size() : kUntold);
         }
         if (is_told) {
-            TriangleExplanation e = explain_triangle(t, p, std::move(decision));
-            e.sentence = sentence_of(e.decision.reasons.front(), e, scene_.c, sample);
+            TriangleExplanation e;
+            e.index = t;
+            e.triangle = scene_.triangles[t];
+            e.decision = std::move(decision);
+            if (detail == Detail::all) {
+                add_details(e, p);
+                e.sentence = sentence_of(e.decision.reasons.front(), e, scene_.c, sample);
+            }
             out.triangles.push_back(std::move(e));
         }
     }
@@ -231,19 +249,19 @@ SampleExplanation Explainer::explain(cases::SampleId sample) {
     out.hits =
         scene_.narrowing.judge(p, sample.sample, hits, writers, depth_writers, &reasons).hits;
     for (FixedSet& set : reasons.sets) {
-        std::string sentence = sentence_of(set, scene_.triangles);
-        out.sets.push_back({std::move(set), std::move(sentence)});
+        std::string words = detail == Detail::all ? sentence(set) : std::string();
+        out.sets.push_back({std::move(set), std::move(words)});
     }
     for (size_t m = 0; m < reasons.depth.outcomes.size(); ++m) {
         if (explained[m] == kUntold) {
             continue;
         }
         TriangleExplanation& t = out.triangles[explained[m]];
-        const cases::CompareOp op = scene_.c.draws[t.triangle.draw].depth.compare;
         t.depth = reasons.depth.outcomes[m];
         t.depth_reason = reasons.depth.reasons[m];
-        t.depth_text =
-            sentence_of(t.depth_reason, *t.depth, op, scene_.depth->range_text(t.index, p));
+        if (detail == Detail::all) {
+            t.depth_text = depth_sentence(t, sample);
+        }
     }
     return out;
 }

@@ -76,6 +76,10 @@ struct SampleExplanation {
     std::vector<SetExplanation> sets;
 };
 
+// How much of an explanation is wanted: all of it, or the reasons alone. Without the words a
+// TriangleExplanation has neither boxes nor edges, and no sentence anywhere is set.
+enum class Detail : uint8_t { all, reasons };
+
 // Explains samples of one case at one profile. What does not depend on the sample is computed once.
 class Explainer {
   public:
@@ -86,13 +90,19 @@ class Explainer {
     Expectation expectation() { return expect(scene_); }
 
     // Layer, pixel and sample must lie inside the target.
-    SampleExplanation explain(cases::SampleId sample);
+    SampleExplanation explain(cases::SampleId sample, Detail detail = Detail::all);
+
+    // The sentences that explain(sample, Detail::reasons) leaves out, of one of its triangles, of
+    // the same triangle's depth, and of one of its sets.
+    std::string sentence(const TriangleExplanation& t, cases::SampleId sample);
+    std::string depth_sentence(const TriangleExplanation& t, cases::SampleId sample);
+    std::string sentence(const FixedSet& set);
 
     // Decides triangle t alone at a sample, whose position is p.
     Decision decide(uint32_t t, const FixedPoint& p, cases::SampleId sample);
 
   private:
-    TriangleExplanation explain_triangle(uint32_t t, const FixedPoint& p, Decision decision);
+    void add_details(TriangleExplanation& e, const FixedPoint& p);
 
     Scene scene_;
 };

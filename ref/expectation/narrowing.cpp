@@ -201,17 +201,21 @@ void Narrowing::apply_depth(const FixedPoint& p, std::span<const Hit> hits,
     out.depth_may_be_clear = depth.may_be_clear;
 }
 
+bool Narrowing::is_anywhere(std::span<const Hit> hits) const {
+    const auto open = std::count_if(hits.begin(), hits.end(),
+                                    [](const Hit& h) { return h.coverage == Coverage::either; });
+    // Alone, an open triangle can only be settled by partners that are decided.
+    const auto least = profile_ == cases::Profile::direct3d || !complements_.empty() ? 1 : 2;
+    return depth_ == nullptr && open < least;
+}
+
 SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
                                    std::vector<uint32_t>& writers,
                                    std::vector<uint32_t>& depth_writers, JudgeReasons* reasons) {
     SampleExpectation out;
     sample_ = s;
     out.writers_begin = static_cast<uint32_t>(writers.size());
-    const auto open = std::count_if(hits.begin(), hits.end(),
-                                    [](const Hit& h) { return h.coverage == Coverage::either; });
-    // Alone, an open triangle can only be settled by partners that are decided.
-    const auto least = profile_ == cases::Profile::direct3d || !complements_.empty() ? 1 : 2;
-    if (depth_ == nullptr && open < least) {
+    if (is_anywhere(hits)) {
         uint32_t first = 0;
         for (uint32_t m = 0; m < hits.size(); ++m) {
             const bool is_must = hits[m].coverage == Coverage::must;

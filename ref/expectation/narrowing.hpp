@@ -66,14 +66,14 @@ struct Predicates {
     bool (*is_inside_whole)(const TriangleSetup&, const Outline&, const FixedPoint&);
 };
 
-// Keeps the hits of the next sample for the colour target, if the case has one.
-inline void add_fragments(Expectation& out, const cases::Case& c, std::span<const Hit> hits) {
+// Keeps the hits of a sample for the colour target, if the case has one.
+inline void add_fragments(Expectation& out, const cases::Case& c, std::span<const Hit> hits,
+                          SampleExpectation& sample) {
     if (!out.target.color) {
         return;
     }
-    if (out.fragments_begin.empty()) {
-        out.fragments_begin.push_back(0);
-    }
+    sample.fragments_begin = static_cast<uint32_t>(out.fragments.size());
+    sample.fragments_count = static_cast<uint32_t>(hits.size());
     for (const Hit& hit : hits) {
         // A depth test or a mask may still take it away; the bounds of the sample know how many.
         const cases::Draw& draw = c.draws[out.triangles[hit.triangle].draw];
@@ -82,7 +82,6 @@ inline void add_fragments(Expectation& out, const cases::Case& c, std::span<cons
                             !draw.multisample.shader_mask;
         out.fragments.push_back({hit.triangle, passes && hit.coverage == Coverage::must});
     }
-    out.fragments_begin.push_back(static_cast<uint32_t>(out.fragments.size()));
 }
 
 class Narrowing {
@@ -97,6 +96,8 @@ class Narrowing {
     SampleExpectation judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
                             std::vector<uint32_t>& writers, std::vector<uint32_t>& depth_writers,
                             JudgeReasons* reasons = nullptr);
+    // Whether judge() says the same wherever the sample lies that these triangles touch.
+    bool is_anywhere(std::span<const Hit> hits) const;
 
   private:
     // Triangles of which exactly `count` cover the sample, or from `least` to `count`.

@@ -13,16 +13,22 @@ namespace ref::value {
 
 constexpr const char* kLodFreedom = "or up to half a level and the freedom of the quad away";
 
-Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
-                              const Evaluation<mpq_class>& place, cases::Profile profile) {
-    const mpq_class factor = exact_budget_factor(profile);
-    const auto site = make_site(basis, basis.planes[kPlaneInvW],
-                                q.at_sample     ? place.sample
-                                : q.at_centroid ? place.centroid.front()
-                                                : place.attributes.front(),
-                                factor);
+template <class T>
+Valued<T> nominal_value(const Basis<T>& basis, const Quantity& q, const Evaluation<T>& place,
+                        cases::Profile profile) {
+    const T factor = from_exact<T>(exact_budget_factor(profile));
+    const Site<T> site = make_site(basis, basis.planes[kPlaneInvW],
+                                   q.at_sample     ? place.sample
+                                   : q.at_centroid ? place.centroid.front()
+                                                   : place.attributes.front(),
+                                   factor);
     return value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
 }
+
+template Valued<Ball> nominal_value(const Basis<Ball>&, const Quantity&, const Evaluation<Ball>&,
+                                    cases::Profile);
+template Valued<mpq_class> nominal_value(const Basis<mpq_class>&, const Quantity&,
+                                         const Evaluation<mpq_class>&, cases::Profile);
 
 std::string number_text(double nearest, const std::optional<mpq_class>& exact) {
     const std::string text = cases::number_text(nearest);
@@ -43,24 +49,32 @@ std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const P
                        derivative_of(q.probe) ? ", or the difference of another quad" : "");
 }
 
-bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
-                     std::span<const Quantity> all, const Evaluation<mpq_class>& place,
-                     cases::Profile profile, double device) {
+template <class T>
+Answer is_other_vertex(const Basis<T>& basis, const Quantity& q, std::span<const Quantity> all,
+                       const Evaluation<T>& place, cases::Profile profile, double device) {
     if (basis.orientation == 0 || !std::isfinite(device)) {
-        return false;
+        return Answer::no;
     }
+    Answer any = Answer::no;
     for (const Quantity& other : all) {
         if (other.id.of != q.id.of || other.id.attribute != q.id.attribute ||
             other.id.component == q.id.component) {
             continue;
         }
-        const auto v = exact_value(basis, other, place, profile);
-        if (v.exists == Answer::yes && abs(mpq_class(device) - v.value) <= v.reach) {
-            return true;
+        const Valued<T> v = nominal_value(basis, other, place, profile);
+        const Answer one = both(v.exists, is_at_most(magnitude(T(T(device) - v.value)), v.reach));
+        if (one == Answer::yes) {
+            return one;
         }
+        any = one == Answer::unknown ? one : any;
     }
-    return false;
+    return any;
 }
+
+template Answer is_other_vertex(const Basis<Ball>&, const Quantity&, std::span<const Quantity>,
+                                const Evaluation<Ball>&, cases::Profile, double);
+template Answer is_other_vertex(const Basis<mpq_class>&, const Quantity&, std::span<const Quantity>,
+                                const Evaluation<mpq_class>&, cases::Profile, double);
 
 namespace {
 

@@ -16,8 +16,9 @@
 namespace ref::value {
 
 // A linear or perspective value at its first place, and what the profile accepts around it.
-Valued<mpq_class> exact_value(const Basis<mpq_class>& basis, const Quantity& q,
-                              const Evaluation<mpq_class>& place, cases::Profile profile);
+template <class T>
+Valued<T> nominal_value(const Basis<T>& basis, const Quantity& q, const Evaluation<T>& place,
+                        cases::Profile profile);
 
 // "0.333333333 = 1/3"; without the fraction if it says no more, or is too long to be read.
 std::string number_text(double nearest, const std::optional<mpq_class>& exact);
@@ -26,9 +27,9 @@ std::string number_text(double nearest, const std::optional<mpq_class>& exact);
 std::string probe_text(const Basis<mpq_class>& basis, const Quantity& q, const ProbePlace& place);
 
 // Whether a barycentric component holds what another component of the attribute ought to.
-bool is_other_vertex(const Basis<mpq_class>& basis, const Quantity& q,
-                     std::span<const Quantity> all, const Evaluation<mpq_class>& place,
-                     cases::Profile profile, double device);
+template <class T>
+Answer is_other_vertex(const Basis<T>& basis, const Quantity& q, std::span<const Quantity> all,
+                       const Evaluation<T>& place, cases::Profile profile, double device);
 
 // Appends the expected value of a probe; of a derivative also Brown's partials
 // (ref/value/fragment/partials.hpp), called "partial x of attribute 0.x", "total differential of

@@ -156,7 +156,7 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
     const std::vector<Quantity>& all = impl_->quantities_of(t);
     const value::Fragment fragment = impl_->fragment(t, sample, impl_->profile);
     const auto place = value::evaluations<mpq_class>(fragment, impl_->profile).front();
-    const value::Basis<mpq_class>& basis = impl_->exact_basis(t);
+    const value::Basis<mpq_class>& basis = impl_->unsnapped_basis<mpq_class>(t);
     for (const Quantity& q : all) {
         ExpectedValue e;
         e.quantity = q.id;
@@ -182,7 +182,7 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
                                           impl_->probe_place(t, sample, impl_->profile), out);
                 continue;
             }
-            const auto v = value::exact_value(basis, q, place, impl_->profile);
+            const auto v = value::nominal_value(basis, q, place, impl_->profile);
             if (v.exists != Answer::yes) {
                 continue;
             }

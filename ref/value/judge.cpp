@@ -46,9 +46,9 @@ void ValueReference::Impl::judge_samples(uint32_t t, cases::SampleId id,
             if (at > profile || may_be(*f, q, device, at)) {
                 continue;
             }
-            ValueMismatch m = value::mismatch_of(q, ReasonKind::value_exact, at, q.get(device));
-            m.expected = allowed_text(*f, q, at);
-            out.mismatches.push_back(std::move(m));
+            add_mismatch(
+                value::mismatch_of(q, ReasonKind::value_exact, at), q.get(device),
+                [&] { return allowed_text(*f, q, at); }, out);
             break;
         }
     }
@@ -121,16 +121,7 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
         const value::CandidateVerdict verdict = wide(t, id, device, profile, exact_only);
         out.basis = verdict.basis;
         tell_worst(verdict.worst, out);
-        if (!verdict.ok && is_brief) {
-            for (size_t k = 0; k < verdict.failing.size(); ++k) {
-                ValueMismatch m;
-                m.quantity = all[verdict.failing[k]].id;
-                m.level = profile;
-                m.rule = all[verdict.failing[k]].rule;
-                m.ratio = verdict.ratios[k];
-                out.mismatches.push_back(std::move(m));
-            }
-        } else if (!verdict.ok) {
+        if (!verdict.ok) {
             describe(t, id, device, verdict, out);
         }
     }
@@ -156,8 +147,8 @@ void ValueReference::judge_only(const ValueSelection& selection) {
     }
 }
 
-void ValueReference::judge_briefly() {
-    impl_->is_brief = true;
+void ValueReference::tell_only(std::function<bool(const ValueMismatch&)> is_told) {
+    impl_->is_told = std::move(is_told);
 }
 
 FragmentVerdict ValueReference::judge(uint32_t t, cases::SampleId sample,

@@ -27,14 +27,22 @@ using value::Quantity;
 
 namespace {
 
-// Why stored depth must not be what the plane does not lead to.
-ReasonKind depth_reason(const value::Primitive& primitive, double z) {
+// Why stored depth must not be what the plane, which has `z` there, does not lead to; nothing if T
+// cannot tell whether it was clamped.
+template <class T>
+std::optional<ReasonKind> depth_reason(const value::Primitive& primitive, const T& z) {
     const cases::DepthState& depth = primitive.draw->depth;
     const cases::Viewport& v = primitive.draw->viewport;
-    const auto near = static_cast<double>(v.min_depth);
-    const auto far = static_cast<double>(v.max_depth);
-    if (depth.clamp && (z < std::min(near, far) || z > std::max(near, far))) {
-        return ReasonKind::value_clamped_depth;
+    if (depth.clamp) {
+        const Answer is_inside = value::both(
+            value::is_at_most(value::from_float<T>(std::min(v.min_depth, v.max_depth)), z),
+            value::is_at_most(z, value::from_float<T>(std::max(v.min_depth, v.max_depth))));
+        if (is_inside == Answer::unknown) {
+            return std::nullopt;
+        }
+        if (is_inside == Answer::no) {
+            return ReasonKind::value_clamped_depth;
+        }
     }
     if (depth.bias) {
         return ReasonKind::value_biased_depth;
@@ -62,7 +70,7 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
                                       float got, FragmentVerdict& out) const {
     const auto component = static_cast<glm::vec4::length_type>(q.id.component);
     const auto& values = primitive.draw->attributes[q.id.attribute].values;
-    const float want = values[primitive.triangle.provoking][component];
+    const float want = value::provoking_value(primitive, q);
     const auto bits = [](float f) { return std::bit_cast<uint32_t>(f); };
     if (bits(got) == bits(want)) {
         return;
@@ -83,10 +91,58 @@ void ValueReference::Impl::judge_flat(const value::Primitive& primitive, const Q
                          : ReasonKind::value_of_not_last;
         }
     }
-    ValueMismatch m = value::mismatch_of(q, reason, Profile::vulkan, got);
-    m.expected =
-        bits_of(want) + " of the provoking vertex " + std::to_string(primitive.triangle.provoking);
-    out.mismatches.push_back(std::move(m));
+    add_mismatch(
+        value::mismatch_of(q, reason, Profile::vulkan), got,
+        [&] {
+            return bits_of(want) + " of the provoking vertex " +
+                   std::to_string(primitive.triangle.provoking);
+        },
+        out);
+}
+
+void ValueReference::Impl::add_mismatch(ValueMismatch mismatch, float got,
+                                        const std::function<std::string()>& expected,
+                                        FragmentVerdict& out) const {
+    if (!is_told || is_told(mismatch)) {
+        mismatch.expected = expected();
+        mismatch.got = bits_of(got);
+    }
+    out.mismatches.push_back(std::move(mismatch));
+}
+
+const value::SetBounds& ValueReference::Impl::bounds(uint32_t t, Profile at) {
+    Loaded& triangle = load(t);
+    std::optional<value::SetBounds>& slot = triangle.bounds.at(static_cast<size_t>(at));
+    if (!slot) {
+        // What is asked for lies in pixels that the triangle reaches, and in the target.
+        constexpr double kMargin = 2;
+        value::PixelBox box{0, 0, static_cast<double>(c.target.width),
+                            static_cast<double>(c.target.height)};
+        if (triangle.primitive.is_projectable) {
+            const auto v = value::ideal_vertices<Ball>(triangle.primitive);
+            const auto shrink = [&](const value::Triple<Ball>& h, double& low, double& high) {
+                const auto [least, most] =
+                    std::minmax({h[0].v / v.w[0].v, h[1].v / v.w[1].v, h[2].v / v.w[2].v});
+                low = std::max(low, std::floor(least) - kMargin);
+                high = std::min(high, std::ceil(most) + kMargin);
+            };
+            shrink(v.hx, box.low_x, box.high_x);
+            shrink(v.hy, box.low_y, box.high_y);
+        }
+        slot.emplace(candidates<Ball>(t, at), box);
+    }
+    return *slot;
+}
+
+bool ValueReference::Impl::are_rejected(uint32_t t, cases::SampleId id,
+                                        const FragmentValues& device, Profile at,
+                                        const std::vector<size_t>& suspects) {
+    const value::SetBounds& all = bounds(t, at);
+    const auto places = value::evaluations<Ball>(fragment(t, id, at), at);
+    const value::Asked asked{quantities_of(t), load(t).primitive.is_projectable, nullptr, &device};
+    return std::all_of(suspects.begin(), suspects.end(), [&](size_t index) {
+        return is_asked(t, index, at) && all.rejects(places, asked, index);
+    });
 }
 
 std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId id,
@@ -94,24 +150,37 @@ std::vector<size_t> ValueReference::Impl::failing_at(uint32_t t, cases::SampleId
                                                      const std::vector<size_t>& suspects) {
     std::vector<size_t> only = asked(t, at);
     if (at == Profile::vulkan && !only.empty()) {
+        const value::ProbePlace place = probe_place(t, id, at);
+        const auto places = value::evaluations<Ball>(fragment(t, id, at), at);
+        std::vector<size_t> rejected;
+        // A stricter profile has accepted the others, and each value stands alone here.
+        if (places.size() == 1) {
+            const value::SetBounds& all = bounds(t, at);
+            const value::Asked asked{quantities_of(t), load(t).primitive.is_projectable, &place,
+                                     &device};
+            std::erase_if(only, [&](size_t index) {
+                if (std::find(suspects.begin(), suspects.end(), index) == suspects.end() ||
+                    all.accepts(places.front(), asked, index)) {
+                    return true;
+                }
+                const bool is_rejected = all.rejects(places, asked, index);
+                if (is_rejected) {
+                    rejected.push_back(index);
+                }
+                return is_rejected;
+            });
+            if (only.empty()) {
+                return rejected;
+            }
+        }
         const value::CandidateSet<Ball>& set = candidates<Ball>(t, at);
         if (set.is_known) {
-            const value::ProbePlace place = probe_place(t, id, at);
-            const auto places = value::evaluations<Ball>(fragment(t, id, at), at);
-            // A stricter profile has accepted the others, and each value stands alone here.
-            if (places.size() == 1) {
-                std::erase_if(only, [&](size_t index) {
-                    return std::find(suspects.begin(), suspects.end(), index) == suspects.end();
-                });
-                if (only.empty()) {
-                    return {};
-                }
-            }
             auto failing = failing_separately(
                 set, places,
                 {quantities_of(t), load(t).primitive.is_projectable, &place, &device, only});
             if (failing) {
-                return std::move(*failing);
+                failing->insert(failing->end(), rejected.begin(), rejected.end());
+                return *std::move(failing);
             }
         }
     }
@@ -130,6 +199,18 @@ std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId
         const bool is_settled =
             std::all_of(levels.begin(), levels.end(), [p](Profile level) { return level < p; });
         if (p >= profile || is_settled) {
+            break;
+        }
+        std::vector<size_t> left;
+        for (size_t k = 0; k < failing.size(); ++k) {
+            if (levels[k] > p) {
+                left.push_back(failing[k]);
+            }
+        }
+        if (are_rejected(t, id, device, p, left)) {  // so each of them is blamed, whatever else is
+            for (Profile& level : levels) {
+                level = std::min(level, p);
+            }
             break;
         }
         const std::vector<size_t> wrong = failing_at(t, id, device, p, failing);
@@ -151,57 +232,88 @@ std::vector<Profile> ValueReference::Impl::levels_of(uint32_t t, cases::SampleId
     return levels;
 }
 
-void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
-                                    const value::CandidateVerdict& verdict, FragmentVerdict& out) {
+// Why a value must not be what it is; nothing if T cannot tell.
+template <class T>
+std::optional<ReasonKind> ValueReference::Impl::reason_of(uint32_t t, cases::SampleId id,
+                                                          const FragmentValues& device,
+                                                          size_t index) {
     const value::Primitive& primitive = load(t).primitive;
     const std::vector<Quantity>& all = quantities_of(t);
-    const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
+    const Quantity& q = all[index];
+    if (q.kind == Kind::probe) {
+        return ReasonKind::value_set_up;
+    }
+    const value::Basis<T>& basis = unsnapped_basis<T>(t);
+    if (basis.orientation == 2) {
+        return std::nullopt;
+    }
+    const auto place = value::evaluations<T>(fragment(t, id, profile), profile).front();
+    const float got = q.get(device);
+    const auto g = static_cast<double>(got);
+    if (q.rule == cases::rule::barycentric_value) {
+        const Answer is_other = value::is_other_vertex(basis, q, all, place, profile, g);
+        return is_other == Answer::unknown ? std::nullopt
+               : is_other == Answer::yes   ? std::optional(ReasonKind::value_other_weight)
+                                           : std::optional(ReasonKind::value_set_up);
+    }
+    std::optional<ReasonKind> inside = ReasonKind::value_set_up;
+    double reach = 0;
+    if (basis.orientation != 0) {
+        const value::Valued<T> v = value::nominal_value(basis, q, place, profile);
+        if (v.exists == Answer::unknown) {
+            return std::nullopt;
+        }
+        if (v.exists == Answer::yes) {
+            reach = value::nearest_double(v.reach);
+            if (q.id.is_depth() && !is_plain_depth(primitive)) {
+                inside = depth_reason<T>(primitive, v.value);
+            }
+        }
+    }
+    const value::Range<Ball>& hull = candidates<Ball>(t, profile).hulls[index];
+    const double low = hull.low.v - hull.low.e - reach * (1 + 0x1p-30);
+    const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
+    const bool is_moved =
+        (q.id.is_depth() || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
+    return !std::isfinite(got) || (!is_moved && (g < low || g > high))
+               ? std::optional(ReasonKind::value_hull)
+               : inside;
+}
+
+std::string ValueReference::Impl::expected_text(uint32_t t, cases::SampleId id, const Quantity& q) {
+    const value::Primitive& primitive = load(t).primitive;
+    const value::Basis<mpq_class>& basis = unsnapped_basis<mpq_class>(t);
+    if (q.kind == Kind::probe) {
+        return value::probe_text(basis, q, probe_place(t, id, profile));
+    }
     const auto place = value::evaluations<mpq_class>(fragment(t, id, profile), profile).front();
-    const value::Basis<mpq_class>& basis = exact_basis(t);
-    const value::CandidateSet<Ball>& set = candidates<Ball>(t, profile);
+    const auto v = basis.orientation != 0 ? value::nominal_value(basis, q, place, profile)
+                                          : value::Valued<mpq_class>{};
+    if (v.exists != Answer::yes) {
+        return "a value between the vertex values";
+    }
+    const double factor = budget_factor(profile);
+    if (q.id.is_depth() && !is_plain_depth(primitive)) {
+        return fmt::format("{:.9g} or near it (plane {:.9g} within {:.4g} x {:.3g})",
+                           nominal_depth(primitive, basis, v.value, profile).get_d(),
+                           v.value.get_d(), factor, v.budget.get_d());
+    }
+    return fmt::format("{} within {:.4g} x {:.3g}", value::number_text(v.value.get_d(), v.value),
+                       factor, v.budget.get_d());
+}
+
+void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
+                                    const value::CandidateVerdict& verdict, FragmentVerdict& out) {
+    const std::vector<Profile> levels = levels_of(t, id, device, verdict.failing);
     for (size_t k = 0; k < verdict.failing.size(); ++k) {
         const size_t index = verdict.failing[k];
-        const Quantity& q = all[index];
-        const float got = q.get(device);
-        ReasonKind reason = ReasonKind::value_set_up;
-        std::string expected;
-        double reach = 0;
-        if (q.kind == Kind::probe) {
-            expected = value::probe_text(basis, q, probe_place(t, id, profile));
-        } else if (basis.orientation != 0) {
-            const auto v = value::exact_value(basis, q, place, profile);
-            if (v.exists == Answer::yes) {
-                expected = fmt::format("{} within {:.4g} x {:.3g}",
-                                       value::number_text(v.value.get_d(), v.value),
-                                       budget_factor(profile), v.budget.get_d());
-                reach = v.reach.get_d();
-                if (q.id.is_depth() && !is_plain_depth(primitive)) {
-                    reason = depth_reason(primitive, v.value.get_d());
-                    expected =
-                        fmt::format("{:.9g} or near it (plane {:.9g} within {:.4g} x {:.3g})",
-                                    nominal_depth(primitive, basis, v.value, profile).get_d(),
-                                    v.value.get_d(), budget_factor(profile), v.budget.get_d());
-                }
-            }
-        }
-        const value::Range<Ball>& hull = set.hulls[index];
-        const double g = static_cast<double>(got);
-        const double low = hull.low.v - hull.low.e - reach * (1 + 0x1p-30);
-        const double high = hull.high.v + hull.high.e + reach * (1 + 0x1p-30);
-        const bool is_moved =
-            (q.id.is_depth() || q.plane == value::kPlaneDepth) && !is_plain_depth(primitive);
-        if (q.rule == cases::rule::barycentric_value) {
-            if (value::is_other_vertex(basis, q, all, place, profile, g)) {
-                reason = ReasonKind::value_other_weight;
-            }
-        } else if (q.kind != Kind::probe &&
-                   (!std::isfinite(got) || (!is_moved && (g < low || g > high)))) {
-            reason = ReasonKind::value_hull;
-        }
-        ValueMismatch m = value::mismatch_of(q, reason, levels[k], got);
-        m.expected = expected.empty() ? "a value between the vertex values" : expected;
+        const Quantity& q = quantities_of(t)[index];
+        std::optional<ReasonKind> reason = reason_of<Ball>(t, id, device, index);
+        reason = reason ? reason : reason_of<mpq_class>(t, id, device, index);
+        ValueMismatch m = value::mismatch_of(q, reason.value(), levels[k]);
         m.ratio = verdict.ratios[k];
-        out.mismatches.push_back(std::move(m));
+        add_mismatch(
+            std::move(m), q.get(device), [&] { return expected_text(t, id, q); }, out);
     }
 }
 

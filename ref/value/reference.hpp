@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -22,8 +23,10 @@
 
 #include "cases/base/number_text.hpp"
 #include "ref/value/accept/filter.hpp"
+#include "ref/value/accept/filter_run.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 #include "ref/value/accept/probe.hpp"
+#include "ref/value/accept/set_bounds.hpp"
 #include "ref/value/fragment/fragment_coverage.hpp"
 #include "ref/value/fragment/promise.hpp"
 #include "ref/value/places.hpp"
@@ -70,6 +73,8 @@ struct Loaded {
     bool has_filters = false;                      // the two are made when first asked for
     bool has_snapped = false;                      // and it differs from the unsnapped one
     std::optional<std::vector<Promise>> promises;  // filled when first asked for
+    // Of what each profile admits, likewise.
+    std::array<std::optional<SetBounds>, std::size(cases::kProfiles)> bounds;
 };
 
 // A number as read back, and its bits.
@@ -83,18 +88,23 @@ inline bool is_plain_depth(const Primitive& primitive) {
     return primitive.depth_format == cases::DepthFormat::d32_float && !depth.bias && !depth.clamp;
 }
 
-// What is wrong with a quantity, but for what was expected: `got` and why it must not be that.
-inline ValueMismatch mismatch_of(const Quantity& q, ReasonKind reason, cases::Profile level,
-                                 float got) {
+// What is wrong with a quantity and why, without the texts.
+inline ValueMismatch mismatch_of(const Quantity& q, ReasonKind reason, cases::Profile level) {
     ValueMismatch m;
     m.quantity = q.id;
     m.reason = reason;
     m.level = level;
     m.rule = rule_of(reason, level);
     m.rule = m.rule.empty() ? q.rule : m.rule;
-    m.got = bits_of(got);
     m.ratio = std::numeric_limits<double>::infinity();
     return m;
+}
+
+// What a flat component is: the provoking vertex's.
+inline float provoking_value(const Primitive& primitive, const Quantity& q) {
+    const auto component = static_cast<glm::vec4::length_type>(q.id.component);
+    const auto& values = primitive.draw->attributes[q.id.attribute].values;
+    return values[primitive.triangle.provoking][component];
 }
 
 // The depth that a device most likely stores, from the exact one of its plane: with the bias of
@@ -123,13 +133,15 @@ struct ValueReference::Impl {
         value::CandidateCache<Ball>(64), value::CandidateCache<mpq_class>(4)};
     std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)>
         coverage;  // by profile
-    uint32_t text_triangle = 0;
-    std::optional<value::Basis<mpq_class>> text_basis;
+    // The unsnapped bases of the triangle that was described last.
+    uint32_t described_triangle = 0;
+    std::tuple<std::optional<value::Basis<Ball>>, std::optional<value::Basis<mpq_class>>>
+        described_bases;
     uint32_t range_triangle = 0;
     cases::SampleId range_id;
     std::vector<value::Evaluation<Ball>> range_places;
-    FragmentPart part = FragmentPart::all;  // of the fragment being judged
-    bool is_brief = false;                  // judge_briefly
+    FragmentPart part = FragmentPart::all;              // of the fragment being judged
+    std::function<bool(const ValueMismatch&)> is_told;  // tell_only(); empty: all
     ValueSelection selection;
     std::vector<std::vector<Quantity>> selected;  // the quantities of it, by draw
 
@@ -228,16 +240,20 @@ struct ValueReference::Impl {
     // Whether one of the two nominal bases is proven to explain all numbers of the fragment.
     bool filter(uint32_t t, cases::SampleId id, const FragmentValues& device, FragmentVerdict& out);
 
-    // The unsnapped basis in rationals, for texts; the last one is kept.
-    const value::Basis<mpq_class>& exact_basis(uint32_t t) {
-        if (text_triangle != t || !text_basis) {
-            const value::Primitive& primitive = load(t).primitive;
-            text_basis = make_basis(value::ideal_vertices<mpq_class>(primitive),
-                                    value::plane_inputs<mpq_class>(primitive, quantities_of(t)),
-                                    kBudgetFactor);
-            text_triangle = t;
+    // The unsnapped basis; the last one is kept.
+    template <class T>
+    const value::Basis<T>& unsnapped_basis(uint32_t t) {
+        if (described_triangle != t) {
+            described_bases = {};
+            described_triangle = t;
         }
-        return *text_basis;
+        auto& basis = std::get<std::optional<value::Basis<T>>>(described_bases);
+        if (!basis) {
+            const value::Primitive& primitive = load(t).primitive;
+            basis = make_basis(value::ideal_vertices<T>(primitive),
+                               value::plane_inputs<T>(primitive, quantities_of(t)), kBudgetFactor);
+        }
+        return *basis;
     }
 
     // Whether the part of the fragment that is being judged has the quantity.
@@ -312,10 +328,22 @@ struct ValueReference::Impl {
         return judge_by(candidates<mpq_class>(t, at));
     }
 
+    // Bounds on all that a profile admits for the triangle.
+    const value::SetBounds& bounds(uint32_t t, Profile at);
+
+    // Whether each of these values is proven to fail at the profile, whichever set-up is taken.
+    bool are_rejected(uint32_t t, cases::SampleId id, const FragmentValues& device, Profile at,
+                      const std::vector<size_t>& suspects);
+
     // What fails of wide(): at profile vulkan, where each value stands alone, in much less time.
     // `suspects`: what fails at the profile that is judged.
     std::vector<size_t> failing_at(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                    Profile at, const std::vector<size_t>& suspects);
+
+    std::vector<value::RunValue> run_values;  // of the run that is being judged
+    size_t count_exact(const Quantity& q, const value::RunValue& got, const FragmentRun& run,
+                       float flat) const;
+    size_t judge_run(uint32_t t, const FragmentRun& run, std::span<double> ratios);
 
     void judge_flat(const value::Primitive& primitive, const Quantity& q, float got,
                     FragmentVerdict& out) const;
@@ -325,6 +353,12 @@ struct ValueReference::Impl {
                                    const std::vector<size_t>& failing);
     void describe(uint32_t t, cases::SampleId id, const FragmentValues& device,
                   const value::CandidateVerdict& verdict, FragmentVerdict& out);
+    template <class T>
+    std::optional<ReasonKind> reason_of(uint32_t t, cases::SampleId id,
+                                        const FragmentValues& device, size_t index);
+    std::string expected_text(uint32_t t, cases::SampleId id, const Quantity& q);
+    void add_mismatch(ValueMismatch mismatch, float got,
+                      const std::function<std::string()>& expected, FragmentVerdict& out) const;
     FragmentVerdict judge(uint32_t t, cases::SampleId id, const FragmentValues& device,
                           bool exact_only);
 };

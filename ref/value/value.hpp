@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
@@ -90,6 +91,15 @@ struct ValueSelection {
 // others, if the last one does not write depth.
 enum class FragmentPart : uint8_t { all, all_but_depth, depth };
 
+// Fragments of one triangle with one sample a pixel: of `first` and of its neighbours to the right,
+// as many as `frag_coord` has. Planes that nobody has are empty.
+struct FragmentRun {
+    cases::SampleId first;
+    std::span<const glm::vec4> frag_coord;
+    std::span<const float> depth;
+    std::array<std::span<const glm::vec4>, cases::kMaxAttributes> attributes;
+};
+
 // Judges the fragments of one case. It sets a triangle up when first asked; it is not thread-safe.
 class ValueReference {
   public:
@@ -100,14 +110,19 @@ class ValueReference {
     // From now on only these values are judged; one basis has to explain those together.
     void judge_only(const ValueSelection& selection);
 
-    // From now on a mismatch has its quantity, that one's rule and its ratio only, and the asked
-    // profile for its level: looser ones are not tried. This suffices for what a report does not
-    // tell: a broken device has thousands of mismatches.
-    void judge_briefly();
+    // From now on a mismatch has its texts, `expected` and `got`, only if `is_told` says so, which
+    // is asked when all the rest of it is known: a broken device has thousands of mismatches, and
+    // nobody reads most of them.
+    void tell_only(std::function<bool(const ValueMismatch&)> is_told);
 
     // Judges what triangle `t` (index into assemble(c)) wrote at a sample that it may cover.
     FragmentVerdict judge(uint32_t t, cases::SampleId sample, const FragmentValues& device,
                           FragmentPart part = FragmentPart::all);
+
+    // How many leading fragments of a run are proven right by the first stage of judge() alone,
+    // with at most one budget of error; `ratios`, one a fragment, then has their worst_ratio. The
+    // next one may be right, too.
+    size_t judge_run(uint32_t t, const FragmentRun& run, std::span<double> ratios);
 
     // The oracle answers the same question by rationals alone, without any filter. It is slow.
     FragmentVerdict judge_exact(uint32_t t, cases::SampleId sample, const FragmentValues& device,

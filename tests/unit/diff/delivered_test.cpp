@@ -222,9 +222,10 @@ TEST(Delivered, ColourAloneIsJudged) {
     f.c.draws[0].color.value = {1, 0, 0, 1};
     f.e = ref::expect(f.c, ref::Limits{8}, Profile::direct3d);
     capture::Delivered planes;
-    for (const auto& sample : f.e.samples) {
-        planes.color.push_back(sample.hits.total_min > 0 ? capture::ColorCodes{255, 0, 0, 255}
-                                                         : capture::ColorCodes{});
+    for (size_t k = 0; k < f.e.samples.size(); ++k) {
+        planes.color.push_back(f.e.samples[k].hits.total_min > 0
+                                   ? capture::ColorCodes{255, 0, 0, 255}
+                                   : capture::ColorCodes{});
     }
     EXPECT_TRUE(diff::compare_delivered(f.c, f.e, planes).ok());
     planes.color[3 * 8 + 3] = {254, 0, 0, 255};

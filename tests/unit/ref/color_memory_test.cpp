@@ -201,9 +201,7 @@ void check_remembered(uint32_t triangles, bool is_varied, std::mt19937& random) 
         const Unit unit{format, Profile::direct3d};
         size_t layered = 0;
         for (size_t index = 0; index < expectation.samples.size(); ++index) {
-            const auto begin = expectation.fragments_begin[index];
-            const auto hits = std::span(expectation.fragments)
-                                  .subspan(begin, expectation.fragments_begin[index + 1] - begin);
+            const auto hits = expectation.fragments_of(expectation.samples[index]);
             if (!std::all_of(hits.begin(), hits.end(), [](auto& h) { return h.is_certain; })) {
                 continue;
             }
@@ -243,9 +241,7 @@ TEST(ColorMemory, WhatIsNoNumberIsNotTakenForWhatWasWritten) {
     ColorReference reference(c, expectation);
     size_t compared = 0;
     for (size_t index = 0; index < expectation.samples.size(); ++index) {
-        const auto begin = expectation.fragments_begin[index];
-        const auto hits = std::span(expectation.fragments)
-                              .subspan(begin, expectation.fragments_begin[index + 1] - begin);
+        const auto hits = expectation.fragments_of(expectation.samples[index]);
         if (hits.empty() ||
             !std::all_of(hits.begin(), hits.end(), [](auto& h) { return h.is_certain; })) {
             continue;

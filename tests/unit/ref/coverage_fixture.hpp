@@ -63,8 +63,8 @@ struct Count {
 };
 inline Count count_hits(const Expectation& e) {
     Count out;
-    for (const SampleExpectation& s : e.samples) {
-        const HitBounds& b = s.hits;
+    for (size_t k = 0; k < e.samples.size(); ++k) {
+        const HitBounds& b = e.samples[k].hits;
         if (b.total_min != b.total_max) {
             ++out.open;
         } else if (b.total_min == 0) {

@@ -167,7 +167,8 @@ TEST(CoverageMesh, EverySnappingIsAllowed) {
                 }
             }
         }
-        for (const SampleExpectation& sample : e.samples) {
+        for (size_t k = 0; k < e.samples.size(); ++k) {
+            const SampleExpectation& sample = e.samples[k];
             fixed += sample.writers_count > 1 && sample.hits.total_min == sample.hits.total_max &&
                      sample.hits.total_min > 0;
         }

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The shortcuts of the wide stage against the whole of it: what fails alone, and what several
-// evaluations share.
+// evaluations share, and what bounds of all set-ups prove.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "ref/value/accept/probe.hpp"
+#include "ref/value/accept/reach.hpp"
+#include "ref/value/accept/set_bounds.hpp"
 #include "ref/value/places.hpp"
 #include "value_case.hpp"
 
@@ -29,18 +32,18 @@ struct Random {
     std::vector<ref::value::Quantity> quantities;
     ref::value::Fragment fragment;
 
-    Random(std::mt19937_64& rng, int n)
+    Random(std::mt19937_64& rng, int n, uint32_t samples = 4)
         : sampled(value_test::random_case(rng, 64, static_cast<value_test::Shape>(n % 3),
                                           n % 4 < 2 ? 0 : 4)) {
         cases::Case& c = sampled.c;
-        c.target.samples = 4;
+        c.target.samples = samples;
         cases::Draw& draw = c.draws[0];
         for (size_t a = 0; a < 2; ++a) {
             draw.attributes[a].auxiliary = static_cast<cases::Auxiliary>(rng() % 3);
         }
         if (n % 3 == 0) {
             draw.attributes[1].probe = n % 2 == 0 ? cases::Probe::at_sample : cases::Probe::dx_fine;
-            draw.attributes[1].probe_sample = 2;
+            draw.attributes[1].probe_sample = 2 % samples;
         }
         if (n % 5 == 0) {
             draw.multisample.min_sample_shading = 0.5F;
@@ -48,11 +51,11 @@ struct Random {
         primitive = ref::value::make_primitive(c, cases::assemble(c).front());
         quantities = ref::value::quantities(draw, c.target);
         fragment.id = sampled.inside.front();
-        fragment.id.sample = static_cast<uint32_t>(rng() % 4);
+        fragment.id.sample = static_cast<uint32_t>(rng() % samples);
         fragment.target = &c.target;
         fragment.draw = &draw;
-        fragment.coverage.may = 0xf;
-        fragment.coverage.must = static_cast<uint32_t>(rng() % 16);
+        fragment.coverage.may = (1U << samples) - 1;
+        fragment.coverage.must = static_cast<uint32_t>(rng() & fragment.coverage.may);
         fragment.coverage.is_one_fragment = n % 2 == 0;
         const double x = fragment.id.x;
         const double y = fragment.id.y;
@@ -185,6 +188,62 @@ TEST(ValueAlone, EvaluationsShareWhatIsTheSame) {
     EXPECT_GT(wrong, compared / 10);
     EXPECT_LT(wrong, compared);
     EXPECT_GT(several, compared / 10);
+}
+
+// What the bounds of all set-ups reject or accept, rationals reject or accept, too; and they leave
+// little open of what is far off.
+TEST(ValueAlone, BoundsOfAllSetUpsProveWhatTheyDecide) {
+    std::mt19937_64 rng(31);
+    uint32_t far = 0, far_rejected = 0, rejected = 0, accepted = 0;
+    for (int n = 0; n < 180; ++n) {
+        const Random r(rng, n, n % 4 == 0 ? 4 : 1);
+        const double x = r.fragment.id.x;
+        const double y = r.fragment.id.y;
+        const ref::value::PixelBox box = n % 2 == 0
+                                             ? ref::value::PixelBox{0, 0, 64, 64}
+                                             : ref::value::PixelBox{x - 1, y - 1, x + 2, y + 2};
+        for (const Profile at : cases::kProfiles) {
+            const auto balls = r.set<Ball>(at);
+            if (!balls.is_known) {
+                continue;
+            }
+            const ref::value::SetBounds bounds(balls, box);
+            const auto exact = r.set<mpq_class>(at);
+            const auto evaluations = ref::value::evaluations<Ball>(r.fragment, at);
+            const auto exactly = ref::value::evaluations<mpq_class>(r.fragment, at);
+            const ref::value::ProbePlace place = r.place(at);
+            const double spread = std::array{1e-5, 1e-3, 0.1, 30.0}.at(rng() % 4);
+            const ref::FragmentValues device = r.device(rng, spread);
+            const ref::value::Asked asked{r.quantities, r.primitive.is_projectable, &place,
+                                          &device};
+            for (size_t k = 0; k < r.quantities.size(); ++k) {
+                if (!ref::value::is_numeric(r.quantities[k])) {
+                    EXPECT_FALSE(bounds.rejects(evaluations, asked, k));
+                    continue;
+                }
+                const bool is_rejected = bounds.rejects(evaluations, asked, k);
+                const bool is_accepted = at == Profile::vulkan && evaluations.size() == 1 &&
+                                         bounds.accepts(evaluations.front(), asked, k);
+                const bool is_far = spread > 1;
+                const bool is_near = spread < 1e-4 && at == Profile::vulkan;
+                if (!is_rejected && !is_accepted && !is_far && !is_near && rng() % 4 != 0) {
+                    continue;
+                }
+                const std::array<size_t, 1> only{k};
+                const auto whole = ref::value::judge_candidates(exact, exactly, asked.of(only));
+                ASSERT_FALSE(is_rejected && whole.ok) << n << " " << to_text(r.quantities[k].id);
+                ASSERT_FALSE(is_accepted && !whole.ok) << n << " " << to_text(r.quantities[k].id);
+                rejected += is_rejected ? 1U : 0U;
+                accepted += is_accepted ? 1U : 0U;
+                far += is_far && !whole.ok ? 1U : 0U;
+                far_rejected += is_far && is_rejected ? 1U : 0U;
+            }
+        }
+    }
+    EXPECT_GT(far, 50U);
+    EXPECT_GT(far_rejected, far / 2);
+    EXPECT_GT(rejected, 100U);
+    EXPECT_GT(accepted, 100U);
 }
 
 }  // namespace

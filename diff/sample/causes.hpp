@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which of a sample's reasons a wrong number of hits, or a wrong writer, breaks.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ref/expectation/explain.hpp"
+#include "ref/reason/reason.hpp"
+
+namespace diff {
+
+// What is broken, and the sentence that says it, which is made when it is asked for.
+struct Cause {
+    std::string_view rule;
+    std::function<std::string()> words;
+};
+
+// The reasons of one sample at one level. The causes that it gives refer to it.
+class Causes {
+  public:
+    Causes(ref::Explainer& explainer, const cases::Case& c, cases::SampleId sample,
+           cases::Profile level)
+        : explainer_(explainer),
+          case_(c),
+          sample_(sample),
+          level_(level),
+          reasons_(explainer.explain(sample, ref::Detail::reasons)) {}
+    Causes(const Causes&) = delete;
+    Causes& operator=(const Causes&) = delete;
+
+    // Of too many hits at a sample that no triangle may cover.
+    Cause of_extra() const;
+    // Of `total` hits, which are too few, or too many where some hits are allowed.
+    Cause of_count(uint32_t total, bool is_missing) const;
+    // Of a hit too many of a triangle that must fail the depth test, or one too few of a triangle
+    // that must pass it; the number alone does not tell which, so the last one that fits is named.
+    std::optional<Cause> of_depth(bool is_missing) const;
+    // Of a sample that was written last by a triangle that must not cover it; nothing if one of
+    // those that may have written it may.
+    std::optional<Cause> of_stray_writer(
+        const std::function<bool(const cases::Triangle&)>& wrote) const;
+    // Of the right number of hits by the wrong face.
+    Cause of_facing() const;
+    // A triangle that the top-left rule decides, if there is one: better one that it gives the
+    // sample to.
+    std::optional<Cause> of_tie() const;
+
+  private:
+    using Fits = std::function<bool(const ref::TriangleExplanation&)>;
+
+    Cause of(const ref::TriangleExplanation& t) const;
+    Cause of(const ref::FixedSet& set) const;
+    // A reason of the sample as a whole: `triangle` and `number` are those that its sentence names.
+    Cause of(ref::ReasonKind why, const std::string& triangle = "", uint32_t number = 0) const;
+    std::optional<Cause> of_suppressed(const Fits& fits) const;
+    const ref::TriangleExplanation* first_that(const Fits& fits) const;
+    const ref::TriangleExplanation* first_with(ref::Coverage coverage) const;
+    const ref::TriangleExplanation* first_tie(bool is_given) const;
+
+    ref::Explainer& explainer_;
+    const cases::Case& case_;
+    cases::SampleId sample_;
+    cases::Profile level_;
+    ref::SampleExplanation reasons_;
+};
+
+}  // namespace diff

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Proves in binary64 that all set-ups which a profile admits reject a value, or, at profile vulkan,
+// that one of them accepts it. A device that is wrong everywhere is far off in most of its values,
+// and trying up to 66 set-ups for each of them costs more than all else that is judged.
+//
+// The planes of all bases differ little inside the triangle's bounding box. The difference of two
+// linear functions is largest at a corner of the box, so the first basis's plane, with the largest
+// difference at the four corners as its bound, holds every plane of the set in the whole box.
+// Budgets are the largest of any basis at any corner, because each of their terms (the extents, and
+// the spread as a sum of magnitudes of linear functions) is convex. What lies outside of the values
+// that these bounds leave, widened as value_at() widens one value, is accepted by none
+// (docs/precision.md, "All set-ups at once").
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ref/value/accept/filter.hpp"
+#include "ref/value/accept/judge_candidates.hpp"
+
+namespace ref::value {
+
+// Pixels.
+struct PixelBox {
+    double low_x = 0, low_y = 0, high_x = 0, high_y = 0;
+};
+
+class SetBounds {
+  public:
+    // `box` holds the points that will be asked for; it may be as large as the target, but the
+    // larger, the less is rejected.
+    SetBounds(const CandidateSet<Ball>& set, const PixelBox& box);
+
+    // Whether no member of the set accepts the device's value of quantity `index` at any of these
+    // evaluations. "No" proves nothing. A probe is never rejected, nor a depth with a bias.
+    bool rejects(std::span<const Evaluation<Ball>> evaluations, const Asked& asked,
+                 size_t index) const;
+
+    // Of a set at profile vulkan, where each value stands alone: whether its first basis, or the
+    // hull of the vertex values where a member takes that, accepts the value at the one point where
+    // it is evaluated. "No" proves nothing.
+    bool accepts(const Evaluation<Ball>& where, const Asked& asked, size_t index) const;
+
+  private:
+    // All values that some basis has at a point, and the most that is accepted around them.
+    struct Bound {
+        double low = 0, high = 0, reach = 0;
+    };
+    // Nothing if a denominator may not be safe, or if the point lies outside of the box.
+    std::optional<Bound> bound_at(const Quantity& q, const Point<Ball>& p) const;
+    bool is_inside_depths(const Bound& bound) const;
+    bool takes_hull(const Asked& asked, size_t index) const;
+
+    PixelBox box_;
+    bool is_usable_ = false;
+    bool is_any_of_all_ = false;
+    bool has_unbounded_ = false;       // some candidate takes the hull of the vertex values
+    double factor_ = 0;                // K or a little more
+    std::vector<FilterPlane> planes_;  // of all bases; `budget` is the largest
+    Filter first_;                     // of the first basis; its budgets are the least
+    double least_depth_budget_ = 0;
+    std::vector<Range<Ball>> hulls_;  // of the vertex values, by quantity
+    bool has_bias_ = false;
+    bool is_clamped_ = false;
+    Range<double> depths_;  // of the viewport
+    double steps_ = 0;      // of a stored depth, 2^n - 1; 0 for binary32
+};
+
+}  // namespace ref::value

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The verdict on neighbouring fragments of one triangle, as far as the first stage alone (binary64
+// against the unsnapped and the snapped basis) tells that they are right.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cases/model/float_bits.hpp"
+#include "ref/value/accept/filter_run.hpp"
+#include "ref/value/fragment/shading_rate.hpp"
+#include "ref/value/reference.hpp"
+
+namespace ref {
+
+using cases::same_bits;
+using value::is_plain_depth;
+using value::Kind;
+using value::kRunLength;
+using value::Quantity;
+using value::RunValue;
+
+namespace {
+
+// Where the run's numbers of a quantity lie; null where nobody has them.
+RunValue numbers_of(const FragmentRun& run, const Quantity& q) {
+    if (q.id.is_depth()) {
+        return {&q, run.depth.empty() ? nullptr : run.depth.data(), 1};
+    }
+    const std::span<const glm::vec4> plane =
+        q.id.is_attribute() ? run.attributes.at(q.id.attribute) : run.frag_coord;
+    return {&q, plane.empty() ? nullptr : &plane.front().x + q.id.component, 4};
+}
+
+}  // namespace
+
+// How many leading fragments have the one number that is right for a quantity of these kinds.
+size_t ValueReference::Impl::count_exact(const Quantity& q, const RunValue& got,
+                                         const FragmentRun& run, float flat) const {
+    const bool is_x = q.id.component == 0;
+    size_t k = 0;
+    for (; k < run.frag_coord.size(); ++k) {
+        const float centre = static_cast<float>(is_x ? run.first.x + k : run.first.y) + 0.5F;
+        if (!same_bits(got.at[k * got.step], q.kind == Kind::flat ? flat : centre)) {
+            break;
+        }
+    }
+    return k;
+}
+
+size_t ValueReference::Impl::judge_run(uint32_t t, const FragmentRun& run,
+                                       std::span<double> ratios) {
+    const value::Loaded& triangle = load_filters(t);
+    const value::Primitive& primitive = triangle.primitive;
+    if (!primitive.is_finite || !is_plain_depth(primitive) || c.target.samples != 1 ||
+        value::shading_rate(*primitive.draw, 1) != value::ShadingRate::fragment) {
+        return 0;
+    }
+    size_t count = run.frag_coord.size();
+    run_values.clear();
+    for (const Quantity& q : selected.at(triangles[t].draw)) {
+        const RunValue got = numbers_of(run, q);
+        if (got.at == nullptr) {
+            return 0;
+        }
+        if (q.kind == Kind::linear || q.kind == Kind::perspective) {
+            run_values.push_back(got);
+        } else if (q.kind == Kind::flat || q.kind == Kind::pixel_centre) {
+            const float flat = q.kind == Kind::flat ? value::provoking_value(primitive, q) : 0.0F;
+            count = std::min(count, count_exact(q, got, run, flat));
+        } else {
+            return 0;
+        }
+    }
+    std::array<double, kRunLength> others;
+    for (size_t done = 0; done < count;) {
+        const size_t n = std::min(kRunLength, count - done);
+        const cases::SampleId id{run.first.x + static_cast<uint32_t>(done), run.first.y,
+                                 run.first.sample, run.first.layer};
+        const FixedPoint at = sample_position(id.x, id.y, id.sample, c.target);
+        const value::RunPoints points{{id.x + 0.5, id.y + 0.5}, {pixels(at.x), pixels(at.y)}};
+        const std::span<double> unsnapped = ratios.subspan(done, n);
+        filter_run(triangle.unsnapped, run_values, points, kBudgetFactor, unsnapped);
+        // As filter(): where the unsnapped basis does not explain the fragment within one budget,
+        // the snapped one may.
+        const bool is_explained = std::all_of(unsnapped.begin(), unsnapped.end(),
+                                              [](double ratio) { return ratio <= 1; });
+        if (!is_explained && triangle.has_snapped) {
+            const std::span<double> snapped(others.data(), n);
+            filter_run(triangle.snapped, run_values, points, kBudgetFactor, snapped);
+            for (size_t k = 0; k < n; ++k) {
+                unsnapped[k] =
+                    unsnapped[k] <= 1 ? unsnapped[k] : std::min(unsnapped[k], snapped[k]);
+            }
+        }
+        for (size_t k = 0; k < n; ++k, ++done) {
+            if (!(unsnapped[k] <= 1)) {
+                return done;
+            }
+        }
+        for (RunValue& value : run_values) {
+            value.at += n * value.step;
+        }
+    }
+    return count;
+}
+
+size_t ValueReference::judge_run(uint32_t t, const FragmentRun& run, std::span<double> ratios) {
+    return impl_->judge_run(t, run, ratios);
+}
+
+}  // namespace ref
