@@ -219,7 +219,7 @@ class RowJudge {
                     continue;
                 }
                 for (uint32_t x = run.x0; x < run.x1; ++x) {
-                    keep(index_of(row, x, s), 1, judge({x, row, s}, hits, nullptr));
+                    keep(index_of(row, x, s), 1, judge({x, row, s}, hits));
                 }
             }
         }
@@ -243,7 +243,12 @@ class RowJudge {
                 if (hits.empty() && onlooker_ == nullptr) {
                     continue;
                 }
-                keep(index_of(row, x, s), 1, judge({x, row, s}, hits, onlooker_));
+                JudgeReasons reasons;  // what holds anywhere needs none
+                const uint32_t number = hits.empty() || scene_.narrowing.is_anywhere(hits)
+                                            ? number_of(hits)
+                                            : judge({x, row, s}, hits, &reasons);
+                keep(index_of(row, x, s), 1, number);
+                show({x, row, s}, hits, number, reasons);
             }
         }
     }
@@ -252,29 +257,38 @@ class RowJudge {
         uint32_t x, row, s;
     };
 
-    uint32_t judge(const Place& at, std::span<const Hit> hits, Onlooker* onlooker) {
-        const uint32_t y = at.row % target_.height;
-        const FixedPoint p = sample_position(at.x, y, at.s, target_);
-        JudgeReasons reasons;
-        SampleExpectation sample =
-            scene_.narrowing.judge(p, at.s, hits, out_.writers, out_.depth_writers,
-                                   onlooker != nullptr ? &reasons : nullptr);
+    FixedPoint position(const Place& at) const {
+        return sample_position(at.x, at.row % target_.height, at.s, target_);
+    }
+
+    uint32_t judge(const Place& at, std::span<const Hit> hits, JudgeReasons* reasons = nullptr) {
+        SampleExpectation sample = scene_.narrowing.judge(position(at), at.s, hits, out_.writers,
+                                                          out_.depth_writers, reasons);
         add_fragments(out_, scene_.c, hits, sample);
-        if (onlooker != nullptr && !onlooker->look({index_of(at.row, at.x, at.s),
-                                                    {at.x, y, at.s, at.row / target_.height},
-                                                    p,
-                                                    hits,
-                                                    sample.hits,
-                                                    out_.writers_of(sample),
-                                                    reasons},
-                                                   scene_.setups)) {
+        return out_.samples.add(sample);
+    }
+
+    void show(const Place& at, std::span<const Hit> hits, uint32_t number,
+              const JudgeReasons& reasons) {
+        const SampleExpectation& sample = out_.samples.of_number(number);
+        if (onlooker_ != nullptr &&
+            !onlooker_->look({index_of(at.row, at.x, at.s),
+                              {at.x, at.row % target_.height, at.s, at.row / target_.height},
+                              position(at),
+                              hits,
+                              sample.hits,
+                              out_.writers_of(sample),
+                              reasons},
+                             scene_.setups)) {
             onlooker_ = nullptr;
         }
-        return hits.empty() ? SampleExpectations::kNothing : out_.samples.add(sample);
     }
 
     // The number of what these triangles come to wherever the sample lies.
     uint32_t number_of(std::span<const Hit> hits) {
+        if (hits.empty()) {
+            return SampleExpectations::kNothing;
+        }
         const bool is_alone = hits.size() == 1 && hits[0].coverage == Coverage::must;
         uint32_t& known = is_alone ? alone_[hits[0].triangle] : last_number_;
         const bool is_known =
@@ -284,7 +298,7 @@ class RowJudge {
                                         return a.triangle == b.triangle && a.coverage == b.coverage;
                                     }));
         if (!is_known) {
-            known = judge({0, 0, 0}, hits, nullptr);
+            known = judge({0, 0, 0}, hits);
             if (!is_alone) {
                 last_.assign(hits.begin(), hits.end());
             }

@@ -130,7 +130,7 @@ struct ValueReference::Impl {
     std::deque<uint32_t> order;                     // of the loaded ones, oldest first
     static constexpr size_t kKeptTriangles = 16384;
     std::tuple<value::CandidateCache<Ball>, value::CandidateCache<mpq_class>> candidate_caches{
-        value::CandidateCache<Ball>(64), value::CandidateCache<mpq_class>(4)};
+        value::CandidateCache<Ball>(128), value::CandidateCache<mpq_class>(32)};
     std::array<std::unique_ptr<FragmentCoverage>, std::size(cases::kProfiles)>
         coverage;  // by profile
     // The unsnapped bases of the triangle that was described last.
