@@ -56,7 +56,7 @@ int export_reproducer(const Program& program, const ExportOptions& options) {
     if (auto written = write_text(options.output, *text); !written) {
         return report_stop({report::kExitUsage, {written.error().message}});
     }
-    say(fmt::format("{}: build it with 'cc -std=c99 {} -lvulkan'\n",
+    say(fmt::format("{}: build it with 'cc -std=c99 {} -lvulkan -lm'\n",
                     cases::printable(options.output), cases::printable(options.output)));
     return report::kExitOk;
 }

@@ -8,10 +8,12 @@
 
 #include "cases/base/error.hpp"
 #include "cases/model/case.hpp"
+#include "cases/model/profile.hpp"
 
 namespace cli {
 
-// The SPIR-V, the vertices and the state of all draws. The case has passed missing_of().
-std::string draw_tables(const cases::Case& c);
+// The SPIR-V, the vertices and the state of all draws, and how often they are drawn. The case has
+// no undrawable_part().
+std::string draw_tables(const cases::Case& c, cases::Profile profile);
 
 }  // namespace cli

@@ -8,8 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
+#include "cli/reproducer/color_tables.hpp"
+#include "cli/reproducer/probe_ranges.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/value/fragment/shading_rate.hpp"
 #include "ref/value/value.hpp"
 
 namespace cli {
@@ -35,6 +39,9 @@ std::string range_text(const ref::ValueRange& range) {
         return "{1.0F, 0.0F}, ";
     }
     constexpr double kMost = std::numeric_limits<float>::max();
+    if (std::isinf(range.low) && std::isinf(range.high)) {
+        return "{-INFINITY, INFINITY}, ";
+    }
     auto low = static_cast<float>(std::clamp(range.low, -kMost, kMost));
     auto high = static_cast<float>(std::clamp(range.high, -kMost, kMost));
     if (static_cast<double>(low) < range.low) {
@@ -73,14 +80,21 @@ class Rows {
 class Tables {
   public:
     Tables(const cases::Case& c, const ref::Limits& limits, cases::Profile profile)
-        : case_(c), expectation_(ref::expect(c, limits, profile)), values_(c, limits, profile) {}
+        : case_(c),
+          expectation_(ref::expect(c, limits, profile)),
+          values_(c, limits, profile),
+          probes_(c, limits, profile, expectation_.triangles) {
+        if (c.target.color) {
+            colors_.emplace(c, expectation_, values_);
+        }
+    }
 
     cases::Expected<std::string> text() {
         std::string runs, last;
         size_t run = 0;
         for (size_t k = 0; k < expectation_.samples.size(); ++k) {
             std::string row = sample_row(k);
-            if (ranges_.size() > kMostRanges) {
+            if (ranges_.size() + color_rows_.size() > kMostRanges) {
                 return cases::failure(fmt::format(
                     "the case '{}' has more than {} ranges of values, too many for a C file; take "
                     "a case with fewer samples that fails alike",
@@ -98,8 +112,10 @@ class Tables {
             "static const struct Bounds kBounds[] = {{\n{}}};\n\n"
             "static const struct Range kRanges[] = {{\n{}}};\n\n"
             "static const struct Writer kWriters[] = {{\n{}}};\n\n"
+            "static const struct Color kColors[] = {{\n{}}};\n\n"
             "static const struct Expected kExpected[] = {{\n{}}};\n\n",
-            bounds_.text(""), ranges_.text("{0, 0},"), writers_.text("{0, 0, 0},"), runs);
+            bounds_.text(""), ranges_.text("{0, 0},"), writers_.text("{0, 0, 0},"),
+            color_rows_.text("{0, 0, 0, 0, {0}, {0}},"), runs);
     }
 
   private:
@@ -110,6 +126,23 @@ class Tables {
             fmt::format("{{{}, {}, {}, {}, {}, {}, {}, {}}},", h.front_min, h.front_max, h.back_min,
                         h.back_max, h.signed_min, h.signed_max, h.total_min, h.total_max));
         std::string writers, depths;
+        std::vector<ColorRows::Sequence> sets;
+        size_t colors = 0;
+        std::string color_text;
+        if (colors_) {
+            sets = colors_->sets_at(index);
+            for (const std::string& row : colors_->rows(index, sets)) {
+                color_text += row + " ";
+                ++colors;
+            }
+        }
+        if (!case_.target.has_instruments) {
+            const BareDepth bare = bare_depth(index, sets);
+            return fmt::format("{}, 0, 0, {}, {}, {:d}, {}, {}", bounds,
+                               bare.count > 0 ? ranges_.number(bare.text, bare.count) : 0,
+                               bare.count, bare.may_be_clear,
+                               colors > 0 ? color_rows_.number(color_text, colors) : 0, colors);
+        }
         for (uint32_t k = 0; k < s.writers_count; ++k) {
             const uint32_t t = expectation_.writers[s.writers_begin + k];
             const cases::Triangle& triangle = expectation_.triangles[t];
@@ -119,11 +152,33 @@ class Tables {
         for (uint32_t k = 0; k < s.depth_count; ++k) {
             depths += depth_text(expectation_.depth_writers[s.depth_begin + k], index);
         }
-        return fmt::format("{}, {}, {}, {}, {}, {:d}", bounds,
-                           s.writers_count > 0 ? writers_.number(writers, s.writers_count) : 0,
-                           s.writers_count,
-                           s.depth_count > 0 ? ranges_.number(depths, s.depth_count) : 0,
-                           s.depth_count, s.depth_may_be_clear);
+        return fmt::format(
+            "{}, {}, {}, {}, {}, {:d}, {}, {}", bounds,
+            s.writers_count > 0 ? writers_.number(writers, s.writers_count) : 0, s.writers_count,
+            s.depth_count > 0 ? ranges_.number(depths, s.depth_count) : 0, s.depth_count,
+            s.depth_may_be_clear, colors > 0 ? color_rows_.number(color_text, colors) : 0, colors);
+    }
+
+    // The depth of a target that only the colour tells of: that of the last of any set.
+    struct BareDepth {
+        std::string text;
+        size_t count = 0;
+        bool may_be_clear = false;
+    };
+    BareDepth bare_depth(size_t index, const std::vector<ColorRows::Sequence>& sets) {
+        BareDepth out;
+        if (!case_.target.has_depth || sets.empty() || !judges_bare_depth(case_)) {
+            return {range_text({}), 1, true};
+        }
+        for (const ColorRows::Sequence& sequence : sets) {
+            if (sequence.empty()) {
+                out.may_be_clear = true;
+                continue;
+            }
+            out.text += depth_text(sequence.back(), index);
+            ++out.count;
+        }
+        return out;
     }
 
     std::string depth_text(uint32_t t, size_t index) {
@@ -139,17 +194,52 @@ class Tables {
                           range_text(values_.range(t, id, ref::QuantityId::of_frag_coord(3))) +
                           depth_text(t, index);
         for (size_t a = 0; a < attributes.size(); ++a) {
-            for (const ref::ValueRange& range : values_.ranges(t, id, a)) {
+            for (const ref::ValueRange& range : attribute_ranges(t, id, a)) {
                 row += range_text(range);
             }
         }
         return ranges_.number(row, 3 + 4 * attributes.size());
     }
 
+    std::array<ref::ValueRange, 4> attribute_ranges(uint32_t t, cases::SampleId id, size_t a) {
+        const cases::Attribute& attribute =
+            case_.draws[expectation_.triangles[t].draw].attributes[a];
+        if (attribute.source == cases::Source::sample_mask_in) {
+            return {mask_range(t, id), {}, {}, {}};
+        }
+        const bool is_value =
+            attribute.probe == cases::Probe::value || attribute.probe == cases::Probe::at_centroid;
+        return is_value ? values_.ranges(t, id, a) : probes_.of(t, id, a);
+    }
+
+    // The samples that gl_SampleMaskIn must have, and those that it may have
+    // (ref/value/sample_values.cpp).
+    ref::ValueRange mask_range(uint32_t t, cases::SampleId id) {
+        const cases::Draw& draw = case_.draws[expectation_.triangles[t].draw];
+        const ref::PixelCoverage& coverage = probes_.coverage(t, id);
+        const uint32_t own = 1U << id.sample;
+        uint32_t must = own;
+        uint32_t may = (coverage.may & draw.multisample.sample_mask) | own;
+        switch (ref::value::shading_rate(draw, case_.target.samples)) {
+            case ref::value::ShadingRate::fragment:
+                must |= coverage.is_one_fragment ? coverage.must & draw.multisample.sample_mask : 0;
+                break;
+            case ref::value::ShadingRate::sample:
+                may = expectation_.profile == cases::Profile::vulkan ? may : own;
+                break;
+            case ref::value::ShadingRate::may_split:
+            case ref::value::ShadingRate::some:
+                break;
+        }
+        return {true, static_cast<double>(must), static_cast<double>(may)};
+    }
+
     const cases::Case& case_;
     ref::Expectation expectation_;
     ref::ValueReference values_;
-    Rows bounds_, ranges_, writers_;
+    ProbeRanges probes_;
+    std::optional<ColorRows> colors_;
+    Rows bounds_, ranges_, writers_, color_rows_;
 };
 
 }  // namespace

@@ -5,11 +5,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
+#include "cases/format/color_format.hpp"
 #include "cases/format/depth_format.hpp"
+#include "cases/model/derive.hpp"
+#include "cases/model/sample.hpp"
 #include "cli/reproducer/draw_tables.hpp"
 #include "cli/reproducer/expected_tables.hpp"
+#include "cli/reproducer/shader_inputs.hpp"
 
 namespace cli {
 
@@ -21,11 +27,23 @@ constexpr std::string_view kTypes =
 constexpr std::string_view kDevice =
 #include "embedded/device.c.inc"
     ;
+constexpr std::string_view kImage =
+#include "embedded/image.c.inc"
+    ;
+constexpr std::string_view kPipeline =
+#include "embedded/pipeline.c.inc"
+    ;
 constexpr std::string_view kDraw =
 #include "embedded/draw.c.inc"
     ;
+constexpr std::string_view kColor =
+#include "embedded/color.c.inc"
+    ;
 constexpr std::string_view kJudge =
 #include "embedded/judge.c.inc"
+    ;
+constexpr std::string_view kCompare =
+#include "embedded/compare.c.inc"
     ;
 
 // A feature that the program knows nothing of, and whether the case has it.
@@ -47,9 +65,6 @@ bool is_finite(const glm::vec4& v) {
 std::string_view missing_of(const cases::Attribute& a) {
     const bool is_flat = a.interpolation == cases::Interpolation::flat;
     return first_of({
-        {a.source != cases::Source::vertex, "an attribute that is a built-in"},
-        {a.probe != cases::Probe::value, "an attribute that is looked at by a function"},
-        {a.auxiliary == cases::Auxiliary::sample, "sample shading"},
         {is_flat && !std::all_of(a.values.begin(), a.values.end(), is_finite),
          "a flat attribute that is no finite number"},
     });
@@ -63,10 +78,6 @@ std::string_view missing_of(const cases::Draw& d) {
     }
     return first_of({
         {d.viewport_index != 0, "several viewports"},
-        {d.provoking == cases::ProvokingVertex::last, "the last vertex as the provoking one"},
-        {d.multisample.min_sample_shading.has_value(), "sample shading"},
-        {d.depth.clip.has_value(), "depth clipping by VK_EXT_depth_clip_enable"},
-        {d.depth.negative_one_to_one, "depths from -1 to 1 by VK_EXT_depth_clip_control"},
         {d.depth.bias && d.depth.bias->is_controlled(), "a bias by VK_EXT_depth_bias_control"},
     });
 }
@@ -82,8 +93,7 @@ std::string quoted(std::string_view text) {
     return out;
 }
 
-std::string target_text(const cases::Target& t, const ref::Limits& limits, size_t draws,
-                        size_t attributes) {
+std::string target_text(const cases::Target& t) {
     // A UNORM format may round the clear value either way.
     const double steps = cases::depth_steps(t.depth_format);
     const double code = static_cast<double>(t.depth_clear) * steps;
@@ -91,15 +101,46 @@ std::string target_text(const cases::Target& t, const ref::Limits& limits, size_
         return steps > 0 ? cases::depth_of_code(static_cast<uint32_t>(whole), t.depth_format)
                          : t.depth_clear;
     };
+    std::string places;
+    for (const auto& place : cases::sample_locations(t)) {
+        places += fmt::format("{{{}, {}}}, ", place[0], place[1]);
+    }
     return fmt::format(
-        "#define WIDTH {}\n#define HEIGHT {}\n#define SAMPLES {}\n#define DRAWS {}\n"
-        "#define ATTRIBUTES {}\n#define SUBPIXEL_BITS {}\n#define HAS_DEPTH {:d}\n"
-        "#define DEPTH_FORMAT VK_FORMAT_{}\n#define DEPTH_STEPS {:.1f}  // 0: floating point\n"
-        "#define DEPTH_CLEAR {:a}F\n#define DEPTH_CLEAR_LOW {:a}F\n"
-        "#define DEPTH_CLEAR_HIGH {:a}F\n\n",
-        t.width, t.height, t.samples, draws, attributes, limits.subpixel_bits, t.has_depth,
+        "#define WIDTH {}\n#define HEIGHT {}\n#define SAMPLES {}\n"
+        "#define HAS_INSTRUMENTS {:d}  // hits, the last triangle, FragCoord and attributes\n"
+        "#define HAS_DEPTH {:d}\n#define DEPTH_FORMAT VK_FORMAT_{}\n"
+        "#define DEPTH_STEPS {:.1f}  // 0: floating point\n#define DEPTH_CLEAR {:a}F\n"
+        "#define DEPTH_CLEAR_LOW {:a}F\n#define DEPTH_CLEAR_HIGH {:a}F\n"
+        "// Of samples in their pixel, in 1/16 pixel.\n"
+        "static const uint8_t kPlaces[SAMPLES][2] = {{{}}};\n",
+        t.width, t.height, t.samples, t.has_instruments, t.has_depth,
         row_of(t.depth_format).vulkan_name, steps, t.depth_clear, clear(std::floor(code)),
-        clear(std::ceil(code)));
+        clear(std::ceil(code)), places);
+}
+
+std::string color_text(const cases::Case& c, cases::Profile profile) {
+    const bool is_blended = std::any_of(c.draws.begin(), c.draws.end(), [&](const auto& d) {
+        return c.target.color && d.color.blend.has_value();
+    });
+    const cases::ColorTarget target = c.target.color.value_or(cases::ColorTarget{});
+    const cases::ColorFormatRow& row = row_of(target.format);
+    std::array<uint32_t, 4> clear{};
+    for (int k = 0; k < 4; ++k) {
+        clear.at(static_cast<size_t>(k)) = cases::is_integer(target.format)
+                                               ? static_cast<uint32_t>(target.clear[k])
+                                               : std::bit_cast<uint32_t>(target.clear[k]);
+    }
+    // Direct3D allows 0.6 of a unit where a shader's number is stored.
+    return fmt::format(
+        "#define HAS_COLOR {:d}\n#define COLOR_FORMAT (VkFormat){}  // {}\n"
+        "#define COLOR_BYTES {}\n#define COLOR_KIND {}  // enum Kind\n"
+        "#define COLOR_IS_BLENDED {:d}\n#define COLOR_SLACK {}\n"
+        "static const uint32_t kColorClear[4] = {{{:#x}U, {:#x}U, {:#x}U, {:#x}U}};\n"
+        "static const uint8_t kColorBits[4] = {{{}}}, kColorFirst[4] = {{{}}};\n",
+        c.target.color.has_value(), row.vulkan, row.word, cases::bytes_of(target.format),
+        static_cast<int>(row.kind), is_blended, profile == cases::Profile::direct3d ? "0.6" : "0",
+        clear[0], clear[1], clear[2], clear[3], fmt::join(row.bits, ", "),
+        fmt::join(row.first_bit, ", "));
 }
 
 }  // namespace
@@ -114,13 +155,13 @@ std::string_view undrawable_part(const cases::Case& c) {
     }
     return first_of({
         {c.blit.has_value(), "a blit"},
-        {!c.relations.empty(), "a relation to another drawing of itself"},
-        {t.color.has_value(), "a colour target"},
         {t.layers > 1, "several layers"},
         {!t.sample_locations.empty(), "sample locations of its own"},
         {t.has_stencil, "a stencil"},
-        {t.depth_resolve != cases::Resolve::none, "a resolve"},
+        {t.depth_resolve != cases::Resolve::none || t.color_resolve != cases::Resolve::none,
+         "a resolve"},
         {c.draws.size() > kMaxDraws, "more than 32,767 draws"},
+        {!has_shaders(c), "more outputs than a shader of it has"},
     });
 }
 
@@ -145,17 +186,14 @@ cases::Expected<std::string> reproducer(const cases::Case& c, const ref::Limits&
     if (!expected) {
         return expected;
     }
-    size_t attributes = 0;
-    for (const cases::Draw& draw : c.draws) {
-        attributes = std::max(attributes, draw.attributes.size());
-    }
     const std::string id = quoted(c.id);
     return fmt::format(
                "// {}\n// {}\n//\n"
                "// Written by edgecase {}; https://www.apache.org/licenses/LICENSE-2.0 holds.\n"
                "// Draws the case and checks each sample: hits, the last triangle, FragCoord, "
-               "depth, attributes.\n"
-               "//     cc -std=c99 FILE.c -lvulkan && ./a.out [PART OF THE DEVICE'S NAME]\n"
+               "depth, attributes, colour;\n"
+               "// and other drawings of it, if it claims that they have the same bits.\n"
+               "//     cc -std=c99 FILE.c -lvulkan -lm && ./a.out [PART OF THE DEVICE'S NAME]\n"
                "// Exit code: 0 all samples are right, 1 some are wrong, 2 it could not be "
                "drawn.\n",
                id, quoted(c.description), version)
@@ -164,12 +202,20 @@ cases::Expected<std::string> reproducer(const cases::Case& c, const ref::Limits&
                             "static const char kProfile[] = \"judged at profile {} with {} "
                             "subpixel bits\";\n",
                             id, to_string(profile), limits.subpixel_bits))
-        .append(target_text(c.target, limits, c.draws.size(), attributes))
-        .append(draw_tables(c))
+        .append(fmt::format("#define DRAWS {}\n#define DRAWINGS {}\n#define SUBPIXEL_BITS {}\n",
+                            c.draws.size(), 1 + cases::derivations(c).size(), limits.subpixel_bits))
+        .append(target_text(c.target))
+        .append(color_text(c, profile))
+        .append("\n")
+        .append(draw_tables(c, profile))
         .append(*expected)
         .append(kDevice)
+        .append(kImage)
+        .append(kPipeline)
         .append(kDraw)
-        .append(kJudge);
+        .append(kColor)
+        .append(kJudge)
+        .append(kCompare);
 }
 
 }  // namespace cli

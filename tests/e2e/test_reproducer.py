@@ -30,7 +30,7 @@ class Reproducer(ProgramTest):
     def draw(self, check):
         """Compiles and runs the program; its output."""
         built = self.folder / "repro"
-        subprocess.run(["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", self.program, "-lvulkan", "-o", built],
+        subprocess.run(["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", self.program, "-lvulkan", "-lm", "-o", built],
                        check=True, timeout=100)
         done = subprocess.run([built], env=self.environment(), capture_output=True, text=True, timeout=100, check=False)
         self.assertEqual(done.returncode, check, done.stdout + done.stderr)
@@ -46,11 +46,22 @@ class Reproducer(ProgramTest):
 
 class Wrong(Reproducer):
     def test_known_defects(self):
-        """Coverage, hits of both kinds, depth and attributes: the samples are those that a run tells."""
+        """Coverage, hits of both kinds, depth, attributes, colours with and without instruments, sample shading, what
+        functions make of inputs, other drawings of a case: the samples are those that a run tells."""
         self.of_suite()
         cases = ["multisample/mask-one-sample:mask=4294967294", "multisample/centroid-scissor:samples=4",
-                 "clip/noperspective:swap=0,lean=0", "depth-bias/clipped-exponent:rotation=90,first=2"]
-        self.edgecase("run", "--no-expect", "-q", "-o", self.out, *cases, check=1)
+                 "clip/noperspective:swap=0,lean=0", "depth-bias/clipped-exponent:rotation=90,first=2",
+                 "store/unorm-ramp:format=r5g6b5-unorm,attachments=color", "combination/stored-beside-blended:format=r5g6b5-unorm",
+                 "combination/interpolated-colours:format=rgba32-float,attachments=color,samples=1,topology=triangle-fan,"
+                 "mode=noperspective,beyond=20",
+                 "combination/interpolated-colours:format=rgba8-unorm,attachments=all,samples=4,topology=triangle-strip,"
+                 "mode=noperspective,beyond=20",
+                 "multisample/places:samples=4,far=1", "multisample/shading-inputs:samples=4", "interpolate-at/centroid-4x",
+                 "interpolate-at/offset-4x:auxiliary=none", "tiled/multisample:class=sliver,tile=3",
+                 "combination/sampled-states:topology=triangle-strip,auxiliary=sample,depth=d32-float,cull=none,mode=smooth,"
+                 "beyond=20,provoking=last,volume=zero-to-one,slope=0,clamp=true", "clip/once-eye",
+                 "tiled/multisample:class=on-grid,tile=3"]
+        self.edgecase("run", "--no-expect", "--no-diagnosis", "-q", "-o", self.out, *cases, check=1)
         told = {c["id"]: c for c in self.results()["cases"]}
         for case_id in cases:
             with self.subTest(case_id):
@@ -58,10 +69,12 @@ class Wrong(Reproducer):
                 text = self.draw(check=1)
                 found = {tuple(map(int, m)) for m in re.findall(r"^pixel \((\d+), (\d+)\) sample (\d+): ", text, re.M)}
                 wrong = {(f["sample"]["x"], f["sample"]["y"], f["sample"]["index"]) for f in told[case_id]["findings"]}
+                # A run counts the samples of other drawings, but does not keep which they are beyond the first.
+                count = told[case_id].get("wrong_samples") or sum(told[case_id]["counts"].values())
                 self.assertGreater(len(wrong), 0)
-                self.assertLessEqual(wrong, found)  # of a cause, results.json has the first findings
-                self.assertEqual(len(found), told[case_id]["wrong_samples"])
-                self.assertIn(f"\n{len(found)} of ", text)
+                if count <= 100:
+                    self.assertLessEqual(wrong, found)  # of a cause, results.json has the first findings
+                self.assertIn(f"\n{count} of ", text)
 
     def test_lines_are_capped_and_the_rest_counted(self):
         self.write_case("fam/wide", HEAD.format(target="").replace("[8, 8]", "[32, 32]") +
@@ -94,6 +107,65 @@ class Wrong(Reproducer):
         self.program.write_text(text.replace(writer, writer.replace("{0, 0,", "{0, 1,")))
         self.assertIn("last triangle: expected draw 0 vertex 1, got draw 0 vertex 0", self.draw(check=1))
 
+    def test_each_code_of_a_colour_counts(self):
+        color = '\ncolor = {{ format = "{}", clear = [0.2, 0.4, 0.6, 0.8] }}'
+        blend = 'color = { value = [0.5, 0.25, 0.75, 1], blend = "alpha" }'
+        for attachments in ("all", "color"):
+            with self.subTest(attachments):
+                self.write(color.format("rgba8-unorm") + f'\nattachments = "{attachments}"', blend)
+                self.export("fam/one")
+                self.draw(check=0)
+                text = self.program.read_text()
+                table = re.search(r"kColors\[\] = \{\n(.*?)\n\};", text, re.S)[1]
+                numbers = re.findall(r"\{\d+, \d+, \d+, \d+, \{(.*?)\}, \{(.*?)\}\},", table)
+                self.assertGreaterEqual(len(numbers), 2)  # drawn, and clear
+                for k in range(4):
+                    wrong = table
+                    for low, high in numbers:
+                        moved = [str(int(v) + (5 if n == k else 0)) for n, v in enumerate(low.split(", "))]
+                        wrong = wrong.replace(f"{{{low}}}, {{{high}}}", f"{{{', '.join(moved)}}}, {{300, 300, 300, 300}}")
+                    self.program.write_text(text.replace(table, wrong))
+                    shown = self.draw(check=1)
+                    self.assertIn(": colour: expected codes ", shown)
+                    self.assertIn("\n64 of 64 samples are wrong", shown)
+
+    def test_what_a_colour_holds_of_an_attribute_is_held_to_that_number(self):
+        """With instruments the device's own number decides, without its range."""
+        self.write('\ncolor = { format = "rgba16-float", clear = [0, 0, 0, 0] }', 'color = { attribute = "a" }')
+        with (self.suite / "fam/one.toml").open("a") as file:
+            file.write('[[draw.attribute]]\nname = "a"\nvalues = [[0.1, 0.3, 0, 1], [0.7, 0.2, 0, 1], [0.4, 0.9, 0, 1]]\n')
+        self.export("fam/one")
+        text = self.program.read_text()
+        self.assertRegex(text, r"kColors\[\] = \{\n(.*\n)*?    \{1, 0, 0, 1, ")
+        self.draw(check=0)
+        self.program.write_text(text.replace("captured[n] = number(", "captured[n] = 1.01F * number("))
+        self.assertIn(": colour: ", self.draw(check=1))
+
+    def test_places_of_samples_count(self):
+        self.of_suite()
+        self.export("multisample/shading-inputs:samples=4")
+        text = self.program.read_text()
+        self.program.write_text(re.sub(r"(kPlaces\[SAMPLES\]\[2\] = )\{.*\}", r"\1{{1, 1}, {1, 1}, {1, 1}, {1, 1}}", text))
+        self.assertIn(": FragCoord.xy: expected a sample of the fragment", self.draw(check=1))
+
+    def test_other_drawings_count(self):
+        """Tiles that overlap draw samples twice; what is cleared to is told apart from what is drawn."""
+        self.of_suite()
+        for case_id, edits, shown in (
+                ("tiled/order:tile=2", [("x += drawing->tile[0]", "x += drawing->tile[0] - 1")], "scissor-tiles 2x2: attachment "),
+                ("repeat/clears-and-masks:class=on-grid", [("= clear_number(drawing, plane);", "= clear_number(drawing, plane) + (drawing->other_clears ? 16.0F : 0);")], "other-clears: attachment 0 word "),
+                ("repeat/clears-and-masks:class=on-grid", [("colorWriteMask = is_masked(drawing, k) ? 0 : 0xf", "colorWriteMask = 0xf")], "write-masks, every other attachment: attachment "),
+        ):
+            with self.subTest(case_id):
+                self.export(case_id)
+                text = self.program.read_text()
+                self.draw(check=0)
+                for before, after in edits:
+                    self.assertIn(before, text)
+                    text = text.replace(before, after)
+                self.program.write_text(text)
+                self.assertIn(": " + shown, self.draw(check=1))
+
     def test_what_was_left_is_checked_where_nothing_hits(self):
         self.write()
         self.export("fam/one")
@@ -111,7 +183,11 @@ class Right(Reproducer):
                         "depth/samples:format=d32-float,samples=4", "depth-test/compare:format=d32-float,compare=less,z=0.25",
                         "depth-test/clipped:format=d16-unorm,order=given", "depth-bias/clamp:clamp=-1/32,slope=-1,constant=32768",
                         "multisample/centroid-inside:samples=4,seed=1", "attributes/components", "attributes/constant-third",
-                        "order/draws", "bad-numbers/strip:part=3,bad=inf", "discard/among-draws:samples=1,topology=triangle-list", "complement/facing:winding=given,flip=1"):
+                        "order/draws", "bad-numbers/strip:part=3,bad=inf", "discard/among-draws:samples=1,topology=triangle-list", "complement/facing:winding=given,flip=1",
+                        "blend/presets:blend=alpha,format=rgba8-unorm", "repeat/clip-distances:class=off-grid", "provoking/fan",
+                        "depth-clamp/clip-and-clamp:clip=true,near=0", "depth-clip/symmetric:w=1", "lod/perspective:w=4", "multisample/mask-in:samples=1", "store/srgb:attachments=all",
+                        "repeat/color:format=rgba8-unorm,class=on-grid",
+                        "derivative/helper-lanes:x=1,y=1,probe=fwidth", "derivative/helper-lanes:x=0,y=7,probe=dfdy-coarse"):
             with self.subTest(case_id):
                 self.export(case_id)
                 self.assertIn("\n0 of ", self.draw(check=0))
@@ -146,20 +222,12 @@ class Refused(Reproducer):
         self.of_suite()
         for case_id, name in {
                 "blit/mirrored:sx=1,sy=1,dx=0,dy=1": "a blit",
-                "blend/presets:blend=alpha,format=rgba8-unorm": "a colour target",
-                "repeat/clip-distances:class=off-grid": "a relation to another drawing of itself",
                 "layer/outside:samples=1,width=1,height=5": "several layers",
                 "stencil/depth-fail:samples=1,compare=less": "a stencil",
                 "resolve/depth:mode=sample-zero,samples=2": "a resolve",
                 "multisample/locations-mesh:seed=1": "sample locations of its own",
-                "multisample/shading-inputs:samples=2": "sample shading",
                 "viewport/several:a=0,last=4": "several viewports",
-                "provoking/fan": "the last vertex as the provoking one",
-                "depth-clamp/clip-and-clamp:clip=true,near=0": "depth clipping by VK_EXT_depth_clip_enable",
-                "depth-clip/symmetric:w=1": "depths from -1 to 1 by VK_EXT_depth_clip_control",
                 "depth-bias/exact:format=d24-unorm,constant=4096,slope=2": "a bias by VK_EXT_depth_bias_control",
-                "barycentric/order:topology=triangle-list,provoking=first,mode=smooth": "an attribute that is a built-in",
-                "interpolate-at/centroid-4x": "an attribute that is looked at by a function",
                 "bad-numbers/attribute:interpolation=flat,first=0,bad=nan": "a flat attribute that is no finite number",
         }.items():
             with self.subTest(name):

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The second part of every reproducer, after its tables: instance, device, buffers and images.
+// The second part of every reproducer, after its tables: attachments, instance and device.
 // A sample's hits start here: a sum in binary32 from 2^23 up is exact, and no fragment writes it.
 #define NO_HITS 8388608.0F
-// Who wrote, hits by front and back faces (added), FragCoord.xy and .zw; then the attributes.
+#define OTHER_NO_HITS (NO_HITS + 4096.0F)
+// Who wrote, hits by front and back faces (added), FragCoord.xy and .zw; then the attributes, the
+// colour target, and the depth.
 #define WRITER 0
 #define HITS 1
 #define FRAG_XY 2
 #define FRAG_ZW 3
-#define FIRST_ATTRIBUTE 4
-#define COLORS (FIRST_ATTRIBUTE + ATTRIBUTES)
-#define PLANES (COLORS + HAS_DEPTH)
+#define FIRST_ATTRIBUTE (4 * HAS_INSTRUMENTS)
 // Samples are copied by a shader, through a view of the colours as whole numbers: no bit changes.
 #define COPY_USAGE (SAMPLES > 1 ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT)
 #define COLOR_FLAGS (SAMPLES > 1 ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0)
@@ -21,12 +21,38 @@
 static const VkFormat kTwoNumbers = VK_FORMAT_R32G32_SFLOAT;
 static const VkFormat kFourNumbers = VK_FORMAT_R32G32B32A32_SFLOAT;
 
-static uint32_t words_of(uint32_t plane) {
-    return plane < FIRST_ATTRIBUTE ? 2 : plane < COLORS ? 4 : 1;
+enum Role { INSTRUMENT, ATTRIBUTE, TARGET, DEPTH };
+
+static uint32_t color_plane(const struct Drawing* d) {
+    return FIRST_ATTRIBUTE + HAS_INSTRUMENTS * d->attributes;
+}
+static uint32_t depth_plane(const struct Drawing* d) {
+    return color_plane(d) + HAS_COLOR;
+}
+static uint32_t planes_of(const struct Drawing* d) {
+    return depth_plane(d) + HAS_DEPTH;
+}
+static enum Role role_of(const struct Drawing* d, uint32_t plane) {
+    return plane >= depth_plane(d)         ? DEPTH
+           : plane >= color_plane(d)       ? TARGET
+           : plane + 1 > FIRST_ATTRIBUTE   ? ATTRIBUTE
+                                           : INSTRUMENT;
 }
 
-static VkFormat color_format(uint32_t plane) {
-    return words_of(plane) == 2 ? kTwoNumbers : kFourNumbers;
+// Bytes of a sample as it is copied.
+static uint32_t bytes_of(enum Role role) {
+    return role == INSTRUMENT  ? 8
+           : role == ATTRIBUTE ? 16
+           : role == DEPTH     ? 4
+           : SAMPLES > 1       ? (COLOR_BYTES > 4 ? COLOR_BYTES : 4)
+                               : COLOR_BYTES;
+}
+
+static VkFormat format_of(enum Role role) {
+    return role == INSTRUMENT  ? kTwoNumbers
+           : role == ATTRIBUTE ? kFourNumbers
+           : role == TARGET    ? COLOR_FORMAT
+                               : DEPTH_FORMAT;
 }
 
 static void stop(const char* what, int code) {
@@ -92,15 +118,24 @@ static void check_limits(void) {
     }
     NEED(l->maxFramebufferWidth >= WIDTH && l->maxFramebufferHeight >= HEIGHT,
          "targets of this size");
-    NEED(l->maxColorAttachments >= COLORS, "so many colour attachments");
+    for (k = 0; k < DRAWINGS; ++k) {
+        NEED(l->maxColorAttachments >= depth_plane(&kDrawings[k]), "so many colour attachments");
+    }
     NEED(SAMPLES == 1 || l->standardSampleLocations, "the standard sample locations");
-    vkGetPhysicalDeviceFormatProperties(physical, kTwoNumbers, &can);
-    NEED(can.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
-         "blending to R32G32_SFLOAT");
-    for (k = 0; k < COLORS; ++k) {
-        CHECK(vkGetPhysicalDeviceImageFormatProperties(physical, color_format(k), VK_IMAGE_TYPE_2D,
-                                                       VK_IMAGE_TILING_OPTIMAL, COLOR_USAGE,
-                                                       COLOR_FLAGS, &format));
+    if (HAS_INSTRUMENTS) {
+        vkGetPhysicalDeviceFormatProperties(physical, kTwoNumbers, &can);
+        NEED(can.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+             "blending to R32G32_SFLOAT");
+    }
+    if (COLOR_IS_BLENDED) {
+        vkGetPhysicalDeviceFormatProperties(physical, COLOR_FORMAT, &can);
+        NEED(can.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+             "blending to the colour format");
+    }
+    for (k = 0; k < depth_plane(&kDrawings[0]); ++k) {
+        CHECK(vkGetPhysicalDeviceImageFormatProperties(
+            physical, format_of(role_of(&kDrawings[0], k)), VK_IMAGE_TYPE_2D,
+            VK_IMAGE_TILING_OPTIMAL, COLOR_USAGE, COLOR_FLAGS, &format));
         NEED(format.sampleCounts & SAMPLES, "this many samples of a colour format");
     }
     if (HAS_DEPTH) {
@@ -126,15 +161,34 @@ static void check_limits(void) {
     }
 }
 
+static VkBool32 has_extension(const char* name) {
+    static VkExtensionProperties all[1024];
+    uint32_t count = 1024, k;
+    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, all) < 0) {
+        stop("vkEnumerateDeviceExtensionProperties", 0);
+    }
+    for (k = 0; k < count; ++k) {
+        if (strcmp(all[k].extensionName, name) == 0) {
+            return VK_TRUE;
+        }
+    }
+    return VK_FALSE;
+}
+
 static void make_device(void) {
     const VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     const float priority = 1;
+    const char* extensions[4];
     VkQueueFamilyProperties families[16];
     VkDeviceQueueCreateInfo queues = {0};
     VkPhysicalDeviceVulkan13Features wanted13 = {0};
+    VkPhysicalDeviceProvokingVertexFeaturesEXT provoking = {0};
+    VkPhysicalDeviceDepthClipEnableFeaturesEXT clip = {0};
+    VkPhysicalDeviceDepthClipControlFeaturesEXT control = {0};
+    VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric = {0};
     VkPhysicalDeviceFeatures has, wanted;
     VkDeviceCreateInfo info = {0};
-    uint32_t count = 16, k;
+    uint32_t count = 16, k, needs_last = 0, needs_clip = 0, needs_control = 0, needs_barycentric = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
     while (queue_family < count && (families[queue_family].queueFlags & needed) != needed) {
         ++queue_family;
@@ -142,21 +196,47 @@ static void make_device(void) {
     NEED(queue_family < count, "a queue for graphics and compute");
     memset(&wanted, 0, sizeof wanted);
     vkGetPhysicalDeviceFeatures(physical, &has);
-    wanted.independentBlend = VK_TRUE;
-    NEED(has.independentBlend, "independentBlend");
+    wanted.independentBlend = HAS_INSTRUMENTS;
     for (k = 0; k < DRAWS; ++k) {
         const struct Draw* d = &kDraws[k];
         wanted.depthClamp |= d->depth_clamp;
         wanted.depthBiasClamp |= d->bias[1] != 0;
         wanted.shaderClipDistance |= d->clips > 0;
         wanted.shaderCullDistance |= d->culls > 0;
+        wanted.sampleRateShading |= d->has_sample_rate || d->shades_samples;
+        needs_last |= d->last_provokes;
+        needs_clip |= d->depth_clip != 0;
+        needs_control |= d->is_symmetric;
+        needs_barycentric |= d->has_barycentrics;
     }
+    NEED(has.independentBlend >= wanted.independentBlend, "independentBlend");
     NEED(has.depthClamp >= wanted.depthClamp, "depthClamp");
     NEED(has.depthBiasClamp >= wanted.depthBiasClamp, "depthBiasClamp");
     NEED(has.shaderClipDistance >= wanted.shaderClipDistance, "shaderClipDistance");
     NEED(has.shaderCullDistance >= wanted.shaderCullDistance, "shaderCullDistance");
+    NEED(has.sampleRateShading >= wanted.sampleRateShading, "sampleRateShading");
     wanted13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     wanted13.dynamicRendering = VK_TRUE;
+    // vkCreateDevice says so if a feature of an extension is missing.
+    provoking.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT;
+    provoking.provokingVertexLast = VK_TRUE;
+    clip.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT;
+    clip.depthClipEnable = VK_TRUE;
+    control.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_CONTROL_FEATURES_EXT;
+    control.depthClipControl = VK_TRUE;
+    barycentric.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
+    barycentric.fragmentShaderBarycentric = VK_TRUE;
+#define ENABLE(is_needed, name, features)             \
+    if (is_needed) {                                  \
+        NEED(has_extension(name), "the extension " name); \
+        extensions[info.enabledExtensionCount++] = name;  \
+        (features).pNext = wanted13.pNext;            \
+        wanted13.pNext = &(features);                 \
+    }
+    ENABLE(needs_last, VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME, provoking)
+    ENABLE(needs_clip, VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, clip)
+    ENABLE(needs_control, VK_EXT_DEPTH_CLIP_CONTROL_EXTENSION_NAME, control)
+    ENABLE(needs_barycentric, VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric)
     queues.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
     queues.queueFamilyIndex = queue_family;
     queues.queueCount = 1;
@@ -165,112 +245,9 @@ static void make_device(void) {
     info.pNext = &wanted13;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queues;
+    info.ppEnabledExtensionNames = extensions;
     info.pEnabledFeatures = &wanted;
     CHECK(vkCreateDevice(physical, &info, NULL, &device));
     vkGetDeviceQueue(device, queue_family, 0, &queue);
     vkGetPhysicalDeviceMemoryProperties(physical, &memory_properties);
-}
-
-static VkDeviceMemory allocate(VkMemoryRequirements need, VkMemoryPropertyFlags flags) {
-    VkMemoryAllocateInfo info = {0};
-    VkDeviceMemory memory;
-    uint32_t k = 0;
-    while (k < memory_properties.memoryTypeCount &&
-           (!(need.memoryTypeBits >> k & 1) ||
-            (memory_properties.memoryTypes[k].propertyFlags & flags) != flags)) {
-        ++k;
-    }
-    NEED(k < memory_properties.memoryTypeCount, "memory of the needed type");
-    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    info.allocationSize = need.size;
-    info.memoryTypeIndex = k;
-    CHECK(vkAllocateMemory(device, &info, NULL, &memory));
-    return memory;
-}
-
-/* A buffer that the CPU sees, and where. */
-static VkBuffer make_buffer(VkDeviceSize size, VkBufferUsageFlags usage, void** mapped) {
-    VkBufferCreateInfo info = {0};
-    VkMemoryRequirements need;
-    VkDeviceMemory memory;
-    VkBuffer buffer;
-    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-    info.size = size;
-    info.usage = usage;
-    CHECK(vkCreateBuffer(device, &info, NULL, &buffer));
-    vkGetBufferMemoryRequirements(device, buffer, &need);
-    memory =
-        allocate(need, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    CHECK(vkBindBufferMemory(device, buffer, memory, 0));
-    CHECK(vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, mapped));
-    return buffer;
-}
-
-static VkImageView make_view(VkImage image, VkFormat format, VkImageAspectFlags aspect,
-                             VkImageUsageFlags usage) {
-    VkImageViewUsageCreateInfo used = {VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO, NULL, usage};
-    VkImageViewCreateInfo info = {0};
-    VkImageView view;
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    info.pNext = &used;
-    info.image = image;
-    info.viewType = SAMPLES > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
-    info.format = format;
-    info.subresourceRange.aspectMask = aspect;
-    info.subresourceRange.levelCount = 1;
-    info.subresourceRange.layerCount = 1;
-    CHECK(vkCreateImageView(device, &info, NULL, &view));
-    return view;
-}
-
-static VkImage make_image(VkFormat format, VkImageUsageFlags usage, VkImageCreateFlags flags) {
-    VkImageCreateInfo info = {0};
-    VkMemoryRequirements need;
-    VkImage image;
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    info.flags = flags;
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = format;
-    info.extent.width = WIDTH;
-    info.extent.height = HEIGHT;
-    info.extent.depth = 1;
-    info.mipLevels = 1;
-    info.arrayLayers = 1;
-    info.samples = (VkSampleCountFlagBits)SAMPLES;
-    info.usage = usage;
-    CHECK(vkCreateImage(device, &info, NULL, &image));
-    vkGetImageMemoryRequirements(device, image, &need);
-    CHECK(vkBindImageMemory(device, image, allocate(need, 0), 0));
-    return image;
-}
-
-static VkShaderModule make_module(const struct Code* code) {
-    VkShaderModuleCreateInfo info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, NULL, 0,
-                                     code->size, code->words};
-    VkShaderModule module;
-    CHECK(vkCreateShaderModule(device, &info, NULL, &module));
-    return module;
-}
-
-static VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule module) {
-    VkPipelineShaderStageCreateInfo info = {0};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage = bit;
-    info.module = module;
-    info.pName = "main";
-    return info;
-}
-
-static VkPipelineLayout make_layout(VkShaderStageFlags stages, uint32_t bytes,
-                                    const VkDescriptorSetLayout* set) {
-    VkPushConstantRange range = {stages, 0, bytes};
-    VkPipelineLayoutCreateInfo info = {0};
-    VkPipelineLayout layout;
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = set != NULL;
-    info.pSetLayouts = set;
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &range;
-    CHECK(vkCreatePipelineLayout(device, &info, NULL, &layout));
-    return layout;
 }

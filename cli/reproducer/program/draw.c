@@ -1,97 +1,17 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The third part of every reproducer: pipelines, the draws, and copies of what they left.
-static VkPipeline make_pipeline(const struct Draw* d, VkPipelineLayout layout) {
-    VkFormat formats[COLORS];
-    const VkDynamicState dynamics[2] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    VkPipelineShaderStageCreateInfo stages[2];
-    VkVertexInputBindingDescription bindings[INPUTS];
-    VkVertexInputAttributeDescription inputs[INPUTS];
-    VkPipelineVertexInputStateCreateInfo vertex = {0};
-    VkPipelineInputAssemblyStateCreateInfo assembly = {0};
-    VkPipelineViewportStateCreateInfo viewport = {0};
-    VkPipelineRasterizationStateCreateInfo raster = {0};
-    VkPipelineMultisampleStateCreateInfo multisample = {0};
-    VkPipelineDepthStencilStateCreateInfo depth = {0};
-    VkPipelineColorBlendAttachmentState blends[COLORS];
-    VkPipelineColorBlendStateCreateInfo blend = {0};
-    VkPipelineDynamicStateCreateInfo dynamic = {0};
-    VkPipelineRenderingCreateInfo rendering = {0};
-    VkGraphicsPipelineCreateInfo info = {0};
-    VkPipeline pipeline;
-    uint32_t k, n = 0;
-    stages[0] = stage(VK_SHADER_STAGE_VERTEX_BIT, make_module(&d->vertex_code));
-    stages[1] = stage(VK_SHADER_STAGE_FRAGMENT_BIT, make_module(&d->fragment_code));
-    for (k = 0; k < INPUTS; ++k) {
-        if (d->inputs[k] != NULL) {
-            VkVertexInputBindingDescription binding = {0, 16, VK_VERTEX_INPUT_RATE_VERTEX};
-            VkVertexInputAttributeDescription input = {0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0};
-            binding.binding = input.binding = input.location = k;
-            bindings[n] = binding;
-            inputs[n++] = input;
-        }
-    }
-    vertex.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-    vertex.vertexBindingDescriptionCount = n;
-    vertex.pVertexBindingDescriptions = bindings;
-    vertex.vertexAttributeDescriptionCount = n;
-    vertex.pVertexAttributeDescriptions = inputs;
-    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
-    assembly.topology = d->topology;
-    assembly.primitiveRestartEnable = d->restart;
-    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-    viewport.viewportCount = viewport.scissorCount = 1;
-    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.depthClampEnable = d->depth_clamp;
-    raster.rasterizerDiscardEnable = d->discard;
-    raster.cullMode = d->cull;
-    raster.frontFace = d->front;
-    raster.depthBiasEnable = d->has_bias;
-    raster.depthBiasConstantFactor = d->bias[0];
-    raster.depthBiasClamp = d->bias[1];
-    raster.depthBiasSlopeFactor = d->bias[2];
-    raster.lineWidth = 1;
-    multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    multisample.rasterizationSamples = (VkSampleCountFlagBits)SAMPLES;
-    multisample.pSampleMask = &d->sample_mask;
-    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = HAS_DEPTH;
-    depth.depthWriteEnable = HAS_DEPTH && d->depth_write;
-    depth.depthCompareOp = d->compare;
-    memset(blends, 0, sizeof blends);
-    for (k = 0; k < COLORS; ++k) {
-        formats[k] = color_format(k);
-        blends[k].colorWriteMask = k < FIRST_ATTRIBUTE + d->attributes ? 0xf : 0;
-    }
-    blends[HITS].blendEnable = VK_TRUE;
-    blends[HITS].srcColorBlendFactor = blends[HITS].dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    blends[HITS].srcAlphaBlendFactor = blends[HITS].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    blend.attachmentCount = COLORS;
-    blend.pAttachments = blends;
-    dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-    dynamic.dynamicStateCount = 2;
-    dynamic.pDynamicStates = dynamics;
-    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
-    rendering.colorAttachmentCount = COLORS;
-    rendering.pColorAttachmentFormats = formats;
-    rendering.depthAttachmentFormat = HAS_DEPTH ? DEPTH_FORMAT : VK_FORMAT_UNDEFINED;
-    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-    info.pNext = &rendering;
-    info.stageCount = 2;
-    info.pStages = stages;
-    info.pVertexInputState = &vertex;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &multisample;
-    info.pDepthStencilState = &depth;
-    info.pColorBlendState = &blend;
-    info.pDynamicState = &dynamic;
-    info.layout = layout;
-    CHECK(vkCreateGraphicsPipelines(device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline));
-    return pipeline;
+// The fifth part of every reproducer: the draws, and copies of what they left.
+static const void* drawn[DRAWINGS][MOST_PLANES];
+
+// What attachments are cleared to.
+static float clear_number(const struct Drawing* d, uint32_t plane) {
+    return plane == HITS && HAS_INSTRUMENTS ? (d->other_clears ? OTHER_NO_HITS : NO_HITS)
+           : d->other_clears                ? -2.0F
+                                            : -1.0F;
+}
+static float clear_depth(const struct Drawing* d) {
+    return d->other_depth_clear ? 0.625F : DEPTH_CLEAR;
 }
 
 static VkBuffer make_filled(const void* data, size_t size, VkBufferUsageFlags usage) {
@@ -101,22 +21,59 @@ static VkBuffer make_filled(const void* data, size_t size, VkBufferUsageFlags us
     return buffer;
 }
 
-static void record_draw(VkCommandBuffer commands, uint32_t number, VkPipelineLayout layout) {
-    const struct Draw* d = &kDraws[number];
+/* The part of a scissor in a tile: 64 bits, for a scissor may end at 2^31 - 1. */
+static VkRect2D cut_scissor(const VkRect2D* own, uint32_t x, uint32_t y, const uint32_t* tile) {
+    const int64_t begins[2] = {own->offset.x, own->offset.y}, tiles[2] = {x, y};
+    const int64_t sizes[2] = {own->extent.width, own->extent.height};
+    int64_t low[2], high[2];
+    VkRect2D out = {{0, 0}, {0, 0}};
+    uint32_t k;
+    for (k = 0; k < 2; ++k) {
+        low[k] = begins[k] > tiles[k] ? begins[k] : tiles[k];
+        high[k] = begins[k] + sizes[k];
+        high[k] = high[k] < tiles[k] + tile[k] ? high[k] : tiles[k] + tile[k];
+    }
+    if (low[0] < high[0] && low[1] < high[1]) {
+        out.offset.x = (int32_t)low[0];
+        out.offset.y = (int32_t)low[1];
+        out.extent.width = (uint32_t)(high[0] - low[0]);
+        out.extent.height = (uint32_t)(high[1] - low[1]);
+    }
+    return out;
+}
+
+static void draw_in(VkCommandBuffer commands, const struct Draw* d, const VkRect2D* scissor) {
+    vkCmdSetScissor(commands, 0, 1, scissor);
+    if (d->indices != NULL) {
+        vkCmdDrawIndexed(commands, d->count, 1, 0, 0, 0);
+    } else {
+        vkCmdDraw(commands, d->count, 1, 0, 0);
+    }
+}
+
+static void record_draw(VkCommandBuffer commands, const struct Drawing* drawing, uint32_t number,
+                        VkPipelineLayout layout, VkDescriptorSet texture) {
+    const struct Draw* d = &drawing->draws[number];
     const size_t array = 16 * (size_t)d->vertices;
     const VkDeviceSize zero = 0;
-    uint32_t constants[21] = {0};
-    uint32_t k;
+    uint32_t constants[21] = {0};  // DrawConstants of the shaders: 84 bytes
+    uint32_t k, x, y;
     if (d->count == 0) {
         return;
     }
     constants[0] = number | (uint32_t)DRAWS << 16;
-    constants[20] = d->shader_mask;  // DrawConstants of the shaders: 84 bytes
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, make_pipeline(d, layout));
+    memcpy(&constants[4], d->colors, sizeof d->colors);
+    memcpy(&constants[8], d->offsets, sizeof d->offsets);
+    memcpy(&constants[16], d->sample_numbers, sizeof d->sample_numbers);
+    constants[20] = d->shader_mask;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, make_pipeline(drawing, d, layout));
+    if (texture != VK_NULL_HANDLE) {
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &texture,
+                                0, NULL);
+    }
     vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
                        0, sizeof constants, constants);
     vkCmdSetViewport(commands, 0, 1, &d->viewport);
-    vkCmdSetScissor(commands, 0, 1, &d->scissor);
     for (k = 0; k < INPUTS; ++k) {
         if (d->inputs[k] != NULL) {
             const VkBuffer buffer =
@@ -129,36 +86,25 @@ static void record_draw(VkCommandBuffer commands, uint32_t number, VkPipelineLay
             commands,
             make_filled(d->indices, 4 * (size_t)d->count, VK_BUFFER_USAGE_INDEX_BUFFER_BIT), 0,
             VK_INDEX_TYPE_UINT32);
-        vkCmdDrawIndexed(commands, d->count, 1, 0, 0, 0);
-    } else {
-        vkCmdDraw(commands, d->count, 1, 0, 0);
+    }
+    if (drawing->tile[0] == 0) {
+        draw_in(commands, d, &d->scissor);
+        return;
+    }
+    for (y = 0; y < HEIGHT; y += drawing->tile[1]) {
+        for (x = 0; x < WIDTH; x += drawing->tile[0]) {
+            const VkRect2D scissor = cut_scissor(&d->scissor, x, y, drawing->tile);
+            if (scissor.extent.width > 0) {
+                draw_in(commands, d, &scissor);
+            }
+        }
     }
 }
 
-static VkImageAspectFlags aspect_of(uint32_t plane) {
-    return plane < COLORS ? VK_IMAGE_ASPECT_COLOR_BIT : VK_IMAGE_ASPECT_DEPTH_BIT;
-}
-
-static void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
-                    VkImageLayout before, VkImageLayout after) {
-    VkImageMemoryBarrier b = {0};
-    b.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
-    b.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
-    b.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-    b.oldLayout = before;
-    b.newLayout = after;
-    b.srcQueueFamilyIndex = b.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    b.image = image;
-    b.subresourceRange.aspectMask = aspect;
-    b.subresourceRange.levelCount = 1;
-    b.subresourceRange.layerCount = 1;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, NULL, 0, NULL, 1, &b);
-}
-
 /* Each sample by a shader: a resolve would combine them. */
-static void copy_samples(VkCommandBuffer commands, uint32_t plane, VkImage image, VkBuffer buffer) {
-    const struct Code* code = &kCopyCodes[words_of(plane) / 2];
+static void copy_samples(VkCommandBuffer commands, enum Role role, VkImage image, VkBuffer buffer) {
+    const uint32_t words = bytes_of(role) / 4;
+    const struct Code* code = &kCopyCodes[role == DEPTH ? 3 : words / 2];
     const uint32_t constants[3] = {WIDTH, HEIGHT, SAMPLES};
     const VkDescriptorPoolSize sizes[2] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1},
                                            {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
@@ -186,10 +132,13 @@ static void copy_samples(VkCommandBuffer commands, uint32_t plane, VkImage image
     allocation.pSetLayouts = &set_layout;
     CHECK(vkAllocateDescriptorSets(device, &allocation, &set));
     image_info.imageView = make_view(image,
-                                     plane == COLORS        ? DEPTH_FORMAT
-                                     : words_of(plane) == 2 ? VK_FORMAT_R32G32_UINT
-                                                            : VK_FORMAT_R32G32B32A32_UINT,
-                                     aspect_of(plane), VK_IMAGE_USAGE_SAMPLED_BIT);
+                                     role == DEPTH                        ? DEPTH_FORMAT
+                                     : role == TARGET && COLOR_BYTES == 2 ? VK_FORMAT_R16_UINT
+                                     : words == 1                         ? VK_FORMAT_R32_UINT
+                                     : words == 2                         ? VK_FORMAT_R32G32_UINT
+                                                  : VK_FORMAT_R32G32B32A32_UINT,
+                                     aspect_of(role), VK_IMAGE_USAGE_SAMPLED_BIT,
+                                     VK_IMAGE_VIEW_TYPE_2D_ARRAY);
     image_info.imageLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     buffer_info.buffer = buffer;
     buffer_info.range = VK_WHOLE_SIZE;
@@ -216,23 +165,21 @@ static void copy_samples(VkCommandBuffer commands, uint32_t plane, VkImage image
 }
 
 // Copies a plane to a buffer, sample after sample of a pixel; where the CPU will see it.
-static const void* copy_plane(VkCommandBuffer commands, uint32_t plane, VkImage image) {
-    const size_t bytes = (size_t)WIDTH * HEIGHT * SAMPLES * words_of(plane) * sizeof(float);
+static const void* copy_plane(VkCommandBuffer commands, enum Role role, VkImage image) {
+    const size_t bytes = (size_t)WIDTH * HEIGHT * SAMPLES * bytes_of(role);
     VkBufferImageCopy region = {0};
     void* mapped;
     const VkBuffer buffer = make_buffer(
         bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, &mapped);
     memset(mapped, 0xa5, bytes);
-    barrier(commands, image, aspect_of(plane),
-            plane < COLORS ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
-                           : VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+    barrier(commands, image, aspect_of(role), layout_of(role),
             SAMPLES > 1 ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                         : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     if (SAMPLES > 1) {
-        copy_samples(commands, plane, image, buffer);
+        copy_samples(commands, role, image, buffer);
         return mapped;
     }
-    region.imageSubresource.aspectMask = aspect_of(plane);
+    region.imageSubresource.aspectMask = aspect_of(role);
     region.imageSubresource.layerCount = 1;
     region.imageExtent.width = WIDTH;
     region.imageExtent.height = HEIGHT;
@@ -242,48 +189,87 @@ static const void* copy_plane(VkCommandBuffer commands, uint32_t plane, VkImage 
     return mapped;
 }
 
-static VkImage make_attachment(VkCommandBuffer commands, uint32_t plane,
-                               VkRenderingAttachmentInfo* info) {
-    const int is_color = plane < COLORS;
-    const VkFormat format = is_color ? color_format(plane) : DEPTH_FORMAT;
-    const VkImageLayout layout = is_color ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
-                                          : VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+static VkImage make_attachment(VkCommandBuffer commands, const struct Drawing* drawing,
+                               uint32_t plane, VkRenderingAttachmentInfo* info) {
+    const enum Role role = role_of(drawing, plane);
+    const VkFormat format = format_of(role);
+    const VkImageUsageFlags usage = role == DEPTH ? DEPTH_USAGE : COLOR_USAGE;
     const VkImage image =
-        make_image(format, is_color ? COLOR_USAGE : DEPTH_USAGE, is_color ? COLOR_FLAGS : 0);
+        make_image(format, WIDTH, HEIGHT, 1, SAMPLES, usage, role == DEPTH ? 0 : COLOR_FLAGS);
     uint32_t k;
-    barrier(commands, image, aspect_of(plane), VK_IMAGE_LAYOUT_UNDEFINED, layout);
+    barrier(commands, image, aspect_of(role), VK_IMAGE_LAYOUT_UNDEFINED, layout_of(role));
     info->sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-    info->imageView = make_view(image, format, aspect_of(plane),
-                                is_color ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT
-                                         : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-    info->imageLayout = layout;
+    info->imageView = make_view(image, format, aspect_of(role),
+                                role == DEPTH ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                              : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                VK_IMAGE_VIEW_TYPE_2D);
+    info->imageLayout = layout_of(role);
     info->loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     info->storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    if (is_color) {
-        for (k = 0; k < 4; ++k) {
-            info->clearValue.color.float32[k] = plane == HITS ? NO_HITS : -1.0F;
-        }
+    if (role == DEPTH) {
+        info->clearValue.depthStencil.depth = clear_depth(drawing);
+    } else if (role == TARGET) {
+        memcpy(info->clearValue.color.uint32, kColorClear, sizeof kColorClear);
     } else {
-        info->clearValue.depthStencil.depth = DEPTH_CLEAR;
+        for (k = 0; k < 4; ++k) {
+            info->clearValue.color.float32[k] = clear_number(drawing, plane);
+        }
     }
     return image;
 }
 
-// Draws everything; planes[k] is then what attachment k holds, the depth last.
-static void draw(const void** planes) {
+// Records a drawing; planes[k] is where the CPU will see what attachment k holds.
+static void record(VkCommandBuffer commands, const struct Drawing* drawing, const void** planes) {
+    const VkDescriptorSetLayoutBinding binding = {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                                                  VK_SHADER_STAGE_FRAGMENT_BIT, NULL};
+    VkDescriptorSetLayoutCreateInfo set_info = {VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                NULL, 0, 1, &binding};
+    VkRenderingAttachmentInfo attachments[MOST_PLANES];
+    VkRenderingInfo rendering = {0};
+    VkDescriptorSetLayout set_layout;
+    VkDescriptorSet textures[DRAWS];
+    VkPipelineLayout layout;
+    VkImage images[MOST_PLANES];
+    uint32_t k;
+    CHECK(vkCreateDescriptorSetLayout(device, &set_info, NULL, &set_layout));
+    layout =
+        make_layout(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 84, &set_layout);
+    memset(attachments, 0, sizeof attachments);
+    for (k = 0; k < planes_of(drawing); ++k) {
+        images[k] = make_attachment(commands, drawing, k, &attachments[k]);
+    }
+    for (k = 0; k < DRAWS; ++k) {
+        textures[k] = drawing->draws[k].texture[0] == 0
+                          ? VK_NULL_HANDLE
+                          : make_texture(commands, drawing->draws[k].texture, set_layout);
+    }
+    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+    rendering.renderArea.extent.width = WIDTH;
+    rendering.renderArea.extent.height = HEIGHT;
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = depth_plane(drawing);
+    rendering.pColorAttachments = attachments;
+    rendering.pDepthAttachment = HAS_DEPTH ? &attachments[depth_plane(drawing)] : NULL;
+    vkCmdBeginRendering(commands, &rendering);
+    for (k = 0; k < DRAWS; ++k) {
+        record_draw(commands, drawing, k, layout, textures[k]);
+    }
+    vkCmdEndRendering(commands);
+    for (k = 0; k < planes_of(drawing); ++k) {
+        planes[k] = copy_plane(commands, role_of(drawing, k), images[k]);
+    }
+}
+
+/* Draws those of the drawings that belong to one submission. */
+static void submit(VkBool32 later) {
     VkCommandPoolCreateInfo pool_info = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, NULL, 0, 0};
     VkCommandBufferAllocateInfo allocation = {0};
     VkCommandBufferBeginInfo begin = {0};
-    VkRenderingAttachmentInfo attachments[PLANES];
-    VkRenderingInfo rendering = {0};
-    VkPipelineLayout layout =
-        make_layout(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 84, NULL);
     VkMemoryBarrier to_host = {VK_STRUCTURE_TYPE_MEMORY_BARRIER, NULL, VK_ACCESS_MEMORY_WRITE_BIT,
                                VK_ACCESS_HOST_READ_BIT};
     VkCommandPool pool;
     VkCommandBuffer commands;
-    VkImage images[PLANES];
-    VkSubmitInfo submit = {0};
+    VkSubmitInfo info = {0};
     uint32_t k;
     pool_info.queueFamilyIndex = queue_family;
     CHECK(vkCreateCommandPool(device, &pool_info, NULL, &pool));
@@ -293,31 +279,17 @@ static void draw(const void** planes) {
     CHECK(vkAllocateCommandBuffers(device, &allocation, &commands));
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     CHECK(vkBeginCommandBuffer(commands, &begin));
-    memset(attachments, 0, sizeof attachments);
-    for (k = 0; k < PLANES; ++k) {
-        images[k] = make_attachment(commands, k, &attachments[k]);
-    }
-    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    rendering.renderArea.extent.width = WIDTH;
-    rendering.renderArea.extent.height = HEIGHT;
-    rendering.layerCount = 1;
-    rendering.colorAttachmentCount = COLORS;
-    rendering.pColorAttachments = attachments;
-    rendering.pDepthAttachment = HAS_DEPTH ? &attachments[PLANES - 1] : NULL;
-    vkCmdBeginRendering(commands, &rendering);
-    for (k = 0; k < DRAWS; ++k) {
-        record_draw(commands, k, layout);
-    }
-    vkCmdEndRendering(commands);
-    for (k = 0; k < PLANES; ++k) {
-        planes[k] = copy_plane(commands, k, images[k]);
+    for (k = 0; k < DRAWINGS; ++k) {
+        if (kDrawings[k].later == later) {
+            record(commands, &kDrawings[k], drawn[k]);
+        }
     }
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                          0, 1, &to_host, 0, NULL, 0, NULL);
     CHECK(vkEndCommandBuffer(commands));
-    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands;
-    CHECK(vkQueueSubmit(queue, 1, &submit, VK_NULL_HANDLE));
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands;
+    CHECK(vkQueueSubmit(queue, 1, &info, VK_NULL_HANDLE));
     CHECK(vkQueueWaitIdle(queue));
 }
