@@ -23,7 +23,8 @@ namespace {
 constexpr size_t kMaxSummary = 900 * 1024;  // bytes; GitHub refuses more than 1 MiB a step
 constexpr size_t kMaxCommands = 10;         // causes whose commands are told
 
-// A file as the CI's pages name it: relative to the checkout, '/' between parts.
+// A file as the CI's pages name it: relative to the checkout, '/' between parts. Empty if it lies
+// elsewhere.
 std::string file_in(const fs::path& base, const Run& run, const std::string& file) {
     fs::path path = file;
     for (const auto& [name, value] : run.environment) {
@@ -33,7 +34,7 @@ std::string file_in(const fs::path& base, const Run& run, const std::string& fil
     }
     const fs::path relative = path.lexically_normal().lexically_relative(base.lexically_normal());
     const bool inside = !relative.empty() && *relative.begin() != "..";
-    return (inside ? relative : path.lexically_normal()).generic_string();
+    return inside ? relative.generic_string() : std::string();
 }
 
 // docs.github.com, "Workflow commands for GitHub Actions": data escapes % CR LF, properties also
@@ -107,10 +108,13 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
         const std::string body = fmt::format(
             "{}   {}\n{}\nrerun: {}{}", first.id, what_happened(first), why_it_happened(first),
             first.rerun, first.explain.empty() ? "" : "\nexplain: " + first.explain);
-        text += fmt::format("::error file={},line={},title={}::{}\n",
-                            command_text(file_in(base, run, first.file), true),
-                            std::max(first.line, 1U), command_text(cause_title(list[k]), true),
-                            command_text(body, false));
+        const std::string file = file_in(base, run, first.file);
+        const std::string place = file.empty()
+                                      ? ""
+                                      : fmt::format("file={},line={},", command_text(file, true),
+                                                    std::max(first.line, 1U));
+        text += fmt::format("::error {}title={}::{}\n", place,
+                            command_text(cause_title(list[k]), true), command_text(body, false));
     }
     if (list.size() > kMaxAnnotations) {
         const size_t more = list.size() - kMaxAnnotations;
@@ -197,6 +201,11 @@ std::string to_gitlab(const Run& run, const fs::path& base) {
         const std::string kind = record.findings.empty()
                                      ? record.signal
                                      : std::string(diff::to_string(leading_finding(record).kind));
+        // GitLab wants a path below the checkout: that of an installed case in its suite.
+        std::string path = file_in(base, run, record.file);
+        if (path.empty()) {
+            path = record.id.substr(0, record.id.find(':')) + ".toml";
+        }
         issues.push_back(Json{
             {"description", cases::printable(record.id + ": " + what_happened(record) + ". " +
                                              why_it_happened(record))},
@@ -204,7 +213,7 @@ std::string to_gitlab(const Run& run, const fs::path& base) {
             {"fingerprint", fingerprint(record.id + '\n' + std::string(to_string(record.status)) +
                                         '\n' + rule + '\n' + kind)},
             {"severity", severity_of(record)},
-            {"location", Json{{"path", cases::printable(file_in(base, run, record.file))},
+            {"location", Json{{"path", cases::printable(path)},
                               {"lines", Json{{"begin", std::max(record.line, 1U)}}}}},
         });
     }

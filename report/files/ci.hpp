@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What continuous integration shows of a run. Paths of case files are told relative to `base`, the
-// root of the checkout, where they lie below it.
+// root of the checkout; pages of CI cannot show a file that lies elsewhere (an installed suite).
 #pragma once
 
 #include <filesystem>
