@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string_view>
@@ -38,8 +39,15 @@ Signature signature_of(const CaseRecord& record) {
     return {"", kind};
 }
 
-std::string family_of(const std::string& id) {
-    return id.substr(0, std::min(id.find('/'), id.find(':')));
+// Files of one's own mostly lie in one folder, and each is no family: their causes would be as many
+// as they. No family of the suite ends in '/'.
+std::string family_of(const CaseRecord& record) {
+    const std::string id = record.id.substr(0, record.id.find(':'));
+    if (const size_t end = id.find('/'); end != std::string::npos) {
+        return id.substr(0, end);
+    }
+    const std::string folder = std::filesystem::path(record.file).parent_path().filename().string();
+    return folder.empty() || folder == "." || folder == ".." ? id : folder + "/";
 }
 
 // What could not be judged and deaths come first, then failures by profile, then the rest.
@@ -75,7 +83,7 @@ std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status)) {
             continue;
         }
         const Signature s = signature_of(record);
-        const std::string family = family_of(record.id);
+        const std::string family = family_of(record);
         const auto [at, fresh] =
             index.emplace(std::tuple(record.status, family, s.rule, s.kind), list.size());
         if (fresh) {

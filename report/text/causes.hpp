@@ -15,7 +15,7 @@ namespace report {
 // the same signal or step).
 struct Cause {
     Status status = Status::fail;
-    std::string family;  // first part of the ids
+    std::string family;  // first part of the ids; of ids of one part their files' folder, "mine/"
     std::string rule;    // of the leading finding; empty if there is none
     std::string kind;    // "missing", ...; of a death: "SIGSEGV during submit"
     cases::Profile level = cases::Profile::direct3d;  // loosest of all

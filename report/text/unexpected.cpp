@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/text/unexpected.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "report/text/causes.hpp"
+#include "report/text/sentences.hpp"
 
 namespace report {
 
@@ -13,13 +17,42 @@ UnexpectedResults::UnexpectedResults(const std::vector<std::string>& ids, Consol
     }
 }
 
+namespace {
+
+// A record without what causes() does not ask for: a broken device has thousands of them.
+CaseRecord lean(const CaseRecord& record) {
+    CaseRecord out;
+    out.id = record.id;
+    out.file = record.file;
+    out.status = record.status;
+    out.level = record.level;
+    out.signal = record.signal;
+    out.step = record.step;
+    out.compared_samples = record.compared_samples;
+    out.counts = record.counts;
+    out.groups = record.groups;
+    if (!record.findings.empty()) {
+        out.findings = {leading_finding(record)};
+    }
+    return out;
+}
+
+}  // namespace
+
 std::string UnexpectedResults::add(const CaseRecord& record) {
     const bool is_told = !is_expected(record.status) && record.status != Status::not_run;
     count_ += is_told ? 1U : 0U;
-    waiting_.emplace(place_.at(record.id), is_told ? console_case(record, style_) : std::string());
+    const size_t place = place_.at(record.id);
+    if (!style_.verbose) {
+        if (is_told) {
+            kept_.insert_or_assign(place, std::pair(lean(record), console_case(record, style_)));
+        }
+        return {};
+    }
+    waiting_.emplace(place, is_told ? console_case(record, style_) : std::string());
     std::string text;
     for (auto at = waiting_.begin(); at != waiting_.end() && at->first == next_;) {
-        text += tell(at->second);
+        text += at->second;
         at = waiting_.erase(at);
         ++next_;
     }
@@ -29,22 +62,35 @@ std::string UnexpectedResults::add(const CaseRecord& record) {
 std::string UnexpectedResults::rest() {
     std::string text;
     for (const auto& [place, words] : std::exchange(waiting_, {})) {
-        text += tell(words);
+        text += words;
     }
+    text += worst();
+    kept_.clear();
     return text;
 }
 
-std::string UnexpectedResults::tell(const std::string& text) {
-    if (text.empty()) {
-        return {};
+std::string UnexpectedResults::worst() const {
+    Run run;
+    for (const auto& [place, kept] : kept_) {
+        run.cases.push_back(kept.first);
     }
-    ++told_;
-    if (style_.verbose || told_ <= kHandful) {
+    std::string text;
+    const auto tell = [&](const CaseRecord& record) {
+        text += kept_.at(place_.at(record.id)).second;
+    };
+    const std::vector<Cause> list = causes(run);
+    if (kept_.size() <= kHandful) {
+        for (const Cause& cause : list) {
+            for (const CaseRecord* record : cause.cases) {
+                tell(*record);
+            }
+        }
         return text;
     }
-    return told_ == kHandful + 1 ? "more unexpected results: their causes follow at the end; -v "
-                                   "tells each\n"
-                                 : std::string();
+    for (size_t k = 0; k < std::min(list.size(), kHandful); ++k) {
+        tell(smallest_case(list[k]));
+    }
+    return text + "more unexpected results: their causes follow; -v tells each\n";
 }
 
 }  // namespace report

@@ -273,9 +273,9 @@ class Order(ProgramTest):
         self.assertEqual(printed[0], printed[1])
         self.assertEqual(printed[0], printed[2])
         text = "\n".join(printed[0])
-        self.assertEqual(re.findall(r"^(?:FAIL|CRASH) (\S+)", text, re.M), [f"fam/c{k}" for k in range(5)])
+        self.assertEqual(re.findall(r"^(?:FAIL|CRASH) (\S+)", text, re.M), ["fam/c2", "fam/c0"])
         # Settings of the machine's own driver, if there are any, stand above the causes.
-        self.assertRegex(text, r"\nmore unexpected results: their causes follow at the end; -v tells each\n"
+        self.assertRegex(text, r"\nmore unexpected results: their causes follow; -v tells each\n"
                          r"causes, the worst first(:|; put the settings in front of each rerun:\n  settings: .*)\n"
                          r"  crash: SIGSEGV during submit in fam, 1 case   rerun: ")
         self.assertIn("\n  fail: cover.outside double in fam, 9 cases [vulkan]   rerun: ", text)

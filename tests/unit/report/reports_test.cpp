@@ -146,20 +146,22 @@ TEST(console, three_lines_and_the_explain_command) {
     }
 }
 
-TEST(console, unexpected_results_come_in_the_order_of_the_selection) {
+TEST(console, verbose_results_come_in_the_order_of_the_selection) {
     const report::Run run = test::sample_run();
+    ConsoleStyle style;
+    style.verbose = true;
     std::vector<std::string> ids;
     std::string in_order;
     size_t unexpected = 0;
     for (const CaseRecord& r : run.cases) {
         ids.push_back(r.id);
-        if (!is_expected(r.status) && r.status != Status::not_run && ++unexpected <= kHandful) {
-            in_order += console_case(r, {});
+        if (!is_expected(r.status) && r.status != Status::not_run) {
+            ++unexpected;
+            in_order += console_case(r, style);
         }
     }
     ASSERT_GT(unexpected, kHandful);
-    in_order += "more unexpected results: their causes follow at the end; -v tells each\n";
-    UnexpectedResults backwards(ids, {});
+    UnexpectedResults backwards(ids, style);
     std::string text;
     for (auto r = run.cases.rbegin(); r != run.cases.rend(); ++r) {
         EXPECT_EQ(text, "");
@@ -168,11 +170,73 @@ TEST(console, unexpected_results_come_in_the_order_of_the_selection) {
     EXPECT_EQ(text, in_order);
     EXPECT_EQ(backwards.count(), unexpected);
     EXPECT_EQ(backwards.rest(), "");
-    UnexpectedResults cut_off(ids, {});  // the first case never ends
+    UnexpectedResults cut_off(ids, style);  // the first case never ends
     for (auto r = run.cases.rbegin(); std::next(r) != run.cases.rend(); ++r) {
         EXPECT_EQ(cut_off.add(*r), "");
     }
     EXPECT_EQ(cut_off.rest(), in_order);
+}
+
+// The first that are told are what the causes begin with, however they came in.
+TEST(console, the_worst_results_are_told_in_the_order_of_the_causes) {
+    report::Run run = test::sample_run();
+    std::erase_if(run.cases, [](const CaseRecord& r) { return r.status == Status::not_run; });
+    std::vector<std::string> ids;
+    for (const CaseRecord& r : run.cases) {
+        ids.push_back(r.id);
+    }
+    std::string expected;
+    const std::vector<Cause> list = causes(run);
+    ASSERT_GT(list.size(), kHandful);
+    for (size_t k = 0; k < kHandful; ++k) {
+        expected += console_case(smallest_case(list[k]), {});
+    }
+    expected += "more unexpected results: their causes follow; -v tells each\n";
+    UnexpectedResults forwards(ids, {}), backwards(ids, {});
+    for (size_t k = 0; k < run.cases.size(); ++k) {
+        EXPECT_EQ(forwards.add(run.cases[k]), "");
+        EXPECT_EQ(backwards.add(run.cases[run.cases.size() - 1 - k]), "");
+    }
+    EXPECT_EQ(forwards.rest(), expected);
+    EXPECT_EQ(backwards.rest(), expected);
+    EXPECT_EQ(backwards.rest(), "");
+    // A handful is told whole.
+    UnexpectedResults few(ids, {});
+    report::Run worst;
+    for (const CaseRecord& r : run.cases) {
+        if (!is_expected(r.status) && worst.cases.size() < kHandful) {
+            worst.cases.push_back(r);
+            few.add(r);
+        }
+    }
+    std::string each;
+    for (const Cause& cause : causes(worst)) {
+        for (const CaseRecord* r : cause.cases) {
+            each += console_case(*r, {});
+        }
+    }
+    EXPECT_EQ(few.rest(), each);
+}
+
+TEST(causes, files_of_one_folder_are_one_family) {
+    report::Run run = test::sample_run();
+    const CaseRecord failed = *std::find_if(run.cases.begin(), run.cases.end(),
+                                            [](const auto& r) { return r.status == Status::fail; });
+    run.cases.clear();
+    for (const char* name : {"a", "b:seed=1/2", "c"}) {
+        run.cases.push_back(failed);
+        run.cases.back().id = name;
+        run.cases.back().file = "/home/me/mine/" + std::string(name, 1) + ".toml";
+    }
+    run.cases.push_back(failed);
+    run.cases.back().id = "mine/d";
+    ASSERT_EQ(causes(run).size(), 2U);
+    EXPECT_EQ(causes(run)[0].family, "mine/");
+    EXPECT_EQ(causes(run)[0].cases.size(), 3U);
+    EXPECT_EQ(causes(run)[1].family, "mine");
+    run.cases.resize(1);
+    run.cases[0].file = "a.toml";
+    EXPECT_EQ(causes(run)[0].family, "a");
 }
 
 TEST(console, the_end_tells_the_causes) {
