@@ -193,6 +193,29 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     return p;
 }
 
+namespace {
+
+// Removes what an earlier run left in the folder: an interrupted one would else leave the journal
+// of one run beside the reports of another.
+void remove_reports(const fs::path& folder) {
+    std::error_code ignored;
+    std::vector<fs::path> reports;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        const bool is_page = name.starts_with("report-") && name.ends_with(".html") &&
+                             name.find_first_not_of("0123456789", 7) == name.size() - 5;
+        if (is_page || name == "report.html" || name == "results.json" || name == "junit.xml" ||
+            name == "gl-code-quality.json") {
+            reports.push_back(entry.path());
+        }
+    }
+    for (const fs::path& report : reports) {
+        fs::remove(report, ignored);
+    }
+}
+
+}  // namespace
+
 OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, bool resumed) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -206,6 +229,7 @@ OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, 
         return tl::unexpected(stop_with(report::kExitUsage, journal.error().message));
     }
     if (!resumed) {
+        remove_reports(folder);
         cases::Expected<void> written = journal->write_run(header);
         if (written) {
             written = journal->write_device(header.device);

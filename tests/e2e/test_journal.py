@@ -116,6 +116,20 @@ class TwoRuns(JournalTest):
         self.edgecase("run", "--resume", self.out, check=0)
 
 
+    def test_reports_of_an_earlier_run_go(self):
+        """Else a shorter or interrupted run lies beside pages of another one."""
+        self.edgecase("run", "--renderer=reference", "-o", self.out, "--ci", "gitlab", check=0)
+        for name in ("report-2.html", "report-x.html", "notes.txt"):
+            (self.out / name).write_text("mine")
+        (self.out / "journal.jsonl").unlink()  # else its ends would be taken for those of the next run
+        process = self.start_hanging()
+        names = {file.name for file in self.out.iterdir()}
+        process.kill()
+        process.communicate()
+        self.wait_for_no_orphans()
+        self.assertEqual(names, {"journal.jsonl", "report-x.html", "notes.txt"})
+
+
 class Interrupt(JournalTest):
     def interrupt(self, number):
         process = self.start_hanging("-j", "2")
