@@ -36,11 +36,25 @@ function paint(canvas, scene, shot) {
   if (shot.cursor && isInPicture(p, shot.cursor)) { paintCursor(view, scene, shot.cursor); }
 }
 
+// The side in pixels of the largest squares around samples that do not overlap, with those of the pixels around them.
+function sampleSide(locations) {
+  const at = locations.map((l) => [Number(l.x) / 65536, Number(l.y) / 65536]);
+  let side = 1 / 2.6;
+  at.forEach(([x, y], s) => at.forEach(([u, v], t) => {
+    for (let i = -1; i <= 1; ++i) {
+      for (let j = -1; j <= 1; ++j) {
+        if (s !== t) { side = Math.min(side, Math.max(Math.abs(x - u - i), Math.abs(y - v - j))); }
+      }
+    }
+  }));
+  return side;
+}
+
 // Calls with each sample of the view that is seen: its index and its cell.
 function eachCell(view, scene, visit) {
   const {p, zoom, margin} = view;
   const placed = isPlaced(view, scene);
-  const side = placed ? Math.max(4, zoom / (p.samples <= 2 ? 2.6 : p.samples <= 4 ? 3 : p.samples <= 8 ? 4.2 : 5.2)) : 0;
+  const side = placed ? Math.max(4, zoom * sampleSide(scene.geometry.locations)) : 0;
   for (let j = view.rows[0]; j <= view.rows[1]; ++j) {
     for (let i = view.columns[0]; i <= view.columns[1]; ++i) {
       for (let s = 0; s < p.samples; ++s) {

@@ -65,8 +65,9 @@ function findingsSection(page) {
     el("td", {class: "number", "data-label": "expected"}, f.quantity ? f.quantity + ": " : "", unfolded(f.expected)), el("td", {class: numberClass(f.got), "data-label": "got"}, f.got), el("td", f.ratio ? {class: "number right", "data-label": "budgets off"} : {class: "number right"}, f.ratio || ""), el("td", {class: "why"}, f.why));
     return row;
   });
-  const rest = record.finding_total - page.findings.length;
-  return el("section", {class: "findings"}, el("h2", {}, "Findings ", el("span", {class: "count"}, String(record.finding_total) + (rest > 0 ? ", the first " + page.findings.length + " here; results.json has more" : ""))),
+  const here = page.findings.length, kept = record.finding_kept;
+  const rest = record.finding_total === here ? "" : ", " + here + " of them here" + (kept > here ? " and " + kept + " in results.json" : "; the others are counted only");
+  return el("section", {class: "findings"}, el("h2", {}, "Findings ", el("span", {class: "count"}, String(record.finding_total) + rest)),
     el("div", {class: "scroll tall", tabIndex: 0, role: "region", "aria-label": "findings"},
       table("", ["sample", "kind", "rule", "breaks", "expected", "got", "budgets off", "why"], page.rows, "cards")));
 }

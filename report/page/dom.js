@@ -78,7 +78,11 @@ const word = (status) => status.replace("_", " ");
 const plural = (count, noun) => count + " " + noun + (count === 1 ? "" : noun.endsWith("y") ? "" : "s");
 const isExpected = (record) => EXPECTED.has(record.status);
 const statusTag = (status) => el("span", {class: "status " + status}, GLYPHS[status] + "\u00a0" + word(status));
-const familyOf = (id) => id.includes("/") ? id.slice(0, id.indexOf("/")) : "other";
+// As family_of in report/text/causes.cpp: of a file of one's own, its folder.
+const familyOf = (id, file) => {
+  const path = id.split(":")[0], folder = (file || "").split("/").slice(-2, -1)[0];
+  return path.includes("/") ? path.slice(0, path.indexOf("/")) : folder && folder !== "." && folder !== ".." ? folder + "/" : path;
+};
 
 function ruleLink(id) {
   const rule = data.rules[id];

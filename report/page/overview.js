@@ -5,7 +5,7 @@
 const SHOWN_ROWS = 60;  // of a group, before it is asked for more
 const listing = {words: "", group: "family", sort: "status", cause: "", off: new Set(), opened: new Map(), more: new Map()};
 
-const entries = data.cases.map((record) => ({record, family: familyOf(record.id), cause: causeOf.get(record) || null, rank: STATUSES.indexOf(record.status),
+const entries = data.cases.map((record) => ({record, family: familyOf(record.id, record.file), cause: causeOf.get(record) || null, rank: STATUSES.indexOf(record.status),
   wrong: record.finding_total || 0, worst: record.worst ? numberOf(record.worst[0]) : -1, seconds: numberOf(record.seconds),
   rules: new Set([...(record.rules || []), ...(record.lead ? [string(record.lead[1])] : [])]),
   text: [record.id, string(record.description), (record.rules || []).join(" "), record.what, word(record.status), record.lead ? string(record.lead[1]) : ""].join("\n").toLowerCase()}));

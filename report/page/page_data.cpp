@@ -149,6 +149,7 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
     }
     if (!r.findings.empty()) {
         json["finding_total"] = r.finding_total();
+        json["finding_kept"] = r.findings.size();  // in results.json
         json["counts"] = counts_text(r);
         const diff::Finding& lead = leading_finding(r);
         json["lead"] = finding_json(r, lead, strings);

@@ -47,6 +47,22 @@ class Widths(PageTest):
             self.assertRegex(wrong, r"0x[0-9a-f]{8}")
             self.assertRegex(wrong, r"ulp")
 
+    def test_squares_of_samples_do_not_overlap(self):
+        """In a pixel and across its borders, at every zoom at which samples stand where they are."""
+        page = self.open("#case=told%2Ffour")
+        for count in (2, 4, 8, 16):
+            overlaps = page.run("(() => { const standard = {2: [[12,12],[4,4]], 4: [[6,2],[14,6],[2,10],[10,14]],"
+                                "8: [[9,5],[7,11],[13,9],[5,3],[3,13],[1,7],[11,15],[15,1]],"
+                                "16: [[9,9],[7,5],[5,10],[12,7],[3,6],[10,13],[13,11],[11,3],[6,14],[8,1],[4,2],[2,12],[0,8],[15,4],[14,15],[1,0]]}[%d];"
+                                "const geometry = {locations: standard.map(([x, y]) => ({x: BigInt(x * 4096), y: BigInt(y * 4096)}))};"
+                                "const out = []; for (const zoom of [64, 128]) { const cells = [];"
+                                "eachCell({p: {samples: %d, columns: 1, width: 3}, zoom, margin: 0, rows: [0, 2], columns: [0, 2]}, {geometry},"
+                                "(k, x, y, w, h) => cells.push([x, y, w, h]));"
+                                "cells.forEach((a, n) => cells.forEach((b, m) => { if (n < m && Math.min(a[0] + a[2], b[0] + b[2]) - Math.max(a[0], b[0]) > 1e-9 && "
+                                "Math.min(a[1] + a[3], b[1] + b[3]) - Math.max(a[1], b[1]) > 1e-9 && a[2] > 4) { out.push([zoom, n, m]); } })); }"
+                                "return out.slice(0, 5); })()" % (count, count))
+            self.assertEqual(overlaps, [], count)
+
     def test_long_fractions_are_folded(self):
         page = self.open("#case=told%2Flong")
         fold = page.run("(() => { const b = document.querySelector('.values tbody.wrong .fold'); return [b.innerText, b.getAttribute('aria-expanded'), b.getAttribute('aria-label')]; })()")

@@ -94,6 +94,19 @@ class FirstSight(PageTest):
                         "isWorstTold({worst: worst && [worst, worst, ''], finding_total: wrong}))")
         self.assertEqual(told, [False, True, False, False, True, True])
 
+    def test_files_of_ones_own_are_a_family_by_their_folder(self):
+        page = self.open()
+        self.assertEqual(page.run("[familyOf('ties/a:x=1/2', '/s/ties/a.toml'), familyOf('a:x=1/2', '/h/mine/a.toml'), familyOf('a', 'a.toml')]"),
+                         ["ties", "mine/", "a"])
+
+    def test_findings_that_are_not_here_are_told_where_they_are(self):
+        page = self.open()
+        for total, kept, told in ((1, 1, "Findings 1"), (25, 1, "Findings 25, 1 of them here; the others are counted only"),
+                                  (25, 16, "Findings 25, 1 of them here and 16 in results.json")):
+            head = page.run("findingsSection({record: {finding_total: %d, finding_kept: %d}, pin() {}, findings: [{x: 0, y: 0, sample: 0, kind: 'value',"
+                            "rule: 'cover.inside', level: 'vulkan', expected: '0', got: '1', why: ''}]}).querySelector('h2').textContent" % (total, kept))
+            self.assertEqual(head, told)
+
 
 class Known(PageTest):
     """A run in which every failure was expected."""
