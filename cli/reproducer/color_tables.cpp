@@ -117,7 +117,7 @@ ref::color::Color ColorRows::source_of(uint32_t triangle, cases::SampleId id) {
     for (size_t k = 0; k < 4; ++k) {
         constexpr double kMost = 0x1.fffffep127;  // nothing is promised: any finite number
         const auto constant = static_cast<double>(output.value[static_cast<int>(k)]);
-        out.at(k) = output.attribute < 0     ? ref::color::point(constant)
+        out.at(k) = output.attribute < 0       ? ref::color::point(constant)
                     : ranges.at(k).is_promised ? Interval{ranges.at(k).low, ranges.at(k).high}
                                                : Interval{-kMost, kMost};
     }
@@ -163,9 +163,8 @@ std::string ColorRows::row(const Sequence& sequence, cases::SampleId id) {
 
 bool judges_bare_depth(const cases::Case& c) {
     return c.target.depth_format == cases::DepthFormat::d32_float &&
-           std::all_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& d) {
-               return d.depth == cases::DepthState{};
-           });
+           std::all_of(c.draws.begin(), c.draws.end(),
+                       [](const cases::Draw& d) { return d.depth == cases::DepthState{}; });
 }
 
 }  // namespace cli

@@ -159,6 +159,9 @@ std::string rare_text(const cases::Case& c, const cases::Draw& d, const Inputs& 
         text += fmt::format("     .shades_samples = 1, .least_shading = {:a}F,\n",
                             *d.multisample.min_sample_shading);
     }
+    if (d.layer > 0) {
+        text += fmt::format("     .layer = {},\n", d.layer);
+    }
     if (d.provoking == cases::ProvokingVertex::last) {
         text += "     .last_provokes = 1,\n";
     }
@@ -236,10 +239,6 @@ std::string draw_row(const cases::Case& c, const cases::Draw& d, const std::stri
         inputs[kCull] = arrays.add("kCull" + name, words_of(d.distances.cull));
     }
     const std::string indices = d.indices ? arrays.add("kIndices" + name, *d.indices) : "NULL";
-    shaders::VertexVariant vertex;
-    vertex.attributes = static_cast<uint32_t>(shader.attributes.size());
-    vertex.clip_count = d.distances.clip_count;
-    vertex.cull_count = d.distances.cull_count;
     const size_t judged = shader.has_instruments ? d.attributes.size() : 0;
     uint32_t flat = 0;
     for (size_t k = 0; k < judged; ++k) {
@@ -252,9 +251,9 @@ std::string draw_row(const cases::Case& c, const cases::Draw& d, const std::stri
         " {}, "
         "{},\n",
         word(kTopologies, d.topology), d.primitive_restart, d.positions.size(),
-        d.indices ? d.indices->size() : d.positions.size(), judged, vertex.clip_count,
-        vertex.cull_count, flat, fmt::join(inputs, ", "), indices,
-        modules.name(shaders::capture_vertex(vertex)), modules.name(shader.fragment_code(d)));
+        d.indices ? d.indices->size() : d.positions.size(), judged, d.distances.clip_count,
+        d.distances.cull_count, flat, fmt::join(inputs, ", "), indices,
+        modules.name(vertex_code(c, d)), modules.name(shader.fragment_code(d)));
     text += fmt::format(
         "     {{{:a}F, {:a}F, {:a}F, {:a}F, {:a}F, {:a}F}}, {{{{{}, {}}}, {{{}U, {}U}}}},\n", v.x,
         v.y, v.width, v.height, v.min_depth, v.max_depth, d.scissor.x, d.scissor.y, d.scissor.width,

@@ -61,13 +61,14 @@ Open value_over(const CandidateSet<T>& set, uint32_t plane, bool is_perspective,
         is_undefined = is_undefined || candidate.is_unbounded;
         for (const auto& basis : candidate.bases) {
             for (const Point<T>& p : points) {
-                const auto site = make_site(basis, basis.planes[ref::value::kPlaneInvW], p,
-                                            set.factor);
+                const auto site =
+                    make_site(basis, basis.planes[ref::value::kPlaneInvW], p, set.factor);
                 const auto v = value_at(site, basis.planes[plane], is_perspective, set.factor);
                 out.is_known = out.is_known && v.exists != Answer::unknown;
                 is_undefined = is_undefined || v.exists == Answer::no;
                 if (v.exists == Answer::yes) {
-                    widen(out.bounds, {low_of(T(v.value - v.reach)), high_of(T(v.value + v.reach))});
+                    widen(out.bounds,
+                          {low_of(T(v.value - v.reach)), high_of(T(v.value + v.reach))});
                 }
             }
         }
@@ -98,8 +99,7 @@ class Prober {
         : set_(set), where_(where), place_(place) {}
 
     Open of(const Quantity& q) const {
-        const std::optional<ref::value::Derivative> derivative =
-            ref::value::derivative_of(q.probe);
+        const std::optional<ref::value::Derivative> derivative = ref::value::derivative_of(q.probe);
         Open out;
         if (q.probe != Probe::lod && !derivative) {
             for (const ref::value::Spots& spots : probe_spots(q, place_)) {
@@ -159,8 +159,8 @@ class Prober {
             Open one;
             one.is_known = plus.is_known && minus.is_known;
             if (plus.bounds && minus.bounds) {
-                one.bounds = rounded_once({plus.bounds->low - minus.bounds->high,
-                                           plus.bounds->high - minus.bounds->low});
+                one.bounds = rounded_once(
+                    {plus.bounds->low - minus.bounds->high, plus.bounds->high - minus.bounds->low});
             }
             if (!merge(out, one)) {
                 return out;
@@ -259,8 +259,8 @@ bool ProbeRanges::add(uint32_t t, cases::SampleId sample, size_t attribute,
     const auto evaluations = ref::value::evaluations<T>(fragment, profile_);
     for (size_t k = 0; k < all.size(); ++k) {
         const Quantity& q = all[k];
-        const bool is_asked = promises[k].is_number && (profile_ != cases::Profile::vulkan ||
-                                                        promises[k].is_guaranteed);
+        const bool is_asked = promises[k].is_number &&
+                              (profile_ != cases::Profile::vulkan || promises[k].is_guaranteed);
         if (q.kind != ref::value::Kind::probe || q.id.attribute != attribute || !is_asked ||
             (!q.is_perspective && !primitive.is_projectable)) {
             continue;

@@ -106,14 +106,15 @@ std::string target_text(const cases::Target& t) {
         places += fmt::format("{{{}, {}}}, ", place[0], place[1]);
     }
     return fmt::format(
-        "#define WIDTH {}\n#define HEIGHT {}\n#define SAMPLES {}\n"
+        "#define WIDTH {}\n#define HEIGHT {}  // of a layer\n#define LAYERS {}\n#define SAMPLES "
+        "{}\n"
         "#define HAS_INSTRUMENTS {:d}  // hits, the last triangle, FragCoord and attributes\n"
         "#define HAS_DEPTH {:d}\n#define DEPTH_FORMAT VK_FORMAT_{}\n"
         "#define DEPTH_STEPS {:.1f}  // 0: floating point\n#define DEPTH_CLEAR {:a}F\n"
         "#define DEPTH_CLEAR_LOW {:a}F\n#define DEPTH_CLEAR_HIGH {:a}F\n"
         "// Of samples in their pixel, in 1/16 pixel.\n"
         "static const uint8_t kPlaces[SAMPLES][2] = {{{}}};\n",
-        t.width, t.height, t.samples, t.has_instruments, t.has_depth,
+        t.width, t.height, t.layers, t.samples, t.has_instruments, t.has_depth,
         row_of(t.depth_format).vulkan_name, steps, t.depth_clear, clear(std::floor(code)),
         clear(std::ceil(code)), places);
 }
@@ -155,13 +156,12 @@ std::string_view undrawable_part(const cases::Case& c) {
     }
     return first_of({
         {c.blit.has_value(), "a blit"},
-        {t.layers > 1, "several layers"},
         {!t.sample_locations.empty(), "sample locations of its own"},
         {t.has_stencil, "a stencil"},
         {t.depth_resolve != cases::Resolve::none || t.color_resolve != cases::Resolve::none,
          "a resolve"},
         {c.draws.size() > kMaxDraws, "more than 32,767 draws"},
-        {!has_shaders(c), "more outputs than a shader of it has"},
+        {!has_shaders(c), "outputs for which no shader was made"},
     });
 }
 
@@ -171,7 +171,7 @@ bool may_be_too_large(const cases::Case& c) {
         attributes = std::max(attributes, draw.attributes.size());
     }
     const cases::Target& t = c.target;
-    return size_t{t.width} * t.height * t.samples * (3 + 4 * attributes) > kMostRanges;
+    return size_t{t.width} * t.rows() * t.samples * (3 + 4 * attributes) > kMostRanges;
 }
 
 cases::Expected<std::string> reproducer(const cases::Case& c, const ref::Limits& limits,

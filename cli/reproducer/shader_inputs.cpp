@@ -117,16 +117,26 @@ uint32_t Inputs::choice(size_t k) const {
     return static_cast<uint32_t>(a->probe);
 }
 
+std::span<const uint32_t> vertex_code(const cases::Case& c, const cases::Draw& d) {
+    shaders::VertexVariant vertex;
+    vertex.attributes = static_cast<uint32_t>(inputs_of(c, d).attributes.size());
+    vertex.clip_count = d.distances.clip_count;
+    vertex.cull_count = d.distances.cull_count;
+    vertex.layer = std::any_of(c.draws.begin(), c.draws.end(),
+                               [](const cases::Draw& draw) { return draw.layer > 0; });
+    return shaders::capture_vertex(vertex);
+}
+
 bool has_shaders(const cases::Case& c) {
     const auto all_have = [](const cases::Case& drawn) {
         return std::all_of(drawn.draws.begin(), drawn.draws.end(), [&](const cases::Draw& d) {
-            return !shaders::capture_fragment(variant_of(d, inputs_of(drawn, d))).empty();
+            return !vertex_code(drawn, d).empty() &&
+                   !shaders::capture_fragment(variant_of(d, inputs_of(drawn, d))).empty();
         });
     };
     const std::vector<cases::Derivation> derivations = cases::derivations(c);
-    return all_have(c) && std::all_of(derivations.begin(), derivations.end(), [&](const auto& d) {
-               return all_have(cases::derive(c, d));
-           });
+    return all_have(c) && std::all_of(derivations.begin(), derivations.end(),
+                                      [&](const auto& d) { return all_have(cases::derive(c, d)); });
 }
 
 }  // namespace cli

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cases/model/case.hpp"
@@ -12,8 +13,8 @@
 
 namespace cli {
 
-// What the shaders of a draw are compiled for and fed with. All draws of a case have as many inputs,
-// so that the colour target is the same attachment for all of them.
+// What the shaders of a draw are compiled for and fed with. All draws of a case have as many
+// inputs, so that the colour target is the same attachment for all of them.
 struct Inputs {
     std::vector<const cases::Attribute*> attributes;  // null: the draw has none there
     bool has_instruments = true;
@@ -26,6 +27,10 @@ struct Inputs {
     uint32_t choice(size_t k) const;
 };
 Inputs inputs_of(const cases::Case& c, const cases::Draw& d);
+
+// The vertex shader, which writes gl_Layer if any draw of the case names a layer; empty if the
+// build made none.
+std::span<const uint32_t> vertex_code(const cases::Case& c, const cases::Draw& d);
 
 // Whether the build made a shader for each draw of the case and of the drawings that it is compared
 // with.

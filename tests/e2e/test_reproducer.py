@@ -59,7 +59,7 @@ class Wrong(Reproducer):
                  "multisample/places:samples=4,far=1", "multisample/shading-inputs:samples=4", "interpolate-at/centroid-4x",
                  "interpolate-at/offset-4x:auxiliary=none", "tiled/multisample:class=sliver,tile=3",
                  "combination/sampled-states:topology=triangle-strip,auxiliary=sample,depth=d32-float,cull=none,mode=smooth,"
-                 "beyond=20,provoking=last,volume=zero-to-one,slope=0,clamp=true", "clip/once-eye",
+                 "beyond=20,provoking=last,volume=zero-to-one,slope=0,clamp=true", "clip/once-eye", "layer/scissor:samples=4",
                  "tiled/multisample:class=on-grid,tile=3"]
         self.edgecase("run", "--no-expect", "--no-diagnosis", "-q", "-o", self.out, *cases, check=1)
         told = {c["id"]: c for c in self.results()["cases"]}
@@ -67,7 +67,7 @@ class Wrong(Reproducer):
             with self.subTest(case_id):
                 self.export(case_id)
                 text = self.draw(check=1)
-                found = {tuple(map(int, m)) for m in re.findall(r"^pixel \((\d+), (\d+)\) sample (\d+): ", text, re.M)}
+                found = {tuple(map(int, m)) for m in re.findall(r"^(?:layer \d+ )?pixel \((\d+), (\d+)\) sample (\d+): ", text, re.M)}
                 wrong = {(f["sample"]["x"], f["sample"]["y"], f["sample"]["index"]) for f in told[case_id]["findings"]}
                 # A run counts the samples of other drawings, but does not keep which they are beyond the first.
                 count = told[case_id].get("wrong_samples") or sum(told[case_id]["counts"].values())
@@ -186,7 +186,7 @@ class Right(Reproducer):
                         "order/draws", "bad-numbers/strip:part=3,bad=inf", "discard/among-draws:samples=1,topology=triangle-list", "complement/facing:winding=given,flip=1",
                         "blend/presets:blend=alpha,format=rgba8-unorm", "repeat/clip-distances:class=off-grid", "provoking/fan",
                         "depth-clamp/clip-and-clamp:clip=true,near=0", "depth-clip/symmetric:w=1", "lod/perspective:w=4", "multisample/mask-in:samples=1", "store/srgb:attachments=all",
-                        "repeat/color:format=rgba8-unorm,class=on-grid",
+                        "repeat/color:format=rgba8-unorm,class=on-grid", "layer/outside:samples=1,width=1,height=5",
                         "derivative/helper-lanes:x=1,y=1,probe=fwidth", "derivative/helper-lanes:x=0,y=7,probe=dfdy-coarse"):
             with self.subTest(case_id):
                 self.export(case_id)
@@ -222,7 +222,6 @@ class Refused(Reproducer):
         self.of_suite()
         for case_id, name in {
                 "blit/mirrored:sx=1,sy=1,dx=0,dy=1": "a blit",
-                "layer/outside:samples=1,width=1,height=5": "several layers",
                 "stencil/depth-fail:samples=1,compare=less": "a stencil",
                 "resolve/depth:mode=sample-zero,samples=2": "a resolve",
                 "multisample/locations-mesh:seed=1": "sample locations of its own",

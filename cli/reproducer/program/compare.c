@@ -99,13 +99,14 @@ int main(int argc, char** argv) {
         }
     }
     for (k = 1; k < DRAWINGS; ++k) {
-        for (at = 0; at < WIDTH * HEIGHT * SAMPLES; ++at) {
+        for (at = 0; at < WIDTH * HEIGHT * LAYERS * SAMPLES; ++at) {
             compare_sample(&kDrawings[k], at);
         }
     }
     if (wrong > MOST_LINES) {
         printf("... and %u more\n", wrong - MOST_LINES);
     }
-    printf("%u of %d samples are wrong\n", wrong, WIDTH * HEIGHT * SAMPLES);
+    printf("%u of %d samples are wrong\n", wrong,
+           WIDTH * HEIGHT * LAYERS * SAMPLES);
     return wrong > 0;
 }

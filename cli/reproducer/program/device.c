@@ -121,6 +121,7 @@ static void check_limits(void) {
     for (k = 0; k < DRAWINGS; ++k) {
         NEED(l->maxColorAttachments >= depth_plane(&kDrawings[k]), "so many colour attachments");
     }
+    NEED(l->maxFramebufferLayers >= LAYERS, "this many layers");
     NEED(SAMPLES == 1 || l->standardSampleLocations, "the standard sample locations");
     if (HAS_INSTRUMENTS) {
         vkGetPhysicalDeviceFormatProperties(physical, kTwoNumbers, &can);
@@ -181,6 +182,7 @@ static void make_device(void) {
     const char* extensions[4];
     VkQueueFamilyProperties families[16];
     VkDeviceQueueCreateInfo queues = {0};
+    VkPhysicalDeviceVulkan12Features wanted12 = {0};
     VkPhysicalDeviceVulkan13Features wanted13 = {0};
     VkPhysicalDeviceProvokingVertexFeaturesEXT provoking = {0};
     VkPhysicalDeviceDepthClipEnableFeaturesEXT clip = {0};
@@ -204,6 +206,7 @@ static void make_device(void) {
         wanted.shaderClipDistance |= d->clips > 0;
         wanted.shaderCullDistance |= d->culls > 0;
         wanted.sampleRateShading |= d->has_sample_rate || d->shades_samples;
+        wanted12.shaderOutputLayer |= d->layer > 0;
         needs_last |= d->last_provokes;
         needs_clip |= d->depth_clip != 0;
         needs_control |= d->is_symmetric;
@@ -217,6 +220,8 @@ static void make_device(void) {
     NEED(has.sampleRateShading >= wanted.sampleRateShading, "sampleRateShading");
     wanted13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     wanted13.dynamicRendering = VK_TRUE;
+    wanted12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    wanted13.pNext = &wanted12;
     // vkCreateDevice says so if a feature of an extension is missing.
     provoking.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT;
     provoking.provokingVertexLast = VK_TRUE;

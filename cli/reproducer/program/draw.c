@@ -62,6 +62,7 @@ static void record_draw(VkCommandBuffer commands, const struct Drawing* drawing,
         return;
     }
     constants[0] = number | (uint32_t)DRAWS << 16;
+    constants[1] = d->layer;
     memcpy(&constants[4], d->colors, sizeof d->colors);
     memcpy(&constants[8], d->offsets, sizeof d->offsets);
     memcpy(&constants[16], d->sample_numbers, sizeof d->sample_numbers);
@@ -161,12 +162,12 @@ static void copy_samples(VkCommandBuffer commands, enum Role role, VkImage image
                        constants);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, info.layout, 0, 1, &set, 0,
                             NULL);
-    vkCmdDispatch(commands, (WIDTH + 7) / 8, (HEIGHT + 7) / 8, 1);
+    vkCmdDispatch(commands, (WIDTH + 7) / 8, (HEIGHT + 7) / 8, LAYERS);
 }
 
 // Copies a plane to a buffer, sample after sample of a pixel; where the CPU will see it.
 static const void* copy_plane(VkCommandBuffer commands, enum Role role, VkImage image) {
-    const size_t bytes = (size_t)WIDTH * HEIGHT * SAMPLES * bytes_of(role);
+    const size_t bytes = (size_t)WIDTH * HEIGHT * LAYERS * SAMPLES * bytes_of(role);
     VkBufferImageCopy region = {0};
     void* mapped;
     const VkBuffer buffer = make_buffer(
@@ -180,7 +181,7 @@ static const void* copy_plane(VkCommandBuffer commands, enum Role role, VkImage 
         return mapped;
     }
     region.imageSubresource.aspectMask = aspect_of(role);
-    region.imageSubresource.layerCount = 1;
+    region.imageSubresource.layerCount = LAYERS;
     region.imageExtent.width = WIDTH;
     region.imageExtent.height = HEIGHT;
     region.imageExtent.depth = 1;
@@ -195,14 +196,14 @@ static VkImage make_attachment(VkCommandBuffer commands, const struct Drawing* d
     const VkFormat format = format_of(role);
     const VkImageUsageFlags usage = role == DEPTH ? DEPTH_USAGE : COLOR_USAGE;
     const VkImage image =
-        make_image(format, WIDTH, HEIGHT, 1, SAMPLES, usage, role == DEPTH ? 0 : COLOR_FLAGS);
+        make_image(format, WIDTH, HEIGHT, 1, LAYERS, SAMPLES, usage, role == DEPTH ? 0 : COLOR_FLAGS);
     uint32_t k;
     barrier(commands, image, aspect_of(role), VK_IMAGE_LAYOUT_UNDEFINED, layout_of(role));
     info->sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
     info->imageView = make_view(image, format, aspect_of(role),
                                 role == DEPTH ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                               : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
-                                VK_IMAGE_VIEW_TYPE_2D);
+                                LAYERS > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D);
     info->imageLayout = layout_of(role);
     info->loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     info->storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -246,7 +247,7 @@ static void record(VkCommandBuffer commands, const struct Drawing* drawing, cons
     rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
     rendering.renderArea.extent.width = WIDTH;
     rendering.renderArea.extent.height = HEIGHT;
-    rendering.layerCount = 1;
+    rendering.layerCount = LAYERS;
     rendering.colorAttachmentCount = depth_plane(drawing);
     rendering.pColorAttachments = attachments;
     rendering.pDepthAttachment = HAS_DEPTH ? &attachments[depth_plane(drawing)] : NULL;

@@ -49,13 +49,13 @@ static VkImageView make_view(VkImage image, VkFormat format, VkImageAspectFlags 
     info.format = format;
     info.subresourceRange.aspectMask = aspect;
     info.subresourceRange.levelCount = VK_REMAINING_MIP_LEVELS;
-    info.subresourceRange.layerCount = 1;
+    info.subresourceRange.layerCount = VK_REMAINING_ARRAY_LAYERS;
     CHECK(vkCreateImageView(device, &info, NULL, &view));
     return view;
 }
 
 static VkImage make_image(VkFormat format, uint32_t width, uint32_t height, uint32_t levels,
-                          uint32_t samples, VkImageUsageFlags usage, VkImageCreateFlags flags) {
+                          uint32_t layers, uint32_t samples, VkImageUsageFlags usage, VkImageCreateFlags flags) {
     VkImageCreateInfo info = {0};
     VkMemoryRequirements need;
     VkImage image;
@@ -67,7 +67,7 @@ static VkImage make_image(VkFormat format, uint32_t width, uint32_t height, uint
     info.extent.height = height;
     info.extent.depth = 1;
     info.mipLevels = levels;
-    info.arrayLayers = 1;
+    info.arrayLayers = layers;
     info.samples = (VkSampleCountFlagBits)samples;
     info.usage = usage;
     CHECK(vkCreateImage(device, &info, NULL, &image));
@@ -128,7 +128,7 @@ static void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags 
     b.image = image;
     b.subresourceRange.aspectMask = aspect;
     b.subresourceRange.levelCount = VK_REMAINING_MIP_LEVELS;
-    b.subresourceRange.layerCount = 1;
+    b.subresourceRange.layerCount = VK_REMAINING_ARRAY_LAYERS;
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                          VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, NULL, 0, NULL, 1, &b);
 }

@@ -44,7 +44,7 @@ static int is_clear_depth(float depth) {
 }
 
 // A sample counts once, by what is told of it first. Lines beyond MOST_LINES are not printed.
-static uint8_t is_wrong[WIDTH * HEIGHT * SAMPLES];
+static uint8_t is_wrong[WIDTH * HEIGHT * LAYERS * SAMPLES];
 static uint32_t wrong;
 static int tell(uint32_t at) {
     if (is_wrong[at]) {
@@ -54,7 +54,11 @@ static int tell(uint32_t at) {
     if (++wrong > MOST_LINES) {
         return 0;
     }
-    printf("pixel (%u, %u) sample %u: ", at / SAMPLES % WIDTH, at / SAMPLES / WIDTH, at % SAMPLES);
+    if (LAYERS > 1) {
+        printf("layer %u ", at / SAMPLES / WIDTH / HEIGHT);
+    }
+    printf("pixel (%u, %u) sample %u: ", at / SAMPLES % WIDTH, at / SAMPLES / WIDTH % HEIGHT,
+           at % SAMPLES);
     return 1;
 }
 
@@ -144,7 +148,7 @@ static int judge_values(uint32_t at, const struct Writer* w, int is_told) {
     static const char* const kComponents[4] = {"x", "y", "z", "w"};
     const struct Range* r = &kRanges[w->ranges];
     const struct Draw* d = &kDraws[w->draw];
-    const float x = (float)(at / SAMPLES % WIDTH), y = (float)(at / SAMPLES / WIDTH);
+    const float x = (float)(at / SAMPLES % WIDTH), y = (float)(at / SAMPLES / WIDTH % HEIGHT);
     char name[32];
     uint32_t k;
     if (!is_place(d->places, at % SAMPLES, number(FRAG_XY, at, 0) - x,

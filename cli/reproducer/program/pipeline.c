@@ -170,7 +170,7 @@ static VkDescriptorSet make_texture(VkCommandBuffer commands, const uint32_t siz
     while ((size[0] | size[1]) >> levels != 0) {
         ++levels;
     }
-    texture = make_image(VK_FORMAT_R8_UNORM, size[0], size[1], levels, 1,
+    texture = make_image(VK_FORMAT_R8_UNORM, size[0], size[1], levels, 1, 1,
                          VK_IMAGE_USAGE_SAMPLED_BIT, 0);
     barrier(commands, texture, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);

@@ -52,6 +52,7 @@ struct Draw {
     uint32_t colors[4];        // bits that are written where no attribute is the colour
     float offsets[4][2];       // of interpolateAtOffset
     int32_t sample_numbers[4];  // of interpolateAtSample
+    uint32_t layer;             // gl_Layer of all its triangles
     uint32_t texture[2];        // size of the texture that is asked for a level of detail
     VkBool32 last_provokes, is_symmetric;     // depths from -1 to 1
     VkBool32 has_barycentrics;                // VK_KHR_fragment_shader_barycentric
@@ -98,7 +99,7 @@ struct Color {
     int64_t low[4], high[4];
 };
 
-// What is right at `samples` samples in a row (in the order sample, x, y).
+// What is right at `samples` samples in a row (in the order sample, x, y, layer).
 struct Expected {
     uint32_t samples;
     uint32_t bounds;                 // index into kBounds
