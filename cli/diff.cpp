@@ -348,6 +348,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
         progress.show(done, unexpected.count());
     }
     progress.clear();
+    print(unexpected.rest());
     header.ended = utc_now(false);
     header.seconds = seconds_since(begin);
     if (auto written = journal->write_stop(header); !written && failure.empty()) {

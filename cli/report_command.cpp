@@ -138,6 +138,7 @@ int report_command(const Program& program, const ReportOptions& options) {
     for (const report::CaseRecord& record : run.cases) {
         std::fputs(unexpected.add(record).c_str(), console);
     }
+    std::fputs(unexpected.rest().c_str(), console);
     std::fflush(console);
     const cases::Errors ci = write_ci(run, chosen_ci(options.ci), files.folder, console);
     errors.insert(errors.end(), ci.begin(), ci.end());
