@@ -254,6 +254,7 @@ class FuzzCommand {
 
     // Writes new causes and the ledger: a hunt that is killed has lost nothing but its last step.
     cases::Expected<void> keep(Hunt& hunter, const fuzz::HuntCounts& before, bool is_finished) {
+        std::set<std::string> stale;
         for (Entry& entry : hunter.entries()) {
             if (!entry.file.empty()) {
                 continue;
@@ -271,6 +272,9 @@ class FuzzCommand {
                 return written;
             }
             tell(entry);
+            if (!entry.stale_file.empty()) {
+                stale.insert(std::exchange(entry.stale_file, ""));
+            }
         }
         ledger_.entries = hunter.entries();
         if (auto kept = keep_not_reduced(hunter); !kept) {
@@ -280,7 +284,15 @@ class FuzzCommand {
         ledger_.counts = sum_of(before, hunter.counts());
         ledger_.seconds = seconds_before_ + status_.seconds();
         ledger_.is_finished = is_finished;
-        return replace_text(folder_ / fuzz::kLedgerFile, fuzz::to_json(ledger_));
+        if (auto written = replace_text(folder_ / fuzz::kLedgerFile, fuzz::to_json(ledger_));
+            !written) {
+            return written;
+        }
+        for (const std::string& file : stale) {
+            std::error_code none;
+            fs::remove(folder_ / file, none);
+        }
+        return {};
     }
 
     // The files of what is not reduced change with each step: those that are reduced meanwhile go.
@@ -343,8 +355,11 @@ class FuzzCommand {
         for (const std::string& word : entry.essentials) {
             with += (with.empty() ? "" : ", ") + word;
         }
-        say(fmt::format("FOUND {}\n      {}\n      with {}\n", to_text(entry.symptom),
-                        (folder_ / entry.file).string(), with.empty() ? "nothing special" : with));
+        say(fmt::format("{} {}\n      {}{}\n      with {}\n",
+                        entry.stale_file.empty() ? "FOUND" : "GRAVER", to_text(entry.symptom),
+                        (folder_ / entry.file).string(),
+                        entry.stale_file.empty() ? "" : " instead of " + entry.stale_file,
+                        with.empty() ? "nothing special" : with));
         for (size_t k = 0; k < std::min<size_t>(entry.needs.size(), 6); ++k) {
             say("      " + entry.needs[k] + "\n");
         }

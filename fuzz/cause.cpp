@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
+#include <vector>
+
+#include "cases/model/triangle.hpp"
 
 namespace fuzz {
 
@@ -20,13 +24,19 @@ bool is_failure(Status status) {
     return status >= Status::flake && status <= Status::crash;
 }
 
-// Keys that say nothing of what is drawn, or that every case has.
-constexpr std::array<std::string_view, 9> kPlain = {
-    "format", "description", "rules", "links", "catches", "size", "name", "vertices", "values"};
+// Keys that say nothing of what is drawn, or that every case has, or that are another way to write
+// the same.
+constexpr std::array<std::string_view, 10> kPlain = {"format",  "description", "rules", "links",
+                                                     "catches", "size",        "name",  "vertices",
+                                                     "values",  "half_space"};
 // Keys whose word does not matter: a cause that needs one format or comparison is mostly met with
-// others, too.
-constexpr std::array<std::string_view, 8> kAnyWord = {
-    "format", "depth", "compare", "blend", "op", "source", "destination", "write_mask"};
+// others, too, and attributes may have any name.
+constexpr std::array<std::string_view, 9> kAnyWord = {"format",      "depth",      "compare",
+                                                      "blend",       "op",         "source",
+                                                      "destination", "write_mask", "attribute"};
+// The corners of a triangle go to the device's grid, of 1/16 pixel or finer, each by up to half a
+// step in x and y. One less high than this, in pixels, may lose its area there, or turn over.
+constexpr double kThin = 1.0 / 8;
 
 template <size_t N>
 bool is_one_of(const std::array<std::string_view, N>& list, std::string_view word) {
@@ -43,10 +53,14 @@ void add_depths(const TomlValue& draw, std::set<std::string>& words) {
     if (vertices == nullptr) {
         return;
     }
+    const TomlValue* space = draw.find("space");
+    const bool is_clip = space != nullptr && space->string == "clip";
     std::set<double> z, w;
     for (const TomlValue& vertex : vertices->array) {
-        z.insert(vertex.array.size() > 2 ? number(vertex.array[2]) : 0.5);
-        w.insert(vertex.array.size() > 3 ? number(vertex.array[3]) : 1);
+        const double of_vertex = vertex.array.size() > 3 ? number(vertex.array[3]) : 1;
+        w.insert(of_vertex);
+        z.insert((vertex.array.size() > 2 ? number(vertex.array[2]) : 0.5) /
+                 (is_clip ? of_vertex : 1));
     }
     if (w.size() > 1) {
         words.insert("unequal w");
@@ -54,7 +68,7 @@ void add_depths(const TomlValue& draw, std::set<std::string>& words) {
     if (std::any_of(w.begin(), w.end(), [](double v) { return v <= 0; })) {
         words.insert("behind the eye");
     }
-    if (w.size() == 1 && z.size() > 1) {
+    if (z.size() > 1) {
         words.insert("sloping depth");
     }
     if (vertices->array.size() > 6) {
@@ -104,7 +118,33 @@ void add_keys(const TomlValue& table, const std::string& path, std::set<std::str
     }
 }
 
+// The place in pixels, but for where the viewport begins.
+std::optional<std::array<double, 2>> place(const cases::Draw& draw, uint32_t vertex) {
+    const glm::dvec4 p(draw.positions[vertex]);
+    const double x = p.x / p.w * double{draw.viewport.width} / 2;
+    const double y = p.y / p.w * double{draw.viewport.height} / 2;
+    return std::isfinite(x) && std::isfinite(y) ? std::optional(std::array{x, y}) : std::nullopt;
+}
+
 }  // namespace
+
+bool has_thin_triangle(const cases::Case& c) {
+    const std::vector<cases::Triangle> all = cases::assemble(c);
+    return std::any_of(all.begin(), all.end(), [&](const cases::Triangle& t) {
+        const cases::Draw& draw = c.draws[t.draw];
+        const auto p = place(draw, t.vertex[0]), q = place(draw, t.vertex[1]),
+                   r = place(draw, t.vertex[2]);
+        if (!p || !q || !r) {
+            return false;
+        }
+        const auto longest = std::max({std::hypot((*q)[0] - (*p)[0], (*q)[1] - (*p)[1]),
+                                       std::hypot((*r)[0] - (*q)[0], (*r)[1] - (*q)[1]),
+                                       std::hypot((*p)[0] - (*r)[0], (*p)[1] - (*r)[1])});
+        const double twice_area =
+            ((*q)[0] - (*p)[0]) * ((*r)[1] - (*p)[1]) - ((*q)[1] - (*p)[1]) * ((*r)[0] - (*p)[0]);
+        return std::abs(twice_area) <= kThin * longest;
+    });
+}
 
 std::optional<Symptom> symptom_of(const report::CaseRecord& record) {
     if (!is_failure(record.status)) {

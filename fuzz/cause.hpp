@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "cases/model/case.hpp"
 #include "cases/model/profile.hpp"
 #include "cases/toml/toml_reader.hpp"
 #include "diff/verdict.hpp"
@@ -39,5 +40,10 @@ std::optional<Symptom> parse_symptom(const std::string& text);
 // What a case has that a plain one has not, as words: "samples=4", "draw.scissor", "draw.topology=
 // triangle-fan", "several draws", "w". Numbers do not count, nor what a format is called.
 std::set<std::string> essentials(const cases::TomlValue& document);
+// The word for it is the one essential that speaks of numbers: what such a triangle shows, and in
+// how many ways, hangs on each of them.
+inline constexpr const char* kThinTriangle = "thin triangle";
+// Whether some triangle is so thin that it may have no area on a device's grid.
+bool has_thin_triangle(const cases::Case& c);
 
 }  // namespace fuzz

@@ -28,6 +28,73 @@ diff::FindingKind sort_of(diff::FindingKind kind) {
     return kind == diff::FindingKind::double_hit ? diff::FindingKind::extra : kind;
 }
 
+bool is_value(const Symptom& symptom) {
+    return symptom.kind == diff::FindingKind::value;
+}
+
+// Whether a record shows something wrong of the symptom's sort, values or hits. What breaks more
+// than Direct3D's rules has to go on doing so.
+bool shows_like(const CaseRecord& record, const Symptom& symptom) {
+    return record.status == Status::fail &&
+           std::any_of(record.groups.begin(), record.groups.end(), [&](const auto& group) {
+               return (group.kind == diff::FindingKind::value) == is_value(symptom) &&
+                      group.level <= std::max(symptom.level, cases::Profile::practice);
+           });
+}
+
+// The essentials that say something of a case's numbers only.
+const std::set<std::string> kNumbers = {"behind the eye", "several draws", "several triangles",
+                                        "sloping depth", "unequal w"};
+const std::set<std::string> kSamples = {"several samples"};
+const std::set<std::string> kThinToo = {"behind the eye", "several draws",     "several samples",
+                                        "sloping depth",  "several triangles", "unequal w"};
+
+bool is_within(const std::set<std::string>& part, const std::set<std::string>& whole) {
+    return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
+}
+
+std::set<std::string> without(const std::set<std::string>& words,
+                              const std::set<std::string>& left_out) {
+    std::set<std::string> rest;
+    std::set_difference(words.begin(), words.end(), left_out.begin(), left_out.end(),
+                        std::inserter(rest, rest.end()));
+    return rest;
+}
+
+// The cases of the texts that are one, and their numbers among the texts.
+std::pair<std::vector<cases::Case>, std::vector<size_t>> load_all(
+    const std::vector<std::string>& texts) {
+    std::pair<std::vector<cases::Case>, std::vector<size_t>> all;
+    for (size_t k = 0; k < texts.size(); ++k) {
+        if (std::optional<cases::Case> c = load_one(texts[k], std::to_string(k))) {
+            all.first.push_back(std::move(*c));
+            all.second.push_back(k);
+        }
+    }
+    return all;
+}
+
+// The reduced case once more, now by whichever rule it fails and with what only a suite wants of it
+// left out: a clamped depth is told by another rule than one that is not, and a triangle that must
+// be covered is a second one.
+Document like_failure(const Document& document, const Symptom& symptom, const Draw& draw,
+                      const ReduceOptions& options) {
+    if (symptom.status != Status::fail) {
+        return document;
+    }
+    const Shows shown = [&](const std::vector<std::string>& texts) {
+        std::vector<bool> out(texts.size(), false);
+        const auto [cases, of] = load_all(texts);
+        const std::vector<CaseRecord> records =
+            cases.empty() ? std::vector<CaseRecord>() : draw(cases);
+        for (size_t k = 0; k < of.size(); ++k) {
+            out[of[k]] = shows_like(records[k], symptom);
+        }
+        return out;
+    };
+    return reduce(document, shown, options).document;
+}
+
 // The case as a file that can go into a suite: what it shows is what it claims, if lint agrees,
 // else some rule that it does exercise.
 Document described(Document document, const Symptom& symptom) {
@@ -64,7 +131,11 @@ std::optional<cases::Case> load_one(const std::string& text, const std::string& 
 
 std::set<std::string> essentials_of(const std::string& text) {
     const auto document = cases::read_toml(text, "fuzz");
-    return document ? essentials(*document) : std::set<std::string>();
+    std::set<std::string> words = document ? essentials(*document) : std::set<std::string>();
+    if (const auto c = load_one(text, "fuzz"); c && has_thin_triangle(*c)) {
+        words.insert(kThinTriangle);
+    }
+    return words;
 }
 
 std::vector<Symptom> symptoms_of(const CaseRecord& record) {
@@ -109,11 +180,63 @@ bool explains(const Entry& entry, const Symptom& symptom,
     // By which rule a sample is missing depends on the triangle that misses it, and whether one hit
     // too many is the only one on what else is drawn there: where the case has something special to
     // blame, too few or too many is enough.
-    const bool is_value = symptom.kind == diff::FindingKind::value;
     return std::any_of(entry.also.begin(), entry.also.end(), [&](const auto& known) {
-        return is_value || entry.essentials.empty() ? known == std::pair(symptom.kind, symptom.rule)
-                                                    : sort_of(known.first) == sort_of(symptom.kind);
+        return is_value(symptom) || entry.essentials.empty()
+                   ? known == std::pair(symptom.kind, symptom.rule)
+                   : sort_of(known.first) == sort_of(symptom.kind);
     });
+}
+
+bool is_same_cause(const Entry& earlier, const Entry& fresh) {
+    if (earlier.symptom.status != fresh.symptom.status ||
+        earlier.symptom.signal != fresh.symptom.signal ||
+        (earlier.is_known && earlier.symptom.level > fresh.symptom.level)) {
+        return false;
+    }
+    if (fresh.symptom.status != Status::fail) {
+        return earlier.essentials == fresh.essentials;
+    }
+    if (is_value(earlier.symptom) != is_value(fresh.symptom)) {
+        return false;
+    }
+    const bool is_same_rule =
+        std::any_of(fresh.also.begin(), fresh.also.end(),
+                    [&](const auto& one) { return earlier.also.contains(one); });
+    if (earlier.essentials == fresh.essentials) {
+        return is_same_rule || !fresh.essentials.empty();
+    }
+    // Whatever else of its numbers and samples a case needs in which a thin triangle fails is
+    // chance: with other numbers another one would.
+    if (earlier.essentials.contains(kThinTriangle) && fresh.essentials.contains(kThinTriangle)) {
+        const std::set<std::string> a = without(earlier.essentials, kThinToo),
+                                    b = without(fresh.essentials, kThinToo);
+        return is_within(a, b) || is_within(b, a);
+    }
+    // What only Direct3D's rules forbid is mostly another thing.
+    const bool are_grave =
+        std::max(earlier.symptom.level, fresh.symptom.level) <= cases::Profile::practice;
+    const std::set<std::string> keys = without(fresh.essentials, kNumbers);
+    return (are_grave || earlier.symptom.level == fresh.symptom.level) &&
+           without(earlier.essentials, kNumbers) == keys && !without(keys, kSamples).empty();
+}
+
+void merge(Entry& earlier, Entry fresh) {
+    earlier.also.insert(fresh.also.begin(), fresh.also.end());
+    if (earlier.is_known) {
+        return;
+    }
+    std::set<std::string> both;
+    std::set_intersection(earlier.essentials.begin(), earlier.essentials.end(),
+                          fresh.essentials.begin(), fresh.essentials.end(),
+                          std::inserter(both, both.end()));
+    earlier.essentials = std::move(both);
+    if (fresh.symptom.level < earlier.symptom.level) {
+        fresh.also = std::move(earlier.also);
+        fresh.essentials = std::move(earlier.essentials);
+        fresh.count = earlier.count;
+        fresh.stale_file = earlier.stale_file.empty() ? earlier.file : earlier.stale_file;
+        earlier = std::move(fresh);
+    }
 }
 
 std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
@@ -128,18 +251,9 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     std::string last_text;
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
-        std::vector<cases::Case> cases;
-        std::vector<size_t> of;
-        for (size_t k = 0; k < texts.size(); ++k) {
-            if (std::optional<cases::Case> c = load_one(texts[k], std::to_string(k))) {
-                cases.push_back(std::move(*c));
-                of.push_back(k);
-            }
-        }
-        if (cases.empty()) {
-            return out;
-        }
-        const std::vector<CaseRecord> records = draw(cases);
+        const auto [cases, of] = load_all(texts);
+        const std::vector<CaseRecord> records =
+            cases.empty() ? std::vector<CaseRecord>() : draw(cases);
         for (size_t k = 0; k < of.size(); ++k) {
             out[of[k]] = shows(records[k], symptom) && (!is_sound || can_fail_everywhere(cases[k]));
             if (out[of[k]] && (!last || texts[of[k]].size() <= last_text.size())) {
@@ -158,8 +272,9 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     Entry entry;
     entry.symptom = symptom;
     // What the reducer brought in, as a constant for values, is no need of the cause.
-    const std::set<std::string> before = essentials(*document);
-    const std::set<std::string> after = essentials(reduced.document);
+    const std::set<std::string> before = essentials_of(text);
+    const std::set<std::string> after =
+        essentials_of(to_text(like_failure(reduced.document, symptom, draw, options)));
     std::set_intersection(after.begin(), after.end(), before.begin(), before.end(),
                           std::inserter(entry.essentials, entry.essentials.end()));
     entry.text = to_text(described(reduced.document, symptom));

@@ -20,7 +20,9 @@ namespace fuzz {
 // One cause: the smallest case that shows it, and how often it was met.
 struct Entry {
     Symptom symptom;
-    std::set<std::string> essentials;  // of the reduced case that the failing one had
+    // Of the failing case, what it needs to fail in any like way: by another rule, without what
+    // only a suite wants of it.
+    std::set<std::string> essentials;
     // What else the reduced case breaks: in a case with the same essentials that is no news.
     std::set<std::pair<diff::FindingKind, std::string>> also;
     std::string text;                // of the reduced case
@@ -30,6 +32,7 @@ struct Entry {
     bool is_minimal = false;
     bool is_known = false;    // from an earlier hunt
     std::string file;         // where it is kept; filled in by whoever keeps it
+    std::string stale_file;   // where a case was kept that a graver one has replaced since
     uint64_t first_case = 0;  // the number of the case it was reduced from
     uint64_t count = 0;       // failing cases that it explains
 };
@@ -47,6 +50,12 @@ std::string described(const std::string& text, const Symptom& symptom);
 
 // Whether an entry explains that a case with these essentials shows a symptom.
 bool explains(const Entry& entry, const Symptom& symptom, const std::set<std::string>& of_the_case);
+
+// Whether a fresh entry tells the cause of an earlier one again: if it needs the same to show a
+// like failure. A known cause that turns out graver is news.
+bool is_same_cause(const Entry& earlier, const Entry& fresh);
+// Adds a fresh entry to an earlier one of the same cause, of which the graver case is kept.
+void merge(Entry& earlier, Entry fresh);
 
 // All that a record shows, each in the gravest way, the gravest first.
 std::vector<Symptom> symptoms_of(const report::CaseRecord& record);

@@ -316,12 +316,11 @@ void Hunt::reduce_one(Open& open) {
     }
     fresh->first_case = open.waiting.number;
     fresh->count = 0;  // the case counts when nothing of it is open
-    const auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
-        return e.symptom == fresh->symptom && e.essentials == fresh->essentials;
-    });
+    const auto same = std::find_if(entries_.begin(), entries_.end(),
+                                   [&](const Entry& e) { return is_same_cause(e, *fresh); });
     open.entry = open.entry.value_or(static_cast<size_t>(same - entries_.begin()));
     if (same != entries_.end()) {
-        same->also.insert(fresh->also.begin(), fresh->also.end());
+        merge(*same, std::move(*fresh));
     } else {
         entries_.push_back(std::move(*fresh));
     }

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/entry.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fuzz {
+namespace {
+
+using cases::Profile;
+using diff::FindingKind;
+using report::CaseRecord;
+using report::Status;
+
+Entry entry(const std::string& symptom, std::set<std::string> essentials) {
+    Entry entry;
+    entry.symptom = *parse_symptom(symptom);
+    entry.essentials = std::move(essentials);
+    entry.also = {{entry.symptom.kind, entry.symptom.rule}};
+    entry.text = symptom;
+    entry.count = 1;
+    return entry;
+}
+
+TEST(SameCause, NeedsTheSameToFailInALikeWay) {
+    const Entry clamped = entry("value of depth.clamp [practice]", {"several samples"});
+    EXPECT_TRUE(is_same_cause(clamped, entry("value of depth.bias [vulkan]", {"several samples"})));
+    EXPECT_FALSE(is_same_cause(clamped, entry("value of depth.bias [vulkan]", {"draw.cull=back"})));
+    EXPECT_FALSE(is_same_cause(
+        clamped, entry("value of depth.bias [vulkan]", {"several samples", "draw.cull=back"})));
+    // Values, and who is hit, are two things.
+    const Entry hits = entry("extra of cover.outside [practice]", {"several samples"});
+    EXPECT_FALSE(is_same_cause(clamped, hits));
+    EXPECT_TRUE(is_same_cause(hits, entry("order of tie.top-left [vulkan]", {"several samples"})));
+}
+
+TEST(SameCause, NothingSpecialIsNoLikeness) {
+    const Entry plain = entry("value of depth.linear [practice]", {});
+    EXPECT_FALSE(is_same_cause(plain, entry("value of fragcoord.w [practice]", {})));
+    Entry both = entry("value of fragcoord.w [practice]", {});
+    both.also.insert({FindingKind::value, "depth.linear"});
+    EXPECT_TRUE(is_same_cause(plain, both));
+}
+
+TEST(SameCause, WhatElseAThinTriangleNeedsIsChance) {
+    const Entry thin = entry("value of interp.hull [vulkan]", {kThinTriangle});
+    const Entry more = entry("value of depth.linear [vulkan]", {kThinTriangle, "unequal w"});
+    EXPECT_TRUE(is_same_cause(thin, more));
+    EXPECT_TRUE(is_same_cause(more, thin));
+    EXPECT_FALSE(is_same_cause(more, entry("value of depth.linear [vulkan]", {"unequal w"})));
+}
+
+TEST(SameCause, TwoThinTrianglesMayNeedWhateverNumbers) {
+    const Entry samples = entry("value of interp.hull [vulkan]", {kThinTriangle, "several samples"});
+    const Entry slope = entry("value of depth.linear [practice]", {kThinTriangle, "sloping depth"});
+    EXPECT_TRUE(is_same_cause(samples, slope));
+    EXPECT_FALSE(is_same_cause(entry("value of interp.hull [vulkan]", {kThinTriangle, "color"}),
+                               entry("value of interp.hull [vulkan]",
+                                     {kThinTriangle, "draw.cull=back"})));
+}
+
+TEST(SameCause, NumbersAreChanceBesideAKey) {
+    const Entry linear = entry("value of interp.linear [practice]", {"draw.attribute"});
+    EXPECT_TRUE(is_same_cause(
+        linear, entry("value of interp.hull [vulkan]", {"draw.attribute", "unequal w"})));
+    // Less grave by far, it is another thing.
+    EXPECT_FALSE(is_same_cause(
+        linear, entry("value of interp.hull [direct3d]", {"draw.attribute", "unequal w"})));
+    // Several samples alone are no key.
+    EXPECT_FALSE(is_same_cause(
+        entry("value of depth.linear [vulkan]", {"several samples", "sloping depth"}),
+        entry("value of fragcoord.w [vulkan]", {"several samples", "unequal w"})));
+}
+
+TEST(SameCause, AKnownOneThatIsGraverIsNews) {
+    Entry known = entry("value of depth.linear [practice]", {"several samples"});
+    known.is_known = true;
+    EXPECT_FALSE(is_same_cause(known, entry("value of depth.linear [vulkan]", known.essentials)));
+    EXPECT_TRUE(is_same_cause(known, entry("value of depth.bias [direct3d]", known.essentials)));
+}
+
+TEST(SameCause, DeathsAreOfTheSameSignal) {
+    const Entry crash = entry("crash by SIGSEGV", {"draw.scissor"});
+    EXPECT_TRUE(is_same_cause(crash, entry("crash by SIGSEGV", {"draw.scissor"})));
+    EXPECT_FALSE(is_same_cause(crash, entry("crash by SIGABRT", {"draw.scissor"})));
+    EXPECT_FALSE(is_same_cause(crash, entry("crash by SIGSEGV", {})));
+    EXPECT_FALSE(is_same_cause(crash, entry("extra of cover.outside [vulkan]", {"draw.scissor"})));
+}
+
+TEST(Merge, KeepsTheGraverCase) {
+    Entry earlier = entry("value of depth.linear [practice]", {kThinTriangle});
+    earlier.file = "found/001-depth.linear.toml";
+    earlier.count = 7;
+    merge(earlier, entry("value of interp.hull [practice]", {kThinTriangle, "unequal w"}));
+    EXPECT_EQ(earlier.text, "value of depth.linear [practice]");
+    EXPECT_EQ(earlier.file, "found/001-depth.linear.toml");
+    EXPECT_THAT(earlier.also, testing::SizeIs(2));
+    merge(earlier, entry("value of interp.hull [vulkan]", {kThinTriangle, "unequal w"}));
+    EXPECT_EQ(earlier.text, "value of interp.hull [vulkan]");
+    EXPECT_EQ(to_text(earlier.symptom), earlier.text);
+    EXPECT_EQ(earlier.file, "");
+    EXPECT_EQ(earlier.stale_file, "found/001-depth.linear.toml");
+    EXPECT_THAT(earlier.essentials, testing::ElementsAre(kThinTriangle));
+    EXPECT_THAT(earlier.also, testing::SizeIs(2));
+    EXPECT_EQ(earlier.count, 7U);
+    // A second one before it was kept: the file that is there is still the one to go.
+    merge(earlier, entry("value of depth.linear [vulkan]", {kThinTriangle}));
+    EXPECT_EQ(earlier.stale_file, "found/001-depth.linear.toml");
+}
+
+TEST(Merge, LeavesAKnownCauseAsItIs) {
+    Entry known = entry("value of depth.linear [practice]", {kThinTriangle, "color"});
+    known.is_known = true;
+    known.file = "known/001.toml";
+    merge(known, entry("value of depth.bias [practice]", {kThinTriangle}));
+    EXPECT_EQ(known.file, "known/001.toml");
+    EXPECT_THAT(known.essentials, testing::SizeIs(2));
+    EXPECT_THAT(known.also, testing::SizeIs(2));
+}
+
+bool is_sloping(const cases::Case& c) {
+    return std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
+        return std::any_of(draw.positions.begin(), draw.positions.end(), [&](const auto& p) {
+            return std::abs(p.z * draw.positions[0].w - draw.positions[0].z * p.w) > 0;
+        });
+    });
+}
+
+// A device that takes the depth of samples at another place: a clamped depth is told by another
+// rule, and so gravely only with several draws.
+std::vector<CaseRecord> draw_sample_depth(const std::vector<cases::Case>& all) {
+    std::vector<CaseRecord> records;
+    for (const cases::Case& c : all) {
+        CaseRecord record;
+        record.status = Status::pass;
+        const bool is_clamped = std::any_of(c.draws.begin(), c.draws.end(),
+                                            [](const auto& draw) { return draw.depth.clamp; });
+        if (c.target.samples > 1 && is_sloping(c)) {
+            record.status = Status::fail;
+            record.groups = {{FindingKind::value, is_clamped ? "depth.clamp" : "depth.linear",
+                              is_clamped && c.draws.size() > 1 ? Profile::vulkan : Profile::practice,
+                              1, 0}};
+        }
+        records.push_back(record);
+    }
+    return records;
+}
+
+const char* const kClamped =
+    "format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\nsamples = "
+    "4\n[[draw]]\ncull = \"back\"\ndepth = { clamp = true }\nvertices = [[-9, -9, 0], [30, -9, 1], "
+    "[-9, 30, 0]]\n[[draw]]\nvertices = [[-9, -9], [30, -9], [-9, 30]]\n";
+
+TEST(ReduceCase, EssentialIsWhatAnyLikeFailureNeeds) {
+    const Symptom symptom = *parse_symptom("value of depth.clamp [vulkan]");
+    const auto entry = reduce_case(kClamped, symptom, draw_sample_depth, 400);
+    ASSERT_TRUE(entry);
+    // The case that is kept shows the symptom as it was met.
+    EXPECT_THAT(entry->text, testing::HasSubstr("clamp = true"));
+    EXPECT_EQ(to_text(entry->symptom), "value of depth.clamp [vulkan]");
+    EXPECT_THAT(entry->essentials, testing::ElementsAre("several samples", "sloping depth"));
+}
+
+// The same, but a depth that is not clamped breaks Direct3D's rules only.
+TEST(ReduceCase, ALikeFailureIsNoLessGrave) {
+    const Draw draw = [](const std::vector<cases::Case>& all) {
+        std::vector<CaseRecord> records = draw_sample_depth(all);
+        for (CaseRecord& record : records) {
+            for (auto& group : record.groups) {
+                group.level = group.rule == "depth.linear" ? Profile::direct3d : group.level;
+            }
+        }
+        return records;
+    };
+    const auto entry =
+        reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"), draw, 400);
+    ASSERT_TRUE(entry);
+    EXPECT_THAT(entry->essentials,
+                testing::ElementsAre("draw.depth.clamp=true", "several samples", "sloping depth"));
+}
+
+TEST(Essentials, KnowATriangleThatIsThinOnTheGrid) {
+    const auto words = [](const std::string& draw) {
+        return essentials_of("format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\n"
+                             "size = [8, 4]\n[[draw]]\n" +
+                             draw + "\n");
+    };
+    EXPECT_THAT(words("vertices = [[0, 0], [8, 0], [0, 4]]"), testing::IsEmpty());
+    EXPECT_THAT(words("vertices = [[0, 0], [8, 0], [0, 0.25]]"), testing::IsEmpty());
+    for (const char* thin :
+         {"vertices = [[0, 0], [8, 0], [0, 0.125]]", "vertices = [[1, 1], [2, 2], [5, 5]]",
+          "vertices = [[1, 1], [1, 1], [1, 1]]",
+          // Pixels are 1/4 wide in clip space, and 1/2 high.
+          "space = \"clip\"\nvertices = [[0, 0, 0.5, 1], [1, 0, 0.5, 1], [0, 0.0625, 0.5, 1]]",
+          "vertices = [[0, 0], [8, 0], [0, 4], [9, 0]]\nindices = [0, 1, 2, 0, 1, 3]"}) {
+        EXPECT_THAT(words(thin), testing::Contains(kThinTriangle)) << thin;
+    }
+    // A vertex at infinity has no place.
+    EXPECT_THAT(words("space = \"clip\"\nvertices = [[0, 0, 0.5, 1], [1, 0, 0.5, 1], [0, 1, 0.5, "
+                      "0]]"),
+                testing::Not(testing::Contains(kThinTriangle)));
+}
+
+TEST(Essentials, SlopesAreSeenBesideAnyW) {
+    const auto words = [](const std::string& vertices) {
+        return essentials(*cases::read_toml("[[draw]]\n" + vertices + "\n", "f"));
+    };
+    EXPECT_THAT(words("vertices = [[0, 0, 0.5, 1], [8, 0, 0.5, 2], [0, 8, 0.25, 1]]"),
+                testing::ElementsAre("sloping depth", "unequal w"));
+    EXPECT_THAT(words("space = \"clip\"\nvertices = [[0, 0, 0.5, 1], [8, 0, 1, 2], [0, 8, 2, 4]]"),
+                testing::Not(testing::Contains("sloping depth")));
+}
+
+}  // namespace
+}  // namespace fuzz
