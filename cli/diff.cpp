@@ -262,7 +262,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
     if (!selection) {
         return report_stop(selection.error());
     }
-    if (auto checked = check_captures(options, selection->suite_ids); !checked) {
+    if (auto checked = check_captures(options, selection->known_ids); !checked) {
         return report_stop(checked.error());
     }
     const OrStop<std::string> left_out = keep_captured(options, *selection);

@@ -10,8 +10,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -88,9 +90,37 @@ std::string sentence(const std::vector<std::string>& ids) {
     return text + (ids.size() > 3 ? " and " + std::to_string(ids.size() - 3) + " more" : "");
 }
 
+// Whether a run takes the file by itself, with the suite.
+bool is_beside(const fs::path& file, const fs::path& suite) {
+    std::error_code none;
+    return fs::weakly_canonical(fs::absolute(file).parent_path(), none) ==
+           fs::weakly_canonical(
+               fs::absolute(suite).lexically_normal().parent_path() / "expectations", none);
+}
+
+// Of the cases of one's own that the run drew, a file beside the suite does not speak: they are
+// left out of the run. To any other file they are cases like the suite's: they join its ids.
+std::string settle_own_cases(report::Run& run, std::vector<std::string>& ids, bool beside) {
+    const std::set<std::string> known(ids.begin(), ids.end());
+    const auto is_own = [&](const report::CaseRecord& r) { return !known.contains(r.id); };
+    if (beside) {
+        const size_t own = std::erase_if(run.cases, is_own);
+        return own == 0 ? ""
+                        : cases::counted(own, "case") +
+                              " of the run left out: a file beside the suite speaks of its cases "
+                              "alone; bring another FILE up to date, and name it with --expect";
+    }
+    for (const report::CaseRecord& record : run.cases) {
+        if (is_own(record)) {
+            ids.push_back(record.id);
+        }
+    }
+    return "";
+}
+
 OrStop<run::Update> make_update(const Program& program, const ExpectOptions& options,
                                 const run::UpdateWords& words, std::string& before) {
-    const cases::Expected<report::Run> run = report::load_journal(options.update);
+    cases::Expected<report::Run> run = report::load_journal(options.update);
     if (!run) {
         return tl::unexpected(
             stop_with(report::kExitInvalidFile, "--update: " + cases::to_string(run.error())));
@@ -125,7 +155,13 @@ OrStop<run::Update> make_update(const Program& program, const ExpectOptions& opt
     if (!loaded) {
         return tl::unexpected(loaded.error());
     }
-    return run::update_expectations(text, *file, *run, loaded->ids(), words);
+    std::vector<std::string> ids = loaded->ids();
+    const std::string left_out = settle_own_cases(*run, ids, is_beside(options.file, loaded->root));
+    run::Update update = run::update_expectations(text, *file, *run, ids, words);
+    if (!left_out.empty()) {
+        update.notes.push_back(left_out);
+    }
+    return update;
 }
 
 }  // namespace

@@ -212,8 +212,8 @@ bool glob_matches(std::string_view pattern, std::string_view id) {
 }
 
 Expected<std::vector<size_t>> select(const std::vector<Case>& all,
-                                     const std::vector<std::string>& selectors,
-                                     std::istream& input) {
+                                     const std::vector<std::string>& selectors, std::istream& input,
+                                     const std::vector<size_t>& named) {
     std::vector<std::string> words;
     for (const std::string& selector : selectors) {
         if (selector != "-") {
@@ -230,9 +230,13 @@ Expected<std::vector<size_t>> select(const std::vector<Case>& all,
             return failure("standard input names no case; write one selector a line");
         }
     }
-    const bool only_exclusions = std::all_of(
-        words.begin(), words.end(), [](const std::string& w) { return w.rfind('!', 0) == 0; });
+    const bool only_exclusions =
+        named.empty() && std::all_of(words.begin(), words.end(),
+                                     [](const std::string& w) { return w.rfind('!', 0) == 0; });
     std::vector<bool> chosen(all.size(), only_exclusions);
+    for (const size_t k : named) {
+        chosen[k] = true;
+    }
     std::vector<bool> excluded(all.size(), false);
     const Matcher matcher{all};
     for (const std::string& word : words) {

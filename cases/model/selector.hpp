@@ -20,10 +20,11 @@ bool glob_matches(std::string_view pattern, std::string_view id);
 
 // Indices into `all` that the selectors choose, in suite order; no selector chooses all.
 // Only-exclusions start from all. A selector that matches nothing is an error that names the
-// nearest id or rule. `input` is read for "-".
+// nearest id or rule. `input` is read for "-". `named` are cases that are chosen besides, whatever
+// their ids look like, but for what an exclusion takes out again.
 Expected<std::vector<size_t>> select(const std::vector<Case>& all,
-                                     const std::vector<std::string>& selectors,
-                                     std::istream& input);
+                                     const std::vector<std::string>& selectors, std::istream& input,
+                                     const std::vector<size_t>& named = {});
 
 // The candidate with the smallest edit distance to `word`, or "" if none is near. Used by every
 // "did you mean" in the program.

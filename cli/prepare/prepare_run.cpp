@@ -140,9 +140,10 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     }
     p.header = *earlier;
     p.selection.root = loaded->root;
+    p.selection.known_ids = loaded->ids();
+    p.selection.suite_ids = loaded->suite_ids();
     std::map<std::string, const cases::Case*> by_id;
     for (const cases::Case& c : loaded->cases) {
-        p.selection.suite_ids.push_back(c.id);
         by_id.emplace(c.id, &c);
     }
     p.selection.whole_suite = earlier->cases.size() == loaded->cases.size();
@@ -173,7 +174,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     Prepared p;
     p.options = options;
     p.selection = std::move(*selection);
-    warn_of_idle_faults(p.selection.suite_ids);
+    warn_of_idle_faults(p.selection.known_ids);
     warn_of_claims(p.selection.cases, options.suite, options.profile);
     Run& header = p.header = new_header(program, options, p.selection.root);
     header.suite_hash = cases::hex(suite_hash(p.selection.root));

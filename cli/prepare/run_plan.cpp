@@ -42,7 +42,8 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     }
     Selection selection;
     selection.root = suite->root;
-    selection.suite_ids = suite->ids();
+    selection.known_ids = suite->ids();
+    selection.suite_ids = suite->suite_ids();
     for (const size_t k :
          options.quick ? run::first_and_last(suite->cases, suite->selected) : suite->selected) {
         cases::Case& c = suite->cases[k];
@@ -51,7 +52,7 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
             selection.cases.push_back(std::move(c));
         }
     }
-    selection.whole_suite = selection.cases.size() == selection.suite_ids.size();
+    selection.whole_suite = selection.cases.size() == selection.known_ids.size();
     if (selection.cases.empty()) {
         std::string why = "no case is selected";
         if (suite->cases.empty()) {
@@ -121,8 +122,9 @@ OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOpt
     if (!files) {
         return tl::unexpected(files.error());
     }
-    const auto expected =
-        run::resolve_expectations(*files, selection.suite_ids, selection.whole_suite);
+    const auto expected = run::resolve_expectations(
+        *files, options.expect.empty() ? selection.suite_ids : selection.known_ids,
+        selection.whole_suite);
     if (!expected) {
         return tl::unexpected(invalid_files(expected.error()));
     }

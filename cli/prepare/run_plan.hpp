@@ -20,14 +20,16 @@ namespace cli {
 struct Selection {
     std::filesystem::path root;
     std::vector<cases::Case> cases;      // in the order of the run
-    std::vector<std::string> suite_ids;  // of the whole suite
+    std::vector<std::string> known_ids;  // of the whole suite, and of the cases outside of it
+    std::vector<std::string> suite_ids;  // of the suite alone
     bool whole_suite = false;
 };
 // Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop.
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
 
 // What the expectation files say of each id, those of --expect or those beside the suite that fit
-// the header's device; their names go into the header.
+// the header's device; their names go into the header. Files beside a suite speak of its cases
+// alone: a new case of one's own that fails is news, whatever its id.
 OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOptions& options,
                                                                     const Selection& selection,
                                                                     report::Run& header);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -70,17 +71,40 @@ LeafOfFile leaf_of_file(const std::string& selector) {
     return {selector.substr(0, at + kEnd.size() - 1), selector.substr(at + kEnd.size())};
 }
 
-// The file of the case with this id, loaded or in the suite's folder; empty if there is none.
-std::string file_of_id(const LoadedSuite& suite, const std::string& id) {
-    for (const cases::Case& known : suite.cases) {
-        if (known.id == id) {
-            return known.where.file;
+// The id without its matrix part, which all leaves of a file have in common.
+std::string id_of_file(const cases::Case& c) {
+    return c.id.substr(0, c.id.find(':'));
+}
+
+// The files of the loaded cases by their ids. Two files never share one: the id of a file, as a
+// selector and in an expectation file, means all its leaves.
+class FileIds {
+  public:
+    explicit FileIds(const LoadedSuite& suite) : root_(suite.root), reads_(suite.cases.empty()) {
+        for (const cases::Case& c : suite.cases) {
+            files_.emplace(id_of_file(c), c.where.file);
         }
     }
-    const fs::path file = suite.root / (id.substr(0, id.find(':')) + ".toml");
-    std::error_code none;
-    return suite.cases.empty() && fs::exists(file, none) ? file.string() : "";
-}
+    // Adds the file of a case, unless another one has its id: that one is returned, else "". Where
+    // the suite was not loaded, its folder is asked.
+    std::string add(const cases::Case& c) {
+        const std::string id = id_of_file(c);
+        const auto [at, fresh] = files_.emplace(id, c.where.file);
+        std::error_code none;
+        if (!fresh) {
+            const bool is_same =
+                at->second == c.where.file || fs::equivalent(at->second, c.where.file, none);
+            return is_same ? "" : at->second;
+        }
+        const fs::path file = root_ / (id + ".toml");
+        return reads_ && fs::exists(file, none) ? file.string() : "";
+    }
+
+  private:
+    fs::path root_;
+    bool reads_;
+    std::map<std::string, std::string> files_;
+};
 
 bool is_outside(const std::string& selector, const fs::path& root) {
     return is_outside_file(leaf_of_file(selector).file, root) || is_outside_folder(selector, root);
@@ -112,10 +136,12 @@ OrStop<std::monostate> load_contents(LoadedSuite& suite) {
 }
 
 // Loads the case files outside the suite that selectors name, themselves or by their folder, and
-// puts their ids in the selectors' place. Below a folder ids are paths, as in a suite.
+// returns the other selectors. Below a folder ids are paths, as in a suite.
 OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
                                                     LoadedSuite& suite) {
     std::vector<std::string> selectors;
+    FileIds files(suite);
+    std::set<std::string> named;
     for (const std::string& selector : options.selectors) {
         cases::ExpectedAll<std::vector<cases::Case>> loaded;
         const auto [file, leaf] = leaf_of_file(selector);
@@ -146,18 +172,17 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
             }
         }
         for (cases::Case& c : *loaded) {
-            if (const std::string known = file_of_id(suite, c.id); !known.empty()) {
-                if (known == c.where.file) {
-                    return tl::unexpected(
-                        Stop{report::kExitUsage,
-                             {"the file " + known + " is named twice; name it once"}});
-                }
+            if (const std::string known = files.add(c); !known.empty()) {
                 return tl::unexpected(
                     Stop{report::kExitInvalidFile,
-                         {c.where.file + ": error: its id '" + c.id + "' is already that of " +
-                          known + "; rename the file"}});
+                         {c.where.file + ": error: its id '" + id_of_file(c) +
+                          "' is already that of " + known + "; rename the file"}});
             }
-            selectors.push_back(c.id);
+            if (!named.insert(c.id).second) {
+                return tl::unexpected(
+                    Stop{report::kExitUsage,
+                         {"the file " + c.where.file + " is named twice; name it once"}});
+            }
             suite.cases.push_back(std::move(c));
         }
     }
@@ -191,11 +216,13 @@ OrStop<LoadedSuite> select_of(LoadedSuite suite, const SuiteOptions& options) {
     if (!selectors) {
         return tl::unexpected(selectors.error());
     }
+    std::vector<size_t> named(suite.cases.size() - suite.outside);
+    std::iota(named.begin(), named.end(), suite.outside);
     if (auto carried = load_carried(options.carried, suite); !carried) {
         return tl::unexpected(carried.error());
     }
     cases::Expected<std::vector<size_t>> selected =
-        cases::select(suite.cases, *selectors, std::cin);
+        cases::select(suite.cases, *selectors, std::cin, named);
     if (!selected) {
         return tl::unexpected(
             Stop{report::kExitNothingSelected, {cases::to_string(selected.error())}});
@@ -211,6 +238,12 @@ std::vector<std::string> LoadedSuite::ids() const {
     for (const cases::Case& c : cases) {
         all.push_back(c.id);
     }
+    return all;
+}
+
+std::vector<std::string> LoadedSuite::suite_ids() const {
+    std::vector<std::string> all = ids();
+    all.resize(outside);
     return all;
 }
 

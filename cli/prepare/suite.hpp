@@ -35,7 +35,8 @@ struct LoadedSuite {
     std::vector<cases::Case> cases;  // the suite's, then those of files outside that selectors name
     std::vector<size_t> selected;    // indices into cases, in suite order
     size_t outside = 0;              // the index of the first case that is not the suite's
-    std::vector<std::string> ids() const;  // of all cases
+    std::vector<std::string> ids() const;        // of all cases
+    std::vector<std::string> suite_ids() const;  // of the suite's alone
 };
 // Loads all and selects. Errors: invalid files (3), a selector that matches nothing (4).
 OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& options,

@@ -531,6 +531,30 @@ class Selection(ProgramTest):
         self.assertIn("mine/a.toml: error: its id 'a' is already that of",
                       self.edgecase("list", "mine", check=3).stderr)
 
+    def test_a_file_of_ones_own_draws_no_case_of_the_suite(self):
+        """A file of one's own whose name means something else to a selector chooses itself alone; that of a suite's file is refused."""
+        leaves = CASE.format(n=0).replace("[target]", "[matrix]\nfirst = [{}]\n[target]").replace("[[draw]]", '[[draw]]\nfirst = "first"')
+        self.write_case("fam/leaves", leaves.format("0, 1"))
+        own = self.folder / "mine" / "fam" / "leaves.toml"
+        own.parent.mkdir(parents=True)
+        for text in (CASE.format(n=0), leaves.format("2")):
+            own.write_text(text)
+            for words in (["run", "--renderer=reference"], ["list"]):
+                self.assertIn(f"mine/fam/leaves.toml: error: its id 'fam/leaves' is already that of {self.suite}/fam/leaves.toml; rename",
+                              self.edgecase(*words, "mine", check=3).stderr)
+        own.unlink()
+        for name in ("-", "fam"):
+            only = self.folder / "mine" / f"{name}.toml"
+            only.write_text(CASE.format(n=0))
+            self.assertEqual(self.edgecase("list", "--ids", "mine", check=0).stdout.splitlines(), [name])
+            only.unlink()
+        only.write_text(CASE.format(n=0))
+        # What an exclusion takes out stays out, and beside it alone the suite is not meant.
+        self.assertEqual(self.edgecase("list", "--ids", "mine", "!fam/c1", check=0).stdout.splitlines(), ["fam"])
+        self.assertEqual(self.edgecase("list", "--ids", "mine", "fam/c1", "!fam", check=0).stdout.splitlines(), ["fam/c1"])
+        self.assertEqual(self.edgecase("list", "mine/fam.toml", "./mine/fam.toml", check=2).stderr,
+                         "edgecase: the file ./mine/fam.toml is named twice; name it once\n")
+
     def test_file_outside_the_suite(self):
         (self.folder / "mine.toml").write_text((self.suite / "fam/c1.toml").read_text())
         self.run_suite("mine.toml", check=0)

@@ -20,6 +20,48 @@ class ExpectationTest(ProgramTest):
         return folder / "reference.txt"
 
 
+class OwnCases(ExpectationTest):
+    """Files beside a suite speak of that suite's cases alone, others of all that is drawn."""
+
+    def setUp(self):
+        super().setUp()
+        self.mine = self.folder / "mine" / "fam" / "new.toml"  # its id, fam/new, matches a pattern of the suite's file
+        self.mine.parent.mkdir(parents=True)
+        self.mine.write_text((self.suite / "fam/c3.toml").read_text())
+        self.path = self.expectations(f"fam/*  fail  bug#1  {FLIPPED}  # It is known.\n")
+
+    def test_a_failure_of_a_case_of_ones_own_is_news(self):
+        self.run_suite("mine", "fam/c3", fault="flip-pixel", check=1)
+        self.assertEqual(self.statuses(), {"fam/c3": "xfail", "fam/new": "fail"})
+        self.run_suite("mine", "--expect", self.path, fault="flip-pixel", check=0)
+        self.assertEqual(self.statuses(), {"fam/new": "xfail"})
+        self.expectations("fam/*  skip  -  # Too slow.\n")
+        self.run_suite("mine", check=0)
+        self.assertEqual(self.statuses(), {"fam/new": "pass"})
+
+    def test_captures_of_a_case_of_ones_own(self):
+        self.expectations(f"fam/*  fail  bug#1  missing:cover.inside@vulkan<=30 missing:cover.shared-edge@vulkan<=30  # It is known.\n",
+                          "# edgecase-expectations 2\n# device: mine*\n")
+        self.edgecase("export", "mine", "fam/c3", "-o", "exported", check=0)
+        for case_id in ("fam/new", "fam/c3"):
+            plane = self.folder / "captures" / case_id / "hits.u8"
+            plane.parent.mkdir(parents=True)
+            plane.write_bytes(bytes(64))  # nothing is drawn
+        self.edgecase("diff", "--captures", "captures", "--exported", "exported", "--name", "mine", "-o", self.out, check=1)
+        self.assertEqual(self.statuses(), {"fam/c3": "xfail", "fam/new": "fail"})
+
+    def test_update(self):
+        self.run_suite("--no-expect", "mine", "fam/c3", fault="flip-pixel", check=1)
+        before = self.path.read_text()
+        done = self.edgecase("expect", self.path, "--update", self.out, "--bug", "bug#2", check=0)
+        self.assertEqual(self.path.read_text(), before)
+        self.assertIn("note: 1 case of the run left out: a file beside the suite speaks of its cases alone", done.stdout)
+        other = self.folder / "other.txt"
+        self.edgecase("expect", other, "--update", self.out, "--bug", "bug#2", check=0)
+        self.assertRegex(other.read_text(), r"(?m)^fam/new +fail +bug#2 ")
+        self.run_suite("mine", "fam/c3", "--expect", other, fault="flip-pixel", check=0)
+
+
 class Statuses(ExpectationTest):
     def outcome(self, expected, fault, status, exit_code):
         cause = {"fail": FLIPPED, "crash": "signal=SIGSEGV", "flake": ""}[expected]

@@ -148,6 +148,17 @@ TEST(Selector, ReadsStandardInput) {
               "error: standard input names no case; write one selector a line");
 }
 
+TEST(Selector, NamedCasesAreChosenWhateverTheirIds) {
+    const auto with = [](const std::vector<size_t>& named, const std::vector<std::string>& rest) {
+        std::istringstream none;
+        return select(suite(), rest, none, named).value();
+    };
+    EXPECT_EQ(with({6}, {}), (std::vector<size_t>{6}));
+    EXPECT_EQ(with({6}, {"!coverage/**"}), (std::vector<size_t>{6}));
+    EXPECT_EQ(with({6, 1}, {"ties/apex-up"}), (std::vector<size_t>{1, 5, 6}));
+    EXPECT_EQ(with({6, 1}, {"!alone"}), (std::vector<size_t>{1}));
+}
+
 TEST(Selector, SaysWhatIsWrong) {
     const std::pair<std::string, std::string> rows[] = {
         {"coverage/half-squar",
