@@ -197,6 +197,10 @@ cases::Expected<void> ask_worker(const Program& program, const DeviceOptions& op
                failure != nullptr) {
         d.usable = false;
         add_failure(d, *failure);
+        std::istringstream printed(cases::printable(client->output_since_batch()));
+        for (std::string line; std::getline(printed, line);) {
+            d.problems.push_back("printed: " + line);
+        }
     } else if (const auto* death = std::get_if<run::Death>(&*answer); death != nullptr) {
         d.usable = false;
         const Stop stop = explain_death(*death);

@@ -19,7 +19,22 @@ run::WorkerOptions worker_options(const DeviceOptions& options) {
     return worker;
 }
 
-Stop explain_failure(const vk_harness::Failure& failure) {
+namespace {
+
+// The first lines of what a worker printed, each for itself.
+std::vector<std::string> printed_lines(const std::string& output) {
+    constexpr size_t kMostLines = 20;
+    std::vector<std::string> out;
+    std::istringstream lines(cases::printable(output));
+    for (std::string line; out.size() < kMostLines && std::getline(lines, line);) {
+        out.push_back(std::move(line));
+    }
+    return out;
+}
+
+}  // namespace
+
+Stop explain_failure(const vk_harness::Failure& failure, const std::string& output) {
     Stop stop{report::kExitDevice, {cases::printable(failure.message)}};
     if (failure.vk_result != 0) {
         stop.lines.push_back("  VkResult " + std::to_string(failure.vk_result) + " at stage '" +
@@ -27,6 +42,9 @@ Stop explain_failure(const vk_harness::Failure& failure) {
     }
     for (const std::string& reason : failure.reasons) {
         stop.lines.push_back("  " + cases::printable(reason));
+    }
+    for (const std::string& line : printed_lines(output)) {
+        stop.lines.push_back("  printed: " + line);
     }
     if (failure.stage <= vk_harness::Stage::device) {
         stop.lines.emplace_back("  'edgecase doctor' says what is installed and what is missing");
@@ -37,9 +55,7 @@ Stop explain_failure(const vk_harness::Failure& failure) {
 Stop explain_death(const run::Death& death) {
     Stop stop{report::kExitDevice,
               {"no device: " + describe(death) + "; the driver or its environment is broken"}};
-    std::istringstream lines(cases::printable(death.output));
-    size_t count = 0;
-    for (std::string line; count < 20 && std::getline(lines, line); ++count) {
+    for (const std::string& line : printed_lines(death.output)) {
         stop.lines.push_back("  " + line);
     }
     stop.lines.emplace_back("  choose another driver with --icd, or see 'edgecase doctor'");
@@ -71,7 +87,7 @@ OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, run::SignalFd& 
         return ReadyWorker{std::move(client), *device};
     }
     if (const auto* failure = std::get_if<vk_harness::Failure>(&*answer); failure != nullptr) {
-        return tl::unexpected(explain_failure(*failure));
+        return tl::unexpected(explain_failure(*failure, client.output_since_batch()));
     }
     if (const auto* death = std::get_if<run::Death>(&*answer); death != nullptr) {
         return tl::unexpected(explain_death(*death));

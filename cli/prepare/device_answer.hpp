@@ -23,8 +23,8 @@ OrStop<run::WorkerClient> start_first_worker(const run::LoopConfig& config);
 // Waits until it is ready. Errors: no or wrong device (5), interrupted (130).
 OrStop<ReadyWorker> await_first_worker(run::WorkerClient client, run::SignalFd& signals);
 
-// What a failed start looks like to the user.
-Stop explain_failure(const vk_harness::Failure& failure);
+// What a failed start looks like to the user; `output` is what the worker printed.
+Stop explain_failure(const vk_harness::Failure& failure, const std::string& output);
 Stop explain_death(const run::Death& death);
 
 }  // namespace cli

@@ -205,6 +205,7 @@ bool WorkerClient::handle(const Frame& frame, std::vector<WorkerEvent>& events) 
             state_ = State::idle;
             return true;
         case FrameType::no_device:
+            read_output();  // what a driver or a layer printed before may say why
             return add_answer(decode<vk_harness::Failure>(frame.payload));
         case FrameType::devices:
             return add_answer(decode<std::vector<vk_harness::DeviceInfo>>(frame.payload));

@@ -34,7 +34,8 @@ Choice choose() {
     }
     if (choice.fault == nullptr) {
         std::fprintf(stderr,
-                     "breaking layer: error: EDGECASE_BREAK names no fault of the layer: '%s'\n",
+                     "breaking layer: error: EDGECASE_BREAK names no fault of the layer: '%s'; "
+                     "tests/breaking_layer/catches.json and unseen.json list them\n",
                      text);
         return {};
     }

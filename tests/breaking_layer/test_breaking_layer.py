@@ -49,6 +49,9 @@ class Table(LayerTest):
         for wrong in ("viewport-x", "nothing-every-nth:0", "nothing-every-nth:x", "nothing-every-nth:"):
             run = self.run_cases(wrong, ["coverage/half-square"])
             self.assertEqual(run.code, 5, run.err)
+            # Whoever mistypes a fault must not suspect the driver.
+            told = "the parameter in EDGECASE_BREAK is no number from 1 up" if ":" in wrong else "EDGECASE_BREAK names no fault of the layer"
+            self.assertIn(f"  printed: breaking layer: error: {told}: '{wrong}'", run.err)
 
     def test_without_a_fault_nothing_changes(self):
         ids = sorted({case_id for ids in CATCHES.values() for case_id in ids})
