@@ -339,6 +339,9 @@ class Diagnoser {
                 if (out.examples.size() < 3) {
                     out.examples.push_back(subjects_[k].record->id);
                 }
+                out.explained.push_back(subjects_[k].record->id);
+            } else {
+                out.unexplained.push_back(subjects_[k].record->id);
             }
         }
         return out;

@@ -26,7 +26,7 @@ function makeCasePage(record, neighbours, onChange) {
       el("span", {class: "grow"}), neighbours.position ? el("span", {class: "quiet"}, neighbours.position) : null,
       step("\u2039 Previous", "p", neighbours.previous), step("Next unexpected \u203a", "n", neighbours.next)),
     el("div", {class: "case-title"}, statusTag(record.status), heading),
-    el("p", {class: "what"}, record.what), described ? el("p", {class: "described"}, described) : null,
+    el("p", {class: "what"}, record.what), diagnosisLine(record), described ? el("p", {class: "described"}, described) : null,
     catches ? el("p", {class: "quiet described"}, "Catches: " + catches) : null);
   page.element = el("article", {class: "case-page", "aria-labelledby": "case-title"}, head);
   if (page.viewer) {
@@ -40,6 +40,14 @@ function makeCasePage(record, neighbours, onChange) {
   add(page.element, findingsSection(page), el("div", {class: "columns"}, rulesSection(record), factsSection(record), commandsSection(record)),
     geometrySection(page), sourceSection(record), outputSections(record));
   return page;
+}
+
+// The diagnosis that explains the case: it was tried on this one, or on others of its cause.
+function diagnosisLine(record) {
+  const cause = causeOf.get(record), isTried = record.diagnosis !== undefined, number = isTried ? record.diagnosis : cause && cause.diagnosis;
+  const diagnosis = (data.diagnoses || [])[number];
+  return diagnosis ? el("div", {class: "diagnosis"}, el("p", {class: "what"}, diagnosis.what + "."),
+    el("p", {class: "quiet small"}, isTried ? "The diagnosis repeats what is wrong here." : "The diagnosis repeats what is wrong in the cases of the same cause that it was tried on; this one was not.")) : null;
 }
 
 // The file of another part of the report: report.html, report-2.html ...

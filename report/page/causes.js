@@ -18,13 +18,20 @@ function causeText(cause) {
 }
 const causeTitle = (cause) => (cause.rule ? cause.rule + " \u00b7 " + cause.kind : word(cause.status) + " \u00b7 " + causeText(cause)) + " \u00b7 " + cause.family;
 
+// Whether a result is what its expectation speaks of; one that fails although it has one is news beside it.
+const isKnown = (record) => ["xfail", "xpass", "improved"].includes(record.status) || Boolean(record.expired);
+function bugsLine(words, records) {
+  const bugs = [...new Set(records.map((record) => record.bug).filter(Boolean))];
+  return bugs.length ? el("div", {class: "quiet small"}, words + bugs.slice(0, SHOWN_BUGS).join(", ") + (bugs.length > SHOWN_BUGS ? ", ..." : "")) : null;
+}
+
 function causeRow(cause, show) {
   const findings = cause.records.reduce((sum, record) => sum + (record.finding_total || 0), 0), example = cause.records[0];
-  const link = el("a", {href: "#case=" + encodeURIComponent(example.id), class: "id"}, idText(example.id)), bugs = [...new Set(cause.records.map((record) => record.bug).filter(Boolean))];
+  const link = el("a", {href: "#case=" + encodeURIComponent(example.id), class: "id"}, idText(example.id));
   return el("tr", {"data-cause": cause.key},
     el("td", {}, cause.change ? cause.change : statusTag(cause.status)),
     el("td", {}, cause.rule ? [ruleLink(cause.rule), " ", el("span", {class: "kind"}, cause.kind), " in " + cause.family] : null, el("div", {}, causeText(cause)),
-      bugs.length ? el("div", {class: "quiet small"}, "known as " + bugs.slice(0, SHOWN_BUGS).join(", ") + (bugs.length > SHOWN_BUGS ? ", ..." : "")) : null),
+      bugsLine("known as ", cause.records.filter(isKnown)), bugsLine("beside what is known as ", cause.records.filter((record) => !isKnown(record)))),
     el("td", {}, cause.level ? [levelTag(cause.level), el("div", {class: "quiet small"}, data.meanings[cause.level])] : ""),
     el("td", {class: "right"}, el("button", {type: "button", class: "link", title: "show only these", onclick: () => show(cause.key)}, plural(cause.records.length, "case")),
       findings ? el("div", {class: "quiet small"}, plural(findings, "finding")) : null),
@@ -35,26 +42,31 @@ function causesTable(rows) {
   return el("div", {class: "framed"}, table("", [data.runs ? "change" : "status", "cause", "breaks", "cases", "smallest case"], rows, "cards causes"));
 }
 
-// What the device does wrong, as far as it was found out, with the cases that show it best.
-function diagnosesSection() {
+// What the device does wrong, as far as it was found out, with the cases that show it best. The causes that it repeats are
+// folded under it.
+function diagnosesSection(show) {
   const list = data.diagnoses || [];
   if (list.length === 0) { return null; }
-  const entries = list.map((diagnosis) => {
+  const entries = list.map((diagnosis, number) => {
     const shown = diagnosis.cases.map((k) => data.cases[k].id);
+    const folded = causes.filter((cause) => cause.diagnosis === number), cases = folded.reduce((sum, cause) => sum + cause.records.length, 0);
     return el("div", {class: "diagnosis"}, el("p", {class: "what"}, diagnosis.what + "."), el("p", {class: "quiet small"}, diagnosis.evidence + "."),
-      el("p", {class: "small"}, "Seen in ", shown.flatMap((id, k) => [k ? ", " : "", el("a", {href: "#case=" + encodeURIComponent(id), class: "id"}, idText(id))])));
+      el("p", {class: "small"}, "Seen in ", shown.flatMap((id, k) => [k ? ", " : "", el("a", {href: "#case=" + encodeURIComponent(id), class: "id"}, idText(id))])),
+      folded.length ? el("details", {class: "folded"}, el("summary", {class: "small"}, plural(folded.length, "cause") + (folded.length === 1 ? " says" : " say") + " the same, in " + plural(cases, "case")),
+        causesTable(folded.map((cause) => causeRow(cause, show)))) : null);
   });
   return el("section", {id: "diagnoses"}, el("h2", {}, "Diagnosis"), entries);
 }
 
 // `show(key)` is called to list the cases of one cause alone.
 function causesSection(show) {
-  if (causes.length === 0) { return null; }
-  const rows = causes.map((cause) => causeRow(cause, show));
+  const listed = causes.filter((cause) => cause.diagnosis === undefined), isRest = listed.length < causes.length;
+  if (listed.length === 0) { return null; }
+  const rows = listed.map((cause) => causeRow(cause, show));
   const rest = rows.length > SHOWN_CAUSES + 1 ? rows.slice(SHOWN_CAUSES) : [];
   rest.forEach((row) => { row.hidden = true; });
   const more = rest.length ? el("button", {type: "button", class: "link more", onclick: () => { rest.forEach((row) => { row.hidden = false; }); more.remove(); }}, "show " + plural(rest.length, "more cause")) : null;
-  return el("section", {id: "causes"}, el("h2", {}, "Causes ", el("span", {class: "count"}, String(causes.length))), causesTable(rows), more);
+  return el("section", {id: "causes"}, el("h2", {}, isRest ? "Other causes " : "Causes ", el("span", {class: "count"}, String(listed.length))), causesTable(rows), more);
 }
 
 // Failures that an expectation file names, folded: they are news to nobody who wrote it.

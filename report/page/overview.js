@@ -116,7 +116,7 @@ function buildOverview() {
     changed();
   }}, el("span", {class: "tally"}, String(data.totals[status])), statusTag(status))));
   const show = (key) => { listing.cause = listing.cause === key ? "" : key; changed(); };
-  add(byId("causes-slot"), diagnosesSection(), causesSection(show), knownCausesSection(show));
+  add(byId("causes-slot"), diagnosesSection(show), causesSection(show), knownCausesSection(show));
   if (data.without_pictures) {
     byId("causes-slot").append(el("p", {class: "note"}, "To keep this page small, the pictures of " + plural(data.without_pictures, "case") + " stand in ",
       el("a", {href: partName(data.part + 1)}, partName(data.part + 1)), ". Every cause has one here."));

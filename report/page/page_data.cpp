@@ -78,6 +78,7 @@ Json finding_json(const CaseRecord& r, const diff::Finding& f, Strings& strings)
 // Causes in the order of the terminal; cases are told by their numbers, the one to look at first.
 Json causes_json(const Run& run, const std::vector<Cause>& list) {
     Json json = Json::array();
+    const Repeated repeated(run);
     const auto number_of = [&](const CaseRecord& record) { return &record - run.cases.data(); };
     for (const Cause& cause : list) {
         const CaseRecord& smallest = smallest_case(cause);
@@ -94,6 +95,9 @@ Json causes_json(const Run& run, const std::vector<Cause>& list) {
                             {"kind", cases::printable(cause.kind)},
                             {"level", has_level ? cases::to_string(cause.level) : ""},
                             {"cases", std::move(members)}});
+        if (const auto number = repeated.by(cause)) {
+            json.back()["diagnosis"] = *number;
+        }
     }
     return json;
 }
@@ -131,6 +135,7 @@ Json case_json(const CaseRecord& r, size_t most_findings, Strings& strings) {
         json["expected"] = to_string(*r.expected);
     }
     put(json, "bug", r.bug);
+    put(json, "expired", r.expired);
     put(json, "reason", r.reason);
     put(json, "step", r.step);
     put(json, "signal", r.signal);
@@ -315,10 +320,14 @@ PageData page_data(const Run& run, size_t part) {
                       [](const CaseRecord& record) { return !record.findings.empty(); }));
     const size_t most =
         std::clamp(kFindingBudget / std::max<size_t>(wrong, 1), kLeastFindings, kMostFindings);
+    const Repeated repeated(run);
     Strings strings;
     Json list = Json::array();
     for (const CaseRecord& record : run.cases) {
         list.push_back(case_json(record, most, strings));
+        if (const auto number = repeated.by(record.id)) {
+            list.back()["diagnosis"] = *number;
+        }
     }
     const std::vector<Cause> all = causes(run);
     data.left_out = add_evidence(run, all, list);

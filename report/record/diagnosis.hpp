@@ -21,6 +21,8 @@ struct Diagnosis {
     // first of them by id.
     uint64_t cases = 0, tried = 0;
     std::vector<std::string> examples;
+    // Ids of all failed cases that it was tried on: those that it repeats, and the others.
+    std::vector<std::string> explained, unexplained;
     uint64_t samples = 0;  // wrong samples of these cases, of which it repeats
     uint64_t same_samples = 0;
     uint64_t values = 0;  // wrong values that were told of these cases, of which it repeats
@@ -34,6 +36,8 @@ struct Diagnosis {
         visit("cases", d.cases...);
         visit("tried", d.tried...);
         visit("examples", d.examples...);
+        visit({"explained", cases::kOlderLackIt}, d.explained...);
+        visit({"unexplained", cases::kOlderLackIt}, d.unexplained...);
         visit("samples", d.samples...);
         visit("same_samples", d.same_samples...);
         visit("values", d.values...);

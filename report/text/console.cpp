@@ -154,17 +154,24 @@ std::string_view shared_settings(const std::vector<Cause>& list, size_t count) {
     return is_shared ? first : std::string_view();
 }
 
-// The causes of a run's unexpected results, one line each with its smallest case. Settings that all
-// rerun lines have in front, a driver's path often, are told once: they would hide the causes.
-std::string causes_text(const Run& run, const ConsoleStyle& style) {
+// The causes of a run's unexpected results that are told: none if each result has been told.
+std::vector<Cause> told_causes(const Run& run, const ConsoleStyle& style) {
     std::vector<Cause> list = causes(run);
     std::erase_if(list, [](const Cause& cause) { return cause.status == Status::not_run; });
     size_t results = 0;
     for (const Cause& cause : list) {
         results += cause.cases.size();
     }
-    if (results <= kHandful && !style.verbose) {
-        return {};  // each has been told
+    return results <= kHandful && !style.verbose ? std::vector<Cause>() : list;
+}
+
+// A line each with its smallest case, but for those that a diagnosis repeats. Settings that all
+// rerun lines have in front, a driver's path often, are told once: they would hide the causes.
+std::string causes_text(const Run& run, const ConsoleStyle& style) {
+    std::vector<Cause> list = told_causes(run, style);
+    if (!style.verbose) {
+        const Repeated repeated(run);
+        std::erase_if(list, [&](const Cause& cause) { return repeated.by(cause).has_value(); });
     }
     const size_t told = style.verbose ? list.size() : std::min(list.size(), kMaxCauses);
     const std::string_view settings = shared_settings(list, told);
@@ -190,12 +197,22 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
     return text;
 }
 
-// What the device does wrong, two lines each.
+// What the device does wrong, two lines each, and one about the causes that say the same.
 std::string diagnoses_text(const Run& run, const ConsoleStyle& style) {
+    const std::vector<Cause> list = told_causes(run, style);
+    const Repeated repeated(run);
     std::string text;
-    for (const Diagnosis& d : run.diagnoses) {
+    for (size_t k = 0; k < run.diagnoses.size(); ++k) {
+        const Diagnosis& d = run.diagnoses[k];
         text += fmt::format("diagnosis: {}\n{}{}\n", painted(what_it_does(d), "1", style), kIndent,
                             evidence_for(d));
+        const auto folded = std::count_if(
+            list.begin(), list.end(), [&](const Cause& cause) { return repeated.by(cause) == k; });
+        if (folded > 0) {
+            text += fmt::format("{}{} of {} {} the same{}\n", kIndent, folded,
+                                cases::counted(list.size(), "cause"), folded == 1 ? "says" : "say",
+                                style.verbose ? "" : "; -v lists them");
+        }
     }
     return text;
 }
@@ -281,8 +298,9 @@ std::string console_summary(const Run& run, const std::string& report_path,
         }
     }
     const bool is_cut = run.ended.empty() && !(run.seconds > 0);
-    text +=
-        fmt::format("   {}   seed {}\n", is_cut ? "cut off" : seconds_text(run.seconds), run.seed);
+    // Always seconds, so that one run's time is seen beside another's.
+    const std::string time = fmt::format("{:.{}f} s", run.seconds, run.seconds < 1 ? 2 : 1);
+    text += fmt::format("   {}   seed {}\n", is_cut ? "cut off" : time, run.seed);
     if (const CaseRecord* worst = worst_case(run)) {
         text += fmt::format("largest accepted error {}{}{} in {}\n", accepted_text(run, *worst),
                             worst->worst_quantity.empty() ? "" : ", ",

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cases/base/counted.hpp"
 
 namespace report {
@@ -32,6 +34,39 @@ std::string evidence_for(const Diagnosis& diagnosis) {
     text += fmt::format("; {} that passed {}", cases::counted(d.passed_tried, "case"),
                         d.passed_tried == 1 ? "agrees" : "agree");
     return text;
+}
+
+Repeated::Repeated(const Run& run) {
+    for (size_t k = 0; k < run.diagnoses.size(); ++k) {
+        for (const std::string& id : run.diagnoses[k].explained) {
+            diagnosis_of_.emplace(id, k);
+        }
+        others_.insert(run.diagnoses[k].unexplained.begin(), run.diagnoses[k].unexplained.end());
+    }
+    for (const auto& [id, number] : diagnosis_of_) {
+        others_.erase(id);
+    }
+}
+
+std::optional<size_t> Repeated::by(const std::string& id) const {
+    const auto found = diagnosis_of_.find(id);
+    return found == diagnosis_of_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<size_t> Repeated::by(const Cause& cause) const {
+    std::map<size_t, size_t> counts;  // of cases, by diagnosis
+    for (const CaseRecord* record : cause.cases) {
+        if (others_.contains(record->id)) {
+            return std::nullopt;
+        }
+        if (const auto number = by(record->id)) {
+            ++counts[*number];
+        }
+    }
+    const auto most =
+        std::max_element(counts.begin(), counts.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == counts.end() ? std::nullopt : std::optional(most->first);
 }
 
 }  // namespace report

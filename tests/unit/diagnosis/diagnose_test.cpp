@@ -96,6 +96,12 @@ TEST_P(Named, IsToldFirst) {
     EXPECT_EQ(list.front().samples, list.front().same_samples);
     EXPECT_EQ(list.front().against, 0U);
     EXPECT_EQ(list.front().passed_against, 0U);
+    // Each case that was tried is repeated or not; examples are the first that are.
+    EXPECT_EQ(list.front().explained.size(), list.front().cases);
+    EXPECT_EQ(list.front().explained.size() + list.front().unexplained.size(), list.front().tried);
+    for (size_t k = 0; k < list.front().examples.size(); ++k) {
+        EXPECT_EQ(list.front().examples[k], list.front().explained[k]);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(
