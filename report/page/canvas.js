@@ -19,7 +19,7 @@ function paint(canvas, scene, shot) {
   context.translate(-shot.left, -shot.top);
   const zoom = shot.zoom, margin = zoom;
   const range = (from, length, size) => [Math.max(0, Math.floor((from - margin) / zoom)), Math.min(size - 1, Math.ceil((from + length - margin) / zoom))];
-  const view = {context, palette, zoom, p, theme: shot.theme, margin, above: 0, lettered: new Set(), told: [], labels: [], columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
+  const view = {context, palette, zoom, p, theme: shot.theme, margin, above: 0, lettered: new Set(), marked: new Set(), told: [], labels: [], columns: range(shot.left, shot.width, p.width), rows: range(shot.top, shot.height, p.height)};
   context.fillStyle = palette.paper;
   context.fillRect(margin, margin, p.width * zoom, p.height * zoom);
   paintCells(view, scene, shot);
@@ -87,6 +87,7 @@ function paintCells(view, scene, shot) {
       if (p.depths[k]) { fill(grey(p.depths[k]), x, y, w, h); }
     } else if (shot.kind === "difference" && mark > 1) {
       if (drawMark(context, mark, x, y, w, h)) { view.lettered.add(k); }
+      view.marked.add(k);
     } else if (shot.kind === "error") {
       paintError(view, k, x, y, w, h);
     } else {
@@ -114,7 +115,10 @@ const grey = (code) => { const v = Math.round(30 + 215 * (code - 1) / 254); retu
 function paintError(view, k, x, y, w, h) {
   const {context, p} = view;
   if (!p.errors || p.errors[k] === 0) {
-    if (p.marks[k] > 1 && drawMark(context, p.marks[k], x, y, w, h)) { view.lettered.add(k); }  // no number says how wrong it is
+    if (p.marks[k] > 1) {  // no number says how wrong it is
+      if (drawMark(context, p.marks[k], x, y, w, h)) { view.lettered.add(k); }
+      view.marked.add(k);
+    }
     return;
   }
   context.fillStyle = heatColor(p.errors[k], view.theme);
@@ -212,8 +216,8 @@ const toScreen = (view, x, y) => [view.margin + (x - view.p.left) * view.zoom, v
 // A fixed-point coordinate is exact in binary64 up to 2^37 pixels.
 const pointOnScreen = (view, point) => toScreen(view, Number(point.x) / 65536, Number(point.y) / 65536);
 
-function strokeTwice(view, width) {
-  const {context, palette} = view;
+function strokeTwice(view, width, palette = view.palette) {
+  const {context} = view;
   context.lineWidth = width + 2;
   context.strokeStyle = palette.halo;
   context.stroke();
@@ -270,8 +274,9 @@ function paintRegions(view, geometry) {
 
 // Sample positions as points, but where a letter stands; those exactly on an edge ringed.
 function paintSamples(view, scene) {
-  const {context, palette, p, zoom, margin} = view;
+  const {context, p, zoom, margin} = view;
   if (zoom < 8 && scene.ties.size === 0) { return; }
+  const paletteOf = (k) => view.marked.has(k) ? PALETTES.light : view.palette;  // marks have the same colours in both themes: light ones
   const radius = Math.max(1, Math.min(3, zoom / 16)), ring = Math.max(3, Math.min(9, zoom * (p.samples > 1 ? .16 : .2)));
   for (let j = view.rows[0]; j <= view.rows[1]; ++j) {
     for (let i = view.columns[0]; i <= view.columns[1]; ++i) {
@@ -279,16 +284,20 @@ function paintSamples(view, scene) {
         const at = scene.geometry.locations[s];
         if (!at) { continue; }
         const x = margin + (i + Number(at.x) / 65536) * zoom, y = margin + (j + Number(at.y) / 65536) * zoom;
-        if (zoom >= 8 && (p.samples === 1 || isPlaced(view, scene)) && !view.lettered.has((j * p.width + i) * p.samples + s)) {
+        const k = (j * p.width + i) * p.samples + s, palette = paletteOf(k);
+        if (zoom >= 8 && (p.samples === 1 || isPlaced(view, scene)) && !view.lettered.has(k)) {
           context.beginPath();
           context.arc(x, y, radius, 0, 2 * Math.PI);
           context.fillStyle = palette.line;
+          context.lineWidth = 1.5;
+          context.strokeStyle = palette.halo;  // it stands on any colour
+          context.stroke();
           context.fill();
         }
-        if (zoom >= 5 && scene.ties.has((j * p.width + i) * p.samples + s)) {
+        if (zoom >= 5 && scene.ties.has(k)) {
           context.beginPath();
           context.arc(x, y, ring, 0, 2 * Math.PI);
-          strokeTwice(view, zoom >= 16 ? 2 : 1.2);
+          strokeTwice(view, zoom >= 16 ? 2 : 1.2, palette);
         }
       }
     }

@@ -43,12 +43,15 @@ function happened(record) {
 // What fails without a value out of its budget (a sample, a colour) has no error that says so: "0" would read as success.
 const isWorstTold = (record) => Boolean(record.worst) && (!record.finding_total || !(numberOf(record.worst[0]) <= MOST_BUDGETS));
 
+// One unit for all rows, so that digits that stand below each other mean the same.
+const millisecondsText = (seconds) => Number.isFinite(seconds) ? (1000 * seconds).toFixed(2) : "?";
+
 function caseRow(entry) {
   const record = entry.record;
   return el("tr", {class: "case-row " + (isExpected(record) ? "" : "unexpected"), "data-case": record.id, onclick: (event) => { if (event.target.tagName !== "A") { openCase(record.id); } }},
     el("td", {}, statusTag(record.status)), el("td", {}, el("a", {class: "id", href: "#case=" + encodeURIComponent(record.id)}, idText(record.id))),
     el("td", {class: "quiet what"}, happened(record)), el("td", {class: "number right", "data-label": "findings"}, entry.wrong ? String(entry.wrong) : ""),
-    el("td", {class: "number right told", "data-label": "budgets"}, isWorstTold(record) ? record.worst[1] : ""), el("td", {class: "number right quiet", "data-label": "time"}, record.time));
+    el("td", {class: "number right told", "data-label": "budgets"}, isWorstTold(record) ? record.worst[1] : ""), el("td", {class: "number right quiet", "data-label": "ms"}, millisecondsText(entry.seconds)));
 }
 
 function groupBody(name, members, total, anySearch) {

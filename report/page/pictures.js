@@ -138,7 +138,11 @@ function drawMark(context, mark, x, y, w, h) {
   }
   context.restore();
   // In a corner as soon as there is room: the sample is in the middle.
-  if (size >= 34) { drawLetter(context, LETTERS[mark], x + 9, y + 9, 12); return false; }
+  if (size >= 34) {
+    const inset = Math.max(9, Math.min(16, size * .2));  // clear of the grid and of a thick edge, where there is room
+    drawLetter(context, LETTERS[mark], x + inset, y + inset, 12);
+    return false;
+  }
   if (size >= 9) { drawLetter(context, LETTERS[mark], x + w / 2, y + h / 2, Math.min(12, Math.max(8, size * .7))); return true; }
   return false;
 }

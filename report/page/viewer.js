@@ -5,11 +5,19 @@
 const VIEWS = [["reference", "Reference"], ["device", "Device"], ["difference", "Difference"], ["error", "Error"], ["blink", "Blink"], ["side", "Side by side"]];
 const KIND_OF_VIEW = {reference: "expected", device: "device", difference: "difference", error: "error"};
 const PANE_TITLE = {expected: "reference", device: "device", difference: "difference", error: "error in budgets"};
+// With what it is painted by, where that is not the same in all pictures of a view: of depths the device's alone are known.
+const paneTitle = (kind, p, plane) => PANE_TITLE[kind] + (plane !== "hits" && (kind === "expected" || kind === "device") ? ", " + paintedBy(kind, p, plane) : "");
 const MAX_ZOOM = 128;
 // Kept from case to case.
 const viewing = {view: "difference", zoom: 0, grid: true, outlines: true, samples: true, scissor: true, viewport: true, planes: true, boxes: true, show: ""};
 
 const panesOf = (view) => view === "side" ? ["expected", "device", "difference"] : view === "blink" ? ["blink"] : [KIND_OF_VIEW[view]];
+
+// The plane that shows what the leading finding of a case is about.
+function planeOf(record) {
+  const quantity = record.lead ? finding(record.lead).quantity : "";
+  return /^(depth|frag_coord\.z)$/.test(quantity) ? "depth" : /^(color|texel)/.test(quantity) ? "colour" : "";
+}
 
 // `onSample(at)` is called when another sample is pointed at; `onChange()` when the address should change.
 function makeViewer(record, onSample, onChange) {
@@ -27,7 +35,11 @@ function makeViewer(record, onSample, onChange) {
   const views = VIEWS.filter(([name]) => pictures.isReference ? name === "reference" : name !== "error" || pictures.errors);
   // What is looked at, or the nearest that this case has.
   const shownView = () => views.some(([name]) => name === viewing.view) ? viewing.view : pictures.isReference ? "reference" : "difference";
-  const shownPlane = () => viewing.show || (pictures.expectedColors ? "colour" : "hits");  // a blit is seen by its colours
+  const planes = [["hits", "hits"], pictures.colors && ["colour", "colour"], pictures.depths && ["depth", "depth"]].filter(Boolean);
+  const hasPlane = (name) => planes.some(([plane]) => plane === name);
+  // What was chosen, else what the leading finding is about; a blit is seen by its colours.
+  const leading = planeOf(record), firstPlane = hasPlane(leading) ? leading : pictures.expectedColors ? "colour" : "hits";
+  const shownPlane = () => hasPlane(viewing.show) ? viewing.show : firstPlane;
   const zoomNow = () => viewing.zoom || fitZoom();
   function fitZoom() {
     const count = shownView() === "side" && stage.clientWidth > 700 ? 3 : 1;
@@ -65,7 +77,7 @@ function makeViewer(record, onSample, onChange) {
       paint(pane.canvas, scene, {kind: kindOf(pane), zoom, left: pane.frame.scrollLeft, top: pane.frame.scrollTop, ...shown,
         cursor: viewer.cursor, options: {...viewing,
           colors: shownPlane() === "colour", depth: shownPlane() === "depth"}, theme: theme()});
-      pane.title.textContent = PANE_TITLE[kindOf(pane)];
+      pane.title.textContent = paneTitle(kindOf(pane), pictures, shownPlane());
     }
     zoomText.textContent = zoom + "\u00d7";
   }
@@ -124,7 +136,7 @@ function makeViewer(record, onSample, onChange) {
     el("div", {class: "checks"}, (isBlitScene(scene) ? [["outlines", "Region"], ["grid", "Grid"]] : [["outlines", "Triangles"], ["samples", "Samples"], ["grid", "Grid"]]).map(([name, title]) =>
       el("label", {}, el("input", {type: "checkbox", checked: viewing[name], "data-option": name, onchange: (event) => { viewing[name] = event.target.checked; draw(); }}), title))),
     pictures.colors || pictures.depths ? el("label", {}, "show ", el("select", {onchange: (event) => { viewing.show = event.target.value; refreshLegend(); draw(); }},
-      [["hits", "hits"], pictures.colors && ["colour", "colour"], pictures.depths && ["depth", "depth"]].filter(Boolean).map(([value, title]) =>
+      planes.map(([value, title]) =>
         el("option", {value, selected: shownPlane() === value}, title)))) : null);
 
   viewer.element = el("section", {class: "viewer", "aria-label": "pictures"}, bar, stage, legendList);
