@@ -5,7 +5,6 @@ import json
 import os
 import pathlib
 import re
-import shlex
 import shutil
 import subprocess
 import unittest
@@ -202,84 +201,24 @@ class Merge(CiTest):
         self.assertIn("nowhere/journal.jsonl: No such file or directory; name the directory of a run", done.stderr)
 
 
-class Workflows(CiTest):
-    """The ready files parse, and their commands are carried out with the reference instead of a driver."""
-
-    def setUp(self):
-        super().setUp()
-        tools = self.folder / "tools"
-        tools.mkdir()
-        wrapper = tools / "edgecase"
-        wrapper.write_text("#!/bin/sh\ncommand=$1; shift\n"
-                           f"[ \"$command\" = run ] && set -- --renderer=reference \"$@\"\n"
-                           f"exec {shlex.quote(PROGRAM)} \"$command\" \"$@\"\n")
-        wrapper.chmod(0o755)
-        self.tools = tools
-
-    def carry_out(self, line, **variables):
-        env = self.environment("flip-pixel@fam/c1")
-        env.update(variables, PATH=f"{self.tools}:{os.environ['PATH']}")
-        return subprocess.run(["sh", "-c", line], env=env, cwd=self.folder, capture_output=True, text=True,
-                              timeout=120, check=False)
-
-    def lines_of(self, script, command):
-        return [x for x in script if re.search(rf"\bedgecase {command}\b", x)]
-
-    def check_merged(self, done):
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(set(self.statuses(self.folder / "out/merged")), set(self.ids))
-
-    def test_github(self):
-        flow = yaml.safe_load((SOURCE / "docs/ci/github-actions-shards.yml").read_text())
-        scripts = {name: [s["run"] for s in job["steps"] if "run" in s] for name, job in flow["jobs"].items()}
-        [run] = self.lines_of(scripts["suite"], "run")
-        shards = flow["jobs"]["suite"]["strategy"]["matrix"]["shard"]
-        for shard in shards:
-            self.assertIn(f"/{len(shards)} ", run)
-            self.assertIn(self.carry_out(run.replace("${{ matrix.shard }}", str(shard))).returncode, (0, 1, 4))
-        [report] = self.lines_of(scripts["report"], "report")
-        done = self.carry_out(report, GITHUB_STEP_SUMMARY=str(self.folder / "summary.md"))
-        self.check_merged(done)
-        self.assertEqual(done.stdout.count("::error "), 1)
-        self.assertTrue((self.folder / "summary.md").exists())
-        self.assert_scripts_exist(sum(scripts.values(), []))
-
-    def test_gitlab(self):
-        flow = yaml.safe_load((SOURCE / "docs/ci/gitlab-ci-shards.yml").read_text())
-        count = flow["suite"]["parallel"]
-        [run] = self.lines_of(flow["suite"]["script"], "run")
-        for k in range(1, count + 1):
-            done = self.carry_out(run, CI_NODE_INDEX=str(k), CI_NODE_TOTAL=str(count))
-            self.assertIn(done.returncode, (0, 1, 4), done.stderr)
-        [report] = self.lines_of(flow["report"]["script"], "report")
-        self.check_merged(self.carry_out(report))
-        for file in flow["report"]["artifacts"]["reports"].values():
-            self.assertTrue((self.folder / file).exists(), file)
-        self.assert_scripts_exist(sum((job.get("script", []) + job.get("before_script", []) for job in flow.values()
-                                       if isinstance(job, dict)), []))
-
-    def assert_scripts_exist(self, lines):
-        for name in re.findall(r"scripts/[\w.-]+", "\n".join(lines)):
-            self.assertTrue((SOURCE / name).exists(), name)
-
-
-class OneJob(CiTest):
-    """The templates of one job: every shell line of them, in a container of which only the network is made up. What
-    'git clone' and the packages would bring is this checkout, already built."""
+class Jobs(CiTest):
+    """What the shell lines of the templates are carried out with: a container of which only the network is made up. What
+    git and the packages would bring is this checkout, already built."""
 
     BUILD = pathlib.Path(PROGRAM).resolve().parents[1]
+    REPOSITORY = {"EDGECASE_REPOSITORY": "someone/edgecase", "EDGECASE_VERSION": "v1"}
 
     def setUp(self):
         super().setUp()
         self.log = self.folder / "log"
-        checkout = self.folder / "checkout"
-        self.stub(checkout / "scripts/install-packages", f'echo "install-packages $*" >> {self.log}')
-        self.stub(checkout / "scripts/build", f'echo "build $* in $CCACHE_DIR" >> {self.log}')
-        (checkout / "scripts/packages.txt").write_text("")
-        (checkout / "build").mkdir()
-        (checkout / "build/release").symlink_to(self.BUILD)
+        self.log.write_text("")
+        self.checkout = self.folder / "checkout"
+        self.stub(self.checkout / "scripts/install-packages", f'echo "install-packages $*" >> {self.log}')
+        self.stub(self.checkout / "scripts/build", f'echo "build $* in $CCACHE_DIR" >> {self.log}')
+        (self.checkout / "scripts/packages.txt").write_text("")
+        (self.checkout / "build").mkdir()
+        (self.checkout / "build/release").symlink_to(self.BUILD)
         self.stub(self.folder / "bin/apt-get", f'echo "apt-get $*" >> {self.log}')
-        self.stub(self.folder / "bin/git", f'echo "git $*" >> {self.log}; for last; do :; done; cp -a {checkout} "$last"')
         # The driver of one's own: the system's lavapipe, built to where the template looks for it.
         [manifest] = pathlib.Path("/usr/share/vulkan/icd.d").glob("lvp_icd*.json")
         self.stub(self.folder / "build-my-driver", f"mkdir -p build && cp {manifest} build/my_icd.json")
@@ -289,7 +228,20 @@ class OneJob(CiTest):
         path.write_text(f"#!/bin/sh\n{line}\n")
         path.chmod(0o755)
 
-    def shell(self, line, variables, fault):
+    def versions(self):
+        """Makes a repository of the checkout; its address, and the names of one version: a tag and a commit."""
+        def git(*words):
+            return subprocess.run(["git", "-C", self.checkout, "-c", "user.name=a", "-c", "user.email=a@b", *words], check=True,
+                                  capture_output=True, text=True).stdout.strip()
+        git("init", "-q")
+        git("add", "-A", "-f")
+        git("commit", "-q", "-m", "one")
+        git("tag", "v1")
+        commit = git("rev-parse", "HEAD")
+        git("commit", "-q", "--allow-empty", "-m", "two")  # neither is the tip of a branch
+        return f"file://{self.checkout}", ("v1", commit)
+
+    def shell(self, line, variables, fault=""):
         env = {k: v for k, v in self.environment(fault).items() if not k.startswith("VK_")}
         env |= variables | {"PATH": f"{self.folder}/bin:{os.environ['PATH']}"}
         return subprocess.run(["bash", "-eo", "pipefail", "-c", line], env=env, cwd=self.folder, capture_output=True, text=True,
@@ -297,16 +249,136 @@ class OneJob(CiTest):
 
     def log_lines(self):
         lines = self.log.read_text().splitlines()
-        self.log.unlink()
+        self.log.write_text("")
         return lines
+
+    def flow(self, name):
+        return yaml.safe_load((SOURCE / f"docs/ci/{name}.yml").read_text())
+
+
+class Workflows(Jobs):
+    """The templates of several jobs: every shell line, the four jobs one after the other. Artefacts are copied by hand."""
+
+    INSTALL = ["apt-get update", "apt-get install -y --no-install-recommends libvulkan1"]
+
+    def carry_out(self, line, variables, fault="", codes=(0,)):
+        done = self.shell(line, variables, fault)
+        self.assertIn(done.returncode, codes, f"{line}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def keep_output(self):
+        shutil.copytree(self.folder / "out", self.folder / "kept", dirs_exist_ok=True)
+
+    def bring_output(self):
+        shutil.rmtree(self.folder / "out")
+        (self.folder / "kept").rename(self.folder / "out")
+
+    def check_merged(self, done):
+        self.assertEqual(done.returncode, 1, done.stderr)
+        merged = self.results(self.folder / "out/merged")
+        self.assertEqual({c["id"]: c["status"] for c in merged["cases"]}, {x: "fail" if x == "fam/c1" else "pass" for x in self.ids})
+        self.assertIn("llvmpipe", merged["device"]["name"])
+
+    def test_github(self):
+        flow = self.flow("github-actions-shards")
+        variables = flow["env"] | self.REPOSITORY | {"DEVICE": "llvmpipe"}
+        jobs = flow["jobs"]
+        shutil.copytree(self.checkout, self.folder / "edgecase-source", symlinks=True)
+        for step in jobs["build"]["steps"]:
+            self.carry_out(step.get("run", ":"), variables)
+        self.assertEqual(self.log_lines(), ["install-packages edgecase-source/scripts/packages.txt", "build release in "])
+        shutil.rmtree(self.folder / "edgecase-source")
+        shards = jobs["suite"]["strategy"]["matrix"]["shard"]
+        for shard in shards:
+            for step in jobs["suite"]["steps"]:
+                words = {name: value.replace("${{ matrix.shard }}", str(shard)) for name, value in step.get("env", {}).items()}
+                self.carry_out(step.get("run", ":"), variables | words, "flip-pixel@fam/c1", (0, 1, 4) if "edgecase run" in step.get("run", "") else (0,))
+            self.assertEqual(self.log_lines(), self.INSTALL)
+            self.keep_output()
+        self.assertEqual(sorted(x.name for x in (self.folder / "kept").iterdir()), [f"shard-{k}" for k in shards])
+        self.bring_output()
+        for step in jobs["report"]["steps"]:
+            if "run" in step:
+                done = self.carry_out(step["run"], variables | {"GITHUB_STEP_SUMMARY": str(self.folder / "summary.md")}, codes=(0, 1))
+        self.check_merged(done)
+        self.assertEqual(self.log_lines(), [])  # merging needs no package at all
+        self.assertEqual(done.stdout.count("::error "), 1)
+        self.assertTrue((self.folder / "summary.md").exists())
+
+    def test_gitlab(self):
+        flow = self.flow("gitlab-ci-shards")
+        url, versions = self.versions()
+        for version in versions:
+            variables = flow["variables"] | {"EDGECASE_URL": url, "EDGECASE_VERSION": version, "DEVICE": "llvmpipe"}
+            self.carry_out("\n".join(flow["build"]["script"]), variables)
+            self.assertEqual(self.log_lines()[-2:], ["install-packages edgecase-source/scripts/packages.txt", "build release in "])
+            for path in flow["build"]["artifacts"]["paths"]:
+                self.assertTrue((self.folder / path).is_dir(), path)
+            shutil.rmtree(self.folder / "edgecase-source")
+            count = flow["suite"]["parallel"]
+            for k in range(1, count + 1):
+                self.carry_out("\n".join(flow["suite"]["script"]), variables | {"CI_NODE_INDEX": str(k), "CI_NODE_TOTAL": str(count)},
+                               "flip-pixel@fam/c1", (0, 1, 4))
+                self.assertEqual(self.log_lines(), self.INSTALL)
+                self.keep_output()
+            self.bring_output()
+            self.check_merged(self.carry_out("\n".join(flow["report"]["script"]), variables, codes=(1,)))
+            self.assertEqual(self.log_lines(), [])
+            for file in flow["report"]["artifacts"]["reports"].values():
+                self.assertTrue((self.folder / file).exists(), file)
+            shutil.rmtree(self.folder / "edgecase")
+
+    def test_another_device_ends_a_shard(self):
+        """A driver's fallback must not be judged in the device's place."""
+        flow = self.flow("gitlab-ci-shards")
+        (self.folder / "edgecase").symlink_to(self.BUILD)
+        self.carry_out("./build-my-driver", {})
+        done = self.carry_out("\n".join(flow["suite"]["script"]), flow["variables"] | {"DEVICE": "GeForce", "CI_NODE_INDEX": "1", "CI_NODE_TOTAL": "4"}, codes=(5,))
+        self.assertIn("GeForce", done.stderr)
+
+
+class Unchanged(Jobs):
+    """A template of which nothing was changed says so in one sentence, before it builds anything."""
+
+    def check(self, script, variables, wanted):
+        good = dict.fromkeys(wanted, "x")
+        for left in [wanted, *([name] for name in wanted)]:
+            done = self.shell(script, variables | {name: value for name, value in good.items() if name not in left})
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(len(done.stdout.splitlines()), 1, done.stdout)
+            self.assertRegex(done.stdout, "yml: change what is marked 'must be changed': " + ".*".join(wanted))
+        return good
+
+    def test_github(self):
+        for name, wanted in (("github-actions", ["EDGECASE_REPOSITORY", "EDGECASE_VERSION"]),
+                             ("github-actions-fuzz", ["EDGECASE_REPOSITORY", "EDGECASE_VERSION"]),
+                             ("github-actions-shards", ["EDGECASE_REPOSITORY", "EDGECASE_VERSION", "DEVICE"])):
+            flow = self.flow(name)
+            first = next(iter(flow["jobs"].values()))["steps"][0]
+            good = self.check(first["run"], flow["env"], wanted)
+            self.assertEqual(self.shell(first["run"], flow["env"] | good).returncode, 0)
+            self.assertEqual((SOURCE / f"docs/ci/{name}.yml").read_text().count("yours, must be changed:"), len(wanted))
+
+    def test_gitlab(self):
+        for name, wanted in (("gitlab-ci", ["EDGECASE_URL", "EDGECASE_VERSION"]), ("gitlab-ci-shards", ["EDGECASE_URL", "EDGECASE_VERSION", "DEVICE"])):
+            flow = self.flow(name)
+            job = flow.get("build") or flow["edgecase"]
+            variables = flow.get("variables") or job["variables"]
+            self.check("\n".join(job["script"]), variables, wanted)
+            self.assertEqual(self.log_lines(), [])
+            self.assertEqual((SOURCE / f"docs/ci/{name}.yml").read_text().count("yours, must be changed:"), len(wanted))
+
+
+class OneJob(Jobs):
+    """The templates of one job: every shell line of them."""
 
     INSTALLS = ["apt-get update", "apt-get install -y --no-install-recommends libvulkan1"]
     BUILDS = ["install-packages edgecase-source/scripts/packages.txt", "build release in {}/edgecase-ccache"]
 
     def test_github(self):
-        flow = yaml.safe_load((SOURCE / "docs/ci/github-actions.yml").read_text())
+        flow = self.flow("github-actions")
         [job] = flow["jobs"].values()
-        variables = flow["env"] | {"GITHUB_ACTIONS": "true", "GITHUB_WORKSPACE": str(self.folder),
+        variables = flow["env"] | self.REPOSITORY | {"GITHUB_ACTIONS": "true", "GITHUB_WORKSPACE": str(self.folder),
                                    "GITHUB_STEP_SUMMARY": str(self.folder / "summary.md")}
         caches = [s["with"]["path"] for s in job["steps"] if s.get("uses", "").startswith("actions/cache")]
         self.assertEqual(caches, ["edgecase", "edgecase-ccache", "edgecase", "edgecase-ccache"])
@@ -315,7 +387,7 @@ class OneJob(CiTest):
                 if cached and "cache-hit" in str(step.get("if")):
                     continue
                 if step.get("with", {}).get("path") == "edgecase-source":
-                    shutil.copytree(self.folder / "checkout", self.folder / "edgecase-source", symlinks=True)
+                    shutil.copytree(self.checkout, self.folder / "edgecase-source", symlinks=True)
                 if "run" in step:
                     done = self.shell(step["run"], variables, fault)
                     self.assertEqual(done.returncode, code if "edgecase run" in step["run"] else 0, done.stdout + done.stderr)
@@ -355,18 +427,19 @@ class OneJob(CiTest):
             self.assertTrue((self.folder / f"hunts/{number}-{attempt}/fuzz.json").exists())
 
     def test_gitlab(self):
-        [job] = yaml.safe_load((SOURCE / "docs/ci/gitlab-ci.yml").read_text()).values()
+        [job] = self.flow("gitlab-ci").values()
         self.assertEqual([c["paths"] for c in job["cache"]], [["edgecase"], ["edgecase-ccache"]])
-        variables = job["variables"] | {"GITLAB_CI": "true", "CI_PROJECT_DIR": str(self.folder)}
-        clone = ["apt-get install -y --no-install-recommends git ca-certificates",
-                 "git clone --depth 1 --branch v0.2.0 https://example.org/edgecase.git edgecase-source"]
-        for fault, code, cached in (("", 0, False), ("flip-pixel@fam/c1", 1, True)):
-            done = self.shell("\n".join(job["script"]), variables, fault)
-            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-            self.assertEqual(self.log_lines(), self.INSTALLS +
-                             ([] if cached else clone + [x.format(self.folder) for x in self.BUILDS]))
-            for file in (*job["artifacts"]["paths"], *job["artifacts"]["reports"].values()):
-                self.assertTrue((self.folder / file).exists(), file)
+        url, versions = self.versions()
+        for version in versions:
+            variables = job["variables"] | {"EDGECASE_URL": url, "EDGECASE_VERSION": version, "GITLAB_CI": "true", "CI_PROJECT_DIR": str(self.folder)}
+            for fault, code, cached in (("", 0, False), ("flip-pixel@fam/c1", 1, True)):
+                done = self.shell("\n".join(job["script"]), variables, fault)
+                self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+                self.assertEqual(self.log_lines(), self.INSTALLS + ([] if cached else
+                                 ["apt-get install -y --no-install-recommends git ca-certificates", *(x.format(self.folder) for x in self.BUILDS)]))
+                for file in (*job["artifacts"]["paths"], *job["artifacts"]["reports"].values()):
+                    self.assertTrue((self.folder / file).exists(), file)
+            shutil.rmtree(self.folder / "edgecase")
         self.assertEqual(len(json.loads((self.folder / "out/edgecase/gl-code-quality.json").read_text())), 1)
 
     def test_the_vulkan_loader_is_all_that_running_needs(self):
