@@ -117,6 +117,18 @@ class Gtest(ProgramTest):
         self.edgecase("run", "--renderer=reference", "-o", self.out, "-", stdin=ids, check=0)
         self.assertEqual(set(self.statuses()), {"fam/c1", "fam/c3", "fam/c7"})
 
+    def test_cases_of_ones_own(self):
+        mine = self.folder / "mine"
+        (mine / "fam").mkdir(parents=True)
+        for name in ("tie", "fam/c1", "fam/good"):
+            (mine / f"{name}.toml").write_text(CASE.format(n=0))
+        results = self.runner("flip-pixel@tie,flip-pixel@fam/c1", ("--suite", str(mine))).run()
+        self.assertEqual(results, {"edgecase.tie": "Fail", "edgecase.fam/c1": "Fail", "edgecase.fam/good": "Pass"})
+        ids = subprocess.run(["sed", "s/,.*//; s/^edgecase[.]//; y/@&~/:,./"], input=deqp_runner.failures_csv(results),
+                             capture_output=True, text=True, check=True).stdout
+        self.edgecase("run", "--renderer=reference", "-o", self.out, "--suite", mine, "-", stdin=ids, check=0)
+        self.assertEqual({c["id"]: c["file"] for c in self.results()["cases"]}, {x: str(mine / f"{x}.toml") for x in ("tie", "fam/c1")})
+
     def test_a_hang(self):
         """Our own limit ends it, long before the runner's."""
         results = self.runner("hang@fam/c8", ("--timeout", "3", "fam/c7", "fam/c8", "fam/c9")).run()

@@ -63,6 +63,30 @@ class CTest(RecipeTest):
                          {"one:fam/c1": "Passed", "one:fam/c2": "Failed", "one:sub.d/e/m:x=1/2": "Passed",
                           "one:sub.d/e/m:x=3/2": "Skipped"})
 
+    def own_cases(self):
+        """A folder of one's own in which a file has the name of one of the suite's."""
+        mine = self.folder / "my-cases"
+        for name, text in (("fam/c1", (self.suite / "fam/c1.toml").read_text()), ("tie", LEAVES)):
+            (mine / name).parent.mkdir(parents=True, exist_ok=True)
+            (mine / f"{name}.toml").write_text(text)
+
+    def test_cases_of_ones_own(self):
+        self.own_cases()
+        self.configure("edgecase_add_tests(OPTIONS --renderer reference SELECTORS fam/c1)",
+                       "edgecase_add_tests(SUITE my-cases PREFIX mine. EACH_CASE OPTIONS --renderer reference)")
+        self.assertEqual(self.run_tests("flip-pixel@tie:x=3/2", 8), {"edgecase.fam": "Passed", "mine.fam/c1": "Passed",
+                                                                     "mine.tie:x=1/2": "Passed", "mine.tie:x=3/2": "Failed"})
+        self.configure("edgecase_add_tests(SUITE my-cases SELECTORS fam/* OPTIONS --renderer reference)")
+        self.assertEqual(self.run_tests("", 0), {"edgecase.fam": "Passed"})
+        self.assertEqual(set(self.statuses(self.folder / "build/edgecase/fam")), {"fam/c1"})
+
+    def test_cases_outside_the_suite_are_one_sentence(self):
+        self.own_cases()
+        for name in ("my-cases/tie.toml", "my-cases"):
+            shutil.rmtree(self.folder / "my-cases/fam", ignore_errors=True)
+            with self.assertRaisesRegex(AssertionError, r"SELECTORS choose cases outside\s+the\s+suite;\s+make\s+a\s+call\s+of\s+its\s+own"):
+                self.configure(f"edgecase_add_tests(EACH_CASE SELECTORS {self.folder}/{name})")
+
     def test_a_selector_that_matches_nothing(self):
         with self.assertRaisesRegex(AssertionError, "no case matches nowhere"):
             self.configure("edgecase_add_tests(SELECTORS nowhere/**)")
@@ -85,12 +109,25 @@ class Lit(RecipeTest):
         report = re.search(r"report\s+(\S+/report\.html)", done)[1]
         self.assertTrue(pathlib.Path(report).is_file(), report)
 
+    def test_cases_of_ones_own(self):
+        mine = self.folder / "my-cases"
+        mine.mkdir()
+        (mine / "tie.toml").write_text(LEAVES)
+        done = self.call(sys.executable, LIT, "-v", SOURCE / "docs/ci/lit", fault="flip-pixel@tie:x=3/2", check=1, EDGECASE_PROGRAM=PROGRAM,
+                         EDGECASE_SUITE=str(mine), EDGECASE_OPTIONS="--renderer reference", TMPDIR=str(self.folder))
+        self.assertEqual(dict((name, word) for word, name in re.findall(r"^([A-Z]+): edgecase :: (\S+) \(", done, re.M)),
+                         {"tie:x=1/2": "PASS", "tie:x=3/2": "FAIL"})
+        self.refused(str(mine / "tie.toml"), "fatal: EDGECASE_SELECTORS choose cases outside the suite; run them alone, with EDGECASE_SUITE")
+
     def test_a_misspelt_selector_is_one_sentence(self):
-        variables = {"EDGECASE_PROGRAM": PROGRAM, "EDGECASE_SELECTORS": "nosuch/**", "TMPDIR": str(self.folder)}
+        self.refused("nosuch/**", r"fatal: edgecase: .*nosuch")
+
+    def refused(self, selectors, sentence):
+        variables = {"EDGECASE_PROGRAM": PROGRAM, "EDGECASE_SELECTORS": selectors, "TMPDIR": str(self.folder)}
         done = subprocess.run([sys.executable, LIT, "-v", str(SOURCE / "docs/ci/lit")], env=self.environment("") | variables,
                               cwd=self.folder, capture_output=True, text=True, timeout=200, check=False)
         self.assertEqual(done.returncode, 2)
-        self.assertRegex(done.stderr, r"fatal: edgecase: .*nosuch")
+        self.assertRegex(done.stderr, sentence)
         self.assertNotIn("Traceback", done.stderr)
 
 

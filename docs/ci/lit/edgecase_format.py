@@ -22,6 +22,11 @@ class Edgecase(lit.formats.TestFormat):
                                 text=True, check=False)
         if listed.returncode != 0:
             lit_config.fatal(listed.stderr.strip())
+        # What each test will be given has to be known there, too: a case of a file or folder outside the suite is not.
+        again = subprocess.run([PROGRAM, "list", "--ids", "-"], input=listed.stdout, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True, check=False)
+        if again.returncode != 0:
+            lit_config.fatal("EDGECASE_SELECTORS choose cases outside the suite; run them alone, with EDGECASE_SUITE and the folder that they are in")
         return [lit.Test.Test(suite, (case,), local_config) for case in listed.stdout.split()]
 
     def execute(self, test, lit_config):

@@ -6,6 +6,8 @@ EDGECASE_SELECTORS (words; without any, the whole suite) chooses cases, and EDGE
 'edgecase run':
 
     EDGECASE_SELECTORS='ties/**' EDGECASE_OPTIONS='--icd my_icd.json --profile vulkan' lit -sv /usr/share/edgecase/ci/lit
+
+Cases of your own are a suite of their own: EDGECASE_SUITE is their folder.
 """
 import os
 import sys
