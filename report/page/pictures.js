@@ -139,7 +139,7 @@ function drawMark(context, mark, x, y, w, h) {
   context.restore();
   // In a corner as soon as there is room: the sample is in the middle.
   if (size >= 34) {
-    const inset = Math.max(9, Math.min(16, size * .2));  // clear of the grid and of a thick edge, where there is room
+    const inset = Math.max(9, Math.min(16, size * .26));  // clear of the grid and of a thick edge, where there is room
     drawLetter(context, LETTERS[mark], x + inset, y + inset, 12);
     return false;
   }
