@@ -18,6 +18,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/fuzzing/start_cases.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -113,6 +114,9 @@ class FuzzCommand {
         if (auto read = read_earlier(); !read) {
             return report_stop(read.error());
         }
+        if (auto started = find_cases(); !started) {
+            return report_stop(started.error());
+        }
         run::LoopConfig config = loop_config(program_, options_.run);
         config.pictures = run::KeepPictures::none;
         config.profile = ledger_.profile;
@@ -137,7 +141,9 @@ class FuzzCommand {
         if (!options_.run.quiet) {
             // A hunt that goes on has no end of its own: --cases and --time are of each command.
             const bool is_endless = options_.cases == 0 && !(options_.seconds > 0);
-            say(fmt::format("fuzzing {} with seed {} at profile {}, into {}{}{}\n", ledger_.device,
+            say(fmt::format("fuzzing {} {}with seed {} at profile {}, into {}{}{}\n", ledger_.device,
+                            starts_ == 0 ? ""
+                                         : fmt::format("from {} on, ", plural(starts_, "case")),
                             ledger_.seed, cases::to_string(ledger_.profile), folder_.string(),
                             options_.run.resume.empty()
                                 ? ""
@@ -164,6 +170,7 @@ class FuzzCommand {
         } else {
             ledger_.tool_version = kVersion;
             ledger_.arguments = program_.arguments;
+            ledger_.selectors = options_.run.suite.selectors;
             ledger_.seed = options_.run.seed;
             ledger_.shard = options_.run.shard.index;
             ledger_.shards = options_.run.shard.count;
@@ -188,6 +195,28 @@ class FuzzCommand {
                 }
             }
         }
+        return std::monostate{};
+    }
+
+    // The cases that the hunt starts from, which must be those of before if it goes on.
+    OrStop<std::monostate> find_cases() {
+        SuiteOptions suite = options_.run.suite;
+        suite.selectors = ledger_.selectors;
+        suite.suite = ledger_.suite.empty() ? suite.suite : ledger_.suite;
+        OrStop<StartCases> found = start_cases(program_, suite, ledger_.seed);
+        if (!found) {
+            return tl::unexpected(found.error());
+        }
+        if (!options_.run.resume.empty() && found->checksum != ledger_.cases_checksum) {
+            return tl::unexpected(stop_with(
+                report::kExitInvalidFile,
+                "the hunt cannot go on: the cases that it starts from have changed, so its numbers "
+                "mean other ones; start a new hunt"));
+        }
+        ledger_.suite = found->suite;
+        ledger_.cases_checksum = found->checksum;
+        starts_ = found->count;
+        source_ = std::move(found->source);
         return std::monostate{};
     }
 
@@ -218,7 +247,7 @@ class FuzzCommand {
 
     int hunt(run::Session& session) {
         fuzz::HuntOptions hunt;
-        hunt.seed = ledger_.seed;
+        hunt.source = source_;
         hunt.first_case = ledger_.counts.next_case;
         hunt.most_cases = options_.cases == 0 ? 0 : options_.cases;
         hunt.shard = ledger_.shard;
@@ -335,6 +364,8 @@ class FuzzCommand {
         sum.unsupported += now.unsupported;
         sum.empty += now.empty;
         sum.unjudged += now.unjudged;
+        sum.refused += now.refused;
+        sum.missing += now.missing;
         sum.unrepeated += now.unrepeated;
         sum.reductions += now.reductions;
         sum.reduction_cases += now.reduction_cases;
@@ -366,6 +397,15 @@ class FuzzCommand {
         std::fflush(stdout);
     }
 
+    std::string variety(const fuzz::HuntCounts& c) const {
+        if (starts_ == 0) {
+            return fmt::format("{}, {} of features", plural(c.poses, "pose"),
+                               plural(c.pairs, "pair"));
+        }
+        return plural(c.refused, "change") + " that made no case" +
+               (c.missing == 0 ? "" : ", " + plural(c.missing, "number") + " without a case");
+    }
+
     int conclude_hunt(Hunt& hunter, Hunt::State state) {
         size_t fresh = 0, known = 0, met = 0;
         for (const Entry& entry : ledger_.entries) {
@@ -380,10 +420,10 @@ class FuzzCommand {
         const double drawing = std::max(c.drawing_seconds, 1e-9);
         say(fmt::format(
             "{} and {} judged in {:.1f} s ({:.0f} cases/s, {:.0f} triangles/s while drawing); {} "
-            "unsupported, {} with nothing to judge; {}, {} of features\n",
+            "unsupported, {} with nothing to judge; {}\n",
             plural(c.drawn, "case"), plural(c.triangles, "triangle"), ledger_.seconds,
             static_cast<double>(c.drawn) / drawing, static_cast<double>(c.triangles) / drawing,
-            c.unsupported, c.empty, plural(c.poses, "pose"), plural(c.pairs, "pair")));
+            c.unsupported, c.empty, variety(c)));
         say(fmt::format("{} failed, by {}{}; {} took {:.1f} s and {}\n", plural(c.failed, "case"),
                         plural(fresh, "cause"),
                         known > 0 ? fmt::format(" and {} of {} known ones", met, known) : "",
@@ -444,6 +484,8 @@ class FuzzCommand {
     const FuzzOptions& options_;
     Status status_;
     Ledger ledger_;
+    fuzz::MakeSource source_;
+    size_t starts_ = 0;  // cases that the hunt starts from; 0: it makes its own
     fs::path folder_;
     std::set<std::string> not_reduced_;  // files of cases as they were drawn
     std::string device_of_earlier_;
@@ -454,7 +496,20 @@ class FuzzCommand {
 
 int fuzz_command(const Program& program, const FuzzOptions& options) {
     if (options.printed) {
-        say(fuzz::text_of_case(options.run.seed, *options.printed));
+        const OrStop<StartCases> cases =
+            start_cases(program, options.run.suite, options.run.seed);
+        if (!cases) {
+            return report_stop(cases.error());
+        }
+        const std::string text = fuzz::text_of_case(*cases->source(), *options.printed);
+        if (text.empty()) {
+            return report_stop(stop_with(
+                report::kExitNothingSelected,
+                fmt::format("number {} of seed {} has no case: no change of those that were tried "
+                            "made one; print another number",
+                            *options.printed, options.run.seed)));
+        }
+        say(text);
         return report::kExitOk;
     }
     return FuzzCommand(program, options).run();

@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "cases/base/counted.hpp"
 #include "cases/write/to_toml.hpp"
 #include "cli/commands.hpp"
+#include "cli/fuzzing/captures_command.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
@@ -45,6 +48,46 @@ OrStop<run::Session> start_session(const Program& program, const RunOptions& opt
     return run::Session(config, std::move(first->client), first->device, signals);
 }
 
+// What draws cases: workers on a device, or a command.
+using Drawer = std::function<run::Session::Results(const std::vector<cases::Case>&)>;
+
+OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
+                           run::SignalFd& signals) {
+    if (options.captures_command.empty()) {
+        OrStop<run::Session> session = start_session(program, options.run, signals);
+        if (!session) {
+            return tl::unexpected(session.error());
+        }
+        return [all = std::make_shared<run::Session>(std::move(*session))](
+                   const std::vector<cases::Case>& cases) { return all->draw(cases); };
+    }
+    OrStop<CapturesCommand> command =
+        CapturesCommand::open({options.captures_command, options.run.device.timeout,
+                               options.subpixel_bits, options.run.profile},
+                              signals);
+    if (!command) {
+        return tl::unexpected(command.error());
+    }
+    return [all = std::make_shared<CapturesCommand>(std::move(*command))](
+               const std::vector<cases::Case>& cases) {
+        run::Session::Results results;
+        results.records = all->draw(cases);
+        results.interrupted = all->is_interrupted();
+        return results;
+    };
+}
+
+// A case without a finding: it is right, or nobody could draw it.
+Stop why_nothing(const cases::Case& c, const CaseRecord& record, bool is_command) {
+    const bool is_drawn = !is_command || (record.status != report::Status::not_run &&
+                                          record.status != report::Status::error);
+    return is_drawn ? stop_with(
+                          report::kExitAllSkipped,
+                          fmt::format("{} does not fail here ({}), so there is nothing to reduce",
+                                      c.id, report::to_string(record.status)))
+                    : stop_with(report::kExitInternal, "--captures-command: " + record.reason);
+}
+
 // "2 draws, 14 triangles, 5 attributes, 64 x 64 with 4 samples".
 std::string size_text(const cases::Case& c) {
     const cases::Target& t = c.target;
@@ -71,9 +114,9 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
             stop_with(report::kExitUsage, "the case cannot be reduced: " + text.error().message));
     }
     run::SignalFd signals;
-    OrStop<run::Session> session = start_session(program, options.run, signals);
-    if (!session) {
-        return report_stop(session.error());
+    OrStop<Drawer> drawer = make_drawer(program, options, signals);
+    if (!drawer) {
+        return report_stop(drawer.error());
     }
     size_t drawn = 0;
     std::string failure;
@@ -83,7 +126,7 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
             return std::vector<CaseRecord>(cases.size());
         }
         drawn += cases.size();
-        run::Session::Results results = session->draw(cases);
+        run::Session::Results results = (*drawer)(cases);
         is_interrupted = results.interrupted;
         failure = results.failure;
         return std::move(results.records);
@@ -94,13 +137,13 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
     if (!failure.empty()) {
         return report_stop(stop_with(report::kExitInternal, failure));
     }
-    if (!symptom) {
-        return report_stop(
-            stop_with(report::kExitAllSkipped,
-                      fmt::format("{} does not fail here ({}), so there is nothing to reduce",
-                                  loaded->id, report::to_string(record.status))));
+    if (!is_interrupted && !symptom) {
+        return report_stop(why_nothing(*loaded, record, !options.captures_command.empty()));
     }
-    const std::optional<fuzz::Entry> entry = fuzz::reduce_case(*text, *symptom, draw, kMostRounds);
+    std::optional<fuzz::Entry> entry;
+    if (symptom) {
+        entry = fuzz::reduce_case(*text, *symptom, draw, kMostRounds);
+    }
     if (is_interrupted) {
         complain("interrupted; nothing was written");
         return report::kExitInterrupted;

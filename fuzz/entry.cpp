@@ -121,14 +121,6 @@ Document described(Document document, const Symptom& symptom) {
 
 }  // namespace
 
-std::optional<cases::Case> load_one(const std::string& text, const std::string& id) {
-    auto loaded = cases::load_text(text, "fuzz", id);
-    if (!loaded || loaded->size() != 1) {
-        return std::nullopt;
-    }
-    return std::move(loaded->front());
-}
-
 std::set<std::string> essentials_of(const std::string& text) {
     const auto document = cases::read_toml(text, "fuzz");
     std::set<std::string> words = document ? essentials(*document) : std::set<std::string>();

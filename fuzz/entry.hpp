@@ -14,6 +14,7 @@
 
 #include "cases/model/case.hpp"
 #include "fuzz/cause.hpp"
+#include "fuzz/generate/source.hpp"
 
 namespace fuzz {
 
@@ -62,8 +63,5 @@ std::vector<Symptom> symptoms_of(const report::CaseRecord& record);
 
 // essentials() of a case file's text; nothing if it is no TOML.
 std::set<std::string> essentials_of(const std::string& text);
-
-// The case of a text with one leaf; nothing if it is no such text.
-std::optional<cases::Case> load_one(const std::string& text, const std::string& id);
 
 }  // namespace fuzz

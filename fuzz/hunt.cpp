@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "cases/model/triangle.hpp"
-#include "fuzz/generate/generator.hpp"
 
 namespace fuzz {
 
@@ -17,9 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-// Compiling a pose costs a driver as much as drawing this many cases.
-constexpr uint64_t kGeometries = 128;
-constexpr size_t kPosesOfChunk = 8;
+constexpr uint64_t kNumbersOfChunk = 1024;
 // So many failing cases with one symptom are reduced after each chunk: the others wait for a case
 // that shows the same, which a cause that is not rare soon has.
 constexpr size_t kReductionsOfSymptom = 2;
@@ -40,28 +37,9 @@ bool is_empty(const CaseRecord& record) {
 
 }  // namespace
 
-namespace {
-
-// The texts of a hunt's cases, in the order of their numbers, which must rise.
-std::vector<std::string> texts_of_cases(uint64_t seed, const std::vector<uint64_t>& numbers) {
-    std::vector<std::string> texts;
-    Poses poses(seed);
-    Pose pose;
-    uint64_t made = 0;
-    for (const uint64_t number : numbers) {
-        for (; made <= number / kGeometries; ++made) {
-            pose =
-                poses.next([&](const Pose& candidate) { return is_case(seed, candidate, made); });
-        }
-        texts.push_back(case_text(seed, pose, number / kGeometries, number));
-    }
-    return texts;
-}
-
-}  // namespace
-
-std::string text_of_case(uint64_t seed, uint64_t number) {
-    return texts_of_cases(seed, {number}).front();
+std::string text_of_case(Source& source, uint64_t number) {
+    source.enter(number / source.group_size());
+    return source.make(number).text;
 }
 
 Hunt::Hunt(HuntOptions options, run::Session& session, std::vector<Entry> known,
@@ -69,20 +47,16 @@ Hunt::Hunt(HuntOptions options, run::Session& session, std::vector<Entry> known,
     : options_(options),
       session_(session),
       on_progress_(std::move(on_progress)),
-      poses_(options.seed),
+      source_(options.source()),
       entries_(std::move(known)),
       is_behind_(!waiting.empty()) {
     counts_.next_case = options_.first_case;
     std::map<uint64_t, Waiting> by_number;
-    std::vector<uint64_t> numbers;
     for (const Waiting& one : waiting) {
         by_number[one.number] = one;
     }
-    for (const auto& [number, one] : by_number) {
-        numbers.push_back(number);
-    }
-    for (std::string& text : texts_of_cases(options_.seed, numbers)) {
-        Waiting& one = by_number.at(numbers[open_.size()]);
+    for (auto& [number, one] : by_number) {
+        std::string text = text_of_case(*source_, number);
         std::set<std::string> words = essentials_of(text);
         open_.push_back({std::move(one), std::move(text), std::move(words), {}});
     }
@@ -128,29 +102,32 @@ bool Hunt::is_over() const {
 Hunt::Chunk Hunt::make_chunk() {
     Chunk chunk;
     const uint64_t end = options_.most_cases == 0 ? UINT64_MAX : options_.most_cases;
-    size_t poses = 0;
-    while (poses < kPosesOfChunk && next_case_ < end) {
-        const uint64_t number = next_case_ / kGeometries;
-        const Pose pose = poses_.next(
-            [&](const Pose& candidate) { return is_case(options_.seed, candidate, number); });
+    const uint64_t size = source_->group_size();
+    uint64_t numbers = 0;
+    while (numbers < kNumbersOfChunk && next_case_ < end) {
+        const uint64_t group = next_case_ / size;
         const uint64_t begin = next_case_;
-        next_case_ = begin + kGeometries;
-        if (number % options_.shards != options_.shard - 1 || next_case_ <= options_.first_case) {
+        next_case_ = begin + size;
+        if (group % options_.shards != options_.shard - 1 || next_case_ <= options_.first_case) {
             continue;
         }
-        ++poses;
+        source_->enter(group);
+        numbers += size;
         for (uint64_t k = std::max(begin, options_.first_case); k < std::min(next_case_, end);
              ++k) {
-            std::string text = case_text(options_.seed, pose, number, k);
-            if (std::optional<cases::Case> c = load_one(text, std::to_string(k))) {
-                chunk.made.push_back({std::move(text), k});
-                chunk.cases.push_back(std::move(*c));
+            Source::Made made = source_->make(k);
+            chunk.refused += made.refused;
+            if (made.data) {
+                chunk.made.push_back({std::move(made.text), k});
+                chunk.cases.push_back(std::move(*made.data));
+            } else {
+                ++chunk.missing;
             }
         }
     }
     chunk.next_case = std::min(next_case_, end);
-    chunk.poses = poses_.count();
-    chunk.pairs = poses_.pairs();
+    chunk.poses = next_case_ / size;
+    chunk.pairs = source_->pairs();
     return chunk;
 }
 
@@ -238,6 +215,8 @@ void Hunt::draw_chunk(Chunk chunk) {
     counts_.next_case = chunk.next_case;
     counts_.poses = chunk.poses;
     counts_.pairs = chunk.pairs;
+    counts_.refused += chunk.refused;
+    counts_.missing += chunk.missing;
 }
 
 // Takes from an open case the symptoms that an entry explains.

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <functional>
 #include <future>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,17 +17,17 @@
 
 #include "cases/model/case.hpp"
 #include "fuzz/entry.hpp"
-#include "fuzz/generate/pose.hpp"
+#include "fuzz/generate/source.hpp"
 #include "run/session.hpp"
 
 namespace fuzz {
 
 struct HuntOptions {
-    uint64_t seed = 1;
+    MakeSource source;        // of the cases
     uint64_t first_case = 0;  // numbers below are not made: a hunt that goes on
     uint64_t most_cases = 0;  // numbers from here on are not made; 0: no end
     std::optional<std::chrono::steady_clock::time_point> deadline;
-    uint32_t shard = 1, shards = 1;  // poses are dealt out in turn
+    uint32_t shard = 1, shards = 1;  // groups of numbers are dealt out in turn
     size_t most_rounds = 400;        // of one reduction: batches of candidates
 };
 
@@ -44,13 +45,16 @@ struct HuntCounts {
     uint64_t empty = 0;       // no sample must be covered: nothing to judge
     uint64_t unjudged = 0;    // errors of the judge
     uint64_t unrepeated = 0;  // failures that did not come again when they were to be reduced
+    uint64_t refused = 0;     // changes of other cases that made no case
+    uint64_t missing = 0;     // numbers that have no case: none of some changes made one
     uint64_t poses = 0, pairs = 0;
     uint64_t reductions = 0, reduction_cases = 0;
     double drawing_seconds = 0, reducing_seconds = 0;
 };
 
-// The text of a hunt's case.
-std::string text_of_case(uint64_t seed, uint64_t number);
+// The text of the case with that number, which must not be of a group below one that was entered;
+// empty if it has none.
+std::string text_of_case(Source& source, uint64_t number);
 
 class Hunt {
   public:
@@ -88,7 +92,7 @@ class Hunt {
         std::vector<Made> made;
         std::vector<cases::Case> cases;  // of made, in order
         uint64_t next_case = 0;
-        size_t poses = 0, pairs = 0;
+        uint64_t poses = 0, pairs = 0, refused = 0, missing = 0;
     };
     // A failing case with symptoms that no entry explains.
     struct Open {
@@ -111,8 +115,8 @@ class Hunt {
     HuntOptions options_;
     run::Session& session_;
     OnProgress on_progress_;
-    Poses poses_;
-    uint64_t next_case_ = 0;  // of the generator, which is a chunk ahead
+    std::unique_ptr<Source> source_;
+    uint64_t next_case_ = 0;  // of the source, which is a chunk ahead
     std::future<Chunk> ahead_;
     std::vector<Entry> entries_;
     std::vector<Open> open_;

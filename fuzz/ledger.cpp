@@ -112,6 +112,9 @@ std::string to_json(const Ledger& ledger) {
                        {"device", cases::printable(ledger.device)},
                        {"driver", cases::printable(ledger.driver)},
                        {"arguments", ledger.arguments},
+                       {"selectors", ledger.selectors},
+                       {"suite", ledger.suite},
+                       {"cases_checksum", ledger.cases_checksum},
                        {"seed", ledger.seed},
                        {"shard", ledger.shard},
                        {"shards", ledger.shards},
@@ -126,6 +129,8 @@ std::string to_json(const Ledger& ledger) {
                        {"empty_cases", c.empty},
                        {"unjudged_cases", c.unjudged},
                        {"unrepeated_failures", c.unrepeated},
+                       {"refused_changes", c.refused},
+                       {"numbers_without_case", c.missing},
                        {"poses", c.poses},
                        {"pairs_of_features", c.pairs},
                        {"reductions", c.reductions},
@@ -155,6 +160,9 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         ledger.device = json.at("device");
         ledger.driver = json.at("driver");
         ledger.arguments = json.at("arguments").get<std::vector<std::string>>();
+        ledger.selectors = json.value("selectors", std::vector<std::string>());
+        ledger.suite = json.value("suite", "");
+        ledger.cases_checksum = json.value("cases_checksum", "");
         ledger.seed = json.at("seed");
         ledger.shard = json.at("shard");
         ledger.shards = json.at("shards");
@@ -174,6 +182,8 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         c.empty = json.at("empty_cases");
         c.unjudged = json.at("unjudged_cases");
         c.unrepeated = json.at("unrepeated_failures");
+        c.refused = json.value("refused_changes", uint64_t{0});
+        c.missing = json.value("numbers_without_case", uint64_t{0});
         c.poses = json.at("poses");
         c.pairs = json.at("pairs_of_features");
         c.reductions = json.at("reductions");
@@ -193,9 +203,17 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
     }
 }
 
+std::string command_of(const Ledger& ledger) {
+    std::string command = "edgecase fuzz";
+    for (const std::string& selector : ledger.selectors) {
+        command += " " + cases::printable(selector);
+    }
+    return command + fmt::format(" --seed {}", ledger.seed);
+}
+
 std::string found_text(const Entry& entry, const Ledger& ledger) {
-    std::string text = fmt::format("# {}, found by 'edgecase fuzz --seed {}' in case {} on {}.\n",
-                                   to_text(entry.symptom), ledger.seed, entry.first_case,
+    std::string text = fmt::format("# {}, found by '{}' in case {} on {}.\n",
+                                   to_text(entry.symptom), command_of(ledger), entry.first_case,
                                    cases::printable(ledger.device));
     if (!entry.shown_first.empty()) {
         text +=

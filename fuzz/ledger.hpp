@@ -18,6 +18,10 @@ namespace fuzz {
 struct Ledger {
     std::string tool_version, device, driver;
     std::vector<std::string> arguments;  // of the command that began
+    // Of the cases that the hunt starts from; empty if it makes its own.
+    std::vector<std::string> selectors;
+    std::string suite;           // the folder of the suite
+    std::string cases_checksum;  // with another one, seed and number mean other cases
     uint64_t seed = 1;
     uint32_t shard = 1, shards = 1;
     cases::Profile profile = cases::Profile::direct3d;
@@ -37,6 +41,8 @@ std::string to_json(const Ledger& ledger);
 // Reads FOLDER/fuzz.json and the files of its entries. Errors: what is missing or malformed.
 cases::Expected<Ledger> load_ledger(const std::filesystem::path& folder);
 
+// The command that drew it: "edgecase fuzz ties/** --seed 1".
+std::string command_of(const Ledger& ledger);
 // A found case's file: what was found, by which hunt, what it needs, then the case.
 std::string found_text(const Entry& entry, const Ledger& ledger);
 

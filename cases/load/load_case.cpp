@@ -10,6 +10,7 @@
 #include "cases/generate/vertices.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/load/matrix.hpp"
+#include "cases/load/open_values.hpp"
 #include "cases/load/parts.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
@@ -32,7 +33,7 @@ class CaseLoader {
         c_.where = {root_.where.file, 1, 1};
         context_.known_keys(root_, "a case file",
                             {"format", "description", "catches", "rules", "links", "leaves",
-                             "matrix", "target", "draw", "blit", "expect", "relations"});
+                             "matrix", "fuzz", "target", "draw", "blit", "expect", "relations"});
         if (const TomlValue* format = required("format", "write format = 1")) {
             const std::optional<Number> n = context_.number(*format, "format");
             if (n && n->value != 1) {
@@ -347,7 +348,15 @@ void check_expectation_keys(const TomlValue& root, const Matrix& matrix, Errors&
     }
 }
 
-void check_used(const Matrix& matrix, const std::set<std::string>& used, Errors& errors) {
+void check_used(const Matrix& matrix, const std::vector<OpenName>& open,
+                const std::set<std::string>& used, Errors& errors) {
+    for (const OpenName& name : open) {
+        if (used.count(name.key) == 0) {
+            errors.push_back({name.where, fmt::format("the [fuzz] key {} is used nowhere; use it or "
+                                                      "leave it out",
+                                                      name.key)});
+        }
+    }
     for (const Matrix::Axis& axis : matrix.axes) {
         if (used.count(axis.key) == 0) {
             errors.push_back(
@@ -356,6 +365,16 @@ void check_used(const Matrix& matrix, const std::set<std::string>& used, Errors&
                              axis.key)});
         }
     }
+}
+
+// What every command but one takes for what a file leaves open.
+std::string note_of(const std::vector<std::pair<std::string, TomlValue>>& nominal) {
+    std::string values;
+    for (const auto& [key, value] : nominal) {
+        values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", key,
+                              value_text(value).value_or("?"));
+    }
+    return "[fuzz] leaves open what 'edgecase fuzz FILE' varies; here " + values;
 }
 
 }  // namespace
@@ -369,6 +388,15 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
     const ExpectedAll<Matrix> matrix = read_matrix(root->find("matrix"), root->find("leaves"));
     if (!matrix) {
         return tl::unexpected(matrix.error());
+    }
+    const ExpectedAll<std::vector<OpenName>> open =
+        read_open(contents == Contents::all ? root->find("fuzz") : nullptr, *matrix);
+    if (!open) {
+        return tl::unexpected(open.error());
+    }
+    std::vector<std::pair<std::string, TomlValue>> nominal;
+    for (const OpenName& name : *open) {
+        nominal.emplace_back(name.key, name.value(name.nominal));
     }
     Errors errors;
     check_expectation_keys(*root, *matrix, errors);
@@ -392,6 +420,9 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
             c.parameters = std::move(texts);
             continue;
         }
+        for (const auto& [key, value] : nominal) {
+            parameters.emplace_back(key, &value);
+        }
         LeafContext context(std::move(parameters));
         Case c = CaseLoader(*root, context).load();
         if (context.errors().empty()) {
@@ -410,10 +441,13 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
         used.insert(context.used().begin(), context.used().end());
         c.id = id;
         c.parameters = std::move(texts);
+        if (!nominal.empty()) {
+            c.notes.push_back(note_of(nominal));
+        }
         cases.push_back(std::move(c));
     }
     if (errors.empty() && contents == Contents::all) {
-        check_used(*matrix, used, errors);
+        check_used(*matrix, *open, used, errors);
     }
     if (!errors.empty()) {
         return tl::unexpected(errors);

@@ -26,41 +26,12 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-bool is_name(const std::string& key) {
-    return !key.empty() && is_letter(key[0]) &&
-           std::all_of(key.begin(), key.end(), [](char c) { return is_letter(c) || is_digit(c); });
-}
-
 // What may stand in an id: no separators of ids, file names' odd characters or selectors' signs.
 bool is_plain(const std::string& word) {
     return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
         return is_letter(c) || is_digit(c) ||
                std::string_view("+-./^()").find(c) != std::string_view::npos;
     });
-}
-
-// The value as ids show it, or what is wrong with it.
-tl::expected<std::string, std::string> value_text(const TomlValue& value) {
-    switch (value.kind) {
-        case Kind::boolean:
-            return std::string(value.boolean ? "true" : "false");
-        case Kind::integer:
-            return std::to_string(value.integer);
-        case Kind::floating:
-            if (std::isfinite(value.floating)) {
-                return fmt::format("{}", value.floating);
-            }
-            return tl::unexpected(std::string("is not a finite number"));
-        case Kind::string:
-            if (is_plain(value.string)) {
-                return value.string;
-            }
-            return tl::unexpected(
-                std::string("has characters that an id cannot have; write letters, digits and "
-                            "+-./^()"));
-        default:
-            return tl::unexpected("is " + describe(value) + "; write a number or a string");
-    }
 }
 
 // `leaves = "pairs"`.
@@ -169,6 +140,34 @@ ExpectedAll<std::vector<size_t>> read_leaves(const TomlValue* key, const Matrix&
 }
 
 }  // namespace
+
+bool is_name(const std::string& key) {
+    return !key.empty() && is_letter(key[0]) &&
+           std::all_of(key.begin(), key.end(), [](char c) { return is_letter(c) || is_digit(c); });
+}
+
+tl::expected<std::string, std::string> value_text(const TomlValue& value) {
+    switch (value.kind) {
+        case Kind::boolean:
+            return std::string(value.boolean ? "true" : "false");
+        case Kind::integer:
+            return std::to_string(value.integer);
+        case Kind::floating:
+            if (std::isfinite(value.floating)) {
+                return fmt::format("{}", value.floating);
+            }
+            return tl::unexpected(std::string("is not a finite number"));
+        case Kind::string:
+            if (is_plain(value.string)) {
+                return value.string;
+            }
+            return tl::unexpected(
+                std::string("has characters that an id cannot have; write letters, digits and "
+                            "+-./^()"));
+        default:
+            return tl::unexpected("is " + describe(value) + "; write a number or a string");
+    }
+}
 
 std::string no_leaf(const std::string& name, const std::vector<std::string>& leaves,
                     const std::string& example) {

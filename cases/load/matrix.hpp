@@ -41,6 +41,11 @@ struct Matrix {
 // `table`.
 ExpectedAll<Matrix> read_matrix(const TomlValue* table, const TomlValue* leaves);
 
+// Whether a key of [matrix] or [fuzz] is a name that expressions can use.
+bool is_name(const std::string& key);
+// A value of such a key as ids show it, or what is wrong with it.
+tl::expected<std::string, std::string> value_text(const TomlValue& value);
+
 // What is said of a name that no leaf has.
 std::string no_leaf(const std::string& name, const std::vector<std::string>& leaves,
                     const std::string& example);

@@ -17,8 +17,12 @@ inline constexpr Examples kExamples[] = {
      "  edgecase gtest --gtest_filter='edgecase.ties/apex-up'\n"},
     {"fuzz",
      "  edgecase fuzz --cases 1024 -o out/hunt         what does my driver get wrong\n"
-     "  edgecase fuzz --cases 1024 --known out/hunt --seed 2\n"},
-    {"reduce", "  edgecase reduce multisample/scissor-tiled:samples=4 -o smaller.toml\n"},
+     "  edgecase fuzz --cases 1024 --known out/hunt --seed 2\n"
+     "  edgecase fuzz 'depth-bias/**' --cases 1024 --known out/hunt   cases, changed a little\n"
+     "  edgecase fuzz my-case.toml --cases 1024 --known out/hunt      or what its [fuzz] says\n"},
+    {"reduce",
+     "  edgecase reduce multisample/scissor-tiled:samples=4 -o smaller.toml\n"
+     "  edgecase reduce ties/apex-up --captures-command 'my-renderer %in %out'\n"},
     {"diagnose",
      "  edgecase diagnose out/mine                what does the device do wrong\n"
      "  edgecase diagnose out/mine --known        what do its expected failures come of\n"},

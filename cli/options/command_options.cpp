@@ -193,6 +193,10 @@ bool parse_duration(const std::string& text, double& seconds) {
 void define_fuzz(CLI::App& app, FuzzOptions& o) {
     CLI::App* fuzz =
         app.add_subcommand("fuzz", "draw cases that nobody wrote, and reduce what fails");
+    fuzz->add_option("SELECTOR", o.run.suite.selectors,
+                     "cases to change a few things of; a file with [fuzz] is varied as that says")
+        ->type_name("");
+    add_suite_folder(fuzz, o.run.suite);
     add_value(fuzz, "--seed", o.run.seed, "a seed and a number make a case [1]", "N", "Selection")
         ->check(in_range<uint64_t>(0, UINT64_MAX));
     add_value(fuzz, "--cases", o.cases, "the cases with numbers below N [no end]", "N", "Selection")
@@ -208,7 +212,7 @@ void define_fuzz(CLI::App& app, FuzzOptions& o) {
     add_value(fuzz, "--print", o.printed, "print the case with this number, draw nothing", "N",
               "Selection")
         ->check(in_range<uint64_t>(0, uint64_t{1} << 24));
-    add_shard(fuzz, o.run.shard, "every N-th pose from the I-th on; 1 <= I <= N");
+    add_shard(fuzz, o.run.shard, "every N-th pose (or group of changed cases) from the I-th on; 1 <= I <= N");
     add_device(fuzz, o.run.device);
     fuzz->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")
         ->group("Device");
@@ -235,7 +239,12 @@ void define_reduce(CLI::App& app, ReduceOptions& o) {
     add_device(reduce, o.run.device);
     reduce->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")
         ->group("Device");
+    add_value(reduce, "--captures-command", o.captures_command,
+              "a renderer without Vulkan: words of a shell that draw the exported cases of the "
+              "folder %in into the folder %out",
+              "COMMAND", "Device");
     add_profile(reduce, o.run.profile);
+    add_subpixel_bits(reduce, o.subpixel_bits);
     add_value(reduce, "-o,--output", o.run.output, "the case file to write [standard output]",
               "FILE", "Output");
     reduce->add_flag("-q,--quiet", o.run.quiet, "say nothing else")->group("Output");

@@ -157,12 +157,48 @@ OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o,
 // device of that name draws and what else is known may be said anew.
 OrStop<std::monostate> check_fuzz(const CLI::App& fuzz, const FuzzOptions& o,
                                   const std::vector<std::string>& words) {
-    for (const char* name : {"--seed", "--shard", "--profile", "--output", "--print"}) {
+    const auto refused = [](const std::string& what) {
+        return tl::unexpected(usage_error(
+            "--resume goes on with the cases, seed, shard, profile and folder of the hunt, so " +
+                what + (what.starts_with("no ") ? " can" : " cannot") + " be given; leave it out or start a new hunt",
+            "fuzz"));
+    };
+    for (const char* name : {"--seed", "--shard", "--profile", "--output", "--print", "--suite"}) {
         if (!o.run.resume.empty() && is_given(fuzz, name, words)) {
-            return tl::unexpected(usage_error(
-                "--resume goes on with the seed, shard, profile and folder of the hunt, so " +
-                    std::string(name) + " cannot be given; leave it out or start a new hunt",
-                "fuzz"));
+            return refused(name);
+        }
+    }
+    if (!o.run.resume.empty() && !o.run.suite.selectors.empty()) {
+        return refused("no selector");
+    }
+    return std::monostate{};
+}
+
+// A command takes the place of a device.
+OrStop<std::monostate> check_reduce(const CLI::App& reduce, const ReduceOptions& o,
+                                    const std::vector<std::string>& words) {
+    const auto refused = [](const std::string& sentence) {
+        return tl::unexpected(usage_error(sentence, "reduce"));
+    };
+    if (!is_given(reduce, "--captures-command", words)) {
+        return is_given(reduce, "--subpixel-bits", words)
+                   ? refused("--subpixel-bits is for a renderer that --captures-command starts; "
+                             "devices tell it themselves")
+                   : OrStop<std::monostate>();
+    }
+    for (const char* name : {"--device", "--icd", "--renderer", "--validation"}) {
+        if (is_given(reduce, name, words)) {
+            return refused(std::string(name) +
+                           " chooses a device, and --captures-command draws without one; leave one "
+                           "of them out");
+        }
+    }
+    for (const char* word : {"%in", "%out"}) {
+        if (o.captures_command.find(word) == std::string::npos) {
+            return refused(std::string("--captures-command has no ") + word +
+                           ", the folder of the " +
+                           (word[1] == 'i' ? "exported cases" : "captures") +
+                           "; write for example 'my_renderer %in %out'");
         }
     }
     return std::monostate{};
@@ -300,6 +336,8 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
         checked = check_run(*command, all.run, words);
     } else if (checked && first == "fuzz") {
         checked = check_fuzz(*command, all.fuzz, words);
+    } else if (checked && first == "reduce") {
+        checked = check_reduce(*command, all.reduce, words);
     } else if (checked && first == "expect") {
         checked = check_expect(*command, all.expect, words);
     }

@@ -1,17 +1,22 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
 """edgecase fuzz: hunts on lavapipe, whose defects and planted faults are found without a case of the suite."""
+import fractions
 import json
 import os
+import pathlib
+import re
 import signal
 import subprocess
+import sys
+import tempfile
 import time
 import tomllib
 import unittest
 
 import jsonschema
 
-from support import PROGRAM, SOURCE, ProgramTest
+from support import CASE, PROGRAM, SOURCE, ProgramTest
 
 
 class FuzzTest(ProgramTest):
@@ -189,7 +194,10 @@ class WrongInput(FuzzTest):
         self.refused(["--time", "0"], "--time: '0' is not a value")
         self.refused(["--cases", "0"], "--cases")
         self.refused(["--shard", "3/2"], "--shard")
-        self.refused(["ties/**"], "ties/**")
+        self.refused(["nonsense/**"], "no case matches nonsense/**", 4)
+        self.refused(["fam/c0", "fam/c00"], "no case matches fam/c00", 4)
+        self.refused(["!**"], "", 4)
+        self.refused(["-"], "'-' does not go with fuzz; name the cases")
         self.refused(["--renderer", "referenc"], "referenc")
         self.refused(["--icd", "/nowhere.json"], "/nowhere.json", 5)
 
@@ -197,6 +205,7 @@ class WrongInput(FuzzTest):
         for words in (["--seed", "3"], ["--shard", "1/2"], ["--profile", "vulkan"], ["-o", "other"], ["--print", "7"]):
             name = {"-o": "--output"}.get(words[0], words[0])
             self.refused(["--resume", "hunt", *words], f"so {name} cannot be given; leave it out or start a new hunt")
+        self.refused(["--resume", "hunt", "fam/**"], "so no selector can be given; leave it out or start a new hunt")
 
     def test_folders(self):
         self.refused(["--resume", "nothing"], "'nothing' is not the folder of a hunt", 3)
@@ -220,6 +229,108 @@ class WrongInput(FuzzTest):
         finally:
             program.kill()
             program.wait()
+
+
+OPEN = """format = 1
+description = "A triangle that is open in three ways."
+rules = ["cover.inside"]
+[fuzz]
+x    = { from = 0, to = 4, step = "1/256" }
+y    = { from = -2, to = 2, nominal = 1 }
+face = ["none", "back"]
+[target]
+size = [8, 8]
+[[draw]]
+cull = "face"
+vertices = [["2+x", 2], [2, "6+y"], [7, 7]]
+"""
+
+
+class Starts(FuzzTest):
+    """Hunts that start from cases: of the suite, or of one's own."""
+
+    def numbers(self, ledger):
+        return sum(ledger[key] for key in ("judged_cases", "unsupported_cases", "empty_cases", "numbers_without_case"))
+
+    def test_cases_of_the_suite_are_changed(self):
+        """lavapipe's scissor that ends beyond 65535 is a change away from triangles without one."""
+        self.suite = SOURCE / "cases" / "suite"
+        done = self.fuzz("ties/**", "--cases=6144", check=1)
+        ledger, found = self.ledger(), self.found()
+        jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
+        self.assertRegex(done.stdout, r"\Afuzzing .* from \d+ cases on, with seed 1 at profile direct3d")
+        self.assertRegex(done.stdout, r"; \d+ changes that made no case\n")
+        self.assertEqual((ledger["selectors"], ledger["unjudged_cases"]), (["ties/**"], 0))
+        self.assertEqual(self.numbers(ledger), 6144)
+        self.assertGreater(ledger["refused_changes"], 0)
+        self.assertEqual(self.accounted(ledger), ledger["failed_cases"])
+        self.assertTrue([c for c in ledger["causes"] if c["essentials"] == ["draw.scissor"]], done.stdout)
+        for name, text in found.items():
+            self.assertRegex(text, r"\A# .*, found by 'edgecase fuzz ties/\*\* --seed 1' in case \d+ on ", name)
+        # The case before its reduction says what it was and what was changed; it fails, and its start passes.
+        number = next(c["first_case"] for c in ledger["causes"])
+        text = self.edgecase("fuzz", "ties/**", f"--print={number}", check=0).stdout
+        start = tomllib.loads(text)["description"]
+        self.assertRegex(start, r"\AMade by edgecase fuzz of ties/\S+: \S.*\.\Z")
+        (self.folder / "printed.toml").write_text(text)
+        self.edgecase("run", "printed.toml", "--no-expect", "-q", "-o", "run", check=1)
+        self.edgecase("run", start.removeprefix("Made by edgecase fuzz of ").split(": ")[0], "-q", "-o", "run2", check=0)
+
+    def test_a_file_of_ones_own(self):
+        (self.folder / "own.toml").write_text(CASE.format(n=77))
+        self.fuzz("own.toml", "--cases=512", fault="flip-pixel@*", check=1)
+        self.assertEqual(self.numbers(self.ledger()), 512)
+        self.assertIn("of own: ", self.edgecase("fuzz", "own.toml", "--print=5", check=0).stdout)
+
+    def test_what_a_file_leaves_open_is_varied(self):
+        (self.folder / "open.toml").write_text(OPEN)
+        self.fuzz("open.toml", "--cases=256", check=0)
+        self.assertEqual(self.ledger()["judged_cases"], 256)
+        seen = set()
+        for number in range(24):
+            draw = tomllib.loads(self.edgecase("fuzz", "open.toml", f"--print={number}", check=0).stdout)["draw"][0]
+            (x, top), (left, y), corner = draw["vertices"]
+            self.assertEqual((top, left, corner), (2, 2, [7, 7]))
+            x = sum(fractions.Fraction(part) for part in re.findall(r"[+-]?[^+-]+", str(x)))
+            self.assertTrue(2 <= x <= 6 and (x * 256).denominator == 1 and y in (4, 5, 6, 7, 8), draw)
+            seen.add((x, y, draw.get("cull", "none")))
+        self.assertGreater(len(seen), 20)
+        # A fault on some of it only is found, and ordinary commands draw the nominal case.
+        self.fuzz("open.toml", "--cases=64", fault="flip-pixel@7", out=self.folder / "faulty", check=1)
+        self.assertEqual(self.ledger("faulty")["unrepeated_failures"], 1)
+        self.edgecase("lint", "open.toml", check=0)
+        self.edgecase("run", "open.toml", "-q", "-o", "run", check=0)
+        self.assertIn("here x = 0, y = 1, face = none", self.edgecase("list", "--long", "open.toml").stdout)
+        (self.folder / "wrong.toml").write_text(OPEN.replace("from = 0, to = 4", "from = 4, to = 0"))
+        for words in (["fuzz", "wrong.toml"], ["lint", "wrong.toml"], ["run", "wrong.toml"]):
+            self.assertIn("wrong.toml:5:17: error: the range of x goes from 4 to 0; exchange from and to",
+                          self.edgecase(*words, check=3).stderr)
+
+    def test_shards_and_going_on(self):
+        self.fuzz("fam/**", "--cases=768")
+        whole, parts = self.ledger(), []
+        for part in "123":
+            self.fuzz("fam/**", "--cases=768", f"--shard={part}/3", out=self.folder / part)
+            parts.append(self.numbers(self.ledger(part)))
+        self.assertEqual(sum(parts), self.numbers(whole))
+        self.assertEqual(max(parts), 256)
+        self.fuzz("fam/**", "--cases=300", out=self.folder / "first")
+        self.edgecase("fuzz", "--resume", "first", "--cases=768")
+        for key in ("judged_cases", "triangles", "numbers_without_case", "refused_changes"):
+            self.assertEqual(self.ledger("first")[key], whole[key], key)
+        # With other cases the numbers mean other ones.
+        self.write_case("fam/c0", CASE.format(n=0).replace("[1,1]", "[2,1]"))
+        self.assertIn("the cases that it starts from have changed", self.edgecase("fuzz", "--resume", "first", check=3).stderr)
+
+    def test_what_waits_is_reduced_later(self):
+        """Cases that wait for their reduction are made again from their numbers."""
+        self.fuzz("fam/**", "--time=0.001s", fault="flip-pixel@*", check=1)
+        before = self.ledger()
+        self.assertGreater(len(before["waiting"]), 0)
+        self.edgecase("fuzz", "--resume", "hunt", "--cases", str(before["next_case"]), fault="flip-pixel@*", check=1)
+        after = self.ledger()
+        self.assertEqual(after["waiting"], [])
+        self.assertEqual(self.accounted(after), before["failed_cases"])
 
 
 class Reduce(ProgramTest):
@@ -249,6 +360,59 @@ class Reduce(ProgramTest):
         done = self.reduce("fam/c3", fault="segv@*,segv@*/*", check=0)
         self.assertTrue(done.stdout.startswith("# crash by SIGSEGV, reduced from fam/c3.\n"), done.stdout)
         self.assertEqual(done.stdout.count("[[draw]]"), 1)
+
+    def command(self, *words):
+        """A command line that draws with the renderer of docs/examples."""
+        return " ".join([sys.executable, str(SOURCE / "docs/examples/rasterize.py"), "%in", "%out", *words])
+
+    def test_a_renderer_without_vulkan(self):
+        """docs/examples' renderer with its planted mistake: samples on edges go to the bottom and right ones."""
+        done = self.reduce("fam/c3", "--captures-command", self.command("--reverse-ties"), "-o", "smaller.toml", check=0)
+        self.assertRegex(done.stderr, r"\Afrom 1 draw, 2 triangles, 8 x 8 to 1 draw, 2 triangles, [1-7] x [1-7], after drawing \d+ cases\n\Z")
+        text = (self.folder / "smaller.toml").read_text()
+        self.assertTrue(text.startswith("# order of tie.top-left [direct3d], reduced from fam/c3.\n"), text)
+        # What is left fails with the mistake and passes without it, by the way that docs/other-renderers.md tells.
+        for words, code in ((["--reverse-ties"], 1), ([], 0)):
+            self.edgecase("export", "smaller.toml", "-o", "cases2")
+            subprocess.run(self.command(*words).replace("%in", "cases2").replace("%out", "captures"), shell=True, check=True,
+                           cwd=self.folder)
+            self.edgecase("diff", "--captures", "captures", "--exported", "cases2", "-o", self.folder / f"d{code}", check=code)
+        self.assertIn("fam/c3 does not fail here (pass)", self.reduce("fam/c3", "--captures-command", self.command(), check=6).stderr)
+
+    def test_a_renderer_that_dies(self):
+        """Candidates that a command cannot draw do not end the reduction; its death can be what is reduced."""
+        script = self.folder / "renderer.sh"
+        picky = "grep -rqE '\"width\": ?[1-4],' \"$1\" && exit 3\n"
+        script.write_text("#!/bin/sh\n" + picky + self.command("--reverse-ties").replace("%in", '"$1"').replace("%out", '"$2"') + "\n")
+        script.chmod(0o755)
+        done = self.reduce("fam/c3", "--captures-command", "./renderer.sh %in %out", check=0)
+        self.assertIn("# order of tie.top-left [direct3d]", done.stdout)
+        self.assertRegex(done.stdout, r"\nsize = \[[5-8], \d\]\n")
+        script.write_text("#!/bin/sh\nkill -SEGV $$\n")
+        done = self.reduce("fam/c3", "--captures-command", "./renderer.sh %in %out", check=0)
+        self.assertTrue(done.stdout.startswith("# crash by SIGSEGV, reduced from fam/c3.\n"), done.stdout)
+        script.write_text("#!/bin/sh\nexec sleep 60\n")
+        done = self.reduce("fam/c3", "--captures-command", "./renderer.sh %in %out", "--timeout=0.2", "-q", check=0)
+        self.assertTrue(done.stdout.startswith("# timeout, reduced from fam/c3.\n"), done.stdout)
+        self.assert_no_orphans()
+        self.assertEqual(list(pathlib.Path(tempfile.gettempdir()).glob("edgecase-reduce-*")), [])
+
+    def test_wrong_commands(self):
+        def refused(command, sentence, code=7, *words):
+            done = self.reduce("fam/c3", "--captures-command", command, *words, check=code)
+            self.assertIn(sentence, done.stderr)
+            self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1), done.stderr)
+        refused("no_such_renderer %in %out", "the shell could not start the command 'no_such_renderer %in %out' (exit code 127): it said ")
+        refused("false %in %out", "the command ended with exit code 1: it said nothing")
+        refused("echo first; echo 'no such mode'; exit 3; %in %out", "the command ended with exit code 3: it said 'no such mode'")
+        refused("true %in %out", "the command ended well and delivered no plane of the case in '%out/fam/c3'")
+        refused("mkdir -p %out/fam/c3; echo x > %out/fam/c3/hits.u8; : %in", "hits.u8")
+        refused("mkdir -p %out/fam/c3; echo lazy > %out/fam/c3/unsupported.txt; : %in", "does not fail here (unsupported)", 6)
+        refused("my_renderer %out", "--captures-command has no %in, the folder of the exported cases", 2)
+        refused("my_renderer %in", "--captures-command has no %out, the folder of the captures", 2)
+        refused("my_renderer %in %out", "--renderer chooses a device, and --captures-command draws without one", 2, "--renderer=reference")
+        self.assertIn("--subpixel-bits is for a renderer that --captures-command starts",
+                      self.reduce("fam/c3", "--subpixel-bits=4", check=2).stderr)
 
     def test_wrong_input(self):
         self.assertIn("fam/c3 does not fail here (pass), so there is nothing to reduce", self.reduce("fam/c3", check=6).stderr)

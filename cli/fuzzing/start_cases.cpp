@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/fuzzing/start_cases.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "cases/base/checksum.hpp"
+#include "cases/toml/toml_reader.hpp"
+#include "fuzz/change/changed_source.hpp"
+
+namespace cli {
+
+namespace {
+
+struct File {
+    uint64_t hash = 0;
+    std::shared_ptr<const fuzz::Document> open;  // the whole of it, if it has a table [fuzz]
+};
+
+File read(const std::string& name) {
+    std::ifstream in(name, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    File file{cases::stable_hash(text, 0), {}};
+    // Only few files have one, and parsing all of them takes time.
+    if (text.find("fuzz") != std::string::npos) {
+        if (auto document = cases::read_toml(text, name); document && document->find("fuzz")) {
+            file.open = std::make_shared<const fuzz::Document>(std::move(*document));
+        }
+    }
+    return file;
+}
+
+}  // namespace
+
+OrStop<StartCases> start_cases(const Program& program, const SuiteOptions& options, uint64_t seed) {
+    StartCases out;
+    if (options.selectors.empty()) {
+        out.source = [seed] { return std::make_unique<fuzz::GeneratedSource>(seed); };
+        return out;
+    }
+    if (std::find(options.selectors.begin(), options.selectors.end(), "-") !=
+        options.selectors.end()) {
+        // A hunt that goes on could not read them again.
+        return tl::unexpected(stop_with(
+            report::kExitUsage,
+            "'-' does not go with fuzz; name the cases, or a file or folder of your own"));
+    }
+    OrStop<LoadedSuite> suite = load_selected(program, options);
+    if (!suite) {
+        return tl::unexpected(suite.error());
+    }
+    if (suite->selected.empty()) {
+        return tl::unexpected(Stop{report::kExitNothingSelected, {"the selection is empty"}});
+    }
+    std::map<std::string, File> files;
+    std::vector<fuzz::Start> starts;
+    uint64_t hash = 0;
+    for (const size_t k : suite->selected) {
+        cases::Case& c = suite->cases[k];
+        const auto [file, is_fresh] = files.try_emplace(c.where.file);
+        if (is_fresh) {
+            file->second = read(c.where.file);
+        }
+        hash = cases::stable_hash(c.id + cases::hex(file->second.hash), hash);
+        starts.push_back({std::move(c), file->second.open});
+    }
+    std::error_code none;
+    out.suite = std::filesystem::absolute(suite->root, none).lexically_normal().string();
+    out.checksum = cases::hex(hash);
+    out.count = starts.size();
+    out.source = [seed, all = std::make_shared<const std::vector<fuzz::Start>>(std::move(starts))] {
+        return std::make_unique<fuzz::ChangedSource>(seed, all);
+    };
+    return out;
+}
+
+}  // namespace cli

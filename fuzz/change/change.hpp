@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One change of a case, drawn by dice. Whether the result is a case is for the loader to say.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "fuzz/document/document.hpp"
+#include "fuzz/generate/dice.hpp"
+
+namespace fuzz {
+
+// What was changed, in words for people. Empty: nothing, as the document has no such part. `other`
+// is another case, of which draws and triangles are borrowed; it may be nullptr.
+using Words = std::string;
+
+// What costs a driver a pipeline or an attachment: keys of the target and of draws, attributes,
+// distances, relations, draws.
+Words change_state(Document& document, Dice& dice, const Document* other);
+// What does not: vertices and indices, viewports, scissors, numbers of any key.
+Words change_geometry(Document& document, Dice& dice, const Document* other);
+
+// --- what the parts share ---
+// A draw of the document, or nullptr; its words are "draw 2 ", or nothing if it is the only one.
+Document* any_draw(Document& document, Dice& dice, Words& words);
+// Another number, near to a value or simpler.
+double other_number(double value, Dice& dice);
+// Replaces a number by another one; false if it is none. `is_binary32`: it has to be one.
+bool change_number(Document& value, Dice& dice, bool is_binary32);
+// Calls visit(array) for each array of the draw that has one entry a vertex, but for the vertices.
+template <class Visit>
+void for_each_values(Document& draw, Visit&& visit) {
+    for (const char* key : {"attribute", "clip_distance", "cull_distance"}) {
+        if (Document* list = find(draw, key)) {
+            for (Document& entry : list->array) {
+                if (Document* values = find(entry, "values")) {
+                    visit(*values);
+                }
+            }
+        }
+    }
+}
+// Appends the vertices of one draw to those of another; false if they do not go together.
+bool append_vertices(Document& draw, const Document& from);
+
+}  // namespace fuzz

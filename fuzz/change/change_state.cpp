@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "cases/model/words.hpp"
+#include "fuzz/change/change.hpp"
+
+namespace fuzz {
+
+namespace {
+
+using Kind = Document::Kind;
+using WordSpan = std::span<const std::string_view>;
+
+// A key whose value is one of some words, and the table that it stands in: "target", "color" (of
+// the target), "draw", and of a draw "depth", "draw color" and "attribute".
+struct WordKey {
+    std::string_view table, key;
+    WordSpan words;
+};
+
+constexpr std::array<std::string_view, 3> kAttachments = {"all", "color", "color+depth"};
+constexpr std::array<std::string_view, 8> kBlends = {
+    "none", "alpha", "premultiplied", "additive", "multiply", "reverse-subtract", "min", "max"};
+constexpr std::array<std::string_view, 6> kMasks = {"rgba", "rgb", "r", "g", "ba", "a"};
+constexpr std::array<std::string_view, 2> kFlags = {"false", "true"};
+
+constexpr std::array<WordKey, 22> kWordKeys = {{
+    {"target", "depth", cases::kWords<cases::DepthFormat>},
+    {"target", "resolve", cases::kWords<cases::Resolve>},
+    {"target", "depth_resolve", cases::kWords<cases::Resolve>},
+    {"target", "attachments", kAttachments},
+    {"target", "stencil", kFlags},
+    {"color", "format", cases::kWords<cases::ColorFormat>},
+    {"color", "format", cases::kWords<cases::ColorFormat>},
+    {"draw", "topology", cases::kWords<cases::Topology>},
+    {"draw", "cull", cases::kWords<cases::CullMode>},
+    {"draw", "front_face", cases::kWords<cases::FrontFace>},
+    {"draw", "provoking", cases::kWords<cases::ProvokingVertex>},
+    {"draw", "depth_volume", cases::kVolumeWords},
+    {"depth", "compare", cases::kWords<cases::CompareOp>},
+    {"depth", "write", kFlags},
+    {"depth", "clamp", kFlags},
+    {"depth", "clip", kFlags},
+    {"draw color", "blend", kBlends},
+    {"draw color", "write_mask", kMasks},
+    {"attribute", "interpolation", cases::kWords<cases::Interpolation>},
+    {"attribute", "auxiliary", cases::kWords<cases::Auxiliary>},
+    {"attribute", "probe", cases::kWords<cases::Probe>},
+    {"attribute", "source", cases::kWords<cases::Source>},
+}};
+
+std::string_view any_of(WordSpan words, Dice& dice) {
+    return words[dice.below(words.size())];
+}
+
+// The table of that name, made where it may be missing; nullptr if there is none. Its words end in
+// a blank, if there are any.
+Document* table_of(Document& document, std::string_view name, Dice& dice, Words& words) {
+    Document* target = find(document, "target");
+    if (name == "target" || name == "color") {
+        words = fmt::format("{} ", name == "color" ? "target colour" : "target");
+        return target == nullptr || name == "target" ? target : find(*target, "color");
+    }
+    Document* draw = any_draw(document, dice, words);
+    if (draw == nullptr || name == "draw") {
+        return draw;
+    }
+    if (name == "depth") {
+        words += "depth ";
+        Document* depth = find(*draw, "depth");
+        return depth != nullptr ? depth : &set(*draw, "depth", table());
+    }
+    if (name == "draw color") {
+        words += "colour ";
+        return find(*draw, "color");
+    }
+    Document* attributes = find(*draw, "attribute");
+    if (attributes == nullptr || attributes->array.empty()) {
+        return nullptr;
+    }
+    const size_t k = dice.below(attributes->array.size());
+    words += fmt::format("attribute {} ", k);
+    return &attributes->array[k];
+}
+
+Words change_word(Document& document, Dice& dice) {
+    const WordKey& key = dice.of(kWordKeys);
+    Words words;
+    Document* in = table_of(document, key.table, dice, words);
+    if (in == nullptr) {
+        return {};
+    }
+    const std::string_view word = any_of(key.words, dice);
+    const Document* now = find(*in, key.key);
+    const bool is_flag = key.words.data() == kFlags.data();
+    Document value = is_flag ? boolean(word == "true") : text(std::string(word));
+    if (now != nullptr && is_same(*now, value)) {
+        return {};
+    }
+    // What a value needs beside it, and what means nothing without it.
+    if (key.key == "probe") {
+        for (const char* other : {"sample", "offset", "texture"}) {
+            erase(*in, other);
+        }
+        if (word == "at-sample") {
+            set(*in, "sample", number(static_cast<double>(dice.below(4))));
+        } else if (word == "at-offset") {
+            set(*in, "offset", numbers({static_cast<double>(dice.between(-8, 7)) / 16,
+                                        static_cast<double>(dice.between(-8, 7)) / 16}));
+        } else if (word == "query-lod") {
+            set(*in, "texture", numbers({static_cast<double>(1U << dice.below(9)),
+                                         static_cast<double>(1U << dice.below(9))}));
+        }
+    }
+    if (key.key == "source" && word != "vertex") {
+        for (const char* other : {"values", "constant", "plane", "from", "seed", "components"}) {
+            erase(*in, other);
+        }
+    }
+    if (key.key == "blend") {
+        erase(*in, "constants");
+    }
+    set(*in, key.key, std::move(value));
+    return fmt::format("{}{} = {}", words, key.key, word);
+}
+
+// Keys whose values are numbers.
+Words change_count(Document& document, Dice& dice) {
+    static constexpr std::array<double, 5> kSamples = {1, 2, 4, 8, 16};
+    static constexpr std::array<double, 5> kDepths = {0, 0.125, 0.375, 0.5, 1};
+    static constexpr std::array<double, 4> kShares = {0, 0.25, 0.5, 1};
+    Document* target = find(document, "target");
+    if (target == nullptr) {
+        return {};
+    }
+    Words words = "target ";
+    Document* in = target;
+    std::string key;
+    Document value;
+    const uint64_t kind = dice.below(10);
+    if (kind < 3) {
+        key = "samples";
+        value = number(dice.of(kSamples));
+        erase(*target, "sample_locations");
+    } else if (kind == 3) {
+        key = "layers";
+        value = number(static_cast<double>(dice.between(1, 3)));
+    } else if (kind == 4) {
+        key = "depth_clear";
+        value = number(dice.of(kDepths));
+    } else {
+        in = any_draw(document, dice, words);
+        if (in == nullptr) {
+            return {};
+        }
+        key = kind == 5   ? "sample_mask"
+              : kind == 6 ? "shader_mask"
+              : kind == 7 ? "min_sample_shading"
+              : kind == 8 ? "layer"
+                          : "viewport_index";
+        value = number(kind < 7    ? static_cast<double>(dice.between(0, 15))
+                       : kind == 7 ? dice.of(kShares)
+                                   : static_cast<double>(dice.below(3)));
+    }
+    set(*in, key, value);
+    return fmt::format("{}{} = {}", words, key,
+                       value.is(Kind::integer) ? static_cast<double>(value.integer)
+                                               : value.floating);
+}
+
+Words change_bias(Document& document, Dice& dice) {
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    if (draw == nullptr) {
+        return {};
+    }
+    Document bias = table();
+    if (!dice.one_in(3)) {
+        set(bias, "constant", number(static_cast<double>(dice.between(-9, 9))));
+    }
+    if (!dice.one_in(3)) {
+        set(bias, "slope", number(static_cast<double>(dice.between(-8, 8)) / 4));
+    }
+    if (dice.one_in(3)) {
+        set(bias, "clamp", number(static_cast<double>(dice.between(-8, 8)) / 64));
+    }
+    Document* depth = find(*draw, "depth");
+    if (bias.table.empty()) {
+        return depth != nullptr && erase(*depth, "bias") ? words + "without depth bias" : Words();
+    }
+    set(depth != nullptr ? *depth : set(*draw, "depth", table()), "bias", std::move(bias));
+    return words + "another depth bias";
+}
+
+// A key that goes, which then has its default.
+Words remove_key(Document& document, Dice& dice) {
+    static constexpr std::array<std::string_view, 6> kTables = {"target", "color",      "draw",
+                                                                "depth",  "draw color", "attribute"};
+    Words words;
+    Document* in = table_of(document, dice.of(kTables), dice, words);
+    if (in == nullptr || in->table.empty()) {
+        return {};
+    }
+    const std::string key = in->table[dice.below(in->table.size())].key;
+    if (key == "vertices" || key == "size" || key == "values" || key == "space") {
+        return {};
+    }
+    erase(*in, key);
+    if (key == "color") {  // of the target or of a draw: neither goes without the other
+        if (Document* target = find(document, "target")) {
+            erase(*target, "color");
+            erase(*target, "attachments");
+            erase(*target, "resolve");
+        }
+        if (Document* draws = find(document, "draw")) {
+            for (Document& draw : draws->array) {
+                erase(draw, "color");
+            }
+        }
+    }
+    return fmt::format("{}without {}", words, key);
+}
+
+Words add_color(Document& document, Dice& dice) {
+    Document* target = find(document, "target");
+    Document* draws = find(document, "draw");
+    if (target == nullptr || draws == nullptr || find(*target, "color") != nullptr) {
+        return {};
+    }
+    const std::string_view format = any_of(cases::kWords<cases::ColorFormat>, dice);
+    const bool is_integer = format.ends_with("-uint");
+    Document& color = set(*target, "color", table());
+    set(color, "format", text(std::string(format)));
+    for (Document& draw : draws->array) {
+        std::vector<double> value;
+        for (int k = 0; k < 4; ++k) {
+            value.push_back(is_integer ? static_cast<double>(dice.below(256))
+                                       : static_cast<double>(dice.between(0, 16)) / 16);
+        }
+        Document& of_draw = set(draw, "color", table());
+        set(of_draw, "value", numbers(value));
+        if (!is_integer && dice.one_in(2)) {
+            set(of_draw, "blend", text(std::string(dice.of(kBlends))));
+        }
+    }
+    if (dice.one_in(3)) {
+        set(*target, "attachments", text(std::string(dice.of(kAttachments))));
+    }
+    return fmt::format("a colour target of {}", format);
+}
+
+// An attribute, or a clip or cull distance, for each vertex of a draw.
+Words add_input(Document& document, Dice& dice) {
+    static constexpr std::array<std::string_view, 4> kKeys = {"attribute", "attribute",
+                                                              "clip_distance", "cull_distance"};
+    Words words;
+    Document* draw = any_draw(document, dice, words);
+    const Document* vertices = draw == nullptr ? nullptr : find(*draw, "vertices");
+    if (vertices == nullptr) {
+        return {};
+    }
+    const std::string_view key = dice.of(kKeys);
+    Document input = table();
+    std::vector<Document> values;
+    const size_t components = key == "attribute" ? 1 + dice.below(4) : 1;
+    if (key != "attribute" && dice.one_in(2)) {
+        set(input, "half_space",
+            numbers({static_cast<double>(dice.between(-3, 3)),
+                     static_cast<double>(dice.between(-3, 3)),
+                     static_cast<double>(dice.between(-1, 1)),
+                     static_cast<double>(dice.between(-8, 8)) / 8}));
+    } else {
+        for (size_t v = 0; v < vertices->array.size(); ++v) {
+            std::vector<double> one;
+            for (size_t c = 0; c < components; ++c) {
+                one.push_back(static_cast<double>(dice.between(-8, 24)) / 16);
+            }
+            values.push_back(one.size() == 1 ? number(one[0]) : numbers(one));
+        }
+        set(input, "values", list(std::move(values)));
+    }
+    if (key == "attribute") {
+        set(input, "interpolation",
+            text(std::string(any_of(cases::kWords<cases::Interpolation>, dice))));
+    }
+    Document* inputs = find(*draw, key);
+    (inputs != nullptr ? *inputs : set(*draw, key, list({}))).array.push_back(std::move(input));
+    return fmt::format("{}one {} more", words, key);
+}
+
+Words add_relation(Document& document, Dice& dice) {
+    const std::string_view word = any_of(cases::kWords<cases::RelationKind>, dice);
+    Document relation = text(std::string(word));
+    if (word == "scissor-tiles") {
+        relation = table();
+        set(relation, word, numbers({static_cast<double>(dice.between(1, 9)),
+                                     static_cast<double>(dice.between(1, 9))}));
+    }
+    set(document, "relations", list({std::move(relation)}));
+    return fmt::format("the relation {}", word);
+}
+
+// Draws that are borrowed, drawn twice or in another order.
+Words change_draws(Document& document, Dice& dice, const Document* other) {
+    Document* draws = find(document, "draw");
+    if (draws == nullptr || draws->array.empty()) {
+        return {};
+    }
+    const size_t k = dice.below(draws->array.size());
+    const uint64_t kind = dice.below(4);
+    if (kind == 0 && draws->array.size() > 1) {
+        std::swap(draws->array[k], draws->array[(k + 1) % draws->array.size()]);
+        return "two draws in the other order";
+    }
+    if (kind == 1) {
+        Document again = draws->array[k];
+        draws->array.push_back(std::move(again));
+        return fmt::format("draw {} again at the end", k);
+    }
+    const Document* of_other = other == nullptr ? nullptr : other->find("draw");
+    if (of_other == nullptr || of_other->array.empty()) {
+        return {};
+    }
+    // The other draw's triangles with its own state, to this one's target.
+    Document borrowed = of_other->array[dice.below(of_other->array.size())];
+    erase(borrowed, "color");
+    if (const Document* color = draws->array[k].find("color");
+        color != nullptr && color->find("attribute") == nullptr) {
+        set(borrowed, "color", *color);
+    }
+    if (kind == 2) {
+        draws->array.push_back(std::move(borrowed));
+        return "one draw more, of another case";
+    }
+    draws->array.insert(draws->array.begin(), std::move(borrowed));
+    return "one draw before, of another case";
+}
+
+}  // namespace
+
+Words change_state(Document& document, Dice& dice, const Document* other) {
+    const uint64_t kind = dice.below(20);
+    return kind < 8    ? change_word(document, dice)
+           : kind < 12 ? change_count(document, dice)
+           : kind < 13 ? change_bias(document, dice)
+           : kind < 14 ? remove_key(document, dice)
+           : kind < 15 ? add_color(document, dice)
+           : kind < 17 ? add_input(document, dice)
+           : kind < 18 ? add_relation(document, dice)
+                       : change_draws(document, dice, other);
+}
+
+}  // namespace fuzz

@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/change/changed_source.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "cases/base/checksum.hpp"
+#include "fuzz/cause.hpp"
+#include "fuzz/entry.hpp"
+
+namespace fuzz {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// Cases of three families, which stay as they are: what a seed means rests on them.
+Starts starts() {
+    static const std::string kTriangle = R"(format = 1
+description = "d"
+catches = "c"
+links = ["https://example.org"]
+rules = ["cover.inside"]
+[matrix]
+rotation = [0, 90]
+[target]
+size = [8, 8]
+[[draw]]
+rotate = "rotation"
+vertices = [[0, 0], [8, 0], [0, 8]]
+[expect."rotation=0"]
+hits = """
+????????
+????????
+????????
+????????
+????????
+????????
+????????
+????????
+"""
+)";
+    static const std::string kColor = R"(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [16, 8]
+samples = 4
+[target.color]
+format = "rgba8-unorm"
+[[draw]]
+color = { attribute = "c", blend = "additive" }
+depth = { compare = "less", bias = { constant = 2 } }
+indices = [0, 1, 2, 2, 1, 3]
+vertices = [[0, 0, 0.25], [16, 0, 0.5], [0, 8, 0.5], [16, 8, 0.75]]
+[[draw.attribute]]
+name = "c"
+values = [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [1, 1, 1, 1]]
+[[draw]]
+topology = "triangle-strip"
+scissor = [1, 1, 9, 5]
+color = { value = [1, 0.5, 0, 0.25] }
+vertices = [[2, 2], [9, 2], [2, 7], [9, 7]]
+)";
+    static const std::string kClip = R"(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+[[draw]]
+space = "clip"
+vertices = [[-1, -1, 0.5, 1], [2, -2, 1, 2], [-0.5, 0.5, 0.25, 0.5]]
+[[draw.clip_distance]]
+values = [1, -1, 1]
+[[draw.attribute]]
+values = [1, 0.5, 0]
+)";
+    std::vector<Start> all;
+    for (const auto& [name, toml] :
+         {std::pair("a", kTriangle), std::pair("b", kColor), std::pair("c", kClip)}) {
+        auto loaded = cases::load_text(toml, name, name);
+        EXPECT_TRUE(loaded) << cases::to_string(loaded.error().front());
+        for (cases::Case& c : *loaded) {
+            all.push_back({std::move(c), {}});
+        }
+    }
+    return std::make_shared<const std::vector<Start>>(std::move(all));
+}
+
+std::vector<Source::Made> all_of(Source& source, uint64_t groups) {
+    std::vector<Source::Made> all;
+    for (uint64_t number = 0; number < groups * source.group_size(); ++number) {
+        if (number % source.group_size() == 0) {
+            source.enter(number / source.group_size());
+        }
+        all.push_back(source.make(number));
+    }
+    return all;
+}
+
+TEST(ChangedSource, MakesTheSameCasesOnEveryMachine) {
+    // A change of this number changes what every seed means: say so in the changelog.
+    ChangedSource source(1, starts());
+    uint64_t hash = 0;
+    for (const Source::Made& made : all_of(source, 64)) {
+        hash = cases::stable_hash(made.text, hash);
+    }
+    EXPECT_EQ(cases::hex(hash), "51a338f1498a1bf3");
+    ChangedSource other(2, starts());
+    uint64_t hash_of_other = 0;
+    for (const Source::Made& made : all_of(other, 64)) {
+        hash_of_other = cases::stable_hash(made.text, hash_of_other);
+    }
+    EXPECT_NE(hash, hash_of_other);
+}
+
+// A case does not depend on which numbers were made before: shards and --print.
+TEST(ChangedSource, ANumberAloneMakesTheCase) {
+    ChangedSource all(1, starts()), one(1, starts());
+    const std::vector<Source::Made> made = all_of(all, 24);
+    for (const uint64_t number : {3U, 40U, 41U, 250U, 383U}) {
+        one.enter(number / one.group_size());
+        EXPECT_EQ(one.make(number).text, made[number].text) << number;
+    }
+}
+
+TEST(ChangedSource, CasesAreCasesThatSayWhatWasChanged) {
+    ChangedSource source(1, starts());
+    std::map<std::string, size_t> from;
+    std::set<std::string> texts;
+    size_t made = 0, refused = 0, missing = 0;
+    for (const Source::Made& one : all_of(source, 100)) {
+        refused += one.refused;
+        if (one.text.empty()) {
+            ++missing;
+            EXPECT_FALSE(one.data);
+            continue;
+        }
+        ++made;
+        ASSERT_TRUE(one.data);
+        EXPECT_TRUE(load_one(one.text, "again")) << one.text;
+        const std::string& description = one.data->description;
+        EXPECT_THAT(description, StartsWith("Made by edgecase fuzz of "));
+        EXPECT_THAT(description, HasSubstr(": ")) << description;
+        EXPECT_FALSE(one.data->expected_hits) << one.text;
+        EXPECT_TRUE(one.data->links.empty());
+        ++from[description.substr(25, description.find(": ") - 25)];
+        texts.insert(one.text);
+    }
+    // All starts take turns; hardly any number finds no case, and hardly a case is made twice.
+    EXPECT_EQ(from.size(), 4U);
+    for (const auto& [id, count] : from) {
+        EXPECT_GT(count, 300U) << id;
+    }
+    EXPECT_LT(missing, 16U);
+    EXPECT_GT(refused, 0U);
+    EXPECT_LT(refused, made);
+    EXPECT_GT(texts.size(), made * 9 / 10);
+}
+
+// What a hunt of these three starts reaches: most of what the format can say of a case.
+TEST(ChangedSource, ChangesReachStatesAndGeometries) {
+    ChangedSource source(3, starts());
+    std::set<std::string> words;
+    constexpr uint64_t kGroups = 8000;
+    for (uint64_t group = 0; group < kGroups; ++group) {
+        source.enter(group);
+        // The first of a group has its state alone, and a few others have geometries.
+        for (uint64_t k = 0; k < (group % 32 == 0 ? 8U : 1U); ++k) {
+            const std::set<std::string> more =
+                essentials_of(source.make(group * source.group_size() + k).text);
+            words.insert(more.begin(), more.end());
+        }
+    }
+    for (const char* word : {"several samples",
+                             "layers",
+                             "stencil=true",
+                             "attachments=color",
+                             "resolve=average",
+                             "depth_clear",
+                             "color",
+                             "several draws",
+                             "unequal w",
+                             "sloping depth",
+                             "draw.cull=back",
+                             "draw.front_face=clockwise",
+                             "draw.topology=triangle-fan",
+                             "draw.provoking=last",
+                             "draw.depth_volume=negative-one-to-one",
+                             "draw.depth.compare",
+                             "draw.depth.write=false",
+                             "draw.depth.clamp=true",
+                             "draw.depth.clip=false",
+                             "draw.depth.bias.slope",
+                             "draw.depth.bias.clamp",
+                             "draw.sample_mask",
+                             "draw.shader_mask",
+                             "draw.layer",
+                             "draw.viewport_index",
+                             "draw.min_sample_shading",
+                             "draw.viewport",
+                             "draw.scissor",
+                             "draw.indices",
+                             "draw.attribute",
+                             "draw.attribute.interpolation=flat",
+                             "draw.attribute.auxiliary=centroid",
+                             "draw.clip_distance",
+                             "draw.cull_distance",
+                             "draw.color.blend",
+                             "draw.color.write_mask",
+                             "relation same-twice",
+                             "relation scissor-tiles"}) {
+        EXPECT_TRUE(words.contains(word)) << word;
+    }
+    for (const char* key : {"draw.attribute.probe=d", "draw.attribute.source=sample-"}) {
+        EXPECT_TRUE(words.lower_bound(key) != words.end() &&
+                    words.lower_bound(key)->starts_with(key))
+            << key;
+    }
+}
+
+// A file that says what is open: that is varied, and nothing else.
+TEST(ChangedSource, AFileWithFuzzVariesWhatItLeavesOpen) {
+    const std::string toml = R"(format = 1
+description = "d"
+rules = ["cover.inside"]
+[matrix]
+size = [8, 16]
+[fuzz]
+x = { from = "-1/2", to = "1/2", step = "1/4" }
+face = ["none", "back", "front"]
+[target]
+size = ["size", 8]
+[[draw]]
+cull = "face"
+vertices = [["x", 0], [8, 0], [0, 8]]
+)";
+    auto loaded = cases::load_text(toml, "f", "f");
+    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
+    const auto open = std::make_shared<const Document>(*cases::read_toml(toml, "f"));
+    std::vector<Start> all;
+    for (cases::Case& c : *loaded) {
+        all.push_back({std::move(c), open});
+    }
+    ChangedSource source(1, std::make_shared<const std::vector<Start>>(std::move(all)));
+    std::set<std::tuple<uint32_t, double, cases::CullMode>> seen;
+    for (const Source::Made& one : all_of(source, 64)) {
+        ASSERT_TRUE(one.data) << one.text;
+        EXPECT_EQ(one.refused, 0U);
+        const cases::Case& c = *one.data;
+        ASSERT_EQ(c.draws.size(), 1U);
+        const double x = (static_cast<double>(c.draws[0].positions[0].x) + 1) * c.target.width / 2;
+        seen.insert({c.target.width, x, c.draws[0].cull});
+        EXPECT_EQ(std::fmod(x * 4, 1), 0) << x;
+        EXPECT_EQ(c.draws[0].positions[1].y, -1);
+    }
+    EXPECT_EQ(seen.size(), 2U * 5 * 3);
+}
+
+// A case that is too large to be written has no changes; a hunt of others goes on.
+TEST(ChangedSource, ATooLargeCaseIsLeftOut) {
+    const auto loaded = cases::load_text(
+        "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n[target]\nsize = [64, 64]\n"
+        "[[draw]]\ngenerate = { kind = \"surface\", columns = 128, rows = 128 }\n",
+        "f", "f");
+    ASSERT_TRUE(loaded) << cases::to_string(loaded.error().front());
+    ChangedSource source(
+        1, std::make_shared<const std::vector<Start>>(std::vector<Start>{{loaded->front(), {}}}));
+    for (const Source::Made& one : all_of(source, 2)) {
+        EXPECT_TRUE(one.text.empty());
+        EXPECT_FALSE(one.data);
+    }
+}
+
+}  // namespace
+}  // namespace fuzz
