@@ -7,6 +7,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -18,6 +19,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/fuzzing/known_causes.hpp"
 #include "cli/fuzzing/start_cases.hpp"
 #include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/loop_config.hpp"
@@ -89,11 +91,23 @@ class Status {
                 .c_str());
         std::fflush(stderr);
     }
+    void show_words(const char* words) {
+        const double now = seconds();
+        if (is_shown_ && now - last_ >= 0.2) {
+            last_ = now;
+            std::fprintf(stderr, "\r%s, %.0f s\x1b[K", words, now);
+            std::fflush(stderr);
+        }
+    }
     void clear() const {
         if (is_shown_) {
             std::fputs("\r\x1b[K", stderr);
             std::fflush(stderr);
         }
+    }
+    void restart() {
+        begin_ = std::chrono::steady_clock::now();
+        last_ = -1;
     }
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
@@ -134,6 +148,14 @@ class FuzzCommand {
         if (auto named = name_device(to_report(first->device)); !named) {
             return report_stop(named.error());
         }
+        RunOptions judging = options_.run;
+        judging.profile = ledger_.profile;
+        judging.suite.suite = ledger_.suite.empty() ? judging.suite.suite : ledger_.suite;
+        OrStop<ExpectedFailures> expected =
+            expected_failures(program_, judging, to_report(first->device));
+        if (!expected) {
+            return report_stop(expected.error());
+        }
         const OrStop<Folder> folder = Folder::open(folder_);
         if (!folder) {
             return report_stop(folder.error());
@@ -141,16 +163,19 @@ class FuzzCommand {
         if (!options_.run.quiet) {
             // A hunt that goes on has no end of its own: --cases and --time are of each command.
             const bool is_endless = options_.cases == 0 && !(options_.seconds > 0);
-            say(fmt::format("fuzzing {} {}with seed {} at profile {}, into {}{}{}\n", ledger_.device,
-                            starts_ == 0 ? ""
-                                         : fmt::format("from {} on, ", plural(starts_, "case")),
-                            ledger_.seed, cases::to_string(ledger_.profile), folder_.string(),
-                            options_.run.resume.empty()
-                                ? ""
-                                : fmt::format(", from case {} on", ledger_.counts.next_case),
-                            is_endless ? "; end it with ctrl-c" : ""));
+            say(fmt::format(
+                "fuzzing {} {}with seed {} at profile {}, into {}{}{}\n", ledger_.device,
+                starts_ == 0 ? "" : fmt::format("from {} on, ", plural(starts_, "case")),
+                ledger_.seed, cases::to_string(ledger_.profile), folder_.string(),
+                options_.run.resume.empty()
+                    ? ""
+                    : fmt::format(", from case {} on", ledger_.counts.next_case),
+                is_endless ? "; end it with ctrl-c" : ""));
         }
         run::Session session(config, std::move(first->client), first->device, signals);
+        if (const std::optional<int> ended = know(*expected, session)) {
+            return *ended;
+        }
         return hunt(session);
     }
 
@@ -181,6 +206,10 @@ class FuzzCommand {
             if (!loaded) {
                 return tl::unexpected(
                     stop_with(report::kExitInvalidFile, "--known: " + loaded.error().message));
+            }
+            if (ledger_.expectations.empty()) {
+                known_expectations_ = loaded->expectations;
+                known_device_ = loaded->device + loaded->driver;
             }
             for (Entry& entry : loaded->entries) {
                 entry.is_known = true;
@@ -245,6 +274,74 @@ class FuzzCommand {
         return std::monostate{};
     }
 
+    // Reduces one case for each cause that expectation files explain, unless an earlier hunt has.
+    // The exit code, if that is the end.
+    std::optional<int> know(const ExpectedFailures& expected, run::Session& session) {
+        if (known_device_ == ledger_.device + ledger_.driver &&
+            known_expectations_ == expected.checksum) {
+            ledger_.expectations = expected.checksum;  // --known has brought the causes
+        }
+        if (expected.cases.empty() || expected.checksum == ledger_.expectations) {
+            return std::nullopt;
+        }
+        const double begin = status_.seconds();
+        KnownCauses known = reduce_known(expected, ledger_.entries, session, [this] {
+            status_.show_words("reducing what expectation files explain");
+        });
+        status_.clear();
+        if (!known.failure.empty()) {
+            return report_stop(stop_with(report::kExitInternal, known.failure));
+        }
+        if (known.is_interrupted) {
+            say("interrupted while known causes were reduced; nothing was kept\n");
+            return report::kExitInterrupted;
+        }
+        std::error_code none;
+        fs::create_directories(folder_ / "known", none);
+        for (Entry& entry : known.entries) {
+            name_file(entry, "known");
+            if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
+                !written) {
+                return report_stop(stop_with(report::kExitInternal, written.error().message));
+            }
+            ledger_.entries.push_back(std::move(entry));
+        }
+        ledger_.expectations = expected.checksum;
+        if (!options_.run.quiet) {
+            say(fmt::format("known by {}: {} that {} as expected, by {}{}, reduced in {:.0f} s\n",
+                            plural(expected.files, "expectation file"),
+                            plural(known.failing, "case"), known.failing == 1 ? "fails" : "fail",
+                            plural(known.entries.size(), "cause"),
+                            options_.known.empty() ? "" : " that no --known explains",
+                            status_.seconds() - begin));
+            std::fflush(stdout);
+        }
+        status_.restart();  // the hunt's own time begins now
+        if (known.left > 0) {
+            complain(
+                fmt::format("{} of expected failures not reduced, so what they come of will "
+                            "be told as new; take more causes for known by --known",
+                            plural(known.left, "finding")));
+        }
+        return std::nullopt;
+    }
+
+    // A name in a folder below that of the hunt that no other entry and no file has.
+    void name_file(Entry& entry, const std::string& folder) const {
+        const std::string what = entry.symptom.status == report::Status::fail
+                                     ? entry.symptom.rule
+                                     : std::string(report::to_string(entry.symptom.status));
+        size_t number = 1;
+        std::error_code none;
+        const auto is_taken = [&](const Entry& other) {
+            return &other != &entry && other.file == entry.file;
+        };
+        do {
+            entry.file = fmt::format("{}/{:03}-{}.toml", folder, number++, what);
+        } while (std::any_of(ledger_.entries.begin(), ledger_.entries.end(), is_taken) ||
+                 fs::exists(folder_ / entry.file, none));
+    }
+
     int hunt(run::Session& session) {
         fuzz::HuntOptions hunt;
         hunt.source = source_;
@@ -288,14 +385,7 @@ class FuzzCommand {
             if (!entry.file.empty()) {
                 continue;
             }
-            size_t number = 1;
-            const std::string what = entry.symptom.status == report::Status::fail
-                                         ? entry.symptom.rule
-                                         : std::string(report::to_string(entry.symptom.status));
-            std::error_code none;
-            do {
-                entry.file = fmt::format("found/{:03}-{}.toml", number++, what);
-            } while (is_taken(hunter, entry) || fs::exists(folder_ / entry.file, none));
+            name_file(entry, "found");
             if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
                 !written) {
                 return written;
@@ -348,12 +438,6 @@ class FuzzCommand {
         return {};
     }
 
-    static bool is_taken(Hunt& hunter, const Entry& entry) {
-        return std::any_of(
-            hunter.entries().begin(), hunter.entries().end(),
-            [&](const Entry& other) { return &other != &entry && other.file == entry.file; });
-    }
-
     static fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
         sum.next_case = now.next_case;
         sum.poses = now.poses;
@@ -393,6 +477,9 @@ class FuzzCommand {
                         with.empty() ? "nothing special" : with));
         for (size_t k = 0; k < std::min<size_t>(entry.needs.size(), 6); ++k) {
             say("      " + entry.needs[k] + "\n");
+        }
+        for (size_t k = 0; k < std::min<size_t>(entry.passes.size(), 3); ++k) {
+            say("      passes " + entry.passes[k] + "\n");
         }
         std::fflush(stdout);
     }
@@ -489,6 +576,7 @@ class FuzzCommand {
     fs::path folder_;
     std::set<std::string> not_reduced_;  // files of cases as they were drawn
     std::string device_of_earlier_;
+    std::string known_expectations_, known_device_;  // of the last hunt of --known
     double seconds_before_ = 0;
 };
 
@@ -496,8 +584,7 @@ class FuzzCommand {
 
 int fuzz_command(const Program& program, const FuzzOptions& options) {
     if (options.printed) {
-        const OrStop<StartCases> cases =
-            start_cases(program, options.run.suite, options.run.seed);
+        const OrStop<StartCases> cases = start_cases(program, options.run.suite, options.run.seed);
         if (!cases) {
             return report_stop(cases.error());
         }

@@ -81,11 +81,11 @@ OrStop<Drawer> make_drawer(const Program& program, const ReduceOptions& options,
 Stop why_nothing(const cases::Case& c, const CaseRecord& record, bool is_command) {
     const bool is_drawn = !is_command || (record.status != report::Status::not_run &&
                                           record.status != report::Status::error);
-    return is_drawn ? stop_with(
-                          report::kExitAllSkipped,
-                          fmt::format("{} does not fail here ({}), so there is nothing to reduce",
-                                      c.id, report::to_string(record.status)))
-                    : stop_with(report::kExitInternal, "--captures-command: " + record.reason);
+    return is_drawn
+               ? stop_with(report::kExitAllSkipped,
+                           fmt::format("{} does not fail here ({}), so there is nothing to reduce",
+                                       c.id, report::to_string(record.status)))
+               : stop_with(report::kExitInternal, "--captures-command: " + record.reason);
 }
 
 // "2 draws, 14 triangles, 5 attributes, 64 x 64 with 4 samples".
@@ -157,9 +157,7 @@ int reduce_command(const Program& program, const ReduceOptions& options) {
                                                   "of the driver, and cannot be reduced"));
     }
     std::string note = fmt::format("# {}, reduced from {}.\n", to_text(*symptom), loaded->id);
-    for (const std::string& need : entry->needs) {
-        note += fmt::format("# It passes, or fails otherwise: {}.\n", need);
-    }
+    note += fuzz::need_text(*entry);
     const std::string out = note + entry->text;
     if (options.run.output.empty()) {
         say(out);

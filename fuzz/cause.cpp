@@ -76,6 +76,15 @@ void add_depths(const TomlValue& draw, std::set<std::string>& words) {
     }
 }
 
+// Whether a rectangle reaches further than 15 bits: drivers keep such numbers in 16.
+bool is_far(const TomlValue& rectangle) {
+    const std::vector<TomlValue>& n = rectangle.array;
+    constexpr double kFar = 32767;
+    return n.size() == 4 &&
+           (std::fabs(number(n[0])) > kFar || std::fabs(number(n[1])) > kFar ||
+            number(n[0]) + number(n[2]) > kFar || number(n[1]) + number(n[3]) > kFar);
+}
+
 void add_keys(const TomlValue& table, const std::string& path, std::set<std::string>& words) {
     for (const TomlEntry& entry : table.table) {
         const TomlValue& value = entry.value;
@@ -114,6 +123,11 @@ void add_keys(const TomlValue& table, const std::string& path, std::set<std::str
                                                 : name + (value.boolean ? "=true" : "=false"));
         } else {
             words.insert(name);
+            // Numbers do not count, but for these: a scissor is in most cases that have one no need
+            // of a cause that needs a far one.
+            if ((entry.key == "scissor" || entry.key == "viewport") && is_far(value)) {
+                words.insert(name + " beyond 32767");
+            }
         }
     }
 }

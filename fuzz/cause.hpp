@@ -38,7 +38,8 @@ std::string to_text(const Symptom& symptom);
 std::optional<Symptom> parse_symptom(const std::string& text);
 
 // What a case has that a plain one has not, as words: "samples=4", "draw.scissor", "draw.topology=
-// triangle-fan", "several draws", "w". Numbers do not count, nor what a format is called.
+// triangle-fan", "several draws", "w". Numbers do not count, nor what a format is called, but for
+// rectangles that reach beyond 15 bits.
 std::set<std::string> essentials(const cases::TomlValue& document);
 // The word for it is the one essential that speaks of numbers: what such a triangle shows, and in
 // how many ways, hangs on each of them.

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "fuzz/document/document.hpp"
+#include "fuzz/reduce/neighbours.hpp"
 #include "fuzz/reduce/reduce.hpp"
 #include "ref/exercise/exercise.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -119,7 +121,42 @@ Document described(Document document, const Symptom& symptom) {
     return document;
 }
 
+// What of a document's neighbours passes, in sentences.
+std::vector<std::string> passing(const Document& document, const Draw& draw) {
+    constexpr size_t kAtOnce = 64;
+    const std::vector<Neighbour> all = neighbours(document);
+    std::vector<bool> judged(all.size(), false), passes(all.size(), false);
+    for (size_t begin = 0; begin < all.size(); begin += kAtOnce) {
+        std::vector<cases::Case> cases;
+        std::vector<size_t> of;
+        for (size_t k = begin; k < std::min(begin + kAtOnce, all.size()); ++k) {
+            if (std::optional<cases::Case> c = load_one(all[k].text, std::to_string(k))) {
+                cases.push_back(std::move(*c));
+                of.push_back(k);
+            }
+        }
+        const std::vector<CaseRecord> records =
+            cases.empty() ? std::vector<CaseRecord>() : draw(cases);
+        for (size_t k = 0; k < of.size(); ++k) {
+            passes[of[k]] = records[k].status == Status::pass;
+            judged[of[k]] = passes[of[k]] || symptom_of(records[k]).has_value();
+        }
+    }
+    return sentences(all, judged, passes);
+}
+
 }  // namespace
+
+std::string need_text(const Entry& entry) {
+    std::string text;
+    for (const std::string& need : entry.needs) {
+        text += "# It passes, or fails otherwise: " + need + ".\n";
+    }
+    for (const std::string& other : entry.passes) {
+        text += "# It passes " + other + ".\n";
+    }
+    return text;
+}
 
 std::set<std::string> essentials_of(const std::string& text) {
     const auto document = cases::read_toml(text, "fuzz");
@@ -276,6 +313,7 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
             entry.text;
     }
     entry.needs = reduced.needs;
+    entry.passes = passing(reduced.document, draw);
     entry.is_minimal = reduced.is_minimal;
     entry.count = 1;
     entry.also.insert({symptom.kind, symptom.rule});

@@ -26,12 +26,14 @@ struct Entry {
     std::set<std::string> essentials;
     // What else the reduced case breaks: in a case with the same essentials that is no news.
     std::set<std::pair<diff::FindingKind, std::string>> also;
-    std::string text;                // of the reduced case
-    std::vector<std::string> needs;  // "not with 1 sample": the nearest cases that pass
-    std::string shown_first;         // what a run of the text leads with, if not with the symptom
-    bool is_reduced = true;          // false: the text is as it was drawn, and explains no other
+    std::string text;                 // of the reduced case
+    std::vector<std::string> needs;   // "not with 1 sample": simpler cases that do not show it
+    std::vector<std::string> passes;  // "with 2 samples in place of 4": other ones that pass
+    std::string shown_first;          // what a run of the text leads with, if not with the symptom
+    bool is_reduced = true;           // false: the text is as it was drawn, and explains no other
     bool is_minimal = false;
-    bool is_known = false;    // from an earlier hunt
+    bool is_known = false;    // from an earlier hunt, or from expectation files
+    std::string bug;          // what an expectation file refers to
     std::string file;         // where it is kept; filled in by whoever keeps it
     std::string stale_file;   // where a case was kept that a graver one has replaced since
     uint64_t first_case = 0;  // the number of the case it was reduced from
@@ -45,6 +47,9 @@ using Draw = std::function<std::vector<report::CaseRecord>(const std::vector<cas
 // not show it, or is no case.
 std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom, const Draw& draw,
                                  size_t most_rounds);
+
+// The comment lines that say what an entry needs and what passes.
+std::string need_text(const Entry& entry);
 
 // A case's text with a description of what it shows and a rule that it exercises, if there is one.
 std::string described(const std::string& text, const Symptom& symptom);

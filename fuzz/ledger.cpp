@@ -45,6 +45,8 @@ Json to_json(const Entry& entry) {
             {"count", entry.count},
             {"essentials", entry.essentials},
             {"needs", entry.needs},
+            {"passes", entry.passes},
+            {"bug", entry.bug},
             {"also", also_of(entry)}};
 }
 
@@ -79,6 +81,8 @@ Entry entry_of(const Json& json, const fs::path& folder) {
     entry.count = json.at("count");
     entry.essentials = json.at("essentials").get<std::set<std::string>>();
     entry.needs = json.at("needs").get<std::vector<std::string>>();
+    entry.passes = json.value("passes", std::vector<std::string>());
+    entry.bug = json.value("bug", "");
     for (const Json& also : json.at("also")) {
         for (size_t k = 0; k < diff::kFindingKinds; ++k) {
             const auto kind = static_cast<diff::FindingKind>(k);
@@ -115,6 +119,7 @@ std::string to_json(const Ledger& ledger) {
                        {"selectors", ledger.selectors},
                        {"suite", ledger.suite},
                        {"cases_checksum", ledger.cases_checksum},
+                       {"expectations", ledger.expectations},
                        {"seed", ledger.seed},
                        {"shard", ledger.shard},
                        {"shards", ledger.shards},
@@ -163,6 +168,7 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         ledger.selectors = json.value("selectors", std::vector<std::string>());
         ledger.suite = json.value("suite", "");
         ledger.cases_checksum = json.value("cases_checksum", "");
+        ledger.expectations = json.value("expectations", "");
         ledger.seed = json.at("seed");
         ledger.shard = json.at("shard");
         ledger.shards = json.at("shards");
@@ -212,9 +218,12 @@ std::string command_of(const Ledger& ledger) {
 }
 
 std::string found_text(const Entry& entry, const Ledger& ledger) {
-    std::string text = fmt::format("# {}, found by '{}' in case {} on {}.\n",
-                                   to_text(entry.symptom), command_of(ledger), entry.first_case,
-                                   cases::printable(ledger.device));
+    std::string text = to_text(entry.symptom);
+    text = entry.bug.empty()
+               ? fmt::format("# {}, found by '{}' in case {} on {}.\n", text, command_of(ledger),
+                             entry.first_case, cases::printable(ledger.device))
+               : fmt::format("# {}, known by an expectation file on {}: {}\n", text,
+                             cases::printable(ledger.device), cases::printable(entry.bug));
     if (!entry.shown_first.empty()) {
         text +=
             fmt::format("# A run of it tells first what it shows, too: {}.\n", entry.shown_first);
@@ -223,9 +232,7 @@ std::string found_text(const Entry& entry, const Ledger& ledger) {
         text += "# Not reduced: the hunt ended before. 'edgecase fuzz --resume' reduces it.\n";
         return text + entry.text;
     }
-    for (const std::string& need : entry.needs) {
-        text += fmt::format("# It passes, or fails otherwise: {}.\n", need);
-    }
+    text += need_text(entry);
     if (!entry.is_minimal) {
         text += "# The reduction ended early: it may be larger than it has to be.\n";
     }

@@ -22,6 +22,8 @@ struct Ledger {
     std::vector<std::string> selectors;
     std::string suite;           // the folder of the suite
     std::string cases_checksum;  // with another one, seed and number mean other cases
+    // Of what expectation files said, whose causes are among the entries; empty: of none.
+    std::string expectations;
     uint64_t seed = 1;
     uint32_t shard = 1, shards = 1;
     cases::Profile profile = cases::Profile::direct3d;

@@ -352,9 +352,10 @@ void check_used(const Matrix& matrix, const std::vector<OpenName>& open,
                 const std::set<std::string>& used, Errors& errors) {
     for (const OpenName& name : open) {
         if (used.count(name.key) == 0) {
-            errors.push_back({name.where, fmt::format("the [fuzz] key {} is used nowhere; use it or "
-                                                      "leave it out",
-                                                      name.key)});
+            errors.push_back(
+                {name.where, fmt::format("the [fuzz] key {} is used nowhere; use it or "
+                                         "leave it out",
+                                         name.key)});
         }
     }
     for (const Matrix::Axis& axis : matrix.axes) {

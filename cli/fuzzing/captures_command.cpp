@@ -32,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-// "my_renderer %in %out" with the folders in their places, quoted for a shell.
+// "my-renderer %in %out" with the folders in their places, quoted for a shell.
 std::string with_folders(const std::string& command, const fs::path& in, const fs::path& out) {
     std::string text = command;
     for (const auto& [word, folder] : {std::pair("%out", &out), std::pair("%in", &in)}) {
@@ -77,9 +77,9 @@ OrStop<CapturesCommand> CapturesCommand::open(CapturesOptions options, run::Sign
     const fs::path parent = fs::temp_directory_path(error);
     std::string name = ((error ? fs::path("/tmp") : parent) / "edgecase-reduce-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
-        return tl::unexpected(stop_with(report::kExitInternal,
-                                        "no folder for exported cases can be made in '" +
-                                            parent.string() + "': " + std::strerror(errno)));
+        return tl::unexpected(
+            stop_with(report::kExitInternal, "no folder for exported cases can be made in '" +
+                                                 parent.string() + "': " + std::strerror(errno)));
     }
     return CapturesCommand(std::move(options), signals, name);
 }
@@ -103,8 +103,7 @@ CapturesCommand::~CapturesCommand() {
 
 CapturesCommand::End CapturesCommand::start(const fs::path& in, const fs::path& out) {
     using Kind = End::Kind;
-    auto child =
-        run::spawn({{"/bin/sh", "-c", with_folders(options_.command, in, out)}, false});
+    auto child = run::spawn({{"/bin/sh", "-c", with_folders(options_.command, in, out)}, false});
     if (!child) {
         return {Kind::error, "", child.error().message};
     }
@@ -141,10 +140,10 @@ CapturesCommand::End CapturesCommand::start(const fs::path& in, const fs::path& 
         return {Kind::crash, signal, "the command was ended by " + signal};
     }
     if (status.code == kNotFound || status.code == kNotExecutable) {
-        return {Kind::error, "",
-                fmt::format("the shell could not start the command '{}' (exit code {}): {}",
-                            cases::printable(options_.command), status.code,
-                            last_line(said.text()))};
+        return {
+            Kind::error, "",
+            fmt::format("the shell could not start the command '{}' (exit code {}): {}",
+                        cases::printable(options_.command), status.code, last_line(said.text()))};
     }
     if (status.code != 0) {
         return {Kind::error, "",
@@ -210,8 +209,7 @@ std::vector<CaseRecord> CapturesCommand::draw(const std::vector<cases::Case>& ca
         CaseRecord& record = records[k];
         record.reason = end.reason;
         if (end.kind == End::Kind::crash || end.kind == End::Kind::timeout) {
-            record.status =
-                end.kind == End::Kind::crash ? Status::crash : Status::timeout;
+            record.status = end.kind == End::Kind::crash ? Status::crash : Status::timeout;
             record.signal = end.signal;
         }
         if (end.kind != End::Kind::well) {

@@ -212,11 +212,13 @@ void define_fuzz(CLI::App& app, FuzzOptions& o) {
     add_value(fuzz, "--print", o.printed, "print the case with this number, draw nothing", "N",
               "Selection")
         ->check(in_range<uint64_t>(0, uint64_t{1} << 24));
-    add_shard(fuzz, o.run.shard, "every N-th pose (or group of changed cases) from the I-th on; 1 <= I <= N");
+    add_shard(fuzz, o.run.shard,
+              "every N-th pose (or group of changed cases) from the I-th on; 1 <= I <= N");
     add_device(fuzz, o.run.device);
     fuzz->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")
         ->group("Device");
     add_profile(fuzz, o.run.profile);
+    add_expectations(fuzz, o.run);
     add_value(fuzz, "--known", o.known,
               "the folder of an earlier hunt, whose causes are known; repeatable", "DIR", "Judging")
         ->type_size(1)

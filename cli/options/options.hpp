@@ -80,15 +80,15 @@ struct GtestOptions {
 };
 
 struct FuzzOptions {
-    RunOptions run;  // its device, judging, output and, to start from cases, its suite
-    uint64_t cases = 0;               // numbers from here on are not made; 0: no end
-    double seconds = 0;               // 0: no end
+    RunOptions run;      // its device, judging, output and, to start from cases, its suite
+    uint64_t cases = 0;  // numbers from here on are not made; 0: no end
+    double seconds = 0;  // 0: no end
     std::vector<std::string> known;   // folders of earlier hunts
     std::optional<uint64_t> printed;  // the number of a case to print; nothing is drawn then
 };
 
 struct ReduceOptions {
-    RunOptions run;  // its suite with exactly one case, device, judging and output
+    RunOptions run;                // its suite with exactly one case, device, judging and output
     std::string captures_command;  // of a renderer that no worker drives; empty: a device draws
     uint32_t subpixel_bits = 8;    // of that renderer
 };

@@ -160,7 +160,8 @@ OrStop<std::monostate> check_fuzz(const CLI::App& fuzz, const FuzzOptions& o,
     const auto refused = [](const std::string& what) {
         return tl::unexpected(usage_error(
             "--resume goes on with the cases, seed, shard, profile and folder of the hunt, so " +
-                what + (what.starts_with("no ") ? " can" : " cannot") + " be given; leave it out or start a new hunt",
+                what + (what.starts_with("no ") ? " can" : " cannot") +
+                " be given; leave it out or start a new hunt",
             "fuzz"));
     };
     for (const char* name : {"--seed", "--shard", "--profile", "--output", "--print", "--suite"}) {
@@ -170,6 +171,9 @@ OrStop<std::monostate> check_fuzz(const CLI::App& fuzz, const FuzzOptions& o,
     }
     if (!o.run.resume.empty() && !o.run.suite.selectors.empty()) {
         return refused("no selector");
+    }
+    if (o.run.no_expect && !o.run.expect.empty()) {
+        return tl::unexpected(usage_error("--expect and --no-expect exclude each other", "fuzz"));
     }
     return std::monostate{};
 }
@@ -182,8 +186,9 @@ OrStop<std::monostate> check_reduce(const CLI::App& reduce, const ReduceOptions&
     };
     if (!is_given(reduce, "--captures-command", words)) {
         return is_given(reduce, "--subpixel-bits", words)
-                   ? refused("--subpixel-bits is for a renderer that --captures-command starts; "
-                             "devices tell it themselves")
+                   ? refused(
+                         "--subpixel-bits is for a renderer that --captures-command starts; "
+                         "devices tell it themselves")
                    : OrStop<std::monostate>();
     }
     for (const char* name : {"--device", "--icd", "--renderer", "--validation"}) {
@@ -198,7 +203,7 @@ OrStop<std::monostate> check_reduce(const CLI::App& reduce, const ReduceOptions&
             return refused(std::string("--captures-command has no ") + word +
                            ", the folder of the " +
                            (word[1] == 'i' ? "exported cases" : "captures") +
-                           "; write for example 'my_renderer %in %out'");
+                           "; write for example 'my-renderer %in %out'");
         }
     }
     return std::monostate{};

@@ -126,9 +126,8 @@ Words add_triangle(Document& document, Dice& dice) {
             if (const std::optional<double> now = value_of(vertex.array[c])) {
                 const double step = dice.of(kSteps);
                 const double moved = *now + step * static_cast<double>(dice.between(-6, 6));
-                vertex.array[c] = number(is_clip(*draw)
-                                             ? static_cast<double>(static_cast<float>(moved))
-                                             : moved);
+                vertex.array[c] =
+                    number(is_clip(*draw) ? static_cast<double>(static_cast<float>(moved)) : moved);
             }
         }
         if (indices != nullptr) {
@@ -229,11 +228,11 @@ Words move_window(Document& document, Dice& dice) {
             return {};
         }
         const uint64_t kind = dice.below(12);
-        side = number(kind == 0   ? *now * 2
-                      : kind == 1 ? *now + 65536
-                      : kind < 4 && !is_scissor
-                          ? *now + static_cast<double>(dice.between(-8, 8)) / 16
-                          : *now + static_cast<double>(dice.between(-3, 3)));
+        side =
+            number(kind == 0                 ? *now * 2
+                   : kind == 1               ? *now + 65536
+                   : kind < 4 && !is_scissor ? *now + static_cast<double>(dice.between(-8, 8)) / 16
+                                             : *now + static_cast<double>(dice.between(-3, 3)));
     }
     return fmt::format("{}another {}", words, key);
 }

@@ -111,11 +111,13 @@ Words change_word(Document& document, Dice& dice) {
         if (word == "at-sample") {
             set(*in, "sample", number(static_cast<double>(dice.below(4))));
         } else if (word == "at-offset") {
-            set(*in, "offset", numbers({static_cast<double>(dice.between(-8, 7)) / 16,
-                                        static_cast<double>(dice.between(-8, 7)) / 16}));
+            set(*in, "offset",
+                numbers({static_cast<double>(dice.between(-8, 7)) / 16,
+                         static_cast<double>(dice.between(-8, 7)) / 16}));
         } else if (word == "query-lod") {
-            set(*in, "texture", numbers({static_cast<double>(1U << dice.below(9)),
-                                         static_cast<double>(1U << dice.below(9))}));
+            set(*in, "texture",
+                numbers({static_cast<double>(1U << dice.below(9)),
+                         static_cast<double>(1U << dice.below(9))}));
         }
     }
     if (key.key == "source" && word != "vertex") {
@@ -169,9 +171,9 @@ Words change_count(Document& document, Dice& dice) {
                                    : static_cast<double>(dice.below(3)));
     }
     set(*in, key, value);
-    return fmt::format("{}{} = {}", words, key,
-                       value.is(Kind::integer) ? static_cast<double>(value.integer)
-                                               : value.floating);
+    return fmt::format(
+        "{}{} = {}", words, key,
+        value.is(Kind::integer) ? static_cast<double>(value.integer) : value.floating);
 }
 
 Words change_bias(Document& document, Dice& dice) {
@@ -200,8 +202,8 @@ Words change_bias(Document& document, Dice& dice) {
 
 // A key that goes, which then has its default.
 Words remove_key(Document& document, Dice& dice) {
-    static constexpr std::array<std::string_view, 6> kTables = {"target", "color",      "draw",
-                                                                "depth",  "draw color", "attribute"};
+    static constexpr std::array<std::string_view, 6> kTables = {
+        "target", "color", "draw", "depth", "draw color", "attribute"};
     Words words;
     Document* in = table_of(document, dice.of(kTables), dice, words);
     if (in == nullptr || in->table.empty()) {
@@ -299,8 +301,9 @@ Words add_relation(Document& document, Dice& dice) {
     Document relation = text(std::string(word));
     if (word == "scissor-tiles") {
         relation = table();
-        set(relation, word, numbers({static_cast<double>(dice.between(1, 9)),
-                                     static_cast<double>(dice.between(1, 9))}));
+        set(relation, word,
+            numbers({static_cast<double>(dice.between(1, 9)),
+                     static_cast<double>(dice.between(1, 9))}));
     }
     set(document, "relations", list({std::move(relation)}));
     return fmt::format("the relation {}", word);

@@ -16,9 +16,9 @@ namespace {
 
 // Streams of the dice; generated cases take 1 to 3.
 constexpr uint64_t kOrderStream = 4, kGroupStream = 5, kNumberStream = 6;
-constexpr int kTries = 8;       // of a number or a group, until the loader takes one
+constexpr int kTries = 8;        // of a number or a group, until the loader takes one
 constexpr int kMostChanges = 3;  // of a number
-constexpr int kRolls = 6;       // of a change, until it finds what it changes
+constexpr int kRolls = 6;        // of a change, until it finds what it changes
 
 // The case as a document of its own: without what a file says of it and what it no longer is.
 // Nothing if it is too large to be written.
@@ -187,10 +187,10 @@ Source::Made ChangedSource::make_open(uint64_t number) const {
         const uint64_t refused = made.refused;
         if (auto c = load_one(to_text(closed(*start_, values)), std::to_string(number))) {
             if (Document document = document_of(std::move(*c)); !document.table.empty()) {
-                made = made_of(std::move(document),
-                               fmt::format("Made by edgecase fuzz of {}: {}.", start_->data.id,
-                                           words),
-                               number);
+                made =
+                    made_of(std::move(document),
+                            fmt::format("Made by edgecase fuzz of {}: {}.", start_->data.id, words),
+                            number);
             }
         }
         made.refused = refused + (made.data ? 0 : 1);

@@ -18,9 +18,9 @@ namespace fuzz {
 class Source {
   public:
     struct Made {
-        std::string text;                // empty: this number has no case
+        std::string text;                 // empty: this number has no case
         std::optional<cases::Case> data;  // of the text; the number is its id
-        uint64_t refused = 0;            // texts that the loader did not take
+        uint64_t refused = 0;             // texts that the loader did not take
     };
     Source() = default;
     Source(const Source&) = delete;

@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -44,7 +45,7 @@ class Hunts(FuzzTest):
         self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 12289)
         self.assertGreater(ledger["judged_cases"], 6000)
         # lavapipe's scissor that ends beyond 65535 draws nothing (docs/findings/lavapipe-scissor-16-bits.md).
-        scissor = [c for c in ledger["causes"] if c["essentials"] == ["draw.scissor"]]
+        scissor = [c for c in ledger["causes"] if c["essentials"] == ["draw.scissor", "draw.scissor beyond 32767"]]
         self.assertTrue(scissor, done.stdout)
         self.assertIn("not without scissor", scissor[0]["needs"])
         # One entry a cause, not one a failing case.
@@ -255,7 +256,7 @@ class Starts(FuzzTest):
     def test_cases_of_the_suite_are_changed(self):
         """lavapipe's scissor that ends beyond 65535 is a change away from triangles without one."""
         self.suite = SOURCE / "cases" / "suite"
-        done = self.fuzz("ties/**", "--cases=6144", check=1)
+        done = self.fuzz("ties/**", "--cases=6144", "--no-expect", check=1)
         ledger, found = self.ledger(), self.found()
         jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
         self.assertRegex(done.stdout, r"\Afuzzing .* from \d+ cases on, with seed 1 at profile direct3d")
@@ -264,7 +265,7 @@ class Starts(FuzzTest):
         self.assertEqual(self.numbers(ledger), 6144)
         self.assertGreater(ledger["refused_changes"], 0)
         self.assertEqual(self.accounted(ledger), ledger["failed_cases"])
-        self.assertTrue([c for c in ledger["causes"] if c["essentials"] == ["draw.scissor"]], done.stdout)
+        self.assertTrue([c for c in ledger["causes"] if c["essentials"] == ["draw.scissor", "draw.scissor beyond 32767"]], done.stdout)
         for name, text in found.items():
             self.assertRegex(text, r"\A# .*, found by 'edgecase fuzz ties/\*\* --seed 1' in case \d+ on ", name)
         # The case before its reduction says what it was and what was changed; it fails, and its start passes.
@@ -333,6 +334,63 @@ class Starts(FuzzTest):
         self.assertEqual(self.accounted(after), before["failed_cases"])
 
 
+class Known(FuzzTest):
+    """What expectation files explain is known by what it needs, and hides nothing else."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(SOURCE / "cases" / "suite" / "coverage", self.suite / "coverage")
+        shutil.copytree(SOURCE / "cases" / "suite" / "multisample", self.suite / "multisample")
+        shutil.copytree(SOURCE / "cases" / "suite" / "scissor", self.suite / "scissor")
+        shutil.copytree(SOURCE / "cases" / "expectations", self.suite.parent / "expectations")
+
+    def layered(self, *words, fault, check):
+        """A hunt on lavapipe with a fault of the breaking layer."""
+        layer = os.environ.get("EDGECASE_BREAKING_LAYER", str(pathlib.Path(PROGRAM).parents[1] / "breaking_layer"))
+        if not pathlib.Path(layer, "libbreaking_layer.so").exists():
+            self.skipTest("the breaking layer is not built")
+        env = self.environment() | {"VK_LAYER_PATH": layer, "VK_INSTANCE_LAYERS": "VK_LAYER_EDGECASE_breaking",
+                                    "EDGECASE_BREAK": fault, "EDGECASE_BREAK_COUNT": str(self.folder / "altered")}
+        return self.edgecase("fuzz", *words, env=env, check=check)
+
+    def test_known_defects_are_known_and_others_are_told(self):
+        start = ["scissor/**", "multisample/**"]
+        # Without expectation files lavapipe's defects are news.
+        self.fuzz(*start, "--cases=2048", "--no-expect", check=1)
+        defects = [c for c in self.ledger()["causes"] if c["symptom"].startswith("extra of scissor.half-open")]
+        self.assertTrue(defects)
+        # With them they are not: each is reduced once, from a case that is expected to fail.
+        done = self.fuzz(*start, "--cases=2048", out=self.folder / "known")
+        ledger = self.ledger("known")
+        jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
+        known = [c for c in ledger["causes"] if c["is_known"]]
+        self.assertRegex(done.stdout, rf"known by \d+ expectation files: \d+ cases that fail as expected, by {len(known)} causes, reduced in \d+ s\n")
+        self.assertTrue(all(c["bug"] and c["file"].startswith("known/") for c in known))
+        self.assertGreater(sum(c["count"] for c in known), 0)
+        fresh = [c for c in ledger["causes"] if not c["is_known"]]
+        self.assertFalse([c for c in fresh if c["symptom"].startswith("extra of scissor.half-open")], done.stdout)
+        for cause in known:
+            text = (self.folder / "known" / cause["file"]).read_text()
+            self.assertTrue(text.startswith(f"# {cause['symptom']}, known by an expectation file on "), text)
+            self.edgecase("lint", self.folder / "known" / cause["file"], check=0)
+        # Another hunt that knows this one, and one that goes on, reduce nothing anew.
+        for words in (["fuzz", *start, "--cases=16", "--known", "known", "-o", "next"], ["fuzz", "--resume", "known", "--cases=2064"]):
+            self.assertNotIn("known by", self.edgecase(*words).stdout)
+        self.assertEqual(len([c for c in self.ledger("next")["causes"] if c["is_known"]]), len(ledger["causes"]))
+        # A fault beside them that breaks the same rule in the same way, but needs no several samples, is told.
+        self.layered(*start, "--cases=2048", "--known", "known", "-o", "faulty", fault="scissor-wider", check=1)
+        told = [c for c in self.ledger("faulty")["causes"] if not c["is_known"] and c["symptom"] == "extra of scissor.half-open [vulkan]"]
+        self.assertTrue(told, self.ledger("faulty")["causes"])
+        self.assertTrue(all("several samples" not in c["essentials"] for c in told), told)
+
+    def test_wrong_files(self):
+        def refused(words, sentence, code):
+            self.assertIn(sentence, self.edgecase("fuzz", "--cases=16", *words, check=code).stderr)
+        refused(["--expect", "nothing.txt"], "there is no such expectation file", 3)
+        refused(["--expect", SOURCE / "cases/expectations/swiftshader.txt"], "does not fit: it is for the device", 5)
+        refused(["--expect", "x.txt", "--no-expect"], "--expect and --no-expect exclude each other", 2)
+
+
 class Reduce(ProgramTest):
     def reduce(self, *words, fault="", check=None):
         return self.edgecase("reduce", *words, fault=fault, check=check)
@@ -345,6 +403,7 @@ class Reduce(ProgramTest):
         text = (self.folder / "smaller.toml").read_text()
         self.assertRegex(text, r"\A# double of scissor.half-open \[vulkan\], reduced from multisample/scissor-tiled:samples=4\.\n")
         self.assertIn("# It passes, or fails otherwise: not with 1 sample.\n", text)
+        self.assertIn("# It passes with 1 sample in place of 4.\n", text)
         self.edgecase("lint", "smaller.toml", check=0)
         self.edgecase("run", "smaller.toml", "--no-expect", "-o", "out", check=1)
         # What it needs is true: without one of it, it passes.
@@ -408,9 +467,9 @@ class Reduce(ProgramTest):
         refused("true %in %out", "the command ended well and delivered no plane of the case in '%out/fam/c3'")
         refused("mkdir -p %out/fam/c3; echo x > %out/fam/c3/hits.u8; : %in", "hits.u8")
         refused("mkdir -p %out/fam/c3; echo lazy > %out/fam/c3/unsupported.txt; : %in", "does not fail here (unsupported)", 6)
-        refused("my_renderer %out", "--captures-command has no %in, the folder of the exported cases", 2)
-        refused("my_renderer %in", "--captures-command has no %out, the folder of the captures", 2)
-        refused("my_renderer %in %out", "--renderer chooses a device, and --captures-command draws without one", 2, "--renderer=reference")
+        refused("my-renderer %out", "--captures-command has no %in, the folder of the exported cases", 2)
+        refused("my-renderer %in", "--captures-command has no %out, the folder of the captures", 2)
+        refused("my-renderer %in %out", "--renderer chooses a device, and --captures-command draws without one", 2, "--renderer=reference")
         self.assertIn("--subpixel-bits is for a renderer that --captures-command starts",
                       self.reduce("fam/c3", "--subpixel-bits=4", check=2).stderr)
 

@@ -85,11 +85,28 @@ TEST(Essentials, AreWhatAPlainCaseHasNot) {
                              "unequal w"));
 }
 
+// Of numbers, only those beyond 15 bits count: a cause that needs a far scissor is none of every
+// scissor.
+TEST(Essentials, FarRectangles) {
+    const auto with = [](const std::string& line) {
+        return words(("format = 1\n[target]\nsize = [8, 8]\n[[draw]]\n" + line + "\n").c_str());
+    };
+    EXPECT_THAT(with("scissor = [0, 0, 32767, 32767]"), testing::ElementsAre("draw.scissor"));
+    EXPECT_THAT(with("scissor = [1, 0, 32767, 8]"),
+                testing::ElementsAre("draw.scissor", "draw.scissor beyond 32767"));
+    EXPECT_THAT(with("scissor = [0, 32768, 8, 8]"),
+                testing::ElementsAre("draw.scissor", "draw.scissor beyond 32767"));
+    EXPECT_THAT(with("viewport = [-32768, 0, 8, 8]"),
+                testing::ElementsAre("draw.viewport", "draw.viewport beyond 32767"));
+    EXPECT_THAT(with("viewport = [0, 0, 8, 8]"), testing::ElementsAre("draw.viewport"));
+}
+
 class LedgerTest : public testing::Test {
   protected:
     void SetUp() override {
         folder_ = fs::path(testing::TempDir()) / "edgecase-ledger";
         fs::create_directories(folder_ / "found");
+        fs::create_directories(folder_ / "known");
     }
     void TearDown() override { fs::remove_all(folder_); }
     void put(const std::string& name, const std::string& text) const {
@@ -102,20 +119,32 @@ TEST_F(LedgerTest, IsReadBack) {
     Ledger ledger;
     ledger.device = "a \"device\"";
     ledger.arguments = {"edgecase", "fuzz"};
+    ledger.selectors = {"ties/**", "my-case.toml"};
+    ledger.suite = "/suite";
+    ledger.cases_checksum = "0123456789abcdef";
+    ledger.expectations = "fedcba9876543210";
     ledger.seed = 18446744073709551615U;
     ledger.profile = Profile::practice;
     ledger.counts.next_case = 1024;
     ledger.counts.drawn = 1000;
+    ledger.counts.refused = 12;
+    ledger.counts.missing = 3;
     Entry entry;
     entry.symptom = *parse_symptom("value of interp.hull [vulkan]");
     entry.essentials = {"several samples"};
     entry.also = {{FindingKind::value, "interp.hull"}, {FindingKind::extra, "cover.outside"}};
     entry.text = "format = 1\n";
     entry.needs = {"not with 1 sample"};
+    entry.passes = {"with 2 samples in place of 4"};
     entry.file = "found/001-interp.hull.toml";
     entry.count = 7;
     entry.first_case = 33;
-    ledger.entries = {entry};
+    Entry known = entry;
+    known.is_known = true;
+    known.bug = "docs/bug.md";
+    known.file = "known/001-interp.hull.toml";
+    put(known.file, found_text(known, ledger));
+    ledger.entries = {entry, known};
     put(entry.file, found_text(entry, ledger));
     put(kLedgerFile, to_json(ledger));
     const auto read = load_ledger(folder_);
@@ -124,7 +153,30 @@ TEST_F(LedgerTest, IsReadBack) {
     EXPECT_EQ(read->entries.front().also, entry.also);
     EXPECT_TRUE(read->entries.front().text.ends_with(
         "# It passes, or fails otherwise: not with 1 sample.\n"
+        "# It passes with 2 samples in place of 4.\n"
         "# The reduction ended early: it may be larger than it has to be.\nformat = 1\n"));
+    EXPECT_THAT(read->entries.front().text,
+                testing::StartsWith("# value of interp.hull [vulkan], found by 'edgecase fuzz "
+                                    "ties/** my-case.toml --seed 18446744073709551615' in case "
+                                    "33 on a \"device\".\n"));
+    EXPECT_THAT(read->entries.back().text,
+                testing::StartsWith("# value of interp.hull [vulkan], known by an expectation file "
+                                    "on a \"device\": docs/bug.md\n"));
+    EXPECT_TRUE(read->entries.back().is_known);
+    // What an older ledger lacks is nothing.
+    std::string older = to_json(ledger);
+    for (const char* key : {"selectors", "suite", "cases_checksum", "expectations", "passes", "bug",
+                            "refused_changes", "numbers_without_case"}) {
+        const std::string name = "\"" + std::string(key) + "\":";
+        for (size_t at = older.find(name); at != std::string::npos; at = older.find(name)) {
+            older.replace(at, name.size(), "\"x\":");
+        }
+    }
+    put(kLedgerFile, older);
+    const auto read_older = load_ledger(folder_);
+    ASSERT_TRUE(read_older) << read_older.error().message;
+    EXPECT_TRUE(read_older->selectors.empty());
+    EXPECT_EQ(read_older->counts.refused, 0U);
 }
 
 TEST_F(LedgerTest, SaysWhatIsWrong) {
