@@ -290,9 +290,12 @@ DepthTest::~DepthTest() = default;
 DepthTest::DepthTest(DepthTest&&) noexcept = default;
 
 bool DepthTest::is_needed(const cases::Case& c) {
-    return std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
-        return draw.depth.compare != CompareOp::always || !draw.depth.write;
-    });
+    // "If there is no depth attachment then the depth test is skipped" (Vulkan specification,
+    // "Depth Test").
+    return c.target.has_depth &&
+           std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
+               return draw.depth.compare != CompareOp::always || !draw.depth.write;
+           });
 }
 
 DepthResolution DepthTest::resolve(const FixedPoint& p,

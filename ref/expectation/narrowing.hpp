@@ -77,8 +77,9 @@ inline void add_fragments(Expectation& out, const cases::Case& c, std::span<cons
     for (const Hit& hit : hits) {
         // A depth test or a mask may still take it away; the bounds of the sample know how many.
         const cases::Draw& draw = c.draws[out.triangles[hit.triangle].draw];
-        const bool passes = draw.depth.compare == cases::CompareOp::always &&
-                            draw.multisample.sample_mask == 0xffffffffU &&
+        const bool is_tested =
+            out.target.has_depth && draw.depth.compare != cases::CompareOp::always;
+        const bool passes = !is_tested && draw.multisample.sample_mask == 0xffffffffU &&
                             !draw.multisample.shader_mask;
         out.fragments.push_back({hit.triangle, passes && hit.coverage == Coverage::must});
     }

@@ -66,6 +66,18 @@ TEST(Color, TheReferenceItselfIsRight) {
     EXPECT_EQ(drawn.capture.color[5 * 8 + 6], (capture::ColorCodes{0, 0, 0, 0}));
 }
 
+// "If there is no depth attachment then the depth test is skipped."
+TEST(Color, NothingIsTestedWithoutADepthAttachment) {
+    cases::Case c = additive();
+    c.draws[1].depth.compare = cases::CompareOp::greater;  // than the first one's, which is as deep
+    const ref::Expectation expectation = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+    const size_t both = 5 * 8 + 1;
+    EXPECT_EQ(expectation.samples[both].hits.total_min, 2U);
+    EXPECT_EQ(expectation.samples[both].hits.total_max, 2U);
+    c.draws[1].depth.compare = cases::CompareOp::never;
+    EXPECT_EQ(ref::expect(c, ref::Limits{8}, Profile::vulkan).samples[both].hits.total_min, 2U);
+}
+
 TEST(Color, ABlackPictureFails) {
     Drawn drawn(additive());
     std::fill(drawn.capture.color.begin(), drawn.capture.color.end(), capture::ColorCodes{});

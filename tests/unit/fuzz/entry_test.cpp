@@ -55,12 +55,13 @@ TEST(SameCause, WhatElseAThinTriangleNeedsIsChance) {
 }
 
 TEST(SameCause, TwoThinTrianglesMayNeedWhateverNumbers) {
-    const Entry samples = entry("value of interp.hull [vulkan]", {kThinTriangle, "several samples"});
+    const Entry samples =
+        entry("value of interp.hull [vulkan]", {kThinTriangle, "several samples"});
     const Entry slope = entry("value of depth.linear [practice]", {kThinTriangle, "sloping depth"});
     EXPECT_TRUE(is_same_cause(samples, slope));
-    EXPECT_FALSE(is_same_cause(entry("value of interp.hull [vulkan]", {kThinTriangle, "color"}),
-                               entry("value of interp.hull [vulkan]",
-                                     {kThinTriangle, "draw.cull=back"})));
+    EXPECT_FALSE(
+        is_same_cause(entry("value of interp.hull [vulkan]", {kThinTriangle, "color"}),
+                      entry("value of interp.hull [vulkan]", {kThinTriangle, "draw.cull=back"})));
 }
 
 TEST(SameCause, NumbersAreChanceBesideAKey) {
@@ -71,9 +72,9 @@ TEST(SameCause, NumbersAreChanceBesideAKey) {
     EXPECT_FALSE(is_same_cause(
         linear, entry("value of interp.hull [direct3d]", {"draw.attribute", "unequal w"})));
     // Several samples alone are no key.
-    EXPECT_FALSE(is_same_cause(
-        entry("value of depth.linear [vulkan]", {"several samples", "sloping depth"}),
-        entry("value of fragcoord.w [vulkan]", {"several samples", "unequal w"})));
+    EXPECT_FALSE(
+        is_same_cause(entry("value of depth.linear [vulkan]", {"several samples", "sloping depth"}),
+                      entry("value of fragcoord.w [vulkan]", {"several samples", "unequal w"})));
 }
 
 TEST(SameCause, AKnownOneThatIsGraverIsNews) {
@@ -141,9 +142,9 @@ std::vector<CaseRecord> draw_sample_depth(const std::vector<cases::Case>& all) {
                                             [](const auto& draw) { return draw.depth.clamp; });
         if (c.target.samples > 1 && is_sloping(c)) {
             record.status = Status::fail;
-            record.groups = {{FindingKind::value, is_clamped ? "depth.clamp" : "depth.linear",
-                              is_clamped && c.draws.size() > 1 ? Profile::vulkan : Profile::practice,
-                              1, 0}};
+            record.groups = {
+                {FindingKind::value, is_clamped ? "depth.clamp" : "depth.linear",
+                 is_clamped && c.draws.size() > 1 ? Profile::vulkan : Profile::practice, 1, 0}};
         }
         records.push_back(record);
     }
@@ -151,7 +152,8 @@ std::vector<CaseRecord> draw_sample_depth(const std::vector<cases::Case>& all) {
 }
 
 const char* const kClamped =
-    "format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\nsamples = "
+    "format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\nsize = [4, 4]\nsamples "
+    "= "
     "4\n[[draw]]\ncull = \"back\"\ndepth = { clamp = true }\nvertices = [[-9, -9, 0], [30, -9, 1], "
     "[-9, 30, 0]]\n[[draw]]\nvertices = [[-9, -9], [30, -9], [-9, 30]]\n";
 
@@ -185,9 +187,10 @@ TEST(ReduceCase, ALikeFailureIsNoLessGrave) {
 
 TEST(Essentials, KnowATriangleThatIsThinOnTheGrid) {
     const auto words = [](const std::string& draw) {
-        return essentials_of("format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\n"
-                             "size = [8, 4]\n[[draw]]\n" +
-                             draw + "\n");
+        return essentials_of(
+            "format = 1\ndescription = \"D\"\nrules = [\"cover.inside\"]\n[target]\n"
+            "size = [8, 4]\n[[draw]]\n" +
+            draw + "\n");
     };
     EXPECT_THAT(words("vertices = [[0, 0], [8, 0], [0, 4]]"), testing::IsEmpty());
     EXPECT_THAT(words("vertices = [[0, 0], [8, 0], [0, 0.25]]"), testing::IsEmpty());
