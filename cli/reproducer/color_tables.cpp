@@ -68,10 +68,9 @@ std::array<int64_t, 2> codes_of(cases::ComponentFormat format, const Interval& s
 }  // namespace
 
 std::vector<ColorRows::Sequence> ColorRows::sets_at(size_t index) const {
-    const auto begin = expectation_.fragments_begin[index];
-    const auto hits = std::span(expectation_.fragments)
-                          .subspan(begin, expectation_.fragments_begin[index + 1] - begin);
-    const ref::HitBounds& bounds = expectation_.samples[index].hits;
+    const ref::SampleExpectation& sample = expectation_.samples[index];
+    const std::span<const ref::PossibleHit> hits = expectation_.fragments_of(sample);
+    const ref::HitBounds& bounds = sample.hits;
     const auto open = static_cast<size_t>(std::count_if(
         hits.begin(), hits.end(), [](const ref::PossibleHit& hit) { return !hit.is_certain; }));
     std::vector<Sequence> out;
