@@ -48,7 +48,7 @@ std::vector<std::pair<std::string, int>> repeated_causes(const Run& run) {
 }  // namespace
 
 TEST(Repeated, ACauseOfWhichEveryTriedCaseIs) {
-    Run run = run_of({"a/1", "a/2", "a/3", "b/1", "b/2", "c/1", "d/1", "d/2", "d/3"});
+    report::Run run = run_of({"a/1", "a/2", "a/3", "b/1", "b/2", "c/1", "d/1", "d/2", "d/3"});
     run.diagnoses = {tried({"a/1", "b/1", "d/1"}, {"b/2", "d/2", "d/3"}),
                      tried({"d/2", "d/3"}, {"a/1", "b/1", "b/2", "d/1"})};
     // Of b one is not repeated by any, of c none was tried; d has two errors, the second more
