@@ -57,6 +57,62 @@ class RunSuite(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (7, b""))
 
 
+class CompareSpeed(unittest.TestCase):
+    """scripts/compare-speed in a repository of its own, whose commits build programs of known cost."""
+
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-e2e-"))
+        self.addCleanup(shutil.rmtree, self.root, ignore_errors=True)
+        (self.root / "scripts").mkdir()
+        shutil.copy(SOURCE / "scripts/compare-speed", self.root / "scripts/compare-speed")
+        self.git("init", "-q")
+        for name, megabytes in (("light", 4), ("heavy", 160)):
+            self.build_is(f"print(len(bytearray({megabytes} << 20)))", name)
+
+    def git(self, *words):
+        subprocess.run(["git", "-C", self.root, "-c", "user.name=t", "-c", "user.email=t@example.com", *words],
+                       check=True, capture_output=True)
+
+    def build_is(self, program, tag):
+        build = self.root / "scripts/build"
+        build.write_text("#!/bin/sh\ncd \"$(dirname \"$0\")/..\" && mkdir -p build/release/bin && "
+                         f"printf '#!/usr/bin/env python3\\n{program}\\n' >build/release/bin/edgecase && "
+                         "chmod +x build/release/bin/edgecase\n")
+        build.chmod(0o755)
+        self.git("add", "-A")
+        self.git("commit", "-q", "-m", tag)
+        self.git("tag", tag)
+
+    def told(self, *words):
+        done = subprocess.run([self.root / "scripts/compare-speed", *words], capture_output=True, text=True,
+                              timeout=120, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def test_pairs_of_two_commits(self):
+        code, out, err = self.told("light", "heavy", "--pairs", "2", "--", "run", "--quick")
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("edgecase run --quick, 2 pairs: medians of light and heavy", out)
+        ratios = {line.split("  ")[1].strip(): float(line.split()[-4]) for line in out.splitlines()[1:]}
+        self.assertEqual(set(ratios), {"wall s", "processor s", "largest process MB"})
+        self.assertGreater(ratios["largest process MB"], 4)  # the memory of a process is no matter of a machine's hour
+
+    def test_wrong_use(self):
+        for words, said in ((("nosuch", "heavy"), "'nosuch' is no commit of this repository"),
+                            (("light", "heavy", "--pairs", "0"), "--pairs takes a whole number from 1 to 100"),
+                            (("light",), "required: b")):
+            code, out, err = self.told(*words)
+            self.assertEqual((code, out), (2, ""), words)
+            self.assertIn(said, err)
+
+    def test_what_does_not_build(self):
+        build = self.root / "scripts/build"
+        build.write_text("#!/bin/sh\nexit 1\n")
+        self.git("commit", "-q", "-a", "-m", "broken")
+        code, _, err = self.told("light", "HEAD")
+        self.assertEqual(code, 1)
+        self.assertIn("HEAD does not build", err)
+
+
 class InstallPackages(unittest.TestCase):
     """On a machine with these commands alone (a PATH of its own)."""
 
