@@ -163,8 +163,8 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         depth_bias(draw_, format, planes.depth_dx(), planes.depth_dy(), largest, device_);
     z = fragment_depth(z, bias, draw_, format, device_);
     const size_t tested = fault == Fault::layer_depth_of_first ? index_in(0, i, j, s) : at;
-    const bool passes = !out_.target.has_depth ||
-                        passes_depth_test(draw_, z, out_.depth[tested], device_);
+    const bool passes =
+        !out_.target.has_depth || passes_depth_test(draw_, z, out_.depth[tested], device_);
     if ((passes && (draw_.depth.write || fault == Fault::depth_write_ignored)) ||
         fault == Fault::depth_write_before_test) {
         out_.depth[at] = z;

@@ -14,6 +14,7 @@
 #include "cases/load/loader.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/captures.hpp"
+#include "rasterizers/strength/strength.hpp"
 #include "ref/expectation/expectation.hpp"
 
 namespace {
@@ -84,7 +85,7 @@ void expect_large(benchmark::State& state, const cases::Case& c) {
 
 void compare_large(benchmark::State& state, const cases::Case& c) {
     const ref::Expectation expectation = ref::expect(c, ref::Limits{}, cases::Profile::direct3d);
-    const capture::Capture capture = rasterizers::draw_by_reference(c);
+    const capture::Capture capture = software::captured(c, software::Device{});
     for (auto _ : state) {
         if (!diff::compare(c, expectation, capture).ok()) {
             state.SkipWithError("the reference's own picture is not accepted");
@@ -112,12 +113,17 @@ BENCHMARK(JudgeSmallAttributes)->Unit(benchmark::kMillisecond);
 void ExpectLarge(benchmark::State& state) {
     expect_large(state, large_case(state.range(0), "", ""));
 }
-BENCHMARK(ExpectLarge)->Arg(64)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(ExpectLarge)->Arg(64)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
 
 void CompareLarge(benchmark::State& state) {
     compare_large(state, large_case(state.range(0), "", ""));
 }
-BENCHMARK(CompareLarge)->Arg(64)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(CompareLarge)->Arg(64)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+
+void CompareLargeBarycentric(benchmark::State& state) {
+    compare_large(state, large_case(state.range(0), "", kAttributes));
+}
+BENCHMARK(CompareLargeBarycentric)->Arg(64)->Arg(1024)->Unit(benchmark::kMillisecond);
 
 void CompareLargeColour(benchmark::State& state) {
     compare_large(state, large_case(state.range(0),
