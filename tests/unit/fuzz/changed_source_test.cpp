@@ -109,7 +109,7 @@ TEST(ChangedSource, MakesTheSameCasesOnEveryMachine) {
     for (const Source::Made& made : all_of(source, 64)) {
         hash = cases::stable_hash(made.text, hash);
     }
-    EXPECT_EQ(cases::hex(hash), "51a338f1498a1bf3");
+    EXPECT_EQ(cases::hex(hash), "8908a20fd86badef");
     ChangedSource other(2, starts());
     uint64_t hash_of_other = 0;
     for (const Source::Made& made : all_of(other, 64)) {
@@ -208,6 +208,7 @@ TEST(ChangedSource, ChangesReachStatesAndGeometries) {
                              "draw.attribute",
                              "draw.attribute.interpolation=flat",
                              "draw.attribute.auxiliary=centroid",
+                             "draw.attribute.source",
                              "draw.clip_distance",
                              "draw.cull_distance",
                              "draw.color.blend",
@@ -216,11 +217,9 @@ TEST(ChangedSource, ChangesReachStatesAndGeometries) {
                              "relation scissor-tiles"}) {
         EXPECT_TRUE(words.contains(word)) << word;
     }
-    for (const char* key : {"draw.attribute.probe=d", "draw.attribute.source=sample-"}) {
-        EXPECT_TRUE(words.lower_bound(key) != words.end() &&
-                    words.lower_bound(key)->starts_with(key))
-            << key;
-    }
+    // Of fourteen probes some.
+    const auto probe = words.lower_bound("draw.attribute.probe=");
+    EXPECT_TRUE(probe != words.end() && probe->starts_with("draw.attribute.probe="));
 }
 
 // A file that says what is open: that is varied, and nothing else.
