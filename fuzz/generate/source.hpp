@@ -11,6 +11,7 @@
 #include <string>
 
 #include "cases/load/loader.hpp"
+#include "fuzz/generate/generator.hpp"
 #include "fuzz/generate/pose.hpp"
 
 namespace fuzz {
@@ -40,7 +41,7 @@ using MakeSource = std::function<std::unique_ptr<Source>()>;
 class GeneratedSource : public Source {
   public:
     explicit GeneratedSource(uint64_t seed) : seed_(seed), poses_(seed) {}
-    uint64_t group_size() const override { return 128; }
+    uint64_t group_size() const override { return kGeometries; }
     void enter(uint64_t group) override;
     Made make(uint64_t number) const override;
     size_t pairs() const override { return poses_.pairs(); }
