@@ -173,6 +173,13 @@ Hunt::State Hunt::step() {
     return is_over() ? State::done : State::goes_on;
 }
 
+void Hunt::keep_unjudged(const std::string& text, const std::string& reason) {
+    ++counts_.unjudged;
+    if (unjudged_.size() < kMostUnjudged) {
+        unjudged_.emplace_back(text, reason);
+    }
+}
+
 void Hunt::draw_chunk(Chunk chunk) {
     const Clock::time_point begin = Clock::now();
     for (const cases::Case& c : chunk.cases) {
@@ -185,6 +192,12 @@ void Hunt::draw_chunk(Chunk chunk) {
     }
     for (size_t k = 0; k < results.records.size(); ++k) {
         const CaseRecord& record = results.records[k];
+        if (!record.messages.empty()) {
+            // Every case is to be valid Vulkan: nothing that a driver does with another counts.
+            keep_unjudged(chunk.made[k].text,
+                          "the validation layer says: " + record.messages.front());
+            continue;
+        }
         switch (record.status) {
             case Status::unsupported:
                 ++counts_.unsupported;
@@ -193,10 +206,7 @@ void Hunt::draw_chunk(Chunk chunk) {
                 if (is_empty(record)) {
                     ++counts_.empty;
                 } else {
-                    ++counts_.unjudged;
-                    if (unjudged_.size() < kMostUnjudged) {
-                        unjudged_.emplace_back(chunk.made[k].text, record.reason);
-                    }
+                    keep_unjudged(chunk.made[k].text, record.reason);
                 }
                 continue;
             default:

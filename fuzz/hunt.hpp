@@ -78,7 +78,8 @@ class Hunt {
     std::vector<Entry> not_reduced() const;
     const HuntCounts& counts() const { return counts_; }
     const std::string& failure() const { return failure_; }
-    // Cases that could not be judged, with the reasons: each is an error of the judge.
+    // Cases that could not be judged, with the reasons: each is an error of the judge, or of the
+    // generator, if the validation layer finds fault with it.
     const std::vector<std::pair<std::string, std::string>>& unjudged() const { return unjudged_; }
     // The texts of cases whose failure did not come again, some of many.
     const std::vector<std::string>& unrepeated() const { return unrepeated_; }
@@ -106,6 +107,7 @@ class Hunt {
     Chunk make_chunk();
     bool is_over() const;
     void draw_chunk(Chunk chunk);
+    void keep_unjudged(const std::string& text, const std::string& reason);
     void explain(Open& open) const;
     void count(const Open& open);
     void reduce_open();

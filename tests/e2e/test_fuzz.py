@@ -80,6 +80,16 @@ class Hunts(FuzzTest):
         self.assertEqual(len(files), len(set(files)))
         self.assertEqual(len(files), len(again))
 
+    def test_what_the_validation_layer_says_is_told(self):
+        """Of what is valid it says nothing, unless it is asked for its opinion on what is good."""
+        self.fuzz("--cases=256", "--validation")
+        self.assertEqual(self.ledger()["unjudged_cases"], 0)
+        os.environ["VK_LAYER_ENABLES"] = "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"
+        self.addCleanup(os.environ.pop, "VK_LAYER_ENABLES")
+        done = self.fuzz("--cases=256", "--validation", out=self.folder / "opinion", check=7)
+        self.assertGreater(self.ledger("opinion")["unjudged_cases"], 0)
+        self.assertIn("a case could not be judged: the validation layer says: ", done.stderr)
+
     def test_a_planted_fault(self):
         """Known defects of the driver hide none."""
         self.fuzz("--cases=2048")

@@ -16,6 +16,7 @@ namespace hunt {
 
 struct Plan {
     uint64_t seed = 1;
+    uint64_t first = 0;      // numbers below are not drawn
     uint64_t cases = 32768;  // numbers from here on are not drawn
     unsigned jobs = 2;
     std::vector<std::string> faults;
@@ -34,6 +35,14 @@ using OnFind = std::function<void(const Find&)>;
 // is told once.
 void hunt_layer(const Plan& plan, const OnFind& tell);
 void hunt_software(const Plan& plan, const OnFind& tell);
+
+// What becomes of a pose's cases on lavapipe; for whoever works on the generator.
+struct PoseCounts {
+    std::string pose;
+    uint64_t judged = 0, failed = 0, empty = 0, unsupported = 0, wrong = 0;
+    double seconds = 0;  // of processor time
+};
+void count_cases(const Plan& plan, const std::function<void(const PoseCounts&)>& tell);
 
 // Names of all of them; of the layer those that leave the device alive.
 std::vector<std::string> layer_faults();

@@ -14,7 +14,6 @@ import os
 import pathlib
 import statistics
 import subprocess
-import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
@@ -24,18 +23,19 @@ BEGIN, END = "<!-- hunts -->\n", "<!-- end of hunts -->\n"
 KINDS = {"layer": "lavapipe 22.3 through the breaking layer", "software": "the software rasterizer"}
 
 
-def hunt(kind, seed, cases, jobs, faults):
-    """Name: [number of the first case that shows it or None, what is wrong with it]."""
-    found = {}
-    command = [PROGRAM, kind, "--seed", str(seed), "--cases", str(cases), "--jobs", str(jobs), *faults]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        for line in process.stdout:
-            name, number, symptom, _ = line.rstrip("\n").split("\t")
-            found[name] = [None if number == "-" else int(number), symptom]
-            print(f"{kind} {seed} {line}", end="", flush=True)
-    if process.returncode != 0:
-        sys.exit(f"hunt.py: error: {' '.join(command)} ended with {process.returncode}")
-    return found
+def hunt(kind, seed, cases, jobs, log):
+    """Name: [number of the first case that shows it or None, what is wrong with it]. What the log holds is not hunted
+    again, so that a measurement that was interrupted goes on."""
+    def read():
+        rows = [line.split("\t") for line in log.read_text().splitlines()] if log.exists() else []
+        return {name: [None if number == "-" else int(number), symptom] for name, number, symptom, _ in rows}
+    names = subprocess.run([PROGRAM, kind, "--cases", "0"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    left = [name for name in (line.split("\t")[0] for line in names.splitlines()) if name not in read()]
+    if left:
+        command = [PROGRAM, kind, "--seed", str(seed), "--cases", str(cases), "--jobs", str(jobs), *left]
+        with log.open("a") as out:
+            subprocess.run(command, stdout=out, check=True)
+    return read()
 
 
 def found_with(record, kind, fault):
@@ -60,16 +60,17 @@ def summary(record, reasons, kind):
 
 
 def table(record, reasons):
-    seeds = sorted({seed for kind in KINDS for seed in record[kind]})
-    speed = record["cases"] / 60
-    lines = [f"| {len(seeds)} seeds, {record['cases']} cases each | faults | that cases can show | found | with every seed |"
+    seeds = sorted({seed for kind in KINDS for seed in record.get(kind, {})})
+    lines = [f"| seeds {', '.join(seeds)}, {record['cases']} cases each | faults | that cases can show | found | with every seed |"
              " median time to find |", "| --- | --- | --- | --- | --- | --- |"]
     for kind, title in KINDS.items():
+        if kind not in record:
+            continue
         s = summary(record, reasons, kind)
         lines.append(f"| {title} | {s['faults']} | {s['reachable']} | {s['found']} ({100 * s['found'] / s['reachable']:.0f} %) | "
-                     f"{s['every']} | {s['median']:.0f} cases, {s['median'] / speed:.1f} s |")
+                     f"{s['every']} | {s['median']:.0f} cases |")
     lines += ["", "Never found:", ""]
-    for kind in KINDS:
+    for kind in (k for k in KINDS if k in record):
         for name in summary(record, reasons, kind)["never"]:
             lines.append(f"* `{name}`: {reasons[kind].get(name, 'not known why')}")
     return "\n".join(lines) + "\n"
@@ -84,25 +85,26 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kind", choices=KINDS, action="append", help="what draws (default: both)")
     parser.add_argument("--seeds", default="1,2,3")
-    parser.add_argument("--cases", type=int, default=32768, help="of a hunt: what 60 s take")
+    parser.add_argument("--cases", type=int, default=32768, help="of a hunt: about what a minute takes")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--logs", default=str(SOURCE / "build" / "hunts"),
+                        help="folder of what has been hunted; of another generator it is worth nothing")
     parser.add_argument("--page", action="store_true", help="only write the page's table from found.json")
-    parser.add_argument("fault", nargs="*", help="hunt these again; the others stay as they are")
     arguments = parser.parse_args()
     record = json.loads(FOUND.read_text()) if FOUND.exists() else {}
-    reasons = json.loads(UNFOUND.read_text()) if UNFOUND.exists() else {kind: {} for kind in KINDS}
+    reasons = json.loads(UNFOUND.read_text())
     if not arguments.page:
+        logs = pathlib.Path(arguments.logs)
+        logs.mkdir(parents=True, exist_ok=True)
         record["cases"] = arguments.cases
         for kind in arguments.kind or KINDS:
-            rows = record.setdefault(kind, {})
+            record[kind] = {}
             for seed in arguments.seeds.split(","):
-                rows[seed] = (rows.get(seed, {}) if arguments.fault else {}) | hunt(kind, seed, arguments.cases, arguments.jobs, arguments.fault)
-                FOUND.write_text(json.dumps(record, indent=0) + "\n")
-    for kind in KINDS:
-        if record.get(kind):
-            print(kind, summary(record, reasons, kind))
-    if all(record.get(kind) for kind in KINDS) and BEGIN in PAGE.read_text():
-        write_page(record, reasons)
+                record[kind][seed] = hunt(kind, seed, arguments.cases, arguments.jobs, logs / f"{kind}-{seed}.tsv")
+        FOUND.write_text(json.dumps(record, indent=0) + "\n")
+    for kind in (k for k in KINDS if k in record):
+        print(kind, summary(record, reasons, kind))
+    write_page(record, reasons)
 
 
 if __name__ == "__main__":

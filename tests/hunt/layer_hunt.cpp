@@ -3,9 +3,14 @@
 //
 // Every fault needs a process of its own, as the layer reads its name once. A chunk of cases is
 // drawn without a fault first; then each fault's process draws it, and judges what has other bits
-// until a case fails as it did not. The processes are forked, so that the cases need not travel.
+// until a case fails. Whether it failed without the fault, too, is asked of one process more. The
+// processes are forked, so that the cases need not travel.
+//
+// Of a pose whose first cases do not reach the fault the others are not drawn: a find may be later
+// in the table than in truth, never earlier.
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +29,7 @@
 #include "cli/prepare/loop_config.hpp"
 #include "fuzz/cause.hpp"
 #include "fuzz/entry.hpp"
+#include "fuzz/generate/generator.hpp"
 #include "hunt/hunt.hpp"
 #include "hunt/sequence.hpp"
 #include "run/judge.hpp"
@@ -36,19 +42,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kPosesOfChunk = 8;
-constexpr size_t kBatch = 32;
+constexpr size_t kPosesOfFirstChunk = 8, kPosesOfChunk = 32;
+constexpr size_t kFirstCases = 8, kBatch = 32;
 constexpr unsigned kLongestSeconds = 300;  // of a process, which a fault may hang
 // They end the device or the process (tests/breaking_layer/broken.py).
 constexpr std::array<std::string_view, 4> kDeadly = {"lost-", "hang-", "crash-",
                                                      "pipeline-refused"};
 
-// What the driver drew of a case without a fault.
-struct Base {
-    uint64_t bits = 0;
-    std::set<std::string> symptoms;
-};
-using Bases = std::map<uint64_t, Base>;
+// By number, a hash of what the driver drew without a fault.
+using Bits = std::map<uint64_t, uint64_t>;
 
 [[noreturn]] void give_up(const std::string& sentence) {
     fmt::print(stderr, "hunt: error: {}\n", sentence);
@@ -64,13 +66,20 @@ void answer(int fd, const std::string& text) {
     }
 }
 
-// Draws the chunk with a fault ("": none), and calls see(case, result) for each until it is false.
+uint64_t size_of(const fs::path& file) {
+    std::error_code none;
+    const uintmax_t size = fs::file_size(file, none);
+    return none ? 0 : size;
+}
+
+// Draws the chunk with a fault ("": none), and calls see(case, result, limits) for each case until
+// it is false. `count`: of the layer; if it is empty all cases of each pose are drawn.
 template <class See>
 void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::path& count,
           const See& see) {
     ::alarm(kLongestSeconds);
     ::setenv("EDGECASE_BREAK", fault.c_str(), 1);
-    ::setenv("EDGECASE_BREAK_COUNT", count.c_str(), 1);
+    ::setenv("EDGECASE_BREAK_COUNT", count.empty() ? "/dev/null" : count.c_str(), 1);
     run::WorkerOptions options;
     options.vulkan.device = "llvmpipe";
     auto backend = run::make_backend(options);
@@ -79,10 +88,16 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
     }
     run::LoopConfig config;
     cli::set_limits(config, (*backend)->device());
-    for (size_t begin = 0; begin < chunk.size(); begin += kBatch) {
+    const auto pose_of = [](const Numbered& one) { return one.number / fuzz::kGeometries; };
+    for (size_t begin = 0; begin < chunk.size();) {
+        const bool is_first = begin == 0 || pose_of(chunk[begin]) != pose_of(chunk[begin - 1]);
+        const size_t most = is_first ? kFirstCases : kBatch;
+        const uint64_t reached = size_of(count);
+        size_t end = begin;
         std::vector<cases::Case> batch;
-        for (size_t k = begin; k < std::min(begin + kBatch, chunk.size()); ++k) {
-            batch.push_back(chunk[k].data);
+        while (end < chunk.size() && end < begin + most &&
+               pose_of(chunk[end]) == pose_of(chunk[begin])) {
+            batch.push_back(chunk[end++].data);
         }
         std::vector<run::RenderedCase> drawn =
             run::render_with_derived(**backend, batch, [](std::string_view) {}, {});
@@ -91,6 +106,12 @@ void draw(std::span<const Numbered> chunk, const std::string& fault, const fs::p
                 return;
             }
         }
+        if (is_first && !count.empty() && size_of(count) == reached) {
+            while (end < chunk.size() && pose_of(chunk[end]) == pose_of(chunk[begin])) {
+                ++end;
+            }
+        }
+        begin = end;
     }
 }
 
@@ -106,20 +127,39 @@ uint64_t bits_of(const run::RenderedCase& drawn) {
                : cases::checksum(0, findings);
 }
 
+report::CaseRecord judged(const Numbered& one, const run::RenderedCase& drawn,
+                          const ref::Limits& limits) {
+    report::CaseRecord record = run::make_record(one.data);
+    run::judge(record, one.data, run::view_of(drawn.rendered),
+               {drawn.consistency, drawn.rendered.stray_writes}, limits, cases::Profile::direct3d,
+               run::KeepPictures::none);
+    return record;
+}
+
 std::set<std::string> symptoms_of(const Numbered& one, const run::RenderedCase& drawn,
                                   const ref::Limits& limits) {
     std::set<std::string> texts;
     if (drawn.rendered.status != vk_harness::Rendered::Status::drawn) {
         return texts;  // not supported, or an error of the harness: no picture was judged
     }
-    report::CaseRecord record = run::make_record(one.data);
-    run::judge(record, one.data, run::view_of(drawn.rendered),
-               {drawn.consistency, drawn.rendered.stray_writes}, limits, cases::Profile::direct3d,
-               run::KeepPictures::none);
+    const report::CaseRecord record = judged(one, drawn, limits);
+    if (record.status == report::Status::error &&
+        record.reason.find("was not copied from the device") != std::string::npos) {
+        texts.insert("no picture came back");  // a hunt tells it as a case that is not judged
+    }
     for (const fuzz::Symptom& symptom : fuzz::symptoms_of(record)) {
         texts.insert(fuzz::to_text(symptom));
     }
     return texts;
+}
+
+double seconds_of_children() {
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 // A forked process and the end of its pipe.
@@ -166,14 +206,10 @@ std::pair<std::string, int> finish(const Child& child) {
     return {text, status};
 }
 
-Bases draw_bases(std::span<const Numbered> chunk) {
+Bits bits_without_fault(std::span<const Numbered> chunk) {
     const Child child = fork_child([&](int fd) {
-        draw(chunk, "", "/dev/null", [&](const Numbered& one, const auto& drawn, const auto& limits) {
-            std::string line = fmt::format("{}\t{}", one.number, bits_of(drawn));
-            for (const std::string& symptom : symptoms_of(one, drawn, limits)) {
-                line += '\t' + symptom;
-            }
-            answer(fd, line);
+        draw(chunk, "", {}, [&](const Numbered& one, const auto& drawn, const auto&) {
+            answer(fd, fmt::format("{} {}", one.number, bits_of(drawn)));
             return true;
         });
     });
@@ -181,55 +217,110 @@ Bases draw_bases(std::span<const Numbered> chunk) {
     if (status != 0) {
         give_up("the driver without a fault could not draw a chunk");
     }
-    Bases bases;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream fields(line);
-        std::string number, bits, symptom;
-        std::getline(fields, number, '\t');
-        std::getline(fields, bits, '\t');
-        Base& base = bases[std::stoull(number)];
-        base.bits = std::stoull(bits);
-        while (std::getline(fields, symptom, '\t')) {
-            base.symptoms.insert(symptom);
-        }
+    Bits bits;
+    std::istringstream numbers(text);
+    for (uint64_t number = 0, hash = 0; numbers >> number >> hash;) {
+        bits[number] = hash;
     }
-    return bases;
+    return bits;
 }
 
-// Says "NUMBER<tab>SYMPTOM" of the first case that fails otherwise than without the fault.
-void hunt_one(int fd, std::span<const Numbered> chunk, const Bases& bases,
-              const std::string& fault, const fs::path& count) {
+std::set<std::string> lines_of(const std::string& text) {
+    std::set<std::string> all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        all.insert(line);
+    }
+    return all;
+}
+
+// What is wrong with a case without a fault: most cases are never asked about.
+class Defects {
+  public:
+    explicit Defects(std::span<const Numbered> chunk) : chunk_(chunk) {}
+    const std::set<std::string>& of(uint64_t number) {
+        const auto [at, is_new] = known_.try_emplace(number);
+        if (is_new) {
+            const auto one = std::find_if(chunk_.begin(), chunk_.end(), [&](const Numbered& other) {
+                return other.number == number;
+            });
+            const Child child = fork_child([&](int fd) {
+                draw(std::span(&*one, 1), "", {},
+                     [&](const Numbered& c, const auto& drawn, const auto& limits) {
+                         for (const std::string& symptom : symptoms_of(c, drawn, limits)) {
+                             answer(fd, symptom);
+                         }
+                         return true;
+                     });
+            });
+            at->second = lines_of(finish(child).first);
+        }
+        return at->second;
+    }
+
+  private:
+    std::span<const Numbered> chunk_;
+    std::map<uint64_t, std::set<std::string>> known_;
+};
+
+// Says the number of the first case that has other bits than without the fault and fails, and below
+// it what is wrong.
+void hunt_one(int fd, std::span<const Numbered> chunk, const Bits& bits, const std::string& fault,
+              const fs::path& count) {
     draw(chunk, fault, count, [&](const Numbered& one, const auto& drawn, const auto& limits) {
-        const Base& base = bases.at(one.number);
-        if (bits_of(drawn) == base.bits) {
+        if (bits_of(drawn) == bits.at(one.number)) {
             return true;
         }
-        for (const std::string& symptom : symptoms_of(one, drawn, limits)) {
-            if (!base.symptoms.contains(symptom)) {
-                answer(fd, fmt::format("{}\t{}", one.number, symptom));
-                return false;
-            }
+        const std::set<std::string> symptoms = symptoms_of(one, drawn, limits);
+        if (symptoms.empty()) {
+            return true;
         }
-        return true;
+        std::string text = std::to_string(one.number);
+        for (const std::string& symptom : symptoms) {
+            text += '\n' + symptom;
+        }
+        answer(fd, text);
+        return false;
     });
 }
 
-void take_answer(const Child& child, uint64_t first_case, Find& find) {
+// Where a fault's hunt through a chunk stands.
+struct Chase {
+    Find* find = nullptr;
+    std::span<const Numbered> rest;
+    bool is_over = false;
+};
+
+void take_answer(const Child& child, Defects& defects, Chase& chase) {
+    Find& find = *chase.find;
     const auto [text, status] = finish(child);
-    const size_t tab = text.find('\t');
-    if (tab != std::string::npos) {
-        find.number = std::stoull(text.substr(0, tab));
-        find.symptom = text.substr(tab + 1, text.find('\n') - tab - 1);
-    } else if (WIFSIGNALED(status)) {
-        find.number = first_case;  // or a later one of the chunk
-        find.symptom = fmt::format("ended by signal {}", WTERMSIG(status));
-    } else if (status != 0) {
-        give_up("the driver could not draw with the fault " + find.fault);
-    }
     std::error_code none;
-    find.alterations += fs::file_size(child.count, none);
+    find.alterations += size_of(child.count);
     fs::remove(child.count, none);
+    chase.is_over = true;
+    if (text.empty()) {
+        if (WIFSIGNALED(status)) {
+            find.number = chase.rest.front().number;  // or a later one of the chunk
+            find.symptom = fmt::format("ended by signal {}", WTERMSIG(status));
+        } else if (status != 0) {
+            give_up("the driver could not draw with the fault " + find.fault);
+        }
+        return;
+    }
+    const size_t end = text.find('\n');
+    const uint64_t number = std::stoull(text.substr(0, end));
+    for (const std::string& symptom : lines_of(text.substr(end + 1))) {
+        if (!defects.of(number).contains(symptom)) {
+            find.number = number;
+            find.symptom = symptom;
+            return;
+        }
+    }
+    // A defect of the driver itself, drawn otherwise: go on behind it.
+    while (!chase.rest.empty() && chase.rest.front().number <= number) {
+        chase.rest = chase.rest.subspan(1);
+    }
+    chase.is_over = chase.rest.empty();
 }
 
 }  // namespace
@@ -253,6 +344,38 @@ std::vector<std::string> layer_faults() {
     return names;
 }
 
+void count_cases(const Plan& plan, const std::function<void(const PoseCounts&)>& tell) {
+    using Status = vk_harness::Rendered::Status;
+    Sequence sequence(plan.seed, plan.first, plan.cases);
+    while (sequence.next_case() < plan.cases) {
+        const std::vector<Numbered> chunk = sequence.next(1);
+        if (chunk.empty()) {
+            continue;
+        }
+        const double before = seconds_of_children();
+        const Child child = fork_child([&](int fd) {
+            draw(chunk, "", {}, [&](const Numbered& one, const auto& drawn, const auto& limits) {
+                const Status status = drawn.rendered.status;
+                const report::Status verdict = status == Status::drawn
+                                                   ? judged(one, drawn, limits).status
+                                                   : report::Status::error;
+                answer(fd, status == Status::unsupported      ? "u"
+                           : status != Status::drawn          ? "w"
+                           : verdict == report::Status::error ? "e"
+                           : verdict == report::Status::pass  ? "p"
+                                                              : "f");
+                return true;
+            });
+        });
+        const std::string text = finish(child).first;
+        const auto count = [&](char letter) {
+            return static_cast<uint64_t>(std::count(text.begin(), text.end(), letter));
+        };
+        tell({sequence.pose().text(), count('p') + count('f'), count('f'), count('e'), count('u'),
+              count('w'), seconds_of_children() - before});
+    }
+}
+
 void hunt_layer(const Plan& plan, const OnFind& tell) {
     ::setenv("VK_LAYER_PATH", EDGECASE_BREAKING_LAYER, 1);
     ::setenv("VK_INSTANCE_LAYERS", "VK_LAYER_EDGECASE_breaking", 1);
@@ -260,25 +383,34 @@ void hunt_layer(const Plan& plan, const OnFind& tell) {
     for (const std::string& fault : plan.faults) {
         open.push_back({fault, {}, {}, 0});
     }
-    Sequence sequence(plan.seed);
+    Sequence sequence(plan.seed, plan.first, plan.cases);
     while (sequence.next_case() < plan.cases && !open.empty()) {
-        const uint64_t first_case = sequence.next_case();
-        std::vector<Numbered> chunk = sequence.next(kPosesOfChunk);
-        std::erase_if(chunk, [&](const Numbered& one) { return one.number >= plan.cases; });
-        const Bases bases = draw_bases(chunk);
-        for (size_t begin = 0; begin < open.size(); begin += plan.jobs) {
+        const std::vector<Numbered> chunk =
+            sequence.next(sequence.next_case() == 0 ? kPosesOfFirstChunk : kPosesOfChunk);
+        if (chunk.empty()) {
+            continue;
+        }
+        const Bits bits = bits_without_fault(chunk);
+        Defects defects(chunk);
+        std::vector<Chase> chases;
+        for (Find& find : open) {
+            chases.push_back({&find, chunk});
+        }
+        while (!chases.empty()) {
+            const size_t count = std::min<size_t>(plan.jobs, chases.size());
             std::vector<Child> children;
-            for (size_t k = begin; k < std::min<size_t>(begin + plan.jobs, open.size()); ++k) {
-                const fs::path count =
+            for (size_t k = 0; k < count; ++k) {
+                const fs::path file =
                     fs::temp_directory_path() / fmt::format("hunt-{}-{}", ::getpid(), k);
                 children.push_back(fork_child([&](int fd) {
-                    hunt_one(fd, chunk, bases, open[k].fault, count);
+                    hunt_one(fd, chases[k].rest, bits, chases[k].find->fault, file);
                 }));
-                children.back().count = count;
+                children.back().count = file;
             }
-            for (size_t k = 0; k < children.size(); ++k) {
-                take_answer(children[k], first_case, open[begin + k]);
+            for (size_t k = 0; k < count; ++k) {
+                take_answer(children[k], defects, chases[k]);
             }
+            std::erase_if(chases, [](const Chase& chase) { return chase.is_over; });
         }
         std::erase_if(open, [&](const Find& find) {
             if (find.number) {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "cases/base/parallel.hpp"
-#include "fuzz/generate/source.hpp"
 #include "fuzz/generate/generator.hpp"
+#include "fuzz/generate/source.hpp"
 
 namespace hunt {
 
@@ -20,12 +20,15 @@ std::vector<Numbered> Sequence::next(size_t poses) {
     std::vector<Numbered> all;
     for (size_t k = 0; k < poses; ++k) {
         const uint64_t pose_number = poses_.count();
-        const fuzz::Pose pose = poses_.next(
-            [&](const fuzz::Pose& p) { return fuzz::is_case(seed_, p, pose_number); });
+        pose_ =
+            poses_.next([&](const fuzz::Pose& p) { return fuzz::is_case(seed_, p, pose_number); });
         std::vector<std::optional<cases::Case>> made(fuzz::kGeometries);
         cases::for_each_index(made.size(), [&](size_t n) {
             const uint64_t number = pose_number * fuzz::kGeometries + n;
-            made[n] = fuzz::load_one(fuzz::case_text(seed_, pose, pose_number, number),
+            if (number < first_ || number >= end_) {
+                return;
+            }
+            made[n] = fuzz::load_one(fuzz::case_text(seed_, pose_, pose_number, number),
                                      std::to_string(number));
         });
         for (size_t n = 0; n < made.size(); ++n) {

@@ -52,7 +52,7 @@ void hunt_software(const Plan& plan, const OnFind& tell) {
     const auto is_open = [&](const Find& find, uint64_t number) {
         return !find.number || number < *find.number;
     };
-    Sequence sequence(plan.seed);
+    Sequence sequence(plan.seed, plan.first, plan.cases);
     while (sequence.next_case() < plan.cases) {
         const std::vector<Numbered> chunk = sequence.next(kPosesOfChunk);
         cases::for_each_index(chunk.size(), [&](size_t k) {
@@ -61,7 +61,7 @@ void hunt_software(const Plan& plan, const OnFind& tell) {
             {
                 const std::lock_guard lock(mutex);
                 for (const auto& [fault, find] : finds) {
-                    if (number < plan.cases && is_open(find, number)) {
+                    if (is_open(find, number)) {
                         open.push_back(fault);
                     }
                 }
@@ -79,8 +79,12 @@ void hunt_software(const Plan& plan, const OnFind& tell) {
                     }
                 });
             if (alarm && alarm->error.empty()) {
-                fmt::print(stderr, "false alarm: case {} of seed {} fails without a fault\n",
-                           number, plan.seed);
+                const diff::Finding& first = alarm->findings.front();
+                fmt::print(stderr,
+                           "false alarm: case {} of seed {} fails without a fault: {} [{}] at "
+                           "({}, {}), {}: expected {}, got {}\n",
+                           number, plan.seed, first.rule, cases::to_string(first.level), first.x,
+                           first.y, first.quantity, first.expected, first.got);
             }
         });
         for (auto find = finds.begin(); find != finds.end();) {
