@@ -33,6 +33,9 @@ PixelRect draw_rect(const cases::Draw& draw, const cases::Target& target, const 
             rect.x0 -= target.samples > 1 ? 1 : 0;
             rect.y0 -= target.samples > 1 ? 1 : 0;
             break;
+        case Fault::scissor_closed_odd:
+            rect.y1 += target.width % 2;
+            break;
         case Fault::scissor_follows_viewport: {
             const auto dx = static_cast<int64_t>(draw.viewport.x);
             const auto dy = static_cast<int64_t>(draw.viewport.y);

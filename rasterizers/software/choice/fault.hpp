@@ -134,6 +134,7 @@ enum class Fault : uint8_t {
     scissor_ignored,
     scissor_follows_viewport,
     scissor_half_early,
+    scissor_closed_odd,
     // layers
     layer_ignored,
     layer_off_by_one,
