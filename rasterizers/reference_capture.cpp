@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "capture/blank_capture.hpp"
+#include "cases/model/sample.hpp"
 #include "diff/consistency.hpp"
 #include "rasterizers/captures.hpp"
 #include "rasterizers/color_plane.hpp"
 #include "ref/blit/blit.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/value/fragment/shading_rate.hpp"
 #include "ref/value/value.hpp"
 
 namespace rasterizers {
@@ -25,6 +27,21 @@ std::pair<uint32_t, uint32_t> pick_hits(const ref::HitBounds& bounds) {
         }
     }
     return {0, 0};
+}
+
+// The last triangle that may have written the sample and of whose values the reference knows a
+// nearest one; of one without area it knows bounds only, and need not draw it.
+uint32_t pick_writer(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
+                     ref::ValueReference& values, const cases::SampleId& id) {
+    const auto writer = [&](uint32_t k) { return expectation.writers[sample.writers_begin + k]; };
+    for (uint32_t k = sample.writers_count; k > 0; --k) {
+        for (const ref::ExpectedValue& value : values.expected(writer(k - 1), id)) {
+            if (value.part.empty() && value.quantity == ref::QuantityId::of_frag_coord(2)) {
+                return writer(k - 1);
+            }
+        }
+    }
+    return writer(sample.writers_count - 1);
 }
 
 capture::Capture blit_by_reference(const cases::Case& c) {
@@ -60,11 +77,11 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         capture.hits[index].x = static_cast<float>(front);
         capture.hits[index].y = static_cast<float>(back);
         capture.hits[index].w += static_cast<float>(front + back);
-        const uint32_t t = expectation.writers[sample.writers_begin + sample.writers_count - 1];
+        const cases::SampleId id = cases::sample_at(c.target, index);
+        const uint32_t t = pick_writer(expectation, sample, values, id);
         const cases::Triangle& triangle = expectation.triangles[t];
         capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                                   capture::kClearId};
-        const cases::SampleId id = cases::sample_at(c.target, index);
         const bool writes_depth = c.draws[triangle.draw].depth.write;
         ref::FragmentValues drawn;
         drawn.frag_coord =
@@ -74,6 +91,13 @@ capture::Capture draw_by_reference(const cases::Case& c) {
             if (value.part.empty() && (writes_depth || !value.quantity.is_depth())) {
                 number_of(drawn, value.quantity) = static_cast<float>(value.nearest);
             }
+        }
+        if (ref::value::shading_rate(c.draws[triangle.draw], c.target.samples) ==
+            ref::value::ShadingRate::some) {
+            // One invocation a sample is never too few.
+            const auto& at = cases::sample_locations(c.target)[id.sample];
+            drawn.frag_coord.x = static_cast<float>(id.x) + static_cast<float>(at[0]) / 16.0F;
+            drawn.frag_coord.y = static_cast<float>(id.y) + static_cast<float>(at[1]) / 16.0F;
         }
         capture.frag_coord[index] = drawn.frag_coord;
         capture.depth[index] = drawn.depth;

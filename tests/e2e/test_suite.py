@@ -37,6 +37,12 @@ class Suite(ProgramTest):
                 for case in judged:
                     self.assertGreater(case["must_samples"], 0, case["id"])
 
+    def test_the_reference_passes_its_own_judge(self):
+        for words in ((), ("multisample/**", "clip/**", "--profile", "vulkan")):
+            self.edgecase("run", "-o", self.out, "--renderer", "reference", *words, "--timeout", "100", check=0)
+            results = self.results()
+            self.assertEqual(results["totals"]["pass"], results["totals"]["cases"])
+
     def test_silent_under_the_validation_layer(self):
         self.run_lavapipe("--validation", check=0)
         self.assertEqual({case["id"]: case["messages"] for case in self.results()["cases"] if case["messages"]}, {})
