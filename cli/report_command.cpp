@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The commands "report", "completion", "man" and "version".
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -34,6 +35,7 @@ cases::Expected<void> write_merged(const report::Run& run, const fs::path& folde
     if (!journal) {
         return tl::unexpected(journal.error());
     }
+    remove_reports({folder, {}, {}, {}});
     cases::Expected<void> written = journal->write_run(run);
     if (written) {
         written = journal->write_device(run.device);
@@ -50,7 +52,6 @@ cases::Expected<void> write_merged(const report::Run& run, const fs::path& folde
 struct Source {
     report::Run run;
     fs::path folder;
-    std::vector<uint32_t> missing_shards;
 };
 
 OrStop<Source> load_one(const ReportOptions& options) {
@@ -66,12 +67,16 @@ OrStop<Source> load_one(const ReportOptions& options) {
     const fs::path folder = options.output.empty() ? options.directories.front() : options.output;
     std::error_code error;
     fs::create_directories(folder, error);
-    return Source{std::move(*run), folder, {}};
+    return Source{std::move(*run), folder};
+}
+
+fs::path merged_folder(const ReportOptions& options) {
+    return options.output.empty() ? "out/merged" : options.output;
 }
 
 OrStop<Source> load_merged(const Program& program, const ReportOptions& options) {
     Source source;
-    source.folder = options.output.empty() ? "out/merged" : options.output;
+    source.folder = merged_folder(options);
     std::vector<report::Part> parts;
     bool is_diagnosed = false;
     for (const std::string& directory : options.directories) {
@@ -89,12 +94,11 @@ OrStop<Source> load_merged(const Program& program, const ReportOptions& options)
         is_diagnosed = is_diagnosed || !run->diagnoses.empty();
         parts.push_back({directory, std::move(*run)});
     }
-    cases::Expected<report::Merged> merged = report::merge_runs(std::move(parts));
+    cases::Expected<report::Run> merged = report::merge_runs(std::move(parts));
     if (!merged) {
         return tl::unexpected(Stop{report::kExitInvalidFile, {merged.error().message}});
     }
-    source.run = std::move(merged->run);
-    source.missing_shards = std::move(merged->missing_shards);
+    source.run = std::move(*merged);
     if (is_diagnosed) {
         diagnose_again(program, source.run);
     }
@@ -104,13 +108,17 @@ OrStop<Source> load_merged(const Program& program, const ReportOptions& options)
     return source;
 }
 
-// "shard 2 is" or "shards 2, 5 are"
-std::string shards_text(const std::vector<uint32_t>& shards) {
-    std::string text = shards.size() == 1 ? "shard " : "shards ";
-    for (size_t k = 0; k < shards.size(); ++k) {
-        text += (k == 0 ? "" : ", ") + std::to_string(shards[k]);
+// A merge that fails leaves nothing that looks like its result.
+void forsake_merged(const ReportOptions& options) {
+    const fs::path folder = merged_folder(options);
+    const bool is_part = std::any_of(options.directories.begin(), options.directories.end(),
+                                     [&](const std::string& directory) {
+                                         std::error_code none;
+                                         return fs::equivalent(directory, folder, none);
+                                     });
+    if (!is_part) {
+        remove_reports_of_last_run(ReportFiles{folder, options.json, options.junit, options.html});
     }
-    return text + (shards.size() == 1 ? " is" : " are");
 }
 
 }  // namespace
@@ -118,6 +126,9 @@ std::string shards_text(const std::vector<uint32_t>& shards) {
 int report_command(const Program& program, const ReportOptions& options) {
     const OrStop<Source> source = options.merge ? load_merged(program, options) : load_one(options);
     if (!source) {
+        if (options.merge && source.error().exit_code == report::kExitInvalidFile) {
+            forsake_merged(options);
+        }
         return report_stop(source.error());
     }
     const report::Run& run = source->run;
@@ -142,27 +153,21 @@ int report_command(const Program& program, const ReportOptions& options) {
     std::fflush(console);
     const cases::Errors ci = write_ci(run, chosen_ci(options.ci), files.folder, console);
     errors.insert(errors.end(), ci.begin(), ci.end());
-    const bool is_whole = source->missing_shards.empty();
-    const bool failed = !errors.empty() || !is_whole;
+    const bool failed = !errors.empty();
     if (!options.quiet) {
         // What the run came to is not this command's end.
         std::string exit =
             options.merge ? report::exit_text(run) : "the run ended with " + report::exit_text(run);
         if (failed) {
-            exit =
-                report::exit_text(report::kExitInternal, is_whole ? "a report could not be written"
-                                                                  : "shards are missing");
+            exit = report::exit_text(report::kExitInternal, "a report could not be written");
         }
         std::fputs(report::console_summary(run, written_page(files, errors), style, exit).c_str(),
                    console);
         std::fflush(console);
     }
     print_errors(errors);
-    if (!is_whole) {
-        std::fprintf(stderr,
-                     "edgecase: %s not among the folders, so not every case of the run is here; "
-                     "name the folders of all shards\n",
-                     shards_text(source->missing_shards).c_str());
+    if (!run.missing_shards.empty()) {
+        complain(report::missing_shards_sentence(run));
     }
     return failed          ? report::kExitInternal
            : options.merge ? report::exit_code(run)

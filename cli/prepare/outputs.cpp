@@ -177,6 +177,46 @@ cases::Errors write_reports(const report::Run& run, const ReportFiles& files) {
     return errors;
 }
 
+void remove_reports(const ReportFiles& files) {
+    const auto remove = [](const std::filesystem::path& file) {
+        std::error_code error;  // what cannot be removed cannot be written either, which is told
+        return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error)) &&
+               std::filesystem::remove(file, error);
+    };
+    if (!files.folder.empty()) {
+        for (const char* name : {"results.json", "junit.xml", "gl-code-quality.json"}) {
+            remove(files.folder / name);
+        }
+        const std::string page = (files.folder / "report.html").string();
+        remove(page);
+        for (size_t part = 2; remove(part_file(page, part)); ++part) {
+        }
+    }
+    for (const std::string& file : {files.json, files.junit, files.html}) {
+        if (file != "-") {
+            remove(file);  // without its parts: FILE-2.html may be somebody else's
+        }
+    }
+}
+
+void remove_reports_of_last_run(const ReportFiles& files) {
+    std::error_code none;
+    if (files.folder.empty() || !std::filesystem::exists(files.folder / "journal.jsonl", none) ||
+        report::put_aside_journal(files.folder)) {
+        remove_reports(files);
+    }
+}
+
+void remove_reports_of_last_run(const RunOptions& options) {
+    std::error_code none;
+    if (!options.resume.empty() ||
+        std::filesystem::equivalent(options.output, options.failed_in, none)) {
+        return;
+    }
+    remove_reports_of_last_run(
+        ReportFiles{options.output, options.json, options.junit, options.html});
+}
+
 std::string written_page(const ReportFiles& files, const cases::Errors& errors) {
     const std::string page = (files.folder / "report.html").string();
     const bool is_missing = std::any_of(

@@ -37,6 +37,14 @@ cases::Expected<void> replace_text(const std::filesystem::path& file, const std:
 
 // Writes all reports of a run and returns what could not be written.
 cases::Errors write_reports(const report::Run& run, const ReportFiles& files);
+// Takes away what write_reports() and write_ci() wrote of an earlier run, so that a run that ends
+// before it reports leaves nothing that looks like its result.
+void remove_reports(const ReportFiles& files);
+// The same for a run that cannot begin; the journal of the earlier run is kept as
+// journal.jsonl.old. A folder that another run is writing stays as it is, and so does one that is
+// read (--failed-in).
+void remove_reports_of_last_run(const ReportFiles& files);
+void remove_reports_of_last_run(const RunOptions& options);
 // report.html in the folder, as the summary names it; empty if it could not be written.
 std::string written_page(const ReportFiles& files, const cases::Errors& errors);
 

@@ -70,8 +70,26 @@ bool fails_anew(const CaseRecord& a, const CaseRecord& b) {
     return !a.groups.empty() && !news_of(a, b).empty();
 }
 
-Change change_of(const std::vector<const CaseRecord*>& records) {
+// The first later run that has another case under the id than the first run, by what is drawn; 0:
+// none. Versions of the program put cases into other bytes, and older ones told nothing.
+size_t run_with_other_case(const std::vector<const CaseRecord*>& records,
+                           const std::vector<NamedRun>& runs) {
+    for (size_t k = 1; k < records.size(); ++k) {
+        const CaseRecord *a = records.front(), *b = records[k];
+        if (a != nullptr && b != nullptr && !a->content.empty() && !b->content.empty() &&
+            a->content != b->content && runs[0].run.tool_version == runs[k].run.tool_version) {
+            return k;
+        }
+    }
+    return 0;
+}
+
+Change change_of(const ComparedCase& c) {
+    const std::vector<const CaseRecord*>& records = c.records;
     const std::optional<int> first = severity(records.front());
+    if (c.other != 0) {
+        return first ? Change::vanished : Change::only_in_some;
+    }
     bool worse = false, better = false, gone = false, some = false, all = true;
     for (const CaseRecord* record : records) {
         const std::optional<int> s = severity(record);
@@ -189,6 +207,9 @@ std::string detail_of(const ComparedCase& c, const std::vector<std::string>& let
         case Change::vanished:
         case Change::only_in_some:
         case Change::judged_in_none:
+            if (c.other != 0) {
+                return letters[c.other] + ": another case under the same id";
+            }
             for (size_t k = 0; k < c.records.size(); ++k) {
                 if (c.records[k] != nullptr && !severity(c.records[k])) {
                     return letters[k] + ": " + why_it_happened(*c.records[k]);
@@ -234,6 +255,7 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs, Stri
                 runs.front().folder, cases::to_string(first.profile), runs[k].folder,
                 cases::to_string(run.profile));
         }
+        result.unjudged += run.missing_shards.size();  // of at least one case each
         if (run.suite_hash != first.suite_hash) {
             result.remarks.push_back(fmt::format(
                 "the suites of {} and {} are not the same: a case may ask something else",
@@ -251,7 +273,7 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs, Stri
         for (const CaseRecord& record : runs[k].run.cases) {
             const auto [at, fresh] = index.emplace(record.id, result.cases.size());
             if (fresh) {
-                result.cases.push_back({record.id, Change::same, {}, {}});
+                result.cases.push_back({record.id, Change::same, {}, {}, 0});
                 result.cases.back().records.resize(runs.size(), nullptr);
             }
             result.cases[at->second].records[k] = &record;
@@ -259,13 +281,16 @@ cases::Expected<Comparison> compare_runs(const std::vector<NamedRun>& runs, Stri
             result.unjudged += status == Status::error || status == Status::not_run ? 1U : 0U;
         }
     }
+    for (ComparedCase& c : result.cases) {
+        c.other = run_with_other_case(c.records, runs);
+    }
     if (strictness.common) {
         std::erase_if(result.cases, [](const ComparedCase& c) {
-            return std::any_of(c.records.begin(), c.records.end(), is_lacking);
+            return c.other != 0 || std::any_of(c.records.begin(), c.records.end(), is_lacking);
         });
     }
     for (ComparedCase& c : result.cases) {
-        c.change = change_of(c.records);
+        c.change = change_of(c);
         c.detail = detail_of(c, result.letters);
         std::replace(c.detail.begin(), c.detail.end(), '\n', ' ');
         ++result.counts.at(static_cast<size_t>(c.change));

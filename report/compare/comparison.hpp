@@ -27,8 +27,10 @@ enum class Change : uint8_t {
     // Worse in a later run (pass < flake < fail < device_lost < timeout < crash), or it fails there
     // in a way or as often as it did not: by another kind, rule or level, or by another signal.
     regression,
-    vanished,  // judged in the first run, and a later one has no such case or does not support it
-    fix,       // better in a later run, worse in none
+    // Judged in the first run, and a later one has no such case, or another one under its id, or
+    // does not support it.
+    vanished,
+    fix,              // better in a later run, worse in none
     fails_otherwise,  // bad in all, with other findings or other bits
     fails_alike,      // bad in all, bit for bit the same
     other_coverage,   // passes in all, other samples are hit: the reference allows both
@@ -51,14 +53,17 @@ struct ComparedCase {
     Change change = Change::same;
     std::vector<const CaseRecord*> records;  // one a run; null where the run has no such case
     std::string detail;                      // one line; may be empty
+    // Of a later run: it has another case under this id than the first one; none: 0.
+    size_t other = 0;
 };
 
 struct Comparison {
     std::vector<std::string> letters;  // "A", "B", ...
     std::vector<ComparedCase> cases;   // in the order of the first run, then of the others
     std::array<size_t, kChanges> counts{};
-    size_t unjudged =
-        0;  // cases that a run began with and that were not run or could not be judged
+    // Cases that a run began with and that were not run or could not be judged, and shards that it
+    // lacks.
+    size_t unjudged = 0;
     Strictness strictness;
     std::vector<std::string> remarks;  // what makes the runs less comparable, one sentence each
 };

@@ -102,8 +102,10 @@ std::string fingerprint(const std::string& text) {
 
 std::string to_github_annotations(const Run& run, const fs::path& base) {
     const std::vector<Cause> list = causes(run);
-    std::string text;
-    for (size_t k = 0; k < std::min(list.size(), kMaxAnnotations); ++k) {
+    const bool is_whole = run.missing_shards.empty();
+    std::string text = is_whole ? "" : to_github_annotation({missing_shards_sentence(run)});
+    const size_t told = is_whole ? kMaxAnnotations : kMaxAnnotations - 1;
+    for (size_t k = 0; k < std::min(list.size(), told); ++k) {
         const CaseRecord& first = smallest_case(list[k]);
         const std::string body = fmt::format(
             "{}   {}\n{}\nrerun: {}{}", first.id, what_happened(first), why_it_happened(first),
@@ -116,8 +118,8 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
         text += fmt::format("::error {}title={}::{}\n", place,
                             command_text(cause_title(list[k]), true), command_text(body, false));
     }
-    if (list.size() > kMaxAnnotations) {
-        const size_t more = list.size() - kMaxAnnotations;
+    if (list.size() > told) {
+        const size_t more = list.size() - told;
         text += fmt::format("+{} more {} of unexpected results: see the summary of the step\n",
                             more, more == 1 ? "cause" : "causes");
     }
@@ -137,6 +139,9 @@ std::string to_github_summary(const Run& run) {
                     cell(d.driver_name), d.driver_info.empty() ? "" : " ", cell(d.driver_info),
                     d.api_version.empty() ? "" : ", Vulkan " + cell(d.api_version), d.subpixel_bits,
                     cases::to_string(run.profile), run.seed, seconds_text(run.seconds));
+    if (!run.missing_shards.empty()) {
+        text += fmt::format("**{}.**\n\n", cell(missing_shards_sentence(run)));
+    }
     text += "| status | cases |\n| --- | ---: |\n";
     const auto count = totals(run);
     for (size_t k = 0; k < kStatuses; ++k) {
@@ -192,6 +197,14 @@ std::string to_github_summary(const Run& run) {
 
 std::string to_gitlab(const Run& run, const fs::path& base) {
     Json issues = Json::array();
+    if (!run.missing_shards.empty()) {  // no file is to blame; GitLab wants one all the same
+        issues.push_back(
+            Json{{"description", missing_shards_sentence(run)},
+                 {"check_name", "missing_shards"},
+                 {"fingerprint", fingerprint("missing_shards\n" + missing_shards_text(run))},
+                 {"severity", "blocker"},
+                 {"location", Json{{"path", "."}, {"lines", Json{{"begin", 1}}}}}});
+    }
     for (const CaseRecord& record : run.cases) {
         if (is_expected(record.status)) {
             continue;

@@ -148,6 +148,7 @@ Json run_json(const Run& run) {
         {"shards", run.shards},
         {"jobs", run.jobs},
         {"interrupted", run.interrupted},
+        {"missing_shards", run.missing_shards},
         {"exit_code", exit_code(run)},
     };
 }

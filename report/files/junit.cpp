@@ -127,11 +127,13 @@ std::string to_junit(const Run& run) {
         errors += element == Element::error ? 1U : 0U;
         skipped += element == Element::skipped ? 1U : 0U;
     }
+    errors += run.missing_shards.size();
     const Device& d = run.device;
     const std::string name = attribute(d.name.empty() ? "no device" : d.name);
     const std::string counts =
         fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{}\"",
-                    run.cases.size(), failures, errors, skipped, time_of(run.seconds));
+                    run.cases.size() + run.missing_shards.size(), failures, errors, skipped,
+                    time_of(run.seconds));
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     text += fmt::format("<testsuites name=\"edgecase\" {}>\n", counts);
     text += fmt::format("  <testsuite name=\"{}\" timestamp=\"{}\" {}>\n", name,
@@ -149,6 +151,12 @@ std::string to_junit(const Run& run) {
         text += property(attribute("env." + key), value);
     }
     text += "    </properties>\n";
+    for (const uint32_t shard : run.missing_shards) {
+        text += fmt::format(
+            "    <testcase classname=\"edgecase\" name=\"shard {}\" time=\"0.000000\">\n"
+            "      <error type=\"not_run\" message=\"{}\"/>\n    </testcase>\n",
+            shard, attribute(missing_shards_sentence(run)));
+    }
     for (const CaseRecord& record : run.cases) {
         text += test_case(record);
     }

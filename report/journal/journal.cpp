@@ -126,6 +126,21 @@ cases::Expected<Journal> Journal::open(const std::filesystem::path& dir, bool ap
     return journal;
 }
 
+bool put_aside_journal(const std::filesystem::path& dir) {
+    const std::filesystem::path file = dir / "journal.jsonl";
+    const int fd = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    if (fd < 0) {
+        return false;
+    }
+    const bool is_written = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    std::error_code error;
+    if (!is_written) {
+        std::filesystem::rename(file, file.string() + ".old", error);
+    }
+    ::close(fd);
+    return !is_written && !error;
+}
+
 cases::Expected<void> Journal::write_line(const std::string& line) {
     if (fd_ < 0) {
         return failure("the journal was moved away and cannot be written to");

@@ -40,6 +40,10 @@ class Journal {
     std::string file_;
 };
 
+// Renames DIR/journal.jsonl to journal.jsonl.old, so that no command takes the run that it tells of
+// for one that did not begin. False: there is none, or another run is writing it.
+bool put_aside_journal(const std::filesystem::path& dir);
+
 // Rebuilds a run from DIR/journal.jsonl. A torn last line is ignored; anything else malformed is an
 // error with its line. A case with a begin but no end stays not_run; `in_flight` receives those
 // ids.

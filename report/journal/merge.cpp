@@ -35,7 +35,7 @@ const Common kCommon[] = {
 
 }  // namespace
 
-cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
+cases::Expected<Run> merge_runs(std::vector<Part> parts) {
     if (parts.empty()) {
         return cases::failure("there is no run to merge; name the folders of runs");
     }
@@ -63,9 +63,7 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
             }
         }
     }
-    Merged merged;
-    Run& run = merged.run;
-    run = first.run;
+    Run run = first.run;
     run.diagnoses.clear();  // they speak of a part
     std::set<uint32_t> shards = {run.shard};
     for (size_t k = 1; k < parts.size(); ++k) {
@@ -75,21 +73,32 @@ cases::Expected<Merged> merge_runs(std::vector<Part> parts) {
         run.ended = run.ended.empty() || part.ended.empty() ? "" : std::max(run.ended, part.ended);
         run.seconds += part.seconds;
         run.interrupted = run.interrupted || part.interrupted;
+        run.missing_shards.insert(run.missing_shards.end(), part.missing_shards.begin(),
+                                  part.missing_shards.end());  // of a part that is a merged run
         run.jobs += part.jobs;
         std::move(part.cases.begin(), part.cases.end(), std::back_inserter(run.cases));
         std::move(part.sources.begin(), part.sources.end(), std::back_inserter(run.sources));
     }
     std::sort(run.sources.begin(), run.sources.end());
     run.sources.erase(std::unique(run.sources.begin(), run.sources.end()), run.sources.end());
+    const auto twice =
+        std::adjacent_find(run.sources.begin(), run.sources.end(),
+                           [](const auto& a, const auto& b) { return a.first == b.first; });
+    if (twice != run.sources.end()) {
+        return cases::failure(
+            "the case file '{}' is not the same in all parts; only parts of one run can be merged, "
+            "use 'edgecase compare' for different ones",
+            cases::printable(twice->first));
+    }
     for (uint32_t shard = 1; shard <= run.shards; ++shard) {
         if (!shards.contains(shard)) {
-            merged.missing_shards.push_back(shard);
+            run.missing_shards.push_back(shard);
         }
     }
     run.shard = run.shards = 1;
     std::sort(run.cases.begin(), run.cases.end(),
               [](const CaseRecord& a, const CaseRecord& b) { return a.id < b.id; });
-    return merged;
+    return run;
 }
 
 }  // namespace report

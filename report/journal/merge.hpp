@@ -17,13 +17,9 @@ struct Part {
     Run run;
 };
 
-struct Merged {
-    Run run;                               // cases in the order of their ids
-    std::vector<uint32_t> missing_shards;  // of --shard I/N: those that no part holds
-};
-
-// Error, one sentence: a case in two parts; parts with different devices, drivers, profiles,
-// suites, numbers of shards or versions of the program.
-cases::Expected<Merged> merge_runs(std::vector<Part> parts);
+// One run, its cases in the order of their ids; it knows which shards no part holds, and lacks them
+// wherever it is looked at. Error, one sentence: a case in two parts; parts with different devices,
+// drivers, profiles, suites, numbers of shards or versions of the program.
+cases::Expected<Run> merge_runs(std::vector<Part> parts);
 
 }  // namespace report

@@ -63,8 +63,9 @@ std::string title_of(const Run& run) {
     const auto unexpected =
         std::count_if(run.cases.begin(), run.cases.end(),
                       [](const CaseRecord& record) { return !is_expected(record.status); });
-    return fmt::format("edgecase: {} of {} unexpected, {}", unexpected, run.cases.size(),
-                       run.device.name.empty() ? "no device" : run.device.name);
+    return fmt::format("edgecase: {}{} of {} unexpected, {}",
+                       run.missing_shards.empty() ? "" : "not the whole run, ", unexpected,
+                       run.cases.size(), run.device.name.empty() ? "no device" : run.device.name);
 }
 
 // How many cases break a promise of which level; nothing if none does.

@@ -74,7 +74,7 @@ int exit_code(const Run& run) {
     }
     const auto count = totals(run);
     const auto of = [&](Status status) { return count.at(static_cast<size_t>(status)); };
-    if (of(Status::not_run) > 0 || of(Status::error) > 0) {
+    if (of(Status::not_run) > 0 || of(Status::error) > 0 || !run.missing_shards.empty()) {
         return kExitInternal;  // something was not judged: worse than a wrong sample
     }
     if (std::any_of(run.cases.begin(), run.cases.end(),

@@ -138,6 +138,7 @@ struct PlannedCase {
     std::vector<std::string> rules, links;
     std::string rerun;    // command line that repeats it
     std::string catches;  // which fault would break the case
+    std::string content;  // a hash of all that is drawn of it, hexadecimal; empty in older journals
     static void fields(auto&& visit, auto&... p) {
         visit("id", p.id...);
         visit("file", p.file...);
@@ -147,6 +148,7 @@ struct PlannedCase {
         visit("links", p.links...);
         visit("rerun", p.rerun...);
         visit({"catches", cases::kOlderLackIt}, p.catches...);
+        visit({"content", cases::kOlderLackIt}, p.content...);
     }
 };
 
@@ -161,9 +163,12 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     // Checksums in hexadecimal, to compare runs with: of every bit read back, and of the hits
     // alone.
     std::string bits, hit_bits;
-    std::string reason;       // why unsupported, skipped, error, lost, crashed; one sentence
-    std::string step;         // last step of the worker before it died ("submit", ...)
-    std::string signal;       // "SIGSEGV", ... of a crash
+    std::string reason;  // why unsupported, skipped, error, lost, crashed; one sentence
+    std::string step;    // last step of the worker before it died ("submit", ...)
+    std::string signal;  // "SIGSEGV", ... of a crash
+    // Of a death that no case repeated alone, and that is charged to this one as a flake: the cases
+    // that were drawn together, this one among them.
+    std::vector<std::string> suspects;
     std::string stderr_text;  // what the driver printed, head and tail, any bytes
     double seconds = 0;
     uint32_t attempts = 0;
@@ -191,6 +196,7 @@ struct CaseRecord : PlannedCase, diff::Outcome {
         visit("reason", r.reason...);
         visit("step", r.step...);
         visit("signal", r.signal...);
+        visit({"suspects", cases::kLeftOutIfEmpty}, r.suspects...);
         visit("stderr", r.stderr_text...);
         visit("seconds", r.seconds...);
         visit("attempts", r.attempts...);
@@ -220,6 +226,7 @@ struct RunHeader {
     std::string suite_hash;        // of the suite's files, hexadecimal; empty in older journals
     std::string expectation_file;  // empty if none applied
     uint32_t shard = 1, shards = 1, jobs = 1;
+    std::vector<uint32_t> missing_shards;  // of merged parts: those that were not among them
     std::vector<std::pair<std::string, std::string>> sources;  // the cases' files and their texts
     static void fields(auto&& visit, auto&... h) {
         visit("tool_version", h.tool_version...);
@@ -235,6 +242,7 @@ struct RunHeader {
         visit("shard", h.shard...);
         visit("shards", h.shards...);
         visit("jobs", h.jobs...);
+        visit({"missing_shards", cases::kLeftOutIfEmpty}, h.missing_shards...);
         visit({"sources", cases::kOlderLackIt}, h.sources...);
     }
 };
@@ -263,6 +271,7 @@ struct Run : RunHeader, RunEnd {
 Status actual_status(const CaseRecord& record);
 
 std::array<size_t, kStatuses> totals(const Run& run);
-int exit_code(const Run& run);  // from the statuses alone (0, 1, 6, 7 or 130)
+// From the statuses and missing shards alone (0, 1, 6, 7 or 130).
+int exit_code(const Run& run);
 
 }  // namespace report

@@ -242,6 +242,16 @@ std::string free_text(const Run& run) {
     return text + '\n';
 }
 
+// Those of which something is known of the device: not unsupported, skipped, not run or in error.
+size_t judged_cases(const Run& run) {
+    return static_cast<size_t>(
+        std::count_if(run.cases.begin(), run.cases.end(), [](const CaseRecord& record) {
+            const Status status = actual_status(record);
+            return status != Status::unsupported && status != Status::skip &&
+                   status != Status::not_run && status != Status::error;
+        }));
+}
+
 }  // namespace
 
 std::string console_header(const Run& run, const ConsoleStyle& style) {
@@ -301,6 +311,10 @@ std::string console_summary(const Run& run, const std::string& report_path,
     // Always seconds, so that one run's time is seen beside another's.
     const std::string time = fmt::format("{:.{}f} s", run.seconds, run.seconds < 1 ? 2 : 1);
     text += fmt::format("   {}   seed {}\n", is_cut ? "cut off" : time, run.seed);
+    if (const size_t judged = judged_cases(run); judged > 0 && 2 * judged < run.cases.size()) {
+        text += fmt::format("only {} of {} cases {} judged\n", judged, run.cases.size(),
+                            judged == 1 ? "was" : "were");
+    }
     if (const CaseRecord* worst = worst_case(run)) {
         text += fmt::format("largest accepted error {}{}{} in {}\n", accepted_text(run, *worst),
                             worst->worst_quantity.empty() ? "" : ", ",

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cases/base/counted.hpp"
+#include "report/text/sentences.hpp"
 
 namespace report {
 
@@ -43,6 +44,10 @@ std::string headline(const Run& run) {
                         : fmt::format(", {}", n);
             text += fmt::format(" {}", n == 1 ? deed.one : deed.several);
         }
+    }
+    if (!run.missing_shards.empty()) {
+        return fmt::format("Not the whole run: {} missing{}{}", missing_shards_text(run),
+                           text.empty() ? "" : "; ", text);
     }
     if (!text.empty()) {
         return text;

@@ -210,6 +210,19 @@ std::string why_it_happened(const CaseRecord& record) {
     return words.empty() ? "no reason was given" : "the driver's last words: " + words;
 }
 
+std::string missing_shards_text(const Run& run) {
+    const bool is_one = run.missing_shards.size() == 1;
+    return fmt::format("shard{} {} {}", is_one ? "" : "s", fmt::join(run.missing_shards, ", "),
+                       is_one ? "is" : "are");
+}
+
+std::string missing_shards_sentence(const Run& run) {
+    return fmt::format(
+        "{} not among the folders, so not every case of the run is here; name the folders of all "
+        "shards",
+        missing_shards_text(run));
+}
+
 std::string exit_text(const Run& run) {
     const int code = exit_code(run);
     std::string why;
@@ -222,6 +235,9 @@ std::string exit_text(const Run& run) {
                     fmt::format("{}{} {}", why.empty() ? "" : ", ", n, n == 1 ? what : what_of_all);
             }
         };
+        if (!run.missing_shards.empty()) {
+            why = missing_shards_text(run) + " missing";
+        }
         add(Status::not_run, "case was not run", "cases were not run");
         add(Status::error, "case could not be judged", "cases could not be judged");
     }

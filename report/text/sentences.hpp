@@ -47,6 +47,10 @@ const diff::Finding& leading_finding(const CaseRecord& record);
 std::string exit_text(int code, const std::string& why = {});
 // The same of a whole run, with what was not judged: "exit 7: 12 cases were not run".
 std::string exit_text(const Run& run);
+// "shard 2 is" or "shards 2, 5 are", of the shards that a merged run lacks.
+std::string missing_shards_text(const Run& run);
+// That they are missing, and what to do.
+std::string missing_shards_sentence(const Run& run);
 
 // The case with the largest accepted error in budgets (what findings are off by stands with them);
 // null if no case without a finding compared a value.

@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import unittest
+import xml.etree.ElementTree
 
 import yaml
 
@@ -143,6 +144,34 @@ class Merge(CiTest):
         self.assertEqual(done.stderr, "edgecase: shard 2 is not among the folders, so not every case of the run is "
                                       "here; name the folders of all shards\n")
         self.assertTrue((self.folder / "merged" / "report.html").exists())
+
+    def test_the_reports_of_a_merge_say_that_a_shard_is_missing(self):
+        """A job that died looks like success in no report, now or later."""
+        folders = self.shards(fault="")
+        env = self.in_ci(GITHUB_ACTIONS="true", GITHUB_STEP_SUMMARY=str(self.folder / "summary.md"))
+        words = ("report", "--merge", folders[0], folders[2], "-o", "merged")
+        done = self.edgecase(*words, env=env, check=7)
+        self.assertIn("exit 7: shard 2 is missing\n", done.stdout)
+        self.assertEqual(done.stdout.count("::error title=edgecase::shard 2 is not among the folders"), 1)
+        self.assertIn("## Edgecase: exit 7: shard 2 is missing\n", (self.folder / "summary.md").read_text())
+        self.edgecase(*words, "--ci", "gitlab", check=7)
+        [issue] = json.loads((self.folder / "merged/gl-code-quality.json").read_text())
+        self.assertEqual(issue["severity"], "blocker")
+        later = self.edgecase("report", "merged", "-o", "later", check=0)
+        self.assertIn("the run ended with exit 7: shard 2 is missing\n", later.stdout)
+        for out in ("merged", "later"):
+            results = self.results(self.folder / out)
+            self.assertEqual((results["run"]["exit_code"], results["run"]["missing_shards"]), (7, [2]))
+            junit = xml.etree.ElementTree.parse(self.folder / out / "junit.xml").getroot()
+            self.assertEqual((junit.get("errors"), junit.get("tests")), ("1", str(len(results["cases"]) + 1)))
+            page = (self.folder / out / "report.html").read_text()
+            self.assertIn("<h1>Not the whole run: shard 2 is missing</h1>", page)
+
+    def test_a_merge_that_fails_leaves_no_report_of_an_earlier_one(self):
+        folders = self.shards(fault="")
+        self.edgecase("report", "--merge", *folders, "-o", "merged", check=0)
+        self.edgecase("report", "--merge", folders[0], folders[0], "-o", "merged", check=3)
+        self.assertEqual([f.name for f in (self.folder / "merged").iterdir()], ["journal.jsonl.old"])
 
     def refused(self, sentence, *words, code=3):
         done = self.edgecase("report", *words, check=code)

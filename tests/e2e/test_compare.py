@@ -179,7 +179,8 @@ class Compare(CompareTest):
     def test_other_suites_are_told(self):
         a = self.run_as("a")
         self.write_case("fam/c9", TIES)
-        done = self.compare(a, self.run_as("b"), check=0)
+        done = self.compare(a, self.run_as("b"), check=1)
+        self.assertIn("B: another case under the same id\n", done.stdout)
         self.assertIn("note: the suites of A and B are not the same: a case may ask something else\n", done.stdout)
 
 

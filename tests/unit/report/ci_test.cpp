@@ -11,8 +11,11 @@
 #include <sstream>
 
 #include "cases/base/utf8.hpp"
+#include "report/files/junit.hpp"
 #include "report/journal/merge.hpp"
 #include "report/text/causes.hpp"
+#include "report/text/headline.hpp"
+#include "report/text/sentences.hpp"
 #include "sample_run.hpp"
 
 namespace report {
@@ -224,21 +227,32 @@ TEST(merge, puts_parts_together_or_says_why_not) {
     const auto merged = merge_runs(parts);
     ASSERT_TRUE(merged);
     EXPECT_TRUE(merged->missing_shards.empty());
-    EXPECT_EQ(merged->run.cases.size(), whole.cases.size());
-    EXPECT_EQ(totals(merged->run), totals(whole));
-    EXPECT_EQ(exit_code(merged->run), exit_code(whole));
-    EXPECT_DOUBLE_EQ(merged->run.seconds, 2 * whole.seconds);
+    EXPECT_EQ(merged->cases.size(), whole.cases.size());
+    EXPECT_EQ(totals(*merged), totals(whole));
+    EXPECT_EQ(exit_code(*merged), exit_code(whole));
+    EXPECT_DOUBLE_EQ(merged->seconds, 2 * whole.seconds);
 
     const auto one = merge_runs({parts[1]});
     ASSERT_TRUE(one);
     EXPECT_EQ(one->missing_shards, (std::vector<uint32_t>{1}));
+    // Whatever its cases came to, and whoever asks.
+    report::Run passes = *one;
+    std::erase_if(passes.cases, [](const CaseRecord& r) { return r.status != Status::pass; });
+    EXPECT_EQ(exit_code(passes), kExitInternal);
+    EXPECT_EQ(exit_text(passes), "exit 7: shard 1 is missing");
+    EXPECT_TRUE(headline(passes).starts_with("Not the whole run: shard 1 is missing"));
+    EXPECT_NE(to_junit(passes).find("errors=\"1\""), std::string::npos);
+    EXPECT_TRUE(to_github_annotations(passes, "/x").starts_with("::error title=edgecase::shard 1"));
+    EXPECT_NE(to_github_summary(passes).find("## Edgecase: exit 7: shard 1 is missing"),
+              std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(to_gitlab(passes, "/x"))[0].at("severity"), "blocker");
 
     auto wrong = parts;
     wrong[1].run.interrupted = true;
-    EXPECT_EQ(exit_code(merge_runs(wrong)->run), kExitInterrupted);
+    EXPECT_EQ(exit_code(*merge_runs(wrong)), kExitInterrupted);
     wrong = parts;
     wrong[1].run.ended.clear();
-    EXPECT_EQ(merge_runs(wrong)->run.ended, "");
+    EXPECT_EQ(merge_runs(wrong)->ended, "");
     wrong = parts;
     wrong[1].run.device.subpixel_bits = 4;
     EXPECT_FALSE(merge_runs(wrong));
