@@ -87,8 +87,12 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
     return std::monostate{};
 }
 
-// Nothing was judged: there are no reports, so the CI is told here.
-int stopped(const RunOptions& options, const Stop& stop) {
+// Nothing was judged: there are no reports, so the CI is told here; those of an earlier run in the
+// same folder would look like this one's.
+int stopped(const RunOptions& options, const Stop& stop, bool owns_folder = true) {
+    if (owns_folder) {
+        remove_reports_of_last_run(options);
+    }
     if (chosen_ci(options.ci) == Ci::github) {
         std::fputs(report::to_github_annotation(stop.lines).c_str(), stderr);
     }
@@ -127,6 +131,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         return stopped(options, applied.error());
     }
     for (run::PlannedCase& c : p.plan) {
+        c.selector = shell_quote(selector_of(options, c.data.id));
         c.rerun = rerun_line(program, options, c.data.id);
         c.explain = explain_line(program, options, c.data.id, device.subpixel_bits);
         c.no_reproducer = undrawable_part(c.data);
@@ -140,7 +145,10 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     }
     OrStop<report::Journal> journal = open_journal(p.folder, p.header, resumed);
     if (!journal) {
-        return stopped(options, journal.error());
+        return stopped(options, journal.error(), false);
+    }
+    if (!resumed) {
+        remove_reports({p.folder, options.json, options.junit, options.html});
     }
 
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> nowhere(

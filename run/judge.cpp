@@ -8,6 +8,7 @@
 
 #include "capture/checksum.hpp"
 #include "cases/base/checksum.hpp"
+#include "cases/wire/case_bytes.hpp"
 #include "diff/blit.hpp"
 #include "diff/color.hpp"
 #include "diff/stray_write.hpp"
@@ -45,6 +46,7 @@ CaseRecord make_record(const cases::Case& c) {
     record.rules = c.rules;
     record.links = c.links;
     record.catches = c.catches;
+    record.content = cases::hex(cases::stable_hash(cases::to_bytes(c), 0));
     return record;
 }
 
@@ -100,6 +102,14 @@ void judge_delivered(CaseRecord& record, const cases::Case& c, const capture::De
     } catch (const std::exception& e) {
         record.status = Status::error;
         record.reason = std::string("the reference failed: ") + e.what();
+    }
+}
+
+void require_support(CaseRecord& record) {
+    if (record.status == Status::unsupported) {
+        record.actual = record.status;
+        record.status = Status::fail;
+        record.reason = "unsupported, where --require-support asks for support: " + record.reason;
     }
 }
 

@@ -40,6 +40,9 @@ void judge_delivered(report::CaseRecord& record, const cases::Case& c,
                      const capture::Delivered& planes, const ref::Limits& limits,
                      cases::Profile profile, KeepPictures pictures);
 
+// What --require-support makes of a record: a case that is not supported fails.
+void require_support(report::CaseRecord& record);
+
 // What can be said of a case before any device is asked: empty, or why the reference disagrees with
 // the picture drawn by hand.
 std::string check_before_running(const cases::Case& c);

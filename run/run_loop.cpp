@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/run_loop.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -25,6 +26,7 @@ namespace {
 constexpr uint64_t kMaxJudgingBytes = uint64_t{128} << 20;
 constexpr uint32_t kMaxStartFailures = 3;
 constexpr int kProgressMs = 200;
+constexpr uint32_t kRepeatsOfDeath = 10;  // of a batch whose worker died once
 
 std::vector<uint64_t> all_bytes(const std::vector<PlannedCase>& cases) {
     std::vector<uint64_t> bytes;
@@ -386,7 +388,11 @@ void RunLoop::on_death(Slot& slot, const Death& death) {
     const std::vector<size_t> without_result = slot.without_result();
     const Batch batch = *std::exchange(slot.batch, std::nullopt);
     slot.client.reset();
-    if (without_result.empty() || !schedule_.died(batch, without_result, describe(death))) {
+    const std::string signal = death.exit.signalled && !death.timed_out && !death.malformed
+                                   ? signal_name(death.exit.code)
+                                   : "";
+    if (without_result.empty() ||
+        !schedule_.died(batch, without_result, describe(death), signal, death.step)) {
         return;
     }
     for (const size_t k : without_result) {
@@ -394,9 +400,7 @@ void RunLoop::on_death(Slot& slot, const Death& death) {
         CaseRecord record =
             fresh_record(k, death.timed_out ? Status::timeout : Status::crash, describe(death));
         record.step = death.step;
-        if (death.exit.signalled && !death.timed_out && !death.malformed) {
-            record.signal = signal_name(death.exit.code);
-        }
+        record.signal = signal;
         record.stderr_text = death.output;
         judged_.erase(k);
         settle(k, std::move(record));
@@ -415,10 +419,29 @@ void RunLoop::settle(size_t k, CaseRecord record) {
     for (const Schedule::Released& released : schedule_.release()) {
         CaseRecord ready = taken(held_, released.k);
         if (!released.unrepeated_death.empty()) {
-            ready.status = Status::flake;
-            ready.reason = released.unrepeated_death + "; no case of its batch repeated that alone";
+            charge(ready, released);
         }
         finish(released.k, std::move(ready));
+    }
+}
+
+// The worker died over these cases, and none of them repeated it alone: the first one is charged,
+// and the others are told, because any of them may be the culprit.
+void RunLoop::charge(CaseRecord& record, const Schedule::Released& death) const {
+    record.status = Status::flake;
+    record.signal = death.signal;
+    record.step = death.step;
+    record.reason = death.unrepeated_death + "; no case of its batch repeated that alone";
+    record.rerun = repeating(record.rerun, config_.schedule.repeat, kRepeatsOfDeath);
+    for (const size_t k : death.suspects) {
+        record.suspects.push_back(cases_[k].data.id);
+        if (k != death.k && !cases_[k].selector.empty()) {
+            record.rerun += " " + cases_[k].selector;
+        }
+    }
+    if (record.suspects.size() > 1) {
+        record.reason +=
+            "; it may be any of " + fmt::format("{}", fmt::join(record.suspects, ", "));
     }
 }
 
@@ -426,10 +449,8 @@ void RunLoop::finish(size_t k, CaseRecord record) {
     if (const auto& expected = cases_[k].expected; expected) {
         apply(*expected, record);
     }
-    if (config_.requires_support && record.status == Status::unsupported) {
-        record.actual = record.status;
-        record.status = Status::fail;
-        record.reason = "unsupported, where --require-support asks for support: " + record.reason;
+    if (config_.requires_support) {
+        require_support(record);
     }
     if (!record.findings.empty()) {
         const diff::Finding& f = report::leading_finding(record);

@@ -32,6 +32,7 @@ struct PlannedCase {
     std::optional<ExpectationLine> expected;
     std::string error;                      // not empty: not rendered, status error
     bool alone = false;                     // was in flight when an earlier run was cut off
+    std::string selector;                   // names the case in a command line
     std::string rerun, explain;             // command lines without --pixel
     std::string reproducer, no_reproducer;  // as in report::CaseRecord
 };
@@ -93,6 +94,7 @@ class RunLoop {
     void on_start_failure(Slot& slot, const std::string& why);
     void on_judged(size_t k, report::CaseRecord record);
     void settle(size_t k, report::CaseRecord record);
+    void charge(report::CaseRecord& record, const Schedule::Released& death) const;
     void finish(size_t k, report::CaseRecord record);
     report::CaseRecord fresh_record(size_t k, report::Status status,
                                     const std::string& reason = {}) const;

@@ -118,12 +118,15 @@ bool Schedule::confirmed(size_t k) {
 }
 
 bool Schedule::died(const Batch& batch, const std::vector<size_t>& without_result,
-                    const std::string& reason) {
+                    const std::string& reason, const std::string& signal, const std::string& step) {
     if (batch.fresh) {
         return true;
     }
     Group group;
     group.reason = reason;
+    group.signal = signal;
+    group.step = step;
+    group.suspects = batch.cases;
     for (const size_t k : without_result) {
         if (states_[k].group < 0) {
             states_[k].group = static_cast<int>(groups_.size());
@@ -168,7 +171,9 @@ std::vector<Schedule::Released> Schedule::release() {
         group.released = true;
         for (const size_t k : group.held) {
             const bool charged = !group.repeated && k == group.charged;
-            released.push_back({k, charged ? group.reason : std::string()});
+            released.push_back(
+                charged ? Released{k, group.reason, group.signal, group.step, group.suspects}
+                        : Released{k, {}, {}, {}, {}});
         }
     }
     return released;

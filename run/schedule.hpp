@@ -66,7 +66,8 @@ class Schedule {
     // The cases of a dead batch that have no result. True: `charge` it (a fresh worker died over
     // this case alone); false: they have been queued for fresh workers.
     bool died(const Batch& batch, const std::vector<size_t>& without_result,
-              const std::string& reason);
+              const std::string& reason, const std::string& signal = {},
+              const std::string& step = {});
 
     uint32_t attempts(size_t k) const { return states_[k].attempts; }
 
@@ -74,10 +75,12 @@ class Schedule {
     // release() then says which case a death that no case repeated alone is charged to, as a flake.
     void settled(size_t k, report::Status status);
     bool is_held(size_t k) const;
-    // Records that are no longer held, in the order of settling, with the reason to charge, if any.
+    // Records that are no longer held, in the order of settling, with the reason to charge, if any,
+    // how the worker died, and the cases that it drew together.
     struct Released {
         size_t k = 0;
-        std::string unrepeated_death;
+        std::string unrepeated_death, signal, step;
+        std::vector<size_t> suspects;
     };
     std::vector<Released> release();
 
@@ -95,7 +98,8 @@ class Schedule {
         std::vector<size_t> held;  // settled, in order
         bool repeated = false;
         size_t charged = 0;
-        std::string reason;
+        std::vector<size_t> suspects;  // the batch
+        std::string reason, signal, step;
         bool released = false;
     };
 

@@ -15,12 +15,55 @@
 #include <set>
 #include <string_view>
 
+#include "cases/base/counted.hpp"
 #include "report/journal/journal.hpp"
 #include "run/order.hpp"
 
 namespace cli {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// What ended unexpectedly in the run of --failed-in. Where no selector chooses, all of it is meant:
+// a case of one's own that nobody names must not look as if it passed.
+OrStop<std::set<std::string>> failed_ids(const RunOptions& options, const LoadedSuite& suite) {
+    const cases::Expected<report::Run> earlier = report::load_journal(options.failed_in);
+    if (!earlier) {
+        return tl::unexpected(
+            Stop{report::kExitInvalidFile, {"--failed-in: " + cases::to_string(earlier.error())}});
+    }
+    std::set<std::string> failed, selected;
+    for (const size_t k : suite.selected) {
+        selected.insert(suite.cases[k].id);
+    }
+    std::vector<const report::CaseRecord*> left_out;
+    for (const report::CaseRecord& record : earlier->cases) {
+        if (!report::is_expected(record.status)) {
+            failed.insert(record.id);
+            if (!selected.contains(record.id)) {
+                left_out.push_back(&record);
+            }
+        }
+    }
+    if (left_out.empty() || left_out.size() == failed.size()) {
+        return failed;  // where none is left, that is told
+    }
+    const std::string what =
+        fmt::format("{} that failed in '{}' {} not selected: '{}' of {}{}",
+                    cases::counted(left_out.size(), "case"), options.failed_in,
+                    left_out.size() == 1 ? "is" : "are", left_out.front()->id,
+                    left_out.front()->file, left_out.size() == 1 ? "" : ", ...");
+    if (!options.suite.selectors.empty()) {
+        complain("warning: " + what);
+        return failed;
+    }
+    return tl::unexpected(stop_with(
+        report::kExitNothingSelected,
+        what + "; name files or folders of your own, too, and '**' for the suite's cases"));
+}
+
+}  // namespace
 
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options) {
     OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
@@ -29,21 +72,19 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     }
     std::set<std::string> failed;
     if (!options.failed_in.empty()) {
-        const cases::Expected<report::Run> earlier = report::load_journal(options.failed_in);
-        if (!earlier) {
-            return tl::unexpected(Stop{report::kExitInvalidFile,
-                                       {"--failed-in: " + cases::to_string(earlier.error())}});
+        OrStop<std::set<std::string>> ids = failed_ids(options, *suite);
+        if (!ids) {
+            return tl::unexpected(ids.error());
         }
-        for (const report::CaseRecord& record : earlier->cases) {
-            if (!report::is_expected(record.status)) {
-                failed.insert(record.id);
-            }
-        }
+        failed = std::move(*ids);
     }
     Selection selection;
     selection.root = suite->root;
     selection.known_ids = suite->ids();
     selection.suite_ids = suite->suite_ids();
+    for (size_t k = suite->outside; k < suite->cases.size(); ++k) {
+        selection.own_files.insert(suite->cases[k].where.file);
+    }
     for (const size_t k :
          options.quick ? run::first_and_last(suite->cases, suite->selected) : suite->selected) {
         cases::Case& c = suite->cases[k];
@@ -191,7 +232,8 @@ void add_expectations(std::vector<std::string>& words, const RunOptions& options
     }
 }
 
-// A case outside the suite is named by its file, and a leaf of it.
+}  // namespace
+
 std::string selector_of(const RunOptions& options, const std::string& id) {
     const size_t end = std::min(id.find(':'), id.size());
     const std::string base = id.substr(0, end);
@@ -218,6 +260,8 @@ std::string selector_of(const RunOptions& options, const std::string& id) {
     }
     return id;
 }
+
+namespace {
 
 // The settings that choose or change a driver, to be put before a command: "VK_DRIVER_FILES=a.json
 // ".
@@ -268,6 +312,9 @@ std::string diff_line(const Program& program, const DiffOptions& options, const 
     add_suite_and_profile(words, options.run);
     add_subpixel_bits(words, options.subpixel_bits);
     add_given(words, "--name", options.name);
+    if (options.run.require_support) {
+        words.emplace_back("--require-support");
+    }
     add_expectations(words, options.run);
     return join(words);
 }

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,14 @@ struct Selection {
     std::vector<std::string> known_ids;  // of the whole suite, and of the cases outside of it
     std::vector<std::string> suite_ids;  // of the suite alone
     bool whole_suite = false;
+    std::set<std::string> own_files;  // of the cases that are not the suite's
 };
 // Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop.
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options);
+
+// How a command line names a selected case: by its id, or by its file, and a leaf of it, if it is
+// none of the suite's.
+std::string selector_of(const RunOptions& options, const std::string& id);
 
 // What the expectation files say of each id, those of --expect or those beside the suite that fit
 // the header's device; their names go into the header. Files beside a suite speak of its cases

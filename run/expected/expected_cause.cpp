@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cases/model/rule.hpp"
+#include "cases/model/rule_ids.hpp"
 #include "cases/model/selector.hpp"
 
 namespace run {
@@ -240,6 +241,34 @@ void widen(ExpectedCause& cause, const ExpectedCause& other) {
     }
 }
 
+namespace {
+
+// What a picture does not hold: what is written beside it, and other renderings that are compared
+// with it.
+bool is_in_picture(const FindingGroup& group) {
+    constexpr std::array<std::string_view, 6> kBeside = {
+        cases::rule::write_outside,      cases::rule::repeat_same,
+        cases::rule::repeat_scissor,     cases::rule::repeat_clears,
+        cases::rule::repeat_write_masks, cases::rule::repeat_attachments};
+    return std::find(kBeside.begin(), kBeside.end(), group.rule) == kBeside.end();
+}
+
+// A line about a flake speaks of other bits if it names findings or bits, or nothing; and of a
+// death if it says how.
+std::string what_of_flake_is_new(const ExpectedCause& cause, const report::CaseRecord& record) {
+    const bool knows_death = !cause.signal.empty() || !cause.step.empty();
+    const bool knows_drawing = !cause.groups.empty() || !cause.bits.empty();
+    if (!record.suspects.empty()) {
+        return record.suspects.size() > 1
+                   ? "a worker died over it and others, so that it may be another case's doing"
+               : !knows_death ? "the worker died, which the line does not say"
+                              : "";
+    }
+    return knows_death && !knows_drawing ? "the worker did not die; other bits were drawn" : "";
+}
+
+}  // namespace
+
 std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& record) {
     std::string text;
     const auto say = [&text](std::string sentence) {
@@ -250,16 +279,25 @@ std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& re
             say(fmt::format("the {} is '{}' and not '{}'", what, is, known));
         }
     };
-    check("signal", record.signal, cause.signal);
-    check("step", record.step, cause.step);
-    if (!cause.bits.empty() && !knows_bits(cause, record.bits)) {
+    const bool is_flake = record.status == report::Status::flake;
+    const bool has_died = !is_flake || !record.suspects.empty();
+    if (is_flake) {
+        if (std::string news = what_of_flake_is_new(cause, record); !news.empty()) {
+            say(std::move(news));
+        }
+    }
+    if (has_died) {
+        check("signal", record.signal, cause.signal);
+        check("step", record.step, cause.step);
+    }
+    if (!cause.bits.empty() && !(is_flake && has_died) && !knows_bits(cause, record.bits)) {
         say(fmt::format("the bits are '{}' and not '{}'", record.bits,
                         fmt::join(cause.bits, "' or '")));
     }
-    if (cause.groups.empty()) {
-        return text;  // the bits say all, or a death has no findings
-    }
     for (const FindingGroup& group : record.groups) {
+        if (!cause.bits.empty() && cause.groups.empty() && is_in_picture(group)) {
+            continue;  // the bits say all of it
+        }
         const FindingGroup* like = find_like(cause, group);
         if (const uint64_t known = like == nullptr ? 0 : like->count; group.count > known) {
             say(fmt::format("{} {} of {} [{}] {}", group.count, diff::to_string(group.kind),
@@ -276,9 +314,9 @@ void mark_known(const ExpectedCause& cause, report::CaseRecord& record) {
     const bool same_bits = knows_bits(cause, record.bits);
     for (FindingGroup& group : record.groups) {
         const FindingGroup* like = find_like(cause, group);
-        group.known = same_bits         ? group.count
-                      : like == nullptr ? 0
-                                        : std::min(group.count, like->count);
+        group.known = same_bits && is_in_picture(group) ? group.count
+                      : like == nullptr                 ? 0
+                                                        : std::min(group.count, like->count);
     }
 }
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Expectation files: known problems do not fail a run, news of any kind does."""
 import re
+import shutil
 import unittest
 
 from support import ProgramTest
@@ -64,7 +65,7 @@ class OwnCases(ExpectationTest):
 
 class Statuses(ExpectationTest):
     def outcome(self, expected, fault, status, exit_code):
-        cause = {"fail": FLIPPED, "crash": "signal=SIGSEGV", "flake": ""}[expected]
+        cause = {"fail": FLIPPED, "crash": "signal=SIGSEGV", "flake": FLIPPED}[expected]
         self.expectations(f"fam/c3  {expected}  bug#1  {cause}  # It is known.\n")
         self.run_suite(fault=f"{fault}@fam/c3" if fault else "", check=exit_code)
         self.assertEqual(self.statuses()["fam/c3"], status)
@@ -198,6 +199,52 @@ class Causes(ExpectationTest):
         self.run_suite(fault=faults, check=0)
         self.run_suite(fault=",".join(f"flip-pixel{'+1' if i == 'fam/c2' else ''}@{i}" for i in self.statuses()), check=1)
         self.assertEqual((self.statuses()["fam/c1"], self.statuses()["fam/c2"]), ("xfail", "fail"))
+
+    def test_a_flake_without_a_cause_excuses_no_finding(self):
+        self.unexpected("", "flake@fam/c3", "1 double of cover.outside [vulkan] is new", "flake")
+
+    def test_a_flake_is_no_death(self):
+        self.unexpected("signal=SIGSEGV", "flake@fam/c3",
+                        "the worker did not die; other bits were drawn; 1 double of cover.outside [vulkan] is new", "flake")
+
+    def die_once(self, case_id, *words, check):
+        """The first worker that begins dies over the case, no other one does."""
+        script = self.folder / "once.sh"
+        script.write_text(f'#!/bin/sh\nif mkdir {self.folder}/once 2>/dev/null; then export EDGECASE_FAULT=segv@{case_id}; fi\nexec "$@"\n')
+        script.chmod(0o755)
+        env = self.environment() | {"EDGECASE_SELF_PREFIX": str(script)}
+        shutil.rmtree(self.folder / "once", ignore_errors=True)
+        return self.edgecase("run", "--renderer=reference", "-o", self.out, *words, env=env, check=check)
+
+    def test_a_death_that_nobody_repeats_is_excused_by_no_line_of_another_case(self):
+        for cause in (FLIPPED, "signal=SIGSEGV", ""):
+            path = self.expectations(f"fam/c0 flake bug#1 {cause}  # Known.\n")
+            done = self.die_once("fam/c3", "-j", "1", check=1)
+            self.assertIn(f"not as {path}:3 says (bug#1): a worker died over it and others, so that it may be another case's doing",
+                          done.stdout)
+            self.assertIn("no case of its batch repeated that alone; it may be any of fam/c0, fam/c1, ", done.stdout)
+            self.assertRegex(done.stdout, r"rerun: .* run fam/c0 .*--repeat 10 fam/c1 fam/c2 fam/c3 ")
+            self.assertEqual(self.statuses()["fam/c0"], "flake")
+
+    def test_a_death_of_a_case_that_was_drawn_alone(self):
+        self.expectations("fam/c3 flake bug#1 signal=SIGSEGV  # Known.\n")
+        self.die_once("fam/c3", "fam/c3", check=0)
+        self.assertEqual(self.statuses()["fam/c3"], "xfail")
+        for cause, words in ((FLIPPED, "the worker died, which the line does not say"),
+                             ("signal=SIGABRT", "the signal is 'SIGSEGV' and not 'SIGABRT'")):
+            self.expectations(f"fam/c3 flake bug#1 {cause}  # Known.\n")
+            self.assertIn(words, self.die_once("fam/c3", "fam/c3", check=1).stdout)
+
+    def test_bits_hold_no_other_rendering(self):
+        text = (self.suite / "fam/c3.toml").read_text()
+        self.write_case("fam/c3", text.replace("[target]", 'relations = ["same-twice"]\n[target]'))
+        self.run_suite("fam/c3", check=0)
+        [case] = self.results()["cases"]
+        path = self.expectations(f"fam/c3 fail bug#1 bits={case['bits']}  # Known.\n")
+        done = self.run_suite("fam/c3", fault="flip-derived@fam/c3", check=1)
+        self.assertRegex(done.stdout, rf"not as {path}:3 says \(bug#1\): \d+ value of repeat.same \[vulkan\] (is|are) new\n")
+        self.expectations(f"fam/c3 fail bug#1 value:repeat.same@vulkan<=9 bits={case['bits']}  # Known.\n")
+        self.run_suite("fam/c3", fault="flip-derived@fam/c3", check=0)
 
     def test_wrong_words(self):
         for cause, sentence in (

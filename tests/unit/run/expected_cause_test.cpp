@@ -65,6 +65,37 @@ TEST(ExpectedCause, WhatIsKnownIsMarked) {
     EXPECT_EQ(record.groups[1].known, 4U);
 }
 
+TEST(ExpectedCause, BitsSayNothingOfWhatIsNotInThePicture) {
+    report::CaseRecord record = failed(1, 1);
+    const ExpectedCause bits = parsed({"bits=0123456789abcdef"});
+    for (const char* rule : {"write.outside", "repeat.same", "repeat.scissor", "repeat.clears",
+                             "repeat.write-masks", "repeat.attachments"}) {
+        record.groups.push_back({FindingKind::value, rule, Profile::vulkan, 2, 0});
+        EXPECT_EQ(what_is_new(bits, record),
+                  std::string("2 value of ") + rule + " [vulkan] are new");
+        mark_known(bits, record);
+        EXPECT_EQ(record.groups[0].known, 1U);
+        EXPECT_EQ(record.groups.back().known, 0U);
+        record.groups.pop_back();
+    }
+}
+
+TEST(ExpectedCause, AFlakeThatWasADeathIsKnownByItsDeathAlone) {
+    report::CaseRecord record = failed(0, 0);
+    record.groups.clear();
+    record.status = report::Status::flake;
+    EXPECT_EQ(what_is_new({}, record), "");  // the first drawing was right
+    record.suspects = {"a"};
+    record.signal = "SIGSEGV";
+    EXPECT_NE(what_is_new({}, record), "");
+    EXPECT_NE(what_is_new(parsed({"extra:cover.outside@vulkan<=9"}), record), "");
+    EXPECT_NE(what_is_new(parsed({"bits=0123456789abcdef"}), record), "");
+    EXPECT_NE(what_is_new(parsed({"signal=SIGABRT"}), record), "");
+    EXPECT_EQ(what_is_new(parsed({"signal=SIGSEGV"}), record), "");
+    record.suspects = {"a", "b"};
+    EXPECT_NE(what_is_new(parsed({"signal=SIGSEGV"}), record), "");
+}
+
 TEST(ExpectedCause, GrowsToTheLargestCount) {
     ExpectedCause cause = cause_of(failed(9, 3));
     widen(cause, cause_of(failed(2, 5)));

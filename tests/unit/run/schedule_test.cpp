@@ -77,12 +77,15 @@ TEST(Schedule, OnlyTheCulpritOfADeathIsCharged) {
 TEST(Schedule, ADeathThatNoCaseRepeatsIsNotLost) {
     Schedule schedule = make(2);
     const Batch batch = *schedule.next();
-    schedule.died(batch, {1}, "death");
+    schedule.died(batch, {1}, "death", "SIGSEGV", "submit");
     schedule.settled(1, Status::pass);
     const auto released = schedule.release();
     ASSERT_EQ(released.size(), 1U);
     EXPECT_EQ(released[0].k, 1U);
     EXPECT_EQ(released[0].unrepeated_death, "death");
+    EXPECT_EQ(released[0].signal, "SIGSEGV");
+    EXPECT_EQ(released[0].step, "submit");
+    EXPECT_EQ(released[0].suspects, (std::vector<size_t>{0, 1}));  // it may be the doing of either
     EXPECT_FALSE(schedule.is_held(0));
 }
 
