@@ -232,12 +232,14 @@ report::Run make_header(const Program& program, const DiffOptions& options,
 }
 
 // What the record counts as, given what was expected of it.
-void settle(CaseRecord& record, const ExpectedById& expected) {
+void settle(CaseRecord& record, const ExpectedById& expected, bool requires_support) {
     const auto found = expected.find(record.id);
-    if (found == expected.end() || record.status == Status::not_run) {
-        return;
+    if (found != expected.end() && record.status != Status::not_run) {
+        apply(found->second, record);
     }
-    apply(found->second, record);
+    if (requires_support) {
+        run::require_support(record);
+    }
 }
 
 // "not judged: depth in 12 cases, writer in 3 cases"
@@ -250,6 +252,12 @@ std::string skipped_text(const std::map<std::string, size_t>& skipped) {
     return text.empty() ? text : text + "\n";
 }
 
+// Nothing was judged; the reports of an earlier call would look like this one's.
+int stopped(const RunOptions& options, const Stop& stop) {
+    remove_reports_of_last_run(options);
+    return report_stop(stop);
+}
+
 }  // namespace
 
 int diff_command(const Program& program, const DiffOptions& given) {
@@ -260,19 +268,19 @@ int diff_command(const Program& program, const DiffOptions& given) {
     const RunOptions& o = options.run;
     OrStop<Selection> selection = select_cases(program, o);
     if (!selection) {
-        return report_stop(selection.error());
+        return stopped(o, selection.error());
     }
     if (auto checked = check_captures(options, selection->known_ids); !checked) {
-        return report_stop(checked.error());
+        return stopped(o, checked.error());
     }
     const OrStop<std::string> left_out = keep_captured(options, *selection);
     if (!left_out) {
-        return report_stop(left_out.error());
+        return stopped(o, left_out.error());
     }
     report::Run header = make_header(program, options, *selection);
     const auto expected = expectations_of(o, *selection, header);
     if (!expected) {
-        return report_stop(expected.error());
+        return stopped(o, expected.error());
     }
     const fs::path folder =
         o.output.empty() ? fs::path("out") / (utc_now(true) + "-captures") : fs::path(o.output);
@@ -280,6 +288,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
     if (!journal) {
         return report_stop(journal.error());
     }
+    remove_reports({folder, o.json, o.junit, o.html});
     std::FILE* console = console_beside(o.json, o.junit, o.html);
     report::ConsoleStyle style = console_style(console, o.color, o.verbose);
     style.folder = shell_quote(folder.string());
@@ -312,7 +321,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
         const cases::Case& c = selection->cases[k];
         CaseRecord& record = header.cases[k];
         const auto finish = [&, k] {
-            settle(record, *expected);
+            settle(record, *expected, o.require_support);
             if (!record.findings.empty()) {
                 const diff::Finding& f = report::leading_finding(record);
                 record.explain =

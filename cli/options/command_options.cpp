@@ -105,6 +105,13 @@ void add_shard(CLI::App* app, Shard& shard, const char* what) {
         ->group("Selection");
 }
 
+void add_require_support(CLI::App* to, RunOptions& o, const std::string& who) {
+    to->add_flag(
+          "--require-support", o.require_support,
+          "a case that the " + who + " does not support fails, unless a 'skip' line names it")
+        ->group("Judging");
+}
+
 void define_run(CLI::App& app, RunOptions& o) {
     CLI::App* run =
         app.add_subcommand("run", "draw cases on a device and compare with the exact reference");
@@ -128,9 +135,7 @@ void define_run(CLI::App& app, RunOptions& o) {
               "Device");
     run->add_flag("--validation", o.device.validation, "with the Khronos validation layer")
         ->group("Device");
-    run->add_flag("--require-support", o.require_support,
-                  "a case that the device does not support fails, unless a 'skip' line names it")
-        ->group("Judging");
+    add_require_support(run, o, "device");
     add_profile(run, o.profile);
     add_expectations(run, o);
     add_value(run, "-j,--jobs", o.jobs, "workers, 1 to 256 [one a core, at most 4]", "N",
@@ -290,6 +295,7 @@ void define_images(CLI::App& app, AllOptions& all) {
     add_value(in, "--name", all.diff.name, "of the renderer, for the reports", "NAME", "Output");
     add_profile(in, o.profile);
     add_subpixel_bits(in, all.diff.subpixel_bits);
+    add_require_support(in, o, "renderer");
     add_expectations(in, o);
     add_outputs(in, o, "where the reports go [out/<time>-captures]", false);
 }

@@ -10,11 +10,13 @@
 #include <set>
 
 #include "cases/base/checksum.hpp"
+#include "cases/base/counted.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/prepare/claims.hpp"
 #include "cli/prepare/device_answer.hpp"
+#include "cli/prepare/on_threads.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
 #include "run/worker/fault.hpp"
@@ -43,8 +45,8 @@ void warn_of_idle_faults(const std::vector<std::string>& ids) {
     }
 }
 
-// So many cases of a file of one's own are looked at before they are drawn.
-constexpr size_t kFewOwnCases = 64;
+// So many cases of one's own are looked at before they are drawn: some seconds at most.
+constexpr size_t kMostOwnCases = 256;
 
 void warn(cases::Error error) {
     if (error.where.line != 0) {
@@ -53,44 +55,73 @@ void warn(cases::Error error) {
     complain("warning: " + error.where.file + ": " + error.message);
 }
 
-// A claim that no sample of one's own file exercises passes on every device; 'lint' refuses it, and
-// who only runs the file hears of it, too; and of a claim that the run's profile does not judge.
-void warn_of_claims(const std::vector<cases::Case>& selected, const SuiteOptions& suite,
-                    cases::Profile profile) {
-    const std::set<std::string> named(suite.selectors.begin(), suite.selectors.end());
-    std::vector<size_t> own;
-    for (size_t k = 0; k < selected.size(); ++k) {
-        if (named.contains(selected[k].where.file)) {
-            own.push_back(k);
-        }
-    }
-    if (own.size() > kFewOwnCases) {
-        return;
-    }
-    std::map<std::string, ClaimedFile> files = claimed_files(selected, own);
-    for (auto& [name, file] : files) {
-        for (const size_t k : file.cases) {
-            try {
-                file.note(
-                    ref::exercise(selected[k], ref::Limits{}, file.open_rules(), ref::Count::some));
-            } catch (const std::exception&) {
-                return;  // the judge says so
-            }
-        }
-    }
-    for (const cases::Error& error : check_claims(selected, files)) {
-        warn(error);
-    }
+// A rule that the run's profile does not judge is told once, with the first file that claims it.
+void warn_of_profile(const std::map<std::string, ClaimedFile>& files, cases::Profile profile) {
+    std::map<std::string, std::vector<const ClaimedFile*>> claims;
     for (const auto& [name, file] : files) {
         for (const std::string& id : file.first->rules) {
             const cases::Rule* const rule = cases::find_rule(id);
             if (rule != nullptr && rule->profile > profile) {
-                warn({rule_place(*file.first, id),
-                      fmt::format("the rule {} is judged at profile {}, and this run is at {}: it "
-                                  "says nothing of it",
-                                  id, cases::to_string(rule->profile), cases::to_string(profile))});
+                claims[id].push_back(&file);
             }
         }
+    }
+    for (const auto& [id, claiming] : claims) {
+        const size_t more = claiming.size() - 1;
+        warn({rule_place(*claiming.front()->first, id),
+              fmt::format(
+                  "the rule {} is judged at profile {}, and this run is at {}: it says "
+                  "nothing of it{}",
+                  id, cases::to_string(cases::find_rule(id)->profile), cases::to_string(profile),
+                  more == 0 ? std::string()
+                            : fmt::format(", nor in {}", cases::counted(more, "other file")))});
+    }
+}
+
+// A claim that no sample of one's own file exercises passes on every device; 'lint' refuses it, and
+// who only runs the file, or its folder, hears of it, too; and of a claim that the run's profile
+// does not judge.
+void warn_of_claims(const Selection& selection, const SuiteOptions& suite, cases::Profile profile) {
+    const std::vector<cases::Case>& selected = selection.cases;
+    const std::set<std::string> named(suite.selectors.begin(), suite.selectors.end());
+    std::vector<size_t> own;
+    for (size_t k = 0; k < selected.size(); ++k) {
+        const std::string& file = selected[k].where.file;
+        if (named.contains(file) || selection.own_files.contains(file)) {
+            own.push_back(k);
+        }
+    }
+    std::map<std::string, ClaimedFile> files = claimed_files(selected, own);
+    warn_of_profile(files, profile);
+    size_t seen = 0, unseen = 0;
+    std::vector<ClaimedFile*> looked_at;
+    for (auto& [name, file] : files) {
+        seen += file.cases.size();
+        if (seen <= kMostOwnCases) {
+            looked_at.push_back(&file);
+        } else {
+            file.is_whole = false;  // nothing is said of it
+            ++unseen;
+        }
+    }
+    for_each_on_threads(looked_at.size(), [&](size_t at) {
+        for (const size_t k : looked_at[at]->cases) {
+            try {
+                looked_at[at]->note(ref::exercise(selected[k], ref::Limits{},
+                                                  looked_at[at]->open_rules(), ref::Count::some));
+            } catch (const std::exception&) {
+                looked_at[at]->is_whole = false;  // the judge says so
+            }
+        }
+    });
+    for (const cases::Error& error : check_claims(selected, files)) {
+        warn(error);
+    }
+    if (unseen > 0) {
+        complain(
+            fmt::format("warning: {} of your own not looked at for claims that no sample "
+                        "exercises; 'edgecase lint' looks at all",
+                        unseen == 1 ? "1 file is" : fmt::format("{} files are", unseen)));
     }
 }
 
@@ -149,10 +180,18 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     p.selection.whole_suite = earlier->cases.size() == loaded->cases.size();
     const std::set<std::string> cut_off(in_flight.begin(), in_flight.end());
     for (const CaseRecord& record : earlier->cases) {
+        const auto found = by_id.find(record.id);
+        if (found != by_id.end() && !record.content.empty() &&
+            run::make_record(*found->second).content != record.content) {
+            return tl::unexpected(
+                stop_with(report::kExitInvalidFile,
+                          "the run cannot go on: '" + record.id +
+                              "' is another case under the same id than the run began with; start "
+                              "a new run"));
+        }
         if (record.status != report::Status::not_run) {
             continue;
         }
-        const auto found = by_id.find(record.id);
         if (found == by_id.end()) {
             return tl::unexpected(stop_with(report::kExitInvalidFile,
                                             "the run cannot go on: its case '" + record.id +
@@ -175,7 +214,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     p.options = options;
     p.selection = std::move(*selection);
     warn_of_idle_faults(p.selection.known_ids);
-    warn_of_claims(p.selection.cases, options.suite, options.profile);
+    warn_of_claims(p.selection, options.suite, options.profile);
     Run& header = p.header = new_header(program, options, p.selection.root);
     header.suite_hash = cases::hex(suite_hash(p.selection.root));
     header.shard = options.shard.index;
@@ -194,29 +233,6 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     return p;
 }
 
-namespace {
-
-// Removes what an earlier run left in the folder: an interrupted one would else leave the journal
-// of one run beside the reports of another.
-void remove_reports(const fs::path& folder) {
-    std::error_code ignored;
-    std::vector<fs::path> reports;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().filename().string();
-        const bool is_page = name.starts_with("report-") && name.ends_with(".html") &&
-                             name.find_first_not_of("0123456789", 7) == name.size() - 5;
-        if (is_page || name == "report.html" || name == "results.json" || name == "junit.xml" ||
-            name == "gl-code-quality.json") {
-            reports.push_back(entry.path());
-        }
-    }
-    for (const fs::path& report : reports) {
-        fs::remove(report, ignored);
-    }
-}
-
-}  // namespace
-
 OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, bool resumed) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -230,7 +246,6 @@ OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, 
         return tl::unexpected(stop_with(report::kExitUsage, journal.error().message));
     }
     if (!resumed) {
-        remove_reports(folder);
         cases::Expected<void> written = journal->write_run(header);
         if (written) {
             written = journal->write_device(header.device);

@@ -147,6 +147,24 @@ class Contract(Captures):
         self.captures.mkdir(exist_ok=True)
         self.judge(check=7)
 
+    def test_support_is_required(self):
+        self.deliver("unsupported.txt", b"no triangles yet\n", "fam/c2")
+        done = self.judge("--require-support", case="fam/c2", check=1)
+        self.assertIn("FAIL fam/c2   unsupported\n", done.stdout)
+        self.assertIn(" --require-support", done.stdout.partition("rerun: ")[2].partition("\n")[0])
+        case = self.record("fam/c2")
+        self.assertEqual((case["status"], case["actual"]), ("fail", "unsupported"))
+        skip = self.folder / "skip.txt"
+        skip.write_text("# edgecase-expectations 2\n# device: captures\nfam/c2 skip - # Not yet.\n")
+        self.judge("--require-support", "--expect", skip, case="fam/c2", check=6)
+
+    def test_few_judged_cases_are_told(self):
+        for case in ("fam/c2", "fam/c3"):
+            self.deliver("unsupported.txt", b"no triangles yet\n", case)
+        self.deliver("coverage.u8", bytes(INSIDE))
+        done = self.edgecase("diff", "--captures", self.captures, "-o", self.out, check=0)
+        self.assertIn("\nonly 1 of 3 cases was judged\n", done.stdout)
+
     def test_colours(self):
         self.write_case(CASE, (self.suite / "fam/c1.toml").read_text().replace(
             "[[draw]]", '[target.color]\nformat = "rgba8-unorm"\n[[draw]]\ncolor = { value = [1, 0, 1, 1] }'))

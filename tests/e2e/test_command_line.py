@@ -324,6 +324,17 @@ class Listing(ProgramTest):
         self.assertIn("warning: mine.toml:4:1: the rule tie.top-left is judged at profile direct3d, and this run is at practice: "
                       "it says nothing of it\n", done.stderr)
 
+    def test_a_folder_of_ones_own_tells_what_it_does_not_test(self):
+        for name in ("a", "sub/b"):
+            path = self.folder / "mine" / f"{name}.toml"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(CASE.format(n=0).replace('"cover.inside"', '"cover.inside", "depth.compare", "tie.top-left"'))
+        done = self.edgecase("run", "mine", "--profile", "practice", "-o", "out", check=0)
+        for name in ("a", "sub/b"):
+            self.assertIn(f"warning: mine/{name}.toml:3:26: no sample exercises the rule depth.compare; one does where", done.stderr)
+        self.assertEqual(done.stderr.count("the rule tie.top-left is judged at profile direct3d"), 1)
+        self.assertIn("it says nothing of it, nor in 1 other file\n", done.stderr)
+
     def test_render_without_the_module_for_images(self):
         """The program alone, as it may be copied, names the package that doctor names."""
         (self.folder / "bin").mkdir()
@@ -509,6 +520,18 @@ class Selection(ProgramTest):
         self.run_suite("--failed-in", self.out, out=again, check=0)
         self.assertEqual(set(self.statuses(again)), {"fam/c3", "fam/c5"})
         self.run_suite("--failed-in", again, check=4)
+
+    def test_failed_in_forgets_no_case_of_ones_own(self):
+        (self.folder / "mine.toml").write_text(CASE.format(n=0))
+        self.run_suite("fam/c3", "mine.toml", fault="flip-pixel@fam/c3,flip-pixel@mine", check=1)
+        again = self.folder / "again"
+        done = self.run_suite("--failed-in", self.out, out=again, check=4)
+        self.assertEqual(done.stderr, f"edgecase: 1 case that failed in '{self.out}' is not selected: 'mine' of mine.toml; name files or "
+                                      "folders of your own, too, and '**' for the suite's cases\n")
+        self.run_suite("--failed-in", self.out, "**", "mine.toml", out=again, check=0)
+        self.assertEqual(set(self.statuses(again)), {"fam/c3", "mine"})
+        done = self.run_suite("--failed-in", self.out, "mine.toml", out=again, check=0)
+        self.assertIn("warning: 1 case that failed in", done.stderr)
 
     def test_empty_shard(self):
         shards = [self.run_suite("fam/c1", "--shard", f"{k}/4").returncode for k in range(1, 5)]

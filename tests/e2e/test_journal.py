@@ -130,6 +130,124 @@ class TwoRuns(JournalTest):
         self.assertEqual(names, {"journal.jsonl", "report-x.html", "notes.txt"})
 
 
+class OldReports(JournalTest):
+    """What a run wrote says nothing of the next one in its folder."""
+
+    REPORTS = {"results.json", "junit.xml", "report.html", "gl-code-quality.json"}
+
+    def setUp(self):
+        super().setUp()
+        self.run_suite("--ci", "gitlab", check=0)
+        (self.out / "report-2.html").write_text("a second part")
+        (self.out / "mine.txt").write_text("of somebody else")
+
+    def left(self):
+        return {f.name for f in self.out.iterdir()}
+
+    def test_a_run_that_cannot_begin(self):
+        extra = self.folder / "extra.xml"
+        extra.write_text("green")
+        done = self.edgecase("run", "--icd", "nowhere.json", "-o", self.out, "--junit", extra)
+        self.assertIn(done.returncode, (3, 5))
+        self.assertEqual(self.left(), {"journal.jsonl.old", "mine.txt"})
+        self.assertFalse(extra.exists())
+        self.edgecase("report", self.out, check=3)
+
+    def test_a_selection_of_nothing(self):
+        self.run_suite("no/such", check=4)
+        self.assertEqual(self.left(), {"journal.jsonl.old", "mine.txt"})
+
+    def hanging(self):
+        (self.out / "journal.jsonl").unlink()  # start_hanging waits for what the new one says
+        return self.start_hanging()
+
+    def test_a_run_that_is_killed(self):
+        process = self.hanging()
+        self.assertEqual(self.left(), {"journal.jsonl", "mine.txt"})
+        process.kill()
+        process.communicate()
+        self.wait_for_no_orphans()
+        self.assertEqual(self.left() & self.REPORTS, set())
+
+    def test_a_folder_that_is_read_stays(self):
+        before = self.left()
+        self.run_suite("--failed-in", self.out, check=4)
+        self.assertEqual(self.left(), before)
+
+    def test_another_run_keeps_its_folder(self):
+        process = self.hanging()
+        before = self.left()
+        for words in (["-o", self.out], ["no/such", "-o", self.out]):
+            self.assertIn(self.edgecase("run", "--renderer=reference", *words).returncode, (2, 4))
+            self.assertEqual(self.left(), before)
+        process.kill()
+        process.communicate()
+        self.wait_for_no_orphans()
+
+    def test_diff(self):
+        (self.folder / "captures/fam/c1").mkdir(parents=True)
+        (self.folder / "captures/fam/c1/unsupported.txt").write_text("not yet")
+        self.edgecase("diff", "--captures", "captures", "-o", self.out, check=6)
+        self.assertTrue(self.REPORTS - self.left() == {"gl-code-quality.json"}, self.left())
+        self.edgecase("diff", "--captures", "nowhere", "-o", self.out, check=3)
+        self.assertEqual(self.left(), {"journal.jsonl.old", "mine.txt"})
+
+
+class OtherCases(JournalTest):
+    """A case that was edited is another case under the same id."""
+
+    def edit(self, path, old="[7,7]", new="[6,7]"):
+        text = path.read_text()
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new))
+
+    def own(self):
+        mine = self.folder / "mine.toml"
+        mine.write_text((self.suite / "fam/c1.toml").read_text())
+        return mine
+
+    def test_compare(self):
+        mine = self.own()
+        self.run_suite(mine, fault="flip-pixel@mine", out=self.folder / "a", check=1)
+        self.edit(mine, "number 1", "number 11")  # what nobody draws
+        self.run_suite(mine, out=self.folder / "b", check=0)
+        self.assertIn("fixes: 1 case got better", self.edgecase("compare", "a", "b", check=0).stdout)
+        self.edit(mine)
+        self.run_suite(mine, out=self.folder / "c", check=0)
+        done = self.edgecase("compare", "a", "c", check=1)
+        self.assertIn("B: another case under the same id", done.stdout)
+        self.assertNotIn("fixes", done.stdout)
+        self.edgecase("compare", "--common", "a", "c", check=4)
+
+    def test_resume(self):
+        process = self.start_hanging()
+        process.kill()
+        process.communicate()
+        self.wait_for_no_orphans()
+        self.edit(self.suite / "fam/c0.toml")
+        done = self.edgecase("run", "--resume", self.out, check=3)
+        self.assertIn("start a new run", done.stderr)
+
+    def test_resume_of_ones_own(self):
+        mine = self.own()
+        self.run_suite(mine, check=0)
+        self.edgecase("run", "--resume", self.out, check=0)
+        self.edit(mine)
+        done = self.edgecase("run", "--resume", self.out, check=3)
+        self.assertIn("the run cannot go on: 'mine' is another case under the same id than the run began with; start a new run",
+                      done.stderr)
+
+    def test_merge(self):
+        mine = self.own()
+        mine.write_text(mine.read_text().replace("[[1,1]", '[["1 + 0 * a",1]') + "[matrix]\na = [1, 2, 3, 4, 5, 6]\n")
+        self.run_suite(mine, "--shard", "1/2", out=self.folder / "a", check=0)
+        self.edit(mine)
+        self.run_suite(mine, "--shard", "2/2", out=self.folder / "b", check=0)
+        done = self.edgecase("report", "--merge", "a", "b", "-o", "merged", check=3)
+        self.assertEqual(done.stderr, f"edgecase: the case file '{mine}' is not the same in all parts; only parts of one run can be "
+                                      "merged, use 'edgecase compare' for different ones\n")
+
+
 class Interrupt(JournalTest):
     def interrupt(self, number):
         process = self.start_hanging("-j", "2")
