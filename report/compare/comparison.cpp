@@ -31,9 +31,16 @@ std::optional<int> severity(const CaseRecord* record) {
     return at == kOrder.end() ? std::nullopt : std::optional(static_cast<int>(at - kOrder.begin()));
 }
 
-// A run has no such case, or its device does not support it.
+// A run has no such case, its device does not support it, or somebody wants it not to be drawn.
 bool is_lacking(const CaseRecord* record) {
-    return record == nullptr || actual_status(*record) == Status::unsupported;
+    return record == nullptr || actual_status(*record) == Status::unsupported ||
+           (record->status == Status::skip && record->expected == Status::skip);
+}
+
+// Nothing is known of what the case would have done: besides the above, a run that ended early
+// (--fail-fast).
+bool is_gone(const CaseRecord* record) {
+    return is_lacking(record) || record->status == Status::skip;
 }
 
 // "3 value of interp.linear [vulkan]", for each group of b's findings that a has not, or has fewer
@@ -99,7 +106,7 @@ Change change_of(const ComparedCase& c) {
         better = better || (first && s && *s < *first);
         worse = worse ||
                 (first && s && *s == *first && *s > 0 && fails_anew(*records.front(), *record));
-        gone = gone || (first && is_lacking(record));
+        gone = gone || (first && is_gone(record));
     }
     if (worse) {
         return Change::regression;

@@ -27,15 +27,15 @@ enum class Change : uint8_t {
     // Worse in a later run (pass < flake < fail < device_lost < timeout < crash), or it fails there
     // in a way or as often as it did not: by another kind, rule or level, or by another signal.
     regression,
-    // Judged in the first run, and a later one has no such case, or another one under its id, or
-    // does not support it.
+    // Judged in the first run, and a later one has no such case, or another one under its id, does
+    // not support it or skipped it.
     vanished,
     fix,              // better in a later run, worse in none
     fails_otherwise,  // bad in all, with other findings or other bits
     fails_alike,      // bad in all, bit for bit the same
     other_coverage,   // passes in all, other samples are hit: the reference allows both
     other_values,     // passes in all with the same hits and other bits
-    only_in_some,     // not in the first run, or not judged in one (skipped, not run, error)
+    only_in_some,     // not judged in the first run, or not in a later one (not run, error)
     judged_in_none,   // unsupported, skipped, not run or an error wherever it is: not compared
     same,             // passes in all, bit for bit the same
 };
@@ -44,7 +44,9 @@ std::string_view to_string(Change change);  // "regression", "other coverage", .
 
 // What makes a comparison fail, besides regressions and cases that vanished.
 struct Strictness {
-    bool common = false;  // cases that a run lacks or does not support are left out
+    // Cases that a run lacks, does not support or skips by an expectation are left out, but not
+    // what it did not come to.
+    bool common = false;
     bool strict = false;  // any difference of bits counts
 };
 

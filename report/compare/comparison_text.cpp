@@ -88,7 +88,7 @@ std::string heading(Change change, size_t count) {
     // In the order of Change.
     constexpr std::array<const char*, kChanges> kHeadings = {
         "regressions: {} {} got worse",
-        "vanished: {} {} of the first run not in a later one, or unsupported there",
+        "vanished: {} {} of the first run not in a later one, or unsupported or skipped there",
         "fixes: {} {} got better",
         "fail in all, in different ways: {} {}",
         "fail in all, bit for bit alike: {} {}",

@@ -57,11 +57,30 @@ class Compare(CompareTest):
         a, b = self.run_as("a"), self.run_as("b", "fam/c1", "fam/c2")
         done = self.compare(a, b, check=1)
         self.assertEqual(set(self.changes().values()), {"vanished"})
-        self.assertIn("vanished: 8 cases of the first run not in a later one, or unsupported there\n", done.stdout)
+        self.assertIn("vanished: 8 cases of the first run not in a later one, or unsupported or skipped there\n", done.stdout)
         self.assertTrue(done.stdout.endswith("exit 1: cases vanished; --common compares those that all runs have\n"))
         done = self.edgecase("compare", a, b, "--common", check=0)
         self.assertIn("the same bit for bit: 2 cases\n", done.stdout)
         self.edgecase("compare", b, a, check=0)  # more cases than before
+
+    def test_what_a_run_did_not_come_to_vanished(self):
+        fault = "flip-pixel@fam/c0"
+        a, b = self.run_as("a", "-j1", "--batch=1", fault=fault), self.run_as("b", "-j1", "--batch=1", "--fail-fast", fault=fault)
+        for words in ((), ("--common",)):  # it has them and would have judged them
+            done = self.compare(a, b, *words, check=1)
+            self.assertIn("fam/c9   B: the run ended before this case was judged\n", done.stdout)
+            self.assertEqual(self.changes()["fam/c9"], "vanished")
+        self.edgecase("compare", b, a, check=0)  # more cases than before
+
+    def test_what_somebody_skips_vanished(self):
+        skips = self.folder / "skips.txt"
+        skips.write_text(HEADER + "fam/c3 skip - # Too slow.\n")
+        a, b = self.run_as("a"), self.run_as("b", "--expect", skips)
+        done = self.compare(a, b, check=1)
+        self.assertEqual(self.changes(), {"fam/c3": "vanished"})
+        self.assertTrue(done.stdout.endswith("exit 1: cases vanished; --common compares those that all runs have\n"))
+        self.compare(a, b, "--common", check=0)
+        self.compare(b, self.run_as("c", "--expect", skips), check=0)
 
     def test_nothing_compared_is_no_success(self):
         a, b = self.run_as("a", "fam/c1"), self.run_as("b", "fam/c2")
