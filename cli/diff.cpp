@@ -18,6 +18,7 @@
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
+#include "cli/prepare/expectations.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/prepare_run.hpp"
 #include "cli/prepare/run_plan.hpp"
@@ -215,7 +216,7 @@ using ExpectedById = std::map<std::string, run::ExpectationLine>;
 
 report::Run make_header(const Program& program, const DiffOptions& options,
                         const Selection& selection) {
-    report::Run header = new_header(program, options.run, selection.root);
+    report::Run header = new_header(program, options.run, selection);
     header.jobs = cases::cores();
     header.device.name = options.name.empty() ? "captures" : options.name;
     header.device.driver_name = "files";

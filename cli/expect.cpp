@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command "expect": shows and checks an expectation file, or brings it up to date with a run.
+// The command "expect": shows and checks an expectation file or one of pictures, or brings it up to
+// date with a run.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <variant>
 
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
@@ -20,6 +22,7 @@
 #include "cli/prepare/suite.hpp"
 #include "report/journal/journal.hpp"
 #include "run/expected/expectation_update.hpp"
+#include "run/expected/seen_pictures.hpp"
 
 namespace cli {
 
@@ -164,9 +167,113 @@ OrStop<run::Update> make_update(const Program& program, const ExpectOptions& opt
     return update;
 }
 
+using Ids = std::set<std::string>;
+
+OrStop<Ids> ids_of_suite(const Program& program, const SuiteOptions& options) {
+    const OrStop<LoadedSuite> suite = load_and_select(program, options, cases::Contents::ids);
+    if (!suite) {
+        return tl::unexpected(suite.error());
+    }
+    const std::vector<std::string> ids = suite->ids();
+    return Ids(ids.begin(), ids.end());
+}
+
+size_t count_pictures(const run::SeenPictures& seen) {
+    size_t count = 0;
+    for (const auto& [id, bits] : seen.bits) {
+        count += bits.size();
+    }
+    return count;
+}
+
+// Checks a file of pictures.
+OrStop<std::monostate> show_pictures(const Program& program, const ExpectOptions& options) {
+    const auto file = run::load_pictures(options.file);
+    if (!file) {
+        return tl::unexpected(invalid_files(file.error()));
+    }
+    const OrStop<Ids> ids = ids_of_suite(program, options.suite);
+    if (!ids) {
+        return tl::unexpected(ids.error());
+    }
+    for (const auto& [id, bits] : file->bits) {
+        if (!ids->contains(id)) {
+            return tl::unexpected(
+                stop_with(report::kExitInvalidFile,
+                          options.file + ": error: '" + id + "' is no case; remove its line"));
+        }
+    }
+    say(fmt::format("{}: {} of {}; for {}\n", options.file,
+                    cases::counted(count_pictures(*file), "picture"),
+                    cases::counted(file->bits.size(), "case"), file->device_glob));
+    return std::monostate{};
+}
+
+// Adds the pictures of a run's failures to a file of pictures, or makes one.
+OrStop<std::monostate> update_pictures(const Program& program, const ExpectOptions& options) {
+    if (options.bits || !options.bug.empty() || !options.reason.empty() || !options.until.empty()) {
+        return tl::unexpected(stop_with(
+            report::kExitUsage,
+            "a file of pictures says how failures look and not why; leave out --bits, --bug, "
+            "--reason and --until, or name an expectation file (*.txt)"));
+    }
+    const cases::Expected<report::Run> run = report::load_journal(options.update);
+    if (!run) {
+        return tl::unexpected(
+            stop_with(report::kExitInvalidFile, "--update: " + cases::to_string(run.error())));
+    }
+    std::error_code none;
+    cases::ExpectedAll<run::SeenPictures> file = fs::exists(options.file, none)
+                                                     ? run::load_pictures(options.file)
+                                                     : run::new_pictures(*run, options.file);
+    if (!file) {
+        return tl::unexpected(invalid_files(file.error()));
+    }
+    if (!run::fits(*file, run->device)) {
+        return tl::unexpected(
+            stop_with(report::kExitDevice, "the file of pictures '" + options.file +
+                                               "' does not fit the run: it is for the device '" +
+                                               file->device_glob + "', that was on '" +
+                                               run->device.name + "'"));
+    }
+    SuiteOptions suite = options.suite;
+    if (suite.suite.empty()) {
+        suite.suite = run->suite_root;
+    }
+    const OrStop<Ids> ids = ids_of_suite(program, suite);
+    if (!ids) {
+        return tl::unexpected(ids.error());
+    }
+    const std::string before = to_text(*file);
+    const size_t kept = count_pictures(*file);
+    run::add_pictures(*file, *run);
+    const size_t added = count_pictures(*file) - kept;
+    std::erase_if(file->bits, [&](const auto& entry) { return !ids->contains(entry.first); });
+    const size_t removed = kept + added - count_pictures(*file);
+    const std::string text = to_text(*file);
+    const bool same = text == before && fs::exists(options.file, none);
+    std::printf("%s: %zu removed, %zu added, %zu kept%s\n", options.file.c_str(), removed, added,
+                kept - std::min(kept, removed),
+                same              ? "; nothing to write"
+                : options.dry_run ? "; not written (--dry-run)"
+                                  : "");
+    if (!same && !options.dry_run) {
+        if (const auto written = replace_text(options.file, text); !written) {
+            return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
+        }
+    }
+    return std::monostate{};
+}
+
 }  // namespace
 
 int expect_command(const Program& program, const ExpectOptions& options) {
+    if (fs::path(options.file).extension() == run::kPicturesEnd) {
+        const OrStop<std::monostate> done = options.update.empty()
+                                                ? show_pictures(program, options)
+                                                : update_pictures(program, options);
+        return done ? int{report::kExitOk} : report_stop(done.error());
+    }
     if (options.update.empty()) {
         return show(program, options);
     }

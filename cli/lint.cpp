@@ -16,6 +16,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
+#include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/claims.hpp"
 #include "cli/prepare/on_threads.hpp"
@@ -27,6 +28,7 @@
 #include "ref/expectation/expectation.hpp"
 #include "report/record/run.hpp"
 #include "run/expected/expectation_file.hpp"
+#include "run/expected/seen_pictures.hpp"
 #include "run/judge.hpp"
 
 namespace cli {
@@ -98,6 +100,25 @@ cases::Errors check_case(const cases::Case& c, const ref::Exercise& exercise) {
     return errors;
 }
 
+// A file of pictures: its form, and that every line is about a case.
+cases::Errors check_pictures(const std::filesystem::path& path,
+                             const std::vector<std::string>& ids) {
+    const auto file = run::load_pictures(path);
+    if (!file) {
+        return file.error();
+    }
+    cases::Errors errors;
+    const std::set<std::string> known(ids.begin(), ids.end());
+    for (const auto& [id, bits] : file->bits) {
+        if (!known.contains(id)) {
+            errors.push_back(
+                {{path.string(), 0, 0},
+                 "'" + id + "' is no case" + cases::did_you_mean(id, ids, "; remove its line")});
+        }
+    }
+    return errors;
+}
+
 // Expectation files beside the suite: their form, and that every line matches a case.
 cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
     cases::Errors errors;
@@ -106,6 +127,10 @@ cases::Errors check_expectation_files(const LoadedSuite& suite, size_t& count) {
     const auto folder =
         std::filesystem::absolute(suite.root).lexically_normal().parent_path() / "expectations";
     for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+        if (entry.path().extension() == run::kPicturesEnd) {
+            const cases::Errors wrong = check_pictures(entry.path(), ids);
+            errors.insert(errors.end(), wrong.begin(), wrong.end());
+        }
         if (entry.path().extension() != ".txt") {
             continue;
         }

@@ -10,6 +10,7 @@
 
 #include "cases/base/checksum.hpp"
 #include "cases/write/to_toml.hpp"
+#include "cli/prepare/expectations.hpp"
 #include "cli/prepare/run_plan.hpp"
 
 namespace cli {
@@ -118,7 +119,7 @@ OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOpti
     }
     Selection selection;
     selection.root = names->root;
-    selection.suite_ids = names->ids();
+    selection.known_ids = selection.suite_ids = names->ids();
     report::Run header;
     header.device = device;
     auto lines = expectations_of(options, selection, header);

@@ -138,6 +138,9 @@ void define_run(CLI::App& app, RunOptions& o) {
     add_require_support(run, o, "device");
     add_profile(run, o.profile);
     add_expectations(run, o);
+    run->add_flag("--strict", o.strict,
+                  "a known failure with bits that no file of pictures knows is unexpected")
+        ->group("Judging");
     add_value(run, "-j,--jobs", o.jobs, "workers, 1 to 256 [one a core, at most 4]", "N",
               "Isolation")
         ->envname("EDGECASE_JOBS")

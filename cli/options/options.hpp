@@ -58,6 +58,7 @@ struct RunOptions {
     std::string require_device;
     std::vector<std::string> expect;
     bool no_expect = false;
+    bool strict = false;  // known failures with pictures that nobody has seen are unexpected
     cases::Profile profile = cases::Profile::direct3d;
     uint32_t jobs = std::min(cases::cores(), 4U);
     uint32_t batch = 16;

@@ -16,6 +16,7 @@
 #include "cli/options/parse.hpp"
 #include "cli/prepare/claims.hpp"
 #include "cli/prepare/device_answer.hpp"
+#include "cli/prepare/expectations.hpp"
 #include "cli/prepare/on_threads.hpp"
 #include "report/journal/journal.hpp"
 #include "report/text/sentences.hpp"
@@ -125,6 +126,28 @@ void warn_of_claims(const Selection& selection, const SuiteOptions& suite, cases
     }
 }
 
+// What of a run that is gone on with is not as it was when it began, since the results of one suite
+// and of another are no run; empty if nothing is known to be. Journals of older programs do not
+// tell everything.
+std::string what_changed(const Run& earlier) {
+    if (earlier.tool_version != kVersion) {
+        return fmt::format("it began with edgecase {} and this is {}", earlier.tool_version,
+                           kVersion);
+    }
+    if (!earlier.suite_hash.empty() &&
+        earlier.suite_hash != cases::hex(suite_hash(earlier.suite_root))) {
+        return "the files of the suite '" + earlier.suite_root +
+               "' are not those that it began with";
+    }
+    const auto now = sources_of(earlier.cases);
+    for (const auto& source : earlier.sources) {
+        if (std::find(now.begin(), now.end(), source) == now.end()) {
+            return "the file '" + source.first + "' is not as it was when it began";
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
@@ -164,7 +187,9 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
     p.options.progress = now.progress;
     SuiteOptions suite = p.options.suite;
     suite.suite = earlier->suite_root;
-    std::erase_if(suite.selectors, [](const std::string& s) { return !s.ends_with(".toml"); });
+    std::erase_if(suite.selectors, [&](const std::string& s) {
+        return !is_outside(s, earlier->suite_root);  // the journal has the ids
+    });
     OrStop<LoadedSuite> loaded = load_and_select(program, suite);
     if (!loaded) {
         return tl::unexpected(loaded.error());
@@ -202,6 +227,11 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
         planned.alone = cut_off.contains(record.id);
         p.plan.push_back(std::move(planned));
     }
+    if (const std::string changed = what_changed(*earlier); !changed.empty()) {
+        return tl::unexpected(stop_with(report::kExitInvalidFile,
+                                        "the run cannot go on: " + changed + "; start a new run"));
+    }
+    p.is_resumed = true;
     return p;
 }
 
@@ -215,8 +245,7 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     p.selection = std::move(*selection);
     warn_of_idle_faults(p.selection.known_ids);
     warn_of_claims(p.selection, options.suite, options.profile);
-    Run& header = p.header = new_header(program, options, p.selection.root);
-    header.suite_hash = cases::hex(suite_hash(p.selection.root));
+    Run& header = p.header = new_header(program, options, p.selection);
     header.shard = options.shard.index;
     header.shards = options.shard.count;
     header.jobs = options.jobs;
@@ -258,9 +287,17 @@ OrStop<report::Journal> open_journal(const fs::path& folder, const Run& header, 
 }
 
 OrStop<std::monostate> apply_expectations(Prepared& p) {
+    const std::string hash_before = p.header.expectation_hash;
     const auto expected = expectations_of(p.options, p.selection, p.header);
     if (!expected) {
         return tl::unexpected(expected.error());
+    }
+    const bool tells_hash = !p.header.selection.empty();  // journals of older programs do not
+    if (p.is_resumed && tells_hash && p.header.expectation_hash != hash_before) {
+        return tl::unexpected(
+            stop_with(report::kExitInvalidFile,
+                      "the run cannot go on: the expectation files are not those that it began "
+                      "with; start a new run"));
     }
     for (run::PlannedCase& c : p.plan) {
         if (const auto found = expected->find(c.data.id); found != expected->end()) {

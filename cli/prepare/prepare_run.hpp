@@ -24,6 +24,7 @@ struct Prepared {
     std::vector<run::PlannedCase> plan;  // the cases still to be run
     std::filesystem::path folder;
     report::Run header;
+    bool is_resumed = false;
 };
 
 OrStop<Prepared> prepare(const Program& program, const RunOptions& options);

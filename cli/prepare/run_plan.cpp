@@ -14,7 +14,9 @@
 #include <ctime>
 #include <set>
 #include <string_view>
+#include <tuple>
 
+#include "cases/base/checksum.hpp"
 #include "cases/base/counted.hpp"
 #include "report/journal/journal.hpp"
 #include "run/order.hpp"
@@ -63,6 +65,37 @@ OrStop<std::set<std::string>> failed_ids(const RunOptions& options, const Loaded
         what + "; name files or folders of your own, too, and '**' for the suite's cases"));
 }
 
+// The same for the same cases, whatever selected them in whichever order.
+std::string selection_text(std::vector<std::string> ids) {
+    std::sort(ids.begin(), ids.end());
+    uint64_t hash = 0;
+    for (const std::string& id : ids) {
+        hash = cases::stable_hash(id, hash);
+    }
+    return fmt::format("{}, {}", cases::counted(ids.size(), "case"), cases::hex(hash));
+}
+
+// The options that change what counts as expected, as they would be given.
+std::string settings_of(const RunOptions& options) {
+    std::vector<std::string> words;
+    for (const auto& [is_given, name] : {std::pair(options.require_support, "--require-support"),
+                                         std::pair(options.strict, "--strict"),
+                                         std::pair(options.device.validation, "--validation")}) {
+        if (is_given) {
+            words.emplace_back(name);
+        }
+    }
+    const RunOptions usual;
+    for (const auto& [name, value, other] :
+         {std::tuple("--repeat", options.repeat, usual.repeat),
+          std::tuple("--retries", options.retries, usual.retries)}) {
+        if (value != other) {
+            words.push_back(fmt::format("{} {}", name, value));
+        }
+    }
+    return fmt::format("{}", fmt::join(words, " "));
+}
+
 }  // namespace
 
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options) {
@@ -85,14 +118,24 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     for (size_t k = suite->outside; k < suite->cases.size(); ++k) {
         selection.own_files.insert(suite->cases[k].where.file);
     }
+    std::vector<std::string> ids;
+    std::set<std::string> own;
     for (const size_t k :
          options.quick ? run::first_and_last(suite->cases, suite->selected) : suite->selected) {
         cases::Case& c = suite->cases[k];
-        if ((options.failed_in.empty() || failed.contains(c.id)) &&
-            run::shard_of(c.id, options.shard.count) == options.shard.index) {
+        if (!options.failed_in.empty() && !failed.contains(c.id)) {
+            continue;
+        }
+        ids.push_back(c.id);
+        if (k >= suite->outside) {
+            own.insert(c.where.file);
+        }
+        if (run::shard_of(c.id, options.shard.count) == options.shard.index) {
             selection.cases.push_back(std::move(c));
         }
     }
+    selection.of_all_shards = selection_text(std::move(ids));
+    selection.own_hash = hash_of_files(own);
     selection.whole_suite = selection.cases.size() == selection.known_ids.size();
     if (selection.cases.empty()) {
         std::string why = "no case is selected";
@@ -112,73 +155,8 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     return selection;
 }
 
-namespace {
-
-// The expectation files of --expect, or those beside the suite that fit the device.
-OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& options,
-                                                            const fs::path& suite_root,
-                                                            const report::Device& device) {
-    std::vector<run::ExpectationFile> found;
-    if (options.no_expect) {
-        return found;
-    }
-    std::vector<fs::path> paths(options.expect.begin(), options.expect.end());
-    const bool is_explicit = !paths.empty();
-    if (!is_explicit) {
-        std::error_code none;
-        for (const fs::directory_entry& entry : fs::directory_iterator(
-                 fs::absolute(suite_root).lexically_normal().parent_path() / "expectations",
-                 none)) {
-            if (entry.path().extension() == ".txt") {
-                paths.push_back(entry.path());
-            }
-        }
-        std::sort(paths.begin(), paths.end());
-    }
-    for (const fs::path& path : paths) {
-        cases::ExpectedAll<run::ExpectationFile> file = run::load_expectations(path);
-        if (!file) {
-            return tl::unexpected(invalid_files(file.error()));
-        }
-        const std::string why_not = mismatch(*file, device, options.profile);
-        if (why_not.empty()) {
-            found.push_back(std::move(*file));
-        } else if (is_explicit) {
-            return tl::unexpected(
-                Stop{report::kExitDevice,
-                     {"the expectation file '" + path.string() + "' does not fit: " + why_not +
-                      "; choose another --device or --expect"}});
-        }
-    }
-    return found;
-}
-
-}  // namespace
-
-OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOptions& options,
-                                                                    const Selection& selection,
-                                                                    report::Run& header) {
-    const OrStop<std::vector<run::ExpectationFile>> files =
-        find_expectations(options, selection.root, header.device);
-    if (!files) {
-        return tl::unexpected(files.error());
-    }
-    const auto expected = run::resolve_expectations(
-        *files, options.expect.empty() ? selection.suite_ids : selection.known_ids,
-        selection.whole_suite);
-    if (!expected) {
-        return tl::unexpected(invalid_files(expected.error()));
-    }
-    header.expectation_file.clear();
-    for (const run::ExpectationFile& file : *files) {
-        header.expectation_file +=
-            (header.expectation_file.empty() ? "" : ", ") + file.path.string();
-    }
-    return *expected;
-}
-
 report::Run new_header(const Program& program, const RunOptions& options,
-                       const fs::path& suite_root) {
+                       const Selection& selection) {
     report::Run header;
     header.tool_version = kVersion;
     header.arguments = program.arguments;
@@ -190,7 +168,11 @@ report::Run new_header(const Program& program, const RunOptions& options,
     header.profile = options.profile;
     header.seed = options.seed;
     std::error_code ignored;
-    header.suite_root = fs::absolute(suite_root, ignored).lexically_normal().string();
+    header.suite_root = fs::absolute(selection.root, ignored).lexically_normal().string();
+    header.suite_hash = cases::hex(suite_hash(selection.root));
+    header.selection = selection.of_all_shards;
+    header.own_hash = selection.own_hash;
+    header.settings = settings_of(options);
     return header;
 }
 
@@ -298,6 +280,9 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
     }
     if (options.require_support) {
         words.emplace_back("--require-support");
+    }
+    if (options.strict) {
+        words.emplace_back("--strict");
     }
     add_expectations(words, options);
     return driver_settings() + join(words);

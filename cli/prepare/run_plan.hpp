@@ -6,14 +6,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "cli/options/options.hpp"
 #include "cli/prepare/suite.hpp"
-#include "run/expected/expectation_file.hpp"
 #include "run/run_loop.hpp"
 
 namespace cli {
@@ -21,6 +19,8 @@ namespace cli {
 struct Selection {
     std::filesystem::path root;
     std::vector<cases::Case> cases;      // in the order of the run
+    std::string of_all_shards;           // report::RunHeader::selection
+    std::string own_hash;                // report::RunHeader::own_hash
     std::vector<std::string> known_ids;  // of the whole suite, and of the cases outside of it
     std::vector<std::string> suite_ids;  // of the suite alone
     bool whole_suite = false;
@@ -33,16 +33,10 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
 // none of the suite's.
 std::string selector_of(const RunOptions& options, const std::string& id);
 
-// What the expectation files say of each id, those of --expect or those beside the suite that fit
-// the header's device; their names go into the header. Files beside a suite speak of its cases
-// alone: a new case of one's own that fails is news, whatever its id.
-OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOptions& options,
-                                                                    const Selection& selection,
-                                                                    report::Run& header);
-
-// What is known of a run before its device is: how, where and when it was started, and its suite.
+// What is known of a run before its device is: how, where and when it was started, its suite and
+// what was selected.
 report::Run new_header(const Program& program, const RunOptions& options,
-                       const std::filesystem::path& suite_root);
+                       const Selection& selection);
 
 // The words of a command on one case that repeat how this run was set up, quoted for a shell.
 std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id);

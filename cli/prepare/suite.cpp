@@ -106,10 +106,6 @@ class FileIds {
     std::map<std::string, std::string> files_;
 };
 
-bool is_outside(const std::string& selector, const fs::path& root) {
-    return is_outside_file(leaf_of_file(selector).file, root) || is_outside_folder(selector, root);
-}
-
 // Puts all of their contents into the place of selected cases of which the id is known.
 OrStop<std::monostate> load_contents(LoadedSuite& suite) {
     std::map<std::string, std::vector<cases::Case>> files;
@@ -232,6 +228,10 @@ OrStop<LoadedSuite> select_of(LoadedSuite suite, const SuiteOptions& options) {
 }
 
 }  // namespace
+
+bool is_outside(const std::string& selector, const fs::path& root) {
+    return is_outside_file(leaf_of_file(selector).file, root) || is_outside_folder(selector, root);
+}
 
 std::vector<std::string> LoadedSuite::ids() const {
     std::vector<std::string> all;
@@ -370,6 +370,22 @@ std::vector<std::pair<std::string, std::string>> sources_of(
         }
     }
     return sources;
+}
+
+std::string hash_of_files(const std::set<std::string>& files) {
+    // The jobs of one run may have their files in different folders.
+    std::map<std::string, std::vector<std::string>> texts;
+    for (const std::string& file : files) {
+        texts[fs::path(file).filename().string()].push_back(text_of(file));
+    }
+    uint64_t hash = 0;
+    for (auto& [name, all] : texts) {
+        std::sort(all.begin(), all.end());
+        for (const std::string& text : all) {
+            hash = cases::stable_hash(text, cases::stable_hash(name, hash));
+        }
+    }
+    return files.empty() ? std::string() : cases::hex(hash);
 }
 
 uint64_t suite_hash(const std::filesystem::path& root) {

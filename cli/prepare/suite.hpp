@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,16 @@ namespace cli {
 // was built from.
 OrStop<std::filesystem::path> find_suite_root(const Program& program, const std::string& option);
 
+// Whether a selector names case files outside the suite: a file, a leaf of one, or a folder.
+bool is_outside(const std::string& selector, const std::filesystem::path& root);
+
 // A hash of the paths and bytes of all case files below the folder: whether two runs had the same
 // suite.
 uint64_t suite_hash(const std::filesystem::path& root);
+
+// A hash of the bytes of files, and of their names without their folders, in hexadecimal; empty
+// without any.
+std::string hash_of_files(const std::set<std::string>& files);
 
 // The files of cases and their texts, by name, of long ones head and tail; those that cannot be
 // read are left out.

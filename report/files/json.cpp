@@ -98,6 +98,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"bug", cases::printable(r.bug)},
         {"expectation", cases::printable(r.expectation)},
         {"unlike", cases::printable(r.unlike)},
+        {"unseen_picture", r.unseen_picture},
         {"expired", cases::printable(r.expired)},
         {"actual", to_string(actual_status(r))},
         {"bits", cases::printable(r.bits)},

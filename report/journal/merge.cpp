@@ -31,6 +31,10 @@ const Common kCommon[] = {
     {"the suite (a hash of its files)", [](const Run& r) { return r.suite_hash; }},
     {"the version of edgecase", [](const Run& r) { return r.tool_version; }},
     {"the number of shards", [](const Run& r) { return std::to_string(r.shards); }},
+    {"the selection before --shard (a hash of the ids)", [](const Run& r) { return r.selection; }},
+    {"what case files outside the suite hold (a hash)", [](const Run& r) { return r.own_hash; }},
+    {"what the expectation files hold (a hash)", [](const Run& r) { return r.expectation_hash; }},
+    {"what else decides (options)", [](const Run& r) { return r.settings; }},
 };
 
 }  // namespace

@@ -19,7 +19,8 @@ struct Part {
 
 // One run, its cases in the order of their ids; it knows which shards no part holds, and lacks them
 // wherever it is looked at. Error, one sentence: a case in two parts; parts with different devices,
-// drivers, profiles, suites, numbers of shards or versions of the program.
+// drivers, profiles, suites, numbers of shards or versions of the program; parts of different
+// selections, or judged by different expectation files or options.
 cases::Expected<Run> merge_runs(std::vector<Part> parts);
 
 }  // namespace report

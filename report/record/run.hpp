@@ -158,6 +158,7 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     std::string bug;                 // its bug reference
     std::string expectation;         // where it stands, "FILE:LINE"
     std::string unlike;              // what of the failure it does not speak of; empty: nothing
+    bool unseen_picture = false;     // it excuses this failure, and nobody has seen these bits
     std::string expired;             // the date on which it ended, if that is past
     std::optional<Status> actual;    // what happened before the expectation was looked at
     // Checksums in hexadecimal, to compare runs with: of every bit read back, and of the hits
@@ -189,6 +190,7 @@ struct CaseRecord : PlannedCase, diff::Outcome {
         visit("bug", r.bug...);
         visit({"expectation", cases::kOlderLackIt}, r.expectation...);
         visit({"unlike", cases::kOlderLackIt}, r.unlike...);
+        visit({"unseen_picture", cases::kOlderLackIt}, r.unseen_picture...);
         visit({"expired", cases::kOlderLackIt}, r.expired...);
         visit({"actual", cases::kOlderLackIt}, r.actual...);
         visit({"bits", cases::kOlderLackIt}, r.bits...);
@@ -225,6 +227,12 @@ struct RunHeader {
     std::string suite_root;
     std::string suite_hash;        // of the suite's files, hexadecimal; empty in older journals
     std::string expectation_file;  // empty if none applied
+    // What else decides what is drawn and what counts as expected, so that parts of different runs
+    // are told apart; empty in older journals.
+    std::string selection;         // "49 cases, HASH of their ids", before --shard
+    std::string own_hash;          // of the selected case files outside the suite; empty: none
+    std::string expectation_hash;  // of the expectation files' bytes; empty: none
+    std::string settings;          // "--require-support --repeat 3": options that judge otherwise
     uint32_t shard = 1, shards = 1, jobs = 1;
     std::vector<uint32_t> missing_shards;  // of merged parts: those that were not among them
     std::vector<std::pair<std::string, std::string>> sources;  // the cases' files and their texts
@@ -239,6 +247,10 @@ struct RunHeader {
         visit("suite_root", h.suite_root...);
         visit({"suite_hash", cases::kOlderLackIt}, h.suite_hash...);
         visit("expectation_file", h.expectation_file...);
+        visit({"selection", cases::kOlderLackIt}, h.selection...);
+        visit({"own_hash", cases::kOlderLackIt}, h.own_hash...);
+        visit({"expectation_hash", cases::kOlderLackIt}, h.expectation_hash...);
+        visit({"settings", cases::kOlderLackIt}, h.settings...);
         visit("shard", h.shard...);
         visit("shards", h.shards...);
         visit("jobs", h.jobs...);

@@ -14,6 +14,7 @@
 #include "report/text/causes.hpp"
 #include "report/text/commands.hpp"
 #include "report/text/diagnosis_text.hpp"
+#include "report/text/headline.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
 #include "report/text/wrap.hpp"
@@ -319,6 +320,9 @@ std::string console_summary(const Run& run, const std::string& report_path,
         text += fmt::format("largest accepted error {}{}{} in {}\n", accepted_text(run, *worst),
                             worst->worst_quantity.empty() ? "" : ", ",
                             cases::printable(worst->worst_quantity), cases::printable(worst->id));
+    }
+    if (const std::string unseen = new_pictures_text(run); !unseen.empty()) {
+        text += unseen + "; --strict makes them unexpected\n";
     }
     if (style.verbose) {
         text += free_text(run);

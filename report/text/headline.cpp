@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
+#include <vector>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/printable.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -30,7 +33,31 @@ constexpr Deed kDeeds[] = {
     {Status::xpass, "passes unexpectedly", "pass unexpectedly"},
 };
 
+bool is_new_picture(const CaseRecord& record) {
+    return record.status == Status::xfail && record.unseen_picture;
+}
+
 }  // namespace
+
+std::string new_pictures_text(const Run& run) {
+    constexpr size_t kNamed = 3;
+    std::vector<std::string> ids;
+    for (const CaseRecord& record : run.cases) {
+        if (is_new_picture(record)) {
+            ids.push_back(cases::printable(record.id));
+        }
+    }
+    if (ids.empty()) {
+        return {};
+    }
+    const size_t count = ids.size();
+    const size_t known = totals(run).at(static_cast<size_t>(Status::xfail));
+    ids.resize(std::min(count, kNamed));
+    return fmt::format("{} of {} {} drawn with bits that nobody has seen before: {}{}", count,
+                       cases::counted(known, "known failure"), count == 1 ? "is" : "are",
+                       fmt::join(ids, " "),
+                       count > kNamed ? fmt::format(" and {} more", count - kNamed) : "");
+}
 
 std::string headline(const Run& run) {
     const auto count = totals(run);
@@ -57,8 +84,13 @@ std::string headline(const Run& run) {
         return "No case was judged";
     }
     if (known > 0) {
-        return fmt::format("All as expected: {} of {} fail, as is known", known,
-                           cases::counted(judged, "judged case"));
+        const auto unseen = std::count_if(run.cases.begin(), run.cases.end(), is_new_picture);
+        return fmt::format("All as expected: {} of {} fail, as is known{}", known,
+                           cases::counted(judged, "judged case"),
+                           unseen > 0 ? fmt::format(", {} of them with bits that nobody has seen "
+                                                    "before",
+                                                    unseen)
+                                      : "");
     }
     const std::string_view which = judged == run.cases.size() ? "case" : "judged case";
     return judged == 1 ? fmt::format("The one {} passes", which)

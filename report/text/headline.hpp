@@ -16,6 +16,10 @@ namespace report {
 // "87 of 3574 cases fail, 2 crash", "All 3185 judged cases pass", "No case was judged".
 std::string headline(const Run& run);
 
+// "3 of 92 known failures are drawn with bits that nobody has seen before: ID, ID, ID"; empty if
+// there are none, or if nothing is known of pictures.
+std::string new_pictures_text(const Run& run);
+
 // How many unexpected cases with findings there are at each level, by cases::Profile: a case is
 // counted at the loosest level that it breaks.
 std::array<size_t, std::size(cases::kProfiles)> unexpected_by_level(const Run& run);

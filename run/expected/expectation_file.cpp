@@ -278,7 +278,6 @@ cases::ExpectedAll<ExpectationFile> load_expectations(const std::filesystem::pat
     std::ifstream in(path, std::ios::binary);
     std::ostringstream text;
     if (!in || !(text << in.rdbuf())) {
-        std::error_code ignored;
         return tl::unexpected(Errors{{{path.string(), 0, 0},
                                       std::filesystem::exists(path, ignored)
                                           ? "the expectation file is empty or cannot be read"
@@ -407,10 +406,26 @@ Status judge_expected(Status actual, std::optional<Status> expected, bool is_pas
     return Status::improved;  // bad, but less bad than the line says
 }
 
+namespace {
+
+bool is_excused(const ExpectationLine& line, const report::CaseRecord& record) {
+    return judge_expected(record.status, line.status, line.is_past) == Status::xfail &&
+           what_is_new(line.cause, record).empty();
+}
+
+}  // namespace
+
+bool has_new_picture(const ExpectationLine& line, const report::CaseRecord& record) {
+    // A line that knows bits has seen them.
+    return line.pictures_are_known && line.cause.bits.empty() && line.status == Status::fail &&
+           !record.bits.empty() && !line.seen.contains(record.bits) && is_excused(line, record);
+}
+
 Status counts_as(const ExpectationLine& line, const report::CaseRecord& record) {
     const Status status = judge_expected(record.status, line.status, line.is_past);
-    return status == Status::xfail && !what_is_new(line.cause, record).empty() ? record.status
-                                                                               : status;
+    const bool is_news = status == Status::xfail && !is_excused(line, record);
+    return is_news || (line.excuses_seen_only && has_new_picture(line, record)) ? record.status
+                                                                                : status;
 }
 
 void apply(const ExpectationLine& line, report::CaseRecord& record) {
@@ -422,6 +437,10 @@ void apply(const ExpectationLine& line, report::CaseRecord& record) {
     if (record.status == line.status && !line.is_past) {
         mark_known(line.cause, record);
         record.unlike = what_is_new(line.cause, record);
+        record.unseen_picture = has_new_picture(line, record);
+        if (record.unseen_picture && line.excuses_seen_only) {
+            record.unlike = "the picture, bits " + record.bits + ", is none that was seen before";
+        }
     }
     record.status = counts_as(line, record);
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,11 @@ struct ExpectationLine {
     bool is_past = false;  // until is
     std::string note;
     cases::SourceLocation where;
+    // Of a file of pictures (seen_pictures.hpp), not of this one: CaseRecord::bits of the case that
+    // were seen before.
+    bool pictures_are_known = false;
+    std::set<std::string> seen;
+    bool excuses_seen_only = false;  // --strict
 };
 
 struct ExpectationFile {
@@ -75,6 +81,10 @@ cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
 // date is past excuses nothing, and is news even if the case passes.
 report::Status judge_expected(report::Status actual, std::optional<report::Status> expected,
                               bool is_past = false);
+
+// Whether a failure that the line excuses is drawn as nobody has seen it before. Only pictures
+// themselves can be asked, not deaths, and not flakes, which have many.
+bool has_new_picture(const ExpectationLine& line, const report::CaseRecord& record);
 
 // What the record of a case counts as by a line: judge_expected(), but a failure that is not as the
 // line's cause says counts as itself.

@@ -12,7 +12,7 @@ import xml.etree.ElementTree
 
 import yaml
 
-from support import PROGRAM, SOURCE, ProgramTest
+from support import CASE, PROGRAM, SOURCE, ProgramTest
 
 
 class CiTest(ProgramTest):
@@ -216,6 +216,56 @@ class Merge(CiTest):
         self.run_suite("--shard", "2/3", out=self.folder / "two", check=0)
         self.refused("the number of shards is '2' in one and '3' in two; only parts of one run can be merged, "
                      "use 'edgecase compare' for different ones", "--merge", "one", "two", "-o", "merged")
+
+    def test_two_selections(self):
+        """Whatever chose the cases: each part is whole in itself, and together they are no run."""
+        for n in (1, 2):
+            self.write_case(f"other/c{n}", CASE.format(n=20 + n))
+        one = self.folder / "one"
+        failed = self.folder / "failed"
+        self.run_suite("fam/c1", "fam/c2", "fam/c3", fault="flip-pixel@*/*", out=failed, check=1)
+        self.run_suite("fam/**", "--shard", "1/2", out=one, check=0)
+        for number, words in enumerate((["other/**"], ["fam/*", "!fam/c1"], [], ["fam/**", "--failed-in", failed])):
+            two = self.folder / f"two-{number}"
+            self.run_suite(*words, "--shard", "2/2", out=two)
+            done = self.edgecase("report", "--merge", one, two, "-o", "merged", check=3)
+            self.assertRegex(done.stderr, r"\Aedgecase: the selection before --shard \(a hash of the ids\) is "
+                                          r"'10 cases, [0-9a-f]{16}' in .*one and '\d+ cases?, [0-9a-f]{16}' in ")
+        # The same cases by other words are the same selection.
+        two = self.folder / "two"
+        self.run_suite("@rule:cover.inside", "!other/*", "--shard", "2/2", "--shuffle", out=two, check=0)
+        self.edgecase("report", "--merge", one, two, "-o", "merged", check=0)
+
+    def test_quick_beside_the_whole(self):
+        self.write_case("fam/leaves", CASE.format(n=30).replace("[target]", "[matrix]\nk = [1, 2, 3, 4]\n[target]")
+                        .replace("[1,1]", "[\"k\",1]"))
+        for n, words in enumerate(([], ["--quick"])):
+            self.run_suite("fam/leaves", *words, "--shard", f"{n + 1}/2", out=self.folder / f"part-{n}")
+        self.assertIn("the selection before --shard",
+                      self.edgecase("report", "--merge", "part-0", "part-1", "-o", "merged", check=3).stderr)
+
+    def test_two_judgements(self):
+        known = self.folder / "known.txt"
+        known.write_text("# edgecase-expectations 2\n# device: Edgecase*\nfam/c1 fail b#1 double:cover.outside@vulkan<=1  # Known.\n")
+        for what, one, two in (("what the expectation files hold (a hash)", ["--expect", known], ["--no-expect"]),
+                               ("what else decides (options)", [], ["--require-support"]),
+                               ("what else decides (options)", ["--repeat", "2"], []),
+                               ("what else decides (options)", [], ["--retries", "0"])):
+            self.run_suite(*one, "--shard", "1/2", out=self.folder / "one")
+            self.run_suite(*two, "--shard", "2/2", out=self.folder / "two")
+            self.assertIn(f"edgecase: {what} is '",
+                          self.edgecase("report", "--merge", "one", "two", "-o", "merged", check=3).stderr)
+        self.assertIn("is '' in one and '--retries 0' in two", self.edgecase("report", "--merge", "one", "two", check=3).stderr)
+
+    def test_a_changed_case_of_ones_own(self):
+        own = self.folder / "mine" / "own.toml"
+        own.parent.mkdir()
+        own.write_text(CASE.format(n=40))
+        self.run_suite("fam/**", own, "--shard", "1/2", out=self.folder / "one", check=0)
+        own.write_text(CASE.format(n=41))
+        self.run_suite("fam/**", own, "--shard", "2/2", out=self.folder / "two", check=0)
+        self.assertIn("edgecase: what case files outside the suite hold (a hash) is '",
+                      self.edgecase("report", "--merge", "one", "two", "-o", "merged", check=3).stderr)
 
     def test_several_folders_without_merge(self):
         self.refused("several folders need --merge; 'edgecase compare' sets runs side by side", *self.shards(2), code=2)

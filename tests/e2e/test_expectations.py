@@ -144,6 +144,77 @@ class Support(ExpectationTest):
         self.run_suite("--require-support", fault="unsupported@fam/c3", check=0)
 
 
+class Pictures(ExpectationTest):
+    """Within a count another error of the same cause is excused, but not without a word."""
+    SENTENCE = "1 of 2 known failures is drawn with bits that nobody has seen before: fam/c4; --strict makes them unexpected\n"
+
+    def known(self):
+        path = self.expectations(f"fam/c3 fail bug#1 {FLIPPED}  # Known.\nfam/c4 fail bug#1 {FLIPPED}  # Known.\n")
+        return path.with_suffix(".pictures")
+
+    def learn(self, path):
+        self.run_suite(fault="flip-pixel@fam/c3,flip-pixel@fam/c4", check=0)
+        return self.edgecase("expect", "--update", self.out, path, check=0)
+
+    def test_a_picture_that_nobody_has_seen(self):
+        path = self.known()
+        other = "flip-pixel@fam/c3,flip-pixel+1@fam/c4"
+        self.assertNotIn("seen before", self.run_suite(fault=other, check=0).stdout)  # nothing is known of pictures
+        self.assertEqual(self.learn(path).stdout, f"{path}: 0 removed, 2 added, 0 kept\n")
+        self.assertRegex(path.read_text(), r"\A# edgecase-pictures 1\n# device: Edgecase reference\nfam/c3 [0-9a-f]{16}\nfam/c4 [0-9a-f]{16}\n\Z")
+        self.assertEqual(self.learn(path).stdout, f"{path}: 0 removed, 0 added, 2 kept; nothing to write\n")
+        self.assertNotIn("seen before", self.run_suite(fault="flip-pixel@fam/c3,flip-pixel@fam/c4", check=0).stdout)
+        done = self.run_suite(fault=other, check=0)
+        self.assertIn(self.SENTENCE, done.stdout)
+        self.assertEqual({c["id"] for c in self.results()["cases"] if c["unseen_picture"]}, {"fam/c4"})
+        self.assertIn("2 of 10 judged cases fail, as is known, 1 of them with bits that nobody has seen before",
+                      (self.out / "report.html").read_text())
+        self.assertIn(self.SENTENCE, self.edgecase("report", self.out, check=0).stdout)  # the journal has it
+        # Once it is known it is no news.
+        self.edgecase("expect", "--update", self.out, path, check=0)
+        self.assertNotIn("seen before", self.run_suite(fault=other, check=0).stdout)
+        self.assertNotIn("seen before", self.run_suite(fault="flip-pixel@fam/c3,flip-pixel@fam/c4", check=0).stdout)
+
+    def test_strict(self):
+        path = self.known()
+        other = "flip-pixel@fam/c3,flip-pixel+1@fam/c4"
+        done = self.run_suite("--strict", fault=other, check=2)
+        self.assertIn("no file of pictures for this device", done.stderr)
+        self.learn(path)
+        done = self.run_suite("--strict", fault=other, check=1)
+        self.assertRegex(done.stdout, r"not as \S+ says \(bug#1\): the picture, bits [0-9a-f]{16}, is none that was seen before\n")
+        self.assertEqual((self.statuses()["fam/c3"], self.statuses()["fam/c4"]), ("xfail", "fail"))
+        self.assertNotIn("seen before: ", done.stdout)
+        rerun = re.search(r"rerun: \S+ run (.*)\n", done.stdout)[1]
+        self.assertIn("--strict", rerun)
+        self.run_suite("--strict", fault="flip-pixel@fam/c3,flip-pixel@fam/c4", check=0)
+        self.assertIn("--no-expect", self.run_suite("--strict", "--no-expect", check=2).stderr)
+
+    def test_beside_a_named_file(self):
+        mine = self.folder / "mine.txt"
+        mine.write_text(HEADER + f"fam/c3 fail bug#1 {FLIPPED}  # Known.\n")
+        self.run_suite("--no-expect", "fam/c3", fault="flip-pixel@fam/c3", check=1)
+        self.edgecase("expect", "--update", self.out, "mine.pictures", check=0)
+        done = self.run_suite("--expect", mine, "fam/c3", fault="flip-pixel+1@fam/c3", check=0)
+        self.assertIn("1 of 1 known failure is drawn with bits that nobody has seen before: fam/c3;", done.stdout)
+
+    def test_files_of_pictures_are_checked(self):
+        path = self.known()
+        self.learn(path)
+        self.assertEqual(self.edgecase("expect", path, check=0).stdout, f"{path}: 2 pictures of 2 cases; for Edgecase reference\n")
+        before = path.read_text()
+        path.write_text(before.replace("fam/c4", "fam/c44"))
+        self.assertIn(f"{path}: error: 'fam/c44' is no case", self.edgecase("lint", check=3).stderr)
+        self.assertIn("'fam/c44' is no case; remove its line", self.edgecase("expect", path, check=3).stderr)
+        self.run_suite("fam/c3", fault="flip-pixel@fam/c3", check=0)  # an old line harms no run
+        self.assertEqual(self.edgecase("expect", "--update", self.out, path, check=0).stdout, f"{path}: 1 removed, 0 added, 1 kept\n")
+        path.write_text(before + "fam/c5 x\n")
+        self.assertIn(f"{path}:5:1: error: 'x' is no picture", self.run_suite(check=3).stderr)
+        path.write_text(before.replace("Edgecase reference", "other"))
+        self.assertIn("does not fit the run", self.edgecase("expect", "--update", self.out, path, check=5).stderr)
+        self.assertIn("says how failures look", self.edgecase("expect", "--update", self.out, path, "--bug", "b#1", check=2).stderr)
+
+
 class Causes(ExpectationTest):
     """A known failure hides no other one."""
 

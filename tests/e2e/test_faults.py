@@ -189,12 +189,12 @@ class Output(ProgramTest):
         self.assertEqual(len(json.loads(done.stdout)["cases"]), 10)
 
     def test_the_last_line_is_the_exit_code(self):
-        done = self.run_suite("--json", "/nonexistent/x.json", check=7)
+        done = self.run_suite("--json", "/dev/full", check=7)
         self.assertIn("exit 7: a report could not be written\n", done.stdout)
         done = self.edgecase("report", self.out, "-o", "/proc/x", check=7)
         self.assertNotIn("/proc/x", done.stdout)
         self.assertIn("exit 7: a report could not be written\n", done.stdout)
-        done = self.edgecase("compare", self.out, self.out, "--html", "/nonexistent/x.html", check=7)
+        done = self.edgecase("compare", self.out, self.out, "--html", "/dev/full", check=7)
         self.assertIn("exit 7: a file could not be written\n", done.stdout)
         self.run_suite(fault="flip-pixel@fam/c1", check=1)
         self.assertIn("the run ended with exit 1: unexpected results\n", self.edgecase("report", self.out, check=0).stdout)

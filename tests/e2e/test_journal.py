@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from support import PROGRAM, ProgramTest, processes_with
+from support import CASE, PROGRAM, ProgramTest, processes_with
 
 
 class JournalTest(ProgramTest):
@@ -87,6 +87,65 @@ class Resume(JournalTest):
         process.communicate()
         (self.suite / "fam/c9.toml").unlink()
         self.assertIn("fam/c9", self.edgecase("run", "--resume", self.out, check=3).stderr)
+
+    def killed(self, *words):
+        process = self.start_hanging(*words)
+        process.kill()
+        process.communicate()
+        self.wait_for_no_orphans()
+
+    def cannot_go_on(self, why):
+        before = (self.out / "journal.jsonl").read_text()
+        done = self.edgecase("run", "--resume", self.out, check=3)
+        self.assertEqual(done.stderr, f"edgecase: the run cannot go on: {why}; start a new run\n")
+        self.assertEqual((self.out / "journal.jsonl").read_text(), before)
+
+    def test_another_suite(self):
+        """Also if the file that changed is of a case that is drawn already, or of one that was not selected."""
+        self.killed()
+        why = f"the files of the suite '{self.suite}' are not those that it began with"
+        text = (self.suite / "fam/c0.toml").read_text()
+        self.write_case("fam/c0", text.replace("[7,7]", "[6,6]"))
+        self.cannot_go_on(why)
+        self.write_case("fam/c0", text)
+        self.write_case("fam/new", text)
+        self.cannot_go_on(why)
+        (self.suite / "fam/new.toml").unlink()
+        self.edgecase("run", "--resume", self.out, check=0)
+
+    def test_own_files(self):
+        """A file, a leaf of one and a folder, all named from where the run began."""
+        for name in ("a", "b", "folder/deep/c"):
+            path = self.folder / f"{name}.toml"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(CASE.format(n=50).replace("[target]", "[matrix]\nk = [1, 2]\n[target]").replace("[1,1]", "[\"k\",1]"))
+        self.killed("fam/*", "a.toml", "b.toml:k=2", "folder")
+        self.assertEqual(len(json.loads((self.out / "journal.jsonl").read_text().splitlines()[0])["cases"]), 15)
+        own = self.folder / "folder/deep/c.toml"
+        text = own.read_text()
+        own.write_text(text + "\n")
+        self.cannot_go_on("the file 'folder/deep/c.toml' is not as it was when it began")
+        own.write_text(text)
+        self.edgecase("run", "--resume", self.out, check=0)
+        self.assertEqual(set(self.statuses().values()), {"pass"})
+
+    def test_other_expectations(self):
+        known = self.folder / "known.txt"
+        text = "# edgecase-expectations 2\n# device: Edgecase*\n"
+        known.write_text(text)
+        self.killed("--expect", "known.txt")
+        known.write_text(text + "fam/c9 skip - # Too slow.\n")
+        self.cannot_go_on("the expectation files are not those that it began with")
+        known.write_text(text)
+        self.edgecase("run", "--resume", self.out, check=0)
+
+    def test_another_version(self):
+        self.killed()
+        journal = self.out / "journal.jsonl"
+        version = self.results()["tool_version"] if (self.out / "results.json").exists() else \
+            json.loads(journal.read_text().splitlines()[0])["tool_version"]
+        journal.write_text(journal.read_text().replace(f'"tool_version":"{version}"', '"tool_version":"0.0.1"', 1))
+        self.cannot_go_on(f"it began with edgecase 0.0.1 and this is {version}")
 
     def test_no_journal(self):
         self.edgecase("run", "--resume", self.folder, check=3)

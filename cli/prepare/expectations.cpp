@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/prepare/expectations.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/prepare/suite.hpp"
+#include "run/expected/seen_pictures.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The files of the suite's folder of expectations whose names end so.
+std::vector<fs::path> files_beside(const fs::path& suite_root, std::string_view end) {
+    std::vector<fs::path> paths;
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(
+             fs::absolute(suite_root).lexically_normal().parent_path() / "expectations", none)) {
+        if (entry.path().extension() == end) {
+            paths.push_back(entry.path());
+        }
+    }
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+// The files of pictures beside the suite, or those that stand beside the files of --expect by the
+// same names.
+OrStop<std::vector<run::SeenPictures>> find_pictures(const RunOptions& options,
+                                                     const fs::path& suite_root) {
+    std::vector<run::SeenPictures> found;
+    std::vector<fs::path> paths;
+    for (fs::path path : options.expect) {
+        std::error_code none;
+        if (path.replace_extension(run::kPicturesEnd); fs::exists(path, none)) {
+            paths.push_back(path);
+        }
+    }
+    if (options.expect.empty() && !options.no_expect) {
+        paths = files_beside(suite_root, run::kPicturesEnd);
+    }
+    for (const fs::path& path : paths) {
+        cases::ExpectedAll<run::SeenPictures> file = run::load_pictures(path);
+        if (!file) {
+            return tl::unexpected(invalid_files(file.error()));
+        }
+        found.push_back(std::move(*file));
+    }
+    return found;
+}
+
+// The expectation files of --expect, or those beside the suite that fit the device.
+OrStop<std::vector<run::ExpectationFile>> find_expectations(const RunOptions& options,
+                                                            const fs::path& suite_root,
+                                                            const report::Device& device) {
+    std::vector<run::ExpectationFile> found;
+    if (options.no_expect) {
+        return found;
+    }
+    std::vector<fs::path> paths(options.expect.begin(), options.expect.end());
+    const bool is_explicit = !paths.empty();
+    if (!is_explicit) {
+        paths = files_beside(suite_root, ".txt");
+    }
+    for (const fs::path& path : paths) {
+        cases::ExpectedAll<run::ExpectationFile> file = run::load_expectations(path);
+        if (!file) {
+            return tl::unexpected(invalid_files(file.error()));
+        }
+        const std::string why_not = mismatch(*file, device, options.profile);
+        if (why_not.empty()) {
+            found.push_back(std::move(*file));
+        } else if (is_explicit) {
+            return tl::unexpected(
+                Stop{report::kExitDevice,
+                     {"the expectation file '" + path.string() + "' does not fit: " + why_not +
+                      "; choose another --device or --expect"}});
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+OrStop<std::map<std::string, run::ExpectationLine>> expectations_of(const RunOptions& options,
+                                                                    const Selection& selection,
+                                                                    report::Run& header) {
+    const OrStop<std::vector<run::ExpectationFile>> files =
+        find_expectations(options, selection.root, header.device);
+    if (!files) {
+        return tl::unexpected(files.error());
+    }
+    auto expected = run::resolve_expectations(
+        *files, options.expect.empty() ? selection.suite_ids : selection.known_ids,
+        selection.whole_suite);
+    if (!expected) {
+        return tl::unexpected(invalid_files(expected.error()));
+    }
+    const auto pictures = find_pictures(options, selection.root);
+    if (!pictures) {
+        return tl::unexpected(pictures.error());
+    }
+    const bool is_known = run::tell_pictures(*expected, *pictures, header.device, options.strict);
+    if (options.strict && !is_known && !expected->empty()) {
+        return tl::unexpected(
+            stop_with(report::kExitUsage,
+                      "--strict asks how known failures look, and no file of pictures for this "
+                      "device stands beside the expectation files; write one with 'edgecase expect "
+                      "--update RUN FILE.pictures'"));
+    }
+    header.expectation_file.clear();
+    std::set<std::string> paths;
+    for (const run::ExpectationFile& file : *files) {
+        header.expectation_file +=
+            (header.expectation_file.empty() ? "" : ", ") + file.path.string();
+        paths.insert(file.path.string());
+    }
+    for (const run::SeenPictures& file : *pictures) {
+        paths.insert(file.path.string());
+    }
+    header.expectation_hash = hash_of_files(paths);
+    return std::move(*expected);
+}
+
+}  // namespace cli
