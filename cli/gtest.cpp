@@ -48,11 +48,19 @@ std::string name_of(const std::string& id) {
 }
 
 // --gtest_filter: names and globs separated by ':'; a pattern that begins with '-' and those after
-// it exclude.
+// it exclude. As in GoogleTest such a pattern may follow another one without the ':', if it names
+// the group: there are '-' in ids, but none that "edgecase." follows.
 class Filter {
   public:
-    explicit Filter(const std::string& text) {
+    explicit Filter(const std::string& given) {
         bool excludes = false;
+        std::string text = given;
+        const std::string joined = std::string("-") + kGroup;
+        for (size_t at = text.find(joined, 1); at != text.npos; at = text.find(joined, at + 2)) {
+            if (text[at - 1] != ':') {
+                text.insert(at, ":");
+            }
+        }
         for (size_t begin = 0; begin <= text.size();) {
             const size_t end = std::min(text.find(':', begin), text.size());
             std::string pattern = text.substr(begin, end - begin);
@@ -66,6 +74,14 @@ class Filter {
         if (text.starts_with('-')) {
             with_.add("*");
         }
+    }
+    // The names, not globs, that none of the ids has.
+    std::vector<std::string> unknown(const std::set<std::string>& ids) const {
+        std::set<std::string> left = with_.names;
+        for (const std::string& id : ids) {
+            left.erase(name_of(id));
+        }
+        return {left.begin(), left.end()};
     }
     bool takes(const std::string& id) const {
         const std::string name = name_of(id);
@@ -197,10 +213,20 @@ int gtest_command(const Program& program, const GtestOptions& options) {
     run.output = folder;
     run.capture = keeps ? run.capture : run::KeepPictures::none;
     Teller teller;
-    const int code = run_with(program, run,
-                              {[&](const std::string& id) { return filter.takes(id); },
-                               [&](const std::vector<std::string>& ids) { teller.begin(ids); },
-                               [&](const CaseRecord& record) { return teller.end(record); }});
+    std::set<std::string> selected;
+    const auto begin = [&](const std::vector<std::string>& ids) {
+        for (const std::string& name : filter.unknown(selected)) {
+            complain("warning: --gtest_filter: no selected case is the test '" + name + "'");
+        }
+        teller.begin(ids);
+    };
+    const int code =
+        run_with(program, run,
+                 {[&](const std::string& id) {
+                      selected.insert(id);
+                      return filter.takes(id);
+                  },
+                  begin, [&](const CaseRecord& record) { return teller.end(record); }});
     if (!keeps) {
         fs::remove_all(folder, error);
     }

@@ -212,6 +212,9 @@ int lint_command(const Program& program, const LintOptions& options) {
                             {"--strength draws each case with each fault, which takes long for a "
                              "whole suite; name the cases"}});
     }
+    if (const auto root = find_suite_root(program, options.suite.suite); !root) {
+        return report_stop(root.error());  // nothing is wrong with what is selected
+    }
     const OrStop<LoadedSuite> suite = load_selected(program, options.suite);
     if (!suite) {
         const int code = report_stop(suite.error());

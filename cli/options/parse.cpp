@@ -8,6 +8,7 @@
 #include "cases/base/regex.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/options/command_options.hpp"
+#include "cli/options/value_checks.hpp"
 #include "report/record/run.hpp"
 
 namespace cli {
@@ -20,12 +21,6 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
         names.push_back(command->get_name());
     }
     return names;
-}
-
-Stop usage_error(const std::string& sentence, const std::string& command) {
-    const std::string help = "edgecase " + command + (command.empty() ? "" : " ") + "--help";
-    return {report::kExitUsage,
-            {sentence + (sentence.ends_with('?') ? " See '" : "; see '") + help + "'"}};
 }
 
 // An error for words that no option took.
@@ -46,27 +41,6 @@ Stop unknown_words(const CLI::App& command, const std::vector<std::string>& unkn
         }
     }
     return usage_error("'" + unknown.front() + "' was not expected here", command.get_name());
-}
-
-// Whether the words give the option; else its value, if any, is that of its variable.
-bool is_given(const CLI::Option& option, const std::vector<std::string>& words) {
-    const auto names_it = [&](const std::string& word) {
-        const bool is_long = word.starts_with("--");
-        const std::vector<std::string>& names = is_long ? option.get_lnames() : option.get_snames();
-        return word.starts_with('-') &&
-               std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-                   return is_long ? word == "--" + name || word.starts_with("--" + name + "=")
-                                  : word.starts_with("-" + name);
-               });
-    };
-    const auto end = std::find(words.begin(), words.end(), "--");
-    return std::any_of(words.begin(), end, names_it);
-}
-
-bool is_given(const CLI::App& command, const std::string& name,
-              const std::vector<std::string>& words) {
-    const CLI::Option* option = command.get_option_no_throw(name);
-    return option != nullptr && is_given(*option, words);
 }
 
 // The sentence, which begins with the name of an option, about its variable if that was meant.
@@ -98,7 +72,10 @@ Stop parse_error(const CLI::ParseError& error, const CLI::App& app, const std::s
             command.empty() ? nullptr : app.get_subcommand(command)->get_option_no_throw(name);
         const std::string form = option == nullptr ? "" : option->get_type_name();
         text = name + ": '" + text.substr(equals + 3) + "' is not a value that it takes" +
-               (form.empty() ? "" : "; write " + form) + (form == "I/N" ? " with 1 <= I <= N" : "");
+               (form.empty() ? "" : "; write " + form) +
+               (form == "I/N"    ? " with 1 <= I <= N"
+                : form == "TIME" ? " as seconds or like 90s, 10m or 2h"
+                                 : "");
     }
     // "--seed: 1 required N missing"
     constexpr std::string_view kRequired = ": 1 required ", kMissing = " missing";
@@ -146,6 +123,12 @@ OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o,
     }
     if (o.no_expect && !o.expect.empty()) {
         return tl::unexpected(usage_error("--expect and --no-expect exclude each other", "run"));
+    }
+    if (o.no_expect && o.strict) {
+        return tl::unexpected(usage_error(
+            "--strict asks how known failures look, and with --no-expect none is known; leave out "
+            "one of the two",
+            "run"));
     }
     if (auto checked = cases::check_regex(o.require_device); !checked) {
         return tl::unexpected(usage_error("--require-device: " + checked.error().message, "run"));
@@ -247,26 +230,6 @@ OrStop<std::monostate> check_device(const CLI::App& command, DeviceOptions& o,
     return std::monostate{};
 }
 
-// One report only can go to standard output.
-OrStop<std::monostate> check_files(const CLI::App& command) {
-    std::string taken;
-    for (const char* name : {"--json", "--junit", "--html"}) {
-        const CLI::Option* option = command.get_option_no_throw(name);
-        if (option == nullptr || option->get_type_size() == 0 || option->results().empty() ||
-            option->results().back() != "-") {
-            continue;
-        }
-        if (!taken.empty()) {
-            return tl::unexpected(usage_error(taken + " and " + name +
-                                                  " cannot both go to standard output; give one a "
-                                                  "file",
-                                              command.get_name()));
-        }
-        taken = name;
-    }
-    return std::monostate{};
-}
-
 OrStop<std::monostate> check_explain(const ExplainOptions& o) {
     if (o.rule.empty() && !o.has_pixel) {
         return tl::unexpected(usage_error("--pixel is required", "explain"));
@@ -305,12 +268,20 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
         std::fputs((is_command ? command->help("edgecase") : app.help()).c_str(), stdout);
         return std::string("help");
     } catch (const CLI::ParseError& error) {
+        if (is_command) {
+            if (auto checked = check_empty_values(*app.get_subcommand(first), words); !checked) {
+                return tl::unexpected(checked.error());
+            }
+        }
         return tl::unexpected(parse_error(error, app, is_command ? first : "", words));
     }
     if (!is_command) {
         return std::string("version");
     }
     CLI::App* command = app.get_subcommand(first);
+    if (const auto checked = check_empty_values(*command, words); !checked) {
+        return tl::unexpected(checked.error());
+    }
     std::vector<std::string> unknown = command->remaining();
     if (const auto end = std::find(unknown.begin(), unknown.end(), "--"); end != unknown.end()) {
         unknown.erase(end);  // it ends the options, and CLI11 keeps it
@@ -318,8 +289,10 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
     if (!unknown.empty()) {
         return tl::unexpected(unknown_words(*command, unknown));
     }
-    if (const auto checked = check_files(*command); !checked) {
-        return tl::unexpected(checked.error());
+    for (const auto& check : {check_alternatives, check_files}) {
+        if (const auto checked = check(*command); !checked) {
+            return tl::unexpected(checked.error());
+        }
     }
     if (first == "explain") {
         if (const auto checked = check_explain(all.explain); !checked) {

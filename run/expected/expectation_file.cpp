@@ -277,6 +277,11 @@ cases::ExpectedAll<ExpectationFile> parse_expectations(std::string_view text,
 cases::ExpectedAll<ExpectationFile> load_expectations(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
     std::ostringstream text;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        return tl::unexpected(
+            Errors{{{path.string(), 0, 0}, "this is a folder; name an expectation file in it"}});
+    }
     if (!in || !(text << in.rdbuf())) {
         return tl::unexpected(Errors{{{path.string(), 0, 0},
                                       std::filesystem::exists(path, ignored)

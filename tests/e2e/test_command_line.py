@@ -42,6 +42,36 @@ class Usage(ProgramTest):
         self.refused(["run", "--shard"], "--shard needs a value; write --shard I/N")
         self.refused(["run", "--seed"], "--seed needs a value; write --seed N")
 
+    def test_an_empty_value_is_not_none(self):
+        """Of a variable that is not set; the table of all options is walked over in tests/unit/cli."""
+        for words, name, form in ((["run", "--icd", "", "--renderer=reference"], "--icd", "FILE"), (["doctor", "--device="], "--device", "DEVICE"),
+                                  (["run", "--icd=", "fam/c1"], "--icd", "FILE"), (["run", "-o", ""], "--output", "DIR"),
+                                  (["fuzz", "--known", ""], "--known", "DIR"), (["run", "--expect", "", "--expect", "x"], "--expect", "FILE")):
+            self.refused(words, f"edgecase: {name}: the value is empty; write {name} {form} or leave it out; see 'edgecase {words[0]} --help'\n")
+        self.refused(["report", ""], "DIR: the value is empty")
+        self.refused(["run", ""], "", 4)
+
+    def test_options_that_exclude_each_other(self):
+        for words, one, other in ((["list", "--ids", "--long"], "--long", "--ids"), (["list", "--json", "--ids"], "--ids", "--json"),
+                                  (["fuzz", "--print", "3", "--cases", "5"], "--print", "--cases")):
+            self.refused(words, f"{one} and {other} exclude each other; leave out one of the two")
+
+    def test_form_of_a_time(self):
+        self.refused(["fuzz", "--time", "5x"], "--time: '5x' is not a value that it takes; write TIME as seconds or like 90s, 10m or 2h")
+
+    def test_a_folder_of_expectations(self):
+        self.refused(["run", "--renderer=reference", "--expect", "cases"], "cases: error: this is a folder; name an expectation file in it", 3)
+
+    def test_reports_that_cannot_be_written_are_told_before_the_run(self):
+        for words, why in ((["--json", "no/such/x.json"], "--json: there is no folder 'no/such'; make it first"),
+                           (["--html", "cases"], "--html: 'cases' is a folder; name a file"),
+                           (["--junit", "/proc/version/x"], "--junit: '/proc/version' is no folder")):
+            self.refused(["run", "--renderer=reference", "-o", self.out, *words], why)
+            self.assertFalse(self.out.exists())
+        self.run_suite("fam/c1", "--json", "out/more.json", check=0)  # the run makes the folder
+        self.edgecase("run", "--renderer=reference", "fam/c1", "-o", "a/b/c", "--json", "a/b/x.json", check=0)
+        self.assertTrue((self.folder / "a/b/x.json").exists() and (self.out / "more.json").exists())
+
     def test_form_of_a_value(self):
         self.refused(["explain", "fam/c1", "--pixel", "3"], "--pixel: '3' is not a value that it takes; write X,Y")
 
@@ -256,7 +286,7 @@ class Listing(ProgramTest):
         self.assertEqual(self.edgecase("list", "--ids", "fam/m:k=2,*", "!fam/m:k=2,name=a", check=0).stdout.split(), leaves[3:])
         self.assertIn("did you mean", self.edgecase("list", "--ids", "fam/mm", check=4).stderr)
         # What asks for more than names looks at all.
-        for words in (["list"], ["list", "--ids", "--json"], ["list", "--ids", "@rule:cover.inside"], ["lint"]):
+        for words in (["list"], ["list", "--json"], ["list", "--ids", "@rule:cover.inside"], ["lint"]):
             self.assertIn("m.toml:1:", self.edgecase(*words, check=3).stderr)
         self.write_case("fam/m", "format = \n")
         self.assertIn("m.toml:1:", self.edgecase("list", "--ids", check=3).stderr)
@@ -346,8 +376,9 @@ class Listing(ProgramTest):
 
     def test_a_file_named_twice(self):
         (self.folder / "mine.toml").write_text(CASE.format(n=0))
-        self.assertEqual(self.edgecase("run", "mine.toml", "mine.toml", check=2).stderr,
-                         "edgecase: the file mine.toml is named twice; name it once\n")
+        for again in ("mine.toml", "./mine.toml", self.folder / "mine.toml"):
+            self.assertEqual(self.edgecase("run", "mine.toml", again, check=2).stderr,
+                             f"edgecase: the file {again} is named twice; name it once\n")
 
     def test_lint_of_fragments_that_all_fail_the_depth_test(self):
         text = CASE.format(n=0).replace('"cover.inside"', '"cover.inside", "depth.compare"')
@@ -423,6 +454,12 @@ class Listing(ProgramTest):
             self.assertIn(f"edgecase: {bad}: its strength cannot be told before its errors are mended\n", done.stderr)
             self.assertNotIn(f"{bad} catches", done.stdout)
         self.assertIn("both draws must have the same state, the depth test included", done.stderr)
+
+    def test_no_suite_is_no_error_of_a_file(self):
+        own = self.folder / "good.toml"
+        own.write_text((self.suite / "fam/c3.toml").read_text())
+        done = self.edgecase("lint", "--strength", own, "--suite", "/nosuch", check=3)
+        self.assertEqual(done.stderr, "edgecase: no suite in '/nosuch' (--suite): it is not a folder\n")
 
     def test_options_that_contradict_each_other_are_refused(self):
         for command in (("lint",), ("run",), ("report", "out"), ("diff", "--captures", "c")):

@@ -129,7 +129,8 @@ class Compare(CompareTest):
         self.assertIn('"report":""', done.stdout)
         self.assertNotIn("report.html", done.stdout)
         self.assertIn("regressions: 1 case got worse", done.stderr)
-        self.assertIn("cannot be written", self.edgecase("compare", a, b, "--html", "no/such/folder.html", check=7).stderr)
+        self.assertIn("--html: there is no folder 'no/such'; make it first", self.edgecase("compare", a, b, "--html", "no/such/folder.html", check=2).stderr)
+        self.assertIn("cannot be written", self.edgecase("compare", a, b, "--html", "/dev/full", check=7).stderr)
 
     def test_nothing(self):
         a, b = self.run_as("a"), self.run_as("b")

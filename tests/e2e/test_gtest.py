@@ -68,9 +68,18 @@ class Gtest(ProgramTest):
         self.assertEqual(listed("*c?:-*c1:*c2"), ["fam/" + c for c in ("c0", "c3", "c4", "c5", "c6", "c7", "c8", "c9")])
         self.assertEqual(listed("-*c1"), [f"fam/c{k}" for k in range(10) if k != 1])
         self.assertEqual(len(self.gtest("--gtest_list_tests", "fam/c1", "fam/c2").stdout.split()), 3)
+        # As in GoogleTest, "these without those" without a ':'; a '-' inside of a name is none.
+        self.assertEqual(listed("edgecase.fam/*-edgecase.fam/c1:*c2"), ["fam/" + c for c in ("c0", "c3", "c4", "c5", "c6", "c7", "c8", "c9")])
+        self.write_case("fam/c1-a", CASE.format(n=10))
+        self.assertEqual(listed("edgecase.fam/c1-*:edgecase.fam/c2-edgecase.fam/c3"), ["fam/c1-a", "fam/c2"])
         done = self.gtest("--gtest_filter=nothing", check=4)
         self.assertEqual(done.stdout, "")
         self.assertIn("'edgecase gtest --gtest_list_tests' lists their names", done.stderr)
+
+    def test_names_that_no_test_has_are_told(self):
+        done = self.gtest("--gtest_filter=edgecase.nosuch:edgecase.fam/c1:*c2:-edgecase.fam/c2")
+        self.assertEqual(done.stderr, "edgecase: warning: --gtest_filter: no selected case is the test 'edgecase.nosuch'\n")
+        self.assertIn("Running 1 tests", done.stdout)
 
     def test_two_runs_tell_the_same(self):
         fault = "flip-pixel@fam/c1,unsupported@fam/c4,segv@fam/c7"
