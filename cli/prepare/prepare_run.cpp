@@ -180,6 +180,7 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
         return tl::unexpected(options.error());
     }
     p.options = std::move(*options);
+    p.options.resume = now.resume;  // its folder is not an earlier run's, whatever goes wrong
     p.options.jobs = now.jobs;
     p.options.quiet = now.quiet;
     p.options.verbose = now.verbose;

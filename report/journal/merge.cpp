@@ -24,6 +24,7 @@ std::string device_text(const Run& run) {
 struct Common {
     const char* what;
     std::string (*text)(const Run&);
+    bool names_edited_file = false;  // if that is what differs
 };
 const Common kCommon[] = {
     {"the device", device_text},
@@ -32,10 +33,23 @@ const Common kCommon[] = {
     {"the version of edgecase", [](const Run& r) { return r.tool_version; }},
     {"the number of shards", [](const Run& r) { return std::to_string(r.shards); }},
     {"the selection before --shard (a hash of the ids)", [](const Run& r) { return r.selection; }},
-    {"what case files outside the suite hold (a hash)", [](const Run& r) { return r.own_hash; }},
+    {"what case files outside the suite hold (a hash)", [](const Run& r) { return r.own_hash; },
+     true},
     {"what the expectation files hold (a hash)", [](const Run& r) { return r.expectation_hash; }},
     {"what else decides (options)", [](const Run& r) { return r.settings; }},
 };
+
+// A file that both parts took cases from and that was not the same; empty if there is none.
+std::string edited_file(const Run& a, const Run& b) {
+    const std::map<std::string, std::string> files(a.sources.begin(), a.sources.end());
+    for (const auto& [name, hash] : b.sources) {
+        const auto found = files.find(name);
+        if (found != files.end() && found->second != hash) {
+            return name;
+        }
+    }
+    return {};
+}
 
 }  // namespace
 
@@ -48,6 +62,13 @@ cases::Expected<Run> merge_runs(std::vector<Part> parts) {
         for (const Common& common : kCommon) {
             const std::string a = common.text(first.run);
             const std::string b = common.text(part.run);
+            if (const std::string file = edited_file(first.run, part.run);
+                a != b && common.names_edited_file && !file.empty()) {
+                return cases::failure(
+                    "the case file '{}' is not the same in all parts; only parts of one run can be "
+                    "merged, use 'edgecase compare' for different ones",
+                    cases::printable(file));
+            }
             if (a != b) {
                 return cases::failure(
                     "{} is '{}' in {} and '{}' in {}; only parts of one run "

@@ -211,6 +211,7 @@ class Pictures(ExpectationTest):
         path.write_text(before + "fam/c5 x\n")
         self.assertIn(f"{path}:5:1: error: 'x' is no picture", self.run_suite(check=3).stderr)
         path.write_text(before.replace("Edgecase reference", "other"))
+        self.run_suite("fam/c3", fault="flip-pixel@fam/c3", check=0)
         self.assertIn("does not fit the run", self.edgecase("expect", "--update", self.out, path, check=5).stderr)
         self.assertIn("says how failures look", self.edgecase("expect", "--update", self.out, path, "--bug", "b#1", check=2).stderr)
 

@@ -106,7 +106,7 @@ class Resume(JournalTest):
         why = f"the files of the suite '{self.suite}' are not those that it began with"
         text = (self.suite / "fam/c0.toml").read_text()
         self.write_case("fam/c0", text.replace("[7,7]", "[6,6]"))
-        self.cannot_go_on(why)
+        self.cannot_go_on("'fam/c0' is another case under the same id than the run began with")
         self.write_case("fam/c0", text)
         self.write_case("fam/new", text)
         self.cannot_go_on(why)

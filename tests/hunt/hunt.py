@@ -14,6 +14,7 @@ import os
 import pathlib
 import statistics
 import subprocess
+import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
@@ -72,7 +73,8 @@ def table(record, reasons):
     lines += ["", "Never found:", ""]
     for kind in (k for k in KINDS if k in record):
         for name in summary(record, reasons, kind)["never"]:
-            lines.append(f"* `{name}`: {reasons[kind].get(name, 'not known why')}")
+            text = f"* `{name}`: {reasons[kind].get(name, 'not known why')}"
+            lines += textwrap.wrap(text, 120, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
     return "\n".join(lines) + "\n"
 
 

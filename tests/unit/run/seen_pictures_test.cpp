@@ -63,7 +63,8 @@ TEST(SeenPictures, AreKnowledgeAndNoCondition) {
     EXPECT_EQ(judged(fails, failed(kOther), seen, true, "other"), Outcome(Status::xfail, false));
     // What has no picture, has many, is known by its bits or is not excused anyway.
     EXPECT_EQ(judged(fails, failed(""), seen, true), Outcome(Status::xfail, false));
-    EXPECT_EQ(judged("flake bug#1", failed(kOther, Status::flake), seen, true),
+    EXPECT_EQ(judged("flake bug#1 extra:cover.outside@vulkan<=9", failed(kOther, Status::flake),
+                     seen, true),
               Outcome(Status::xfail, false));
     EXPECT_EQ(judged(std::string("fail bug#1 bits=") + kOther, failed(kOther), seen, true),
               Outcome(Status::xfail, false));
