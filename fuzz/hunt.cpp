@@ -35,6 +35,11 @@ bool is_empty(const CaseRecord& record) {
     return record.reason.find("a black picture would pass") != std::string::npos;
 }
 
+// Not every combination of what a fragment carries has a shader: such a case is nobody's failure.
+bool has_no_shader(const CaseRecord& record) {
+    return record.reason.find("that no shader was built for") != std::string::npos;
+}
+
 }  // namespace
 
 std::string text_of_case(Source& source, uint64_t number) {
@@ -205,6 +210,8 @@ void Hunt::draw_chunk(Chunk chunk) {
             case Status::error:
                 if (is_empty(record)) {
                     ++counts_.empty;
+                } else if (has_no_shader(record)) {
+                    ++counts_.unsupported;
                 } else {
                     keep_unjudged(chunk.made[k].text, record.reason);
                 }

@@ -35,6 +35,9 @@ TrianglePlanes::TrianglePlanes(const std::array<WindowVertex, 3>& v, bool positi
     const bool is_snapped = device.basis == PlaneBasis::snapped;
     if (!place(is_snapped) && !place(!is_snapped)) {
         place(true);
+        if (!std::isfinite(inverse_area_)) {
+            inverse_area_ = 0;  // of no area at all: the first vertex's values everywhere
+        }
     }
 
     depth_ = make({v[0].z, v[1].z, v[2].z});

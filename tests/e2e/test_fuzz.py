@@ -213,7 +213,8 @@ class WrongInput(FuzzTest):
         self.refused(["--icd", "/nowhere.json"], "/nowhere.json", 5)
 
     def test_a_hunt_that_goes_on_cannot_change(self):
-        for words in (["--seed", "3"], ["--shard", "1/2"], ["--profile", "vulkan"], ["-o", "other"], ["--print", "7"]):
+        self.refused(["--resume", "hunt", "--print", "7"], "--print and --resume exclude each other; leave out one of the two")
+        for words in (["--seed", "3"], ["--shard", "1/2"], ["--profile", "vulkan"], ["-o", "other"]):
             name = {"-o": "--output"}.get(words[0], words[0])
             self.refused(["--resume", "hunt", *words], f"so {name} cannot be given; leave it out or start a new hunt")
         self.refused(["--resume", "hunt", "fam/**"], "so no selector can be given; leave it out or start a new hunt")
