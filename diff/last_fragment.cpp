@@ -75,10 +75,13 @@ Finding LastFragment::value_finding(cases::SampleId id, ref::ValueMismatch misma
     Finding finding = finding_at(FindingKind::value, case_.target, id);
     finding.rule = std::move(mismatch.rule);
     finding.level = mismatch.level;
+    finding.ratio = mismatch.ratio;
+    if (mismatch.got.empty()) {
+        return finding;  // is counted only (is_told)
+    }
     finding.quantity = to_text(mismatch.quantity);
     finding.expected = std::move(mismatch.expected);
     finding.got = std::move(mismatch.got);
-    finding.ratio = mismatch.ratio;
     finding.why = fmt::format("triangle {} of draw {}: {}", expectation_.triangles[t].primitive,
                               expectation_.triangles[t].draw, ref::text_of(mismatch.reason));
     return finding;

@@ -66,16 +66,16 @@ void Verdict::add(Finding finding, const cases::Target& target) {
     }
 }
 
-uint64_t Verdict::count(const Finding& finding, uint64_t count) {
+void Verdict::count(const Finding& finding, uint64_t count) {
     counts.at(static_cast<size_t>(finding.kind)) += count;
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& g) {
         return g.kind == finding.kind && g.rule == finding.rule && g.level == finding.level;
     });
     if (group != groups.end()) {
-        return group->count += count;
+        group->count += count;
+    } else {
+        groups.push_back({finding.kind, finding.rule, finding.level, count, 0});
     }
-    groups.push_back({finding.kind, finding.rule, finding.level, count, 0});
-    return count;
 }
 
 std::optional<uint64_t> Verdict::count_wrong_samples() const {

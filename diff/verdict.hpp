@@ -159,9 +159,8 @@ struct Verdict : Outcome {
     // Whether the next finding of a group will be kept: it is among the group's first kMaxOfGroup,
     // and fewer than kMaxFindings are kept. Of any other nobody reads the texts.
     bool keeps(FindingKind kind, std::string_view rule, cases::Profile level) const;
-    // Counts `count` findings like `finding`, without a word of each; returns how many its group
-    // has now.
-    uint64_t count(const Finding& finding, uint64_t count);
+    // Counts `count` findings like `finding`, without a word of each.
+    void count(const Finding& finding, uint64_t count);
     // How many samples have a finding, which may have several; nothing where it is not known.
     std::optional<uint64_t> count_wrong_samples() const;
     // The error at a sample, in budgets, is at least `ratio`.
