@@ -73,6 +73,16 @@ glm::vec4 mix(const glm::vec4& a, const glm::vec4& b, float t, bool fused) {
     return out;
 }
 
+bool is_zero(float w) {
+    return std::fpclassify(w) == FP_ZERO;
+}
+
+// What is linear in clip space of a value that is linear on screen: the value times w. A cut at
+// w = 0, where such a value has no bound, holds that in its place, until a later cut takes it away.
+glm::vec4 times_w(const glm::vec4& value, float w) {
+    return is_zero(w) ? value : value * w;
+}
+
 ClipVertex cut(const ClipVertex& from, const ClipVertex& to, const Plane& plane,
                const cases::Draw& draw, const Device& device) {
     const float d_from = distance(plane, from);
@@ -99,15 +109,18 @@ ClipVertex cut(const ClipVertex& from, const ClipVertex& to, const Plane& plane,
     const float t_screen = t * to.position.w / out.position.w;
     for (size_t a = 0; a < draw.attributes.size(); ++a) {
         const auto mode = draw.attributes[a].interpolation;
-        float weight = t;
-        if (mode == cases::Interpolation::noperspective ||
-            device.fault == Fault::clip_screen_linear) {
-            weight = t_screen;
-        }
+        const bool is_linear = mode == cases::Interpolation::noperspective ||
+                               device.fault == Fault::clip_screen_linear;
         if (mode == cases::Interpolation::flat || device.fault == Fault::clip_copies_value) {
             out.values[a] = from.values[a];
+        } else if (is_linear && (is_zero(from.position.w) || is_zero(to.position.w) ||
+                                 is_zero(out.position.w))) {
+            const glm::vec4 scaled = mix(times_w(from.values[a], from.position.w),
+                                         times_w(to.values[a], to.position.w), t, device.fused);
+            out.values[a] = is_zero(out.position.w) ? scaled : scaled / out.position.w;
         } else {
-            out.values[a] = mix(from.values[a], to.values[a], weight, device.fused);
+            out.values[a] =
+                mix(from.values[a], to.values[a], is_linear ? t_screen : t, device.fused);
         }
     }
     return out;
