@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command "fuzz": hunts for causes that nobody wrote a case for.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -19,6 +13,9 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
+#include "cli/fuzzing/hunt_folder.hpp"
+#include "cli/fuzzing/hunt_status.hpp"
+#include "cli/fuzzing/hunt_text.hpp"
 #include "cli/fuzzing/known_causes.hpp"
 #include "cli/fuzzing/start_cases.hpp"
 #include "cli/prepare/device_answer.hpp"
@@ -32,92 +29,33 @@
 namespace cli {
 
 namespace fs = std::filesystem;
+using cases::counted;
 using fuzz::Entry;
 using fuzz::Hunt;
 using fuzz::Ledger;
 
 namespace {
 
-// Where a hunt writes, held against another one until the program ends.
-class Folder {
-  public:
-    static OrStop<Folder> open(const fs::path& path) {
-        std::error_code error;
-        fs::create_directories(path / "found", error);
-        if (error) {
-            return tl::unexpected(
-                stop_with(report::kExitUsage,
-                          "the folder '" + path.string() + "' cannot be made: " + error.message()));
-        }
-        const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-            ::close(fd);
-            return tl::unexpected(stop_with(
-                report::kExitUsage,
-                "another hunt is writing to '" + path.string() + "'; name another folder with -o"));
-        }
-        return Folder(path);
-    }
-    const fs::path& path() const { return path_; }
-
-  private:
-    explicit Folder(fs::path path) : path_(std::move(path)) {}
-    fs::path path_;
-};
-
-std::string plural(uint64_t n, std::string_view what) {
-    return cases::counted(n, std::string(what));
+// What all parts of a hunt that goes on counted.
+fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
+    sum.next_case = now.next_case;
+    sum.poses = now.poses;
+    sum.pairs = now.pairs;
+    sum.drawn += now.drawn;
+    sum.triangles += now.triangles;
+    sum.failed += now.failed;
+    sum.unsupported += now.unsupported;
+    sum.empty += now.empty;
+    sum.unjudged += now.unjudged;
+    sum.refused += now.refused;
+    sum.missing += now.missing;
+    sum.unrepeated += now.unrepeated;
+    sum.reductions += now.reductions;
+    sum.reduction_cases += now.reduction_cases;
+    sum.drawing_seconds += now.drawing_seconds;
+    sum.reducing_seconds += now.reducing_seconds;
+    return sum;
 }
-
-// One line while it goes on, on a terminal only.
-class Status {
-  public:
-    Status(const FuzzOptions& options)
-        : is_shown_(!options.run.quiet && options.run.progress == ProgressStyle::automatic &&
-                    ::isatty(STDERR_FILENO) != 0),
-          begin_(std::chrono::steady_clock::now()) {}
-    void show(const fuzz::HuntCounts& c, size_t causes) {
-        const double now = seconds();
-        if (!is_shown_ || now - last_ < 0.2) {
-            return;
-        }
-        last_ = now;
-        std::fprintf(
-            stderr, "\r%s\x1b[K",
-            fmt::format(
-                "{} judged, {:.0f}/s, {}, {}", plural(c.drawn, "case"),
-                c.drawing_seconds > 0 ? static_cast<double>(c.drawn) / c.drawing_seconds : 0.0,
-                plural(c.poses, "pose"), plural(causes, "cause"))
-                .c_str());
-        std::fflush(stderr);
-    }
-    void show_words(const char* words) {
-        const double now = seconds();
-        if (is_shown_ && now - last_ >= 0.2) {
-            last_ = now;
-            std::fprintf(stderr, "\r%s, %.0f s\x1b[K", words, now);
-            std::fflush(stderr);
-        }
-    }
-    void clear() const {
-        if (is_shown_) {
-            std::fputs("\r\x1b[K", stderr);
-            std::fflush(stderr);
-        }
-    }
-    void restart() {
-        begin_ = std::chrono::steady_clock::now();
-        last_ = -1;
-    }
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    }
-
-  private:
-    bool is_shown_ = false;
-    std::chrono::steady_clock::time_point begin_;
-    double last_ = -1;
-};
 
 class FuzzCommand {
   public:
@@ -156,7 +94,7 @@ class FuzzCommand {
         if (!expected) {
             return report_stop(expected.error());
         }
-        const OrStop<Folder> folder = Folder::open(folder_);
+        const auto folder = open_hunt_folder(folder_);
         if (!folder) {
             return report_stop(folder.error());
         }
@@ -165,7 +103,7 @@ class FuzzCommand {
             const bool is_endless = options_.cases == 0 && !(options_.seconds > 0);
             say(fmt::format(
                 "fuzzing {} {}with seed {} at profile {}, into {}{}{}\n", ledger_.device,
-                starts_ == 0 ? "" : fmt::format("from {} on, ", plural(starts_, "case")),
+                starts_ == 0 ? "" : fmt::format("from {} on, ", counted(starts_, "case")),
                 ledger_.seed, cases::to_string(ledger_.profile), folder_.string(),
                 options_.run.resume.empty()
                     ? ""
@@ -299,7 +237,7 @@ class FuzzCommand {
         std::error_code none;
         fs::create_directories(folder_ / "known", none);
         for (Entry& entry : known.entries) {
-            name_file(entry, "known");
+            name_file(entry, "known", ledger_.entries, folder_);
             if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
                 !written) {
                 return report_stop(stop_with(report::kExitInternal, written.error().message));
@@ -309,9 +247,9 @@ class FuzzCommand {
         ledger_.expectations = expected.checksum;
         if (!options_.run.quiet) {
             say(fmt::format("known by {}: {} that {} as expected, by {}{}, reduced in {:.0f} s\n",
-                            plural(expected.files, "expectation file"),
-                            plural(known.failing, "case"), known.failing == 1 ? "fails" : "fail",
-                            plural(known.entries.size(), "cause"),
+                            counted(expected.files, "expectation file"),
+                            counted(known.failing, "case"), known.failing == 1 ? "fails" : "fail",
+                            counted(known.entries.size(), "cause"),
                             options_.known.empty() ? "" : " that no --known explains",
                             status_.seconds() - begin));
             std::fflush(stdout);
@@ -321,25 +259,9 @@ class FuzzCommand {
             complain(
                 fmt::format("{} of expected failures not reduced, so what they come of will "
                             "be told as new; take more causes for known by --known",
-                            plural(known.left, "finding")));
+                            counted(known.left, "finding")));
         }
         return std::nullopt;
-    }
-
-    // A name in a folder below that of the hunt that no other entry and no file has.
-    void name_file(Entry& entry, const std::string& folder) const {
-        const std::string what = entry.symptom.status == report::Status::fail
-                                     ? entry.symptom.rule
-                                     : std::string(report::to_string(entry.symptom.status));
-        size_t number = 1;
-        std::error_code none;
-        const auto is_taken = [&](const Entry& other) {
-            return &other != &entry && other.file == entry.file;
-        };
-        do {
-            entry.file = fmt::format("{}/{:03}-{}.toml", folder, number++, what);
-        } while (std::any_of(ledger_.entries.begin(), ledger_.entries.end(), is_taken) ||
-                 fs::exists(folder_ / entry.file, none));
     }
 
     int hunt(run::Session& session) {
@@ -385,12 +307,13 @@ class FuzzCommand {
             if (!entry.file.empty()) {
                 continue;
             }
-            name_file(entry, "found");
+            name_file(entry, "found", ledger_.entries, folder_);
             if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
                 !written) {
                 return written;
             }
-            tell(entry);
+            status_.clear();
+            tell_cause(entry, folder_);
             if (!entry.stale_file.empty()) {
                 stale.insert(std::exchange(entry.stale_file, ""));
             }
@@ -438,89 +361,21 @@ class FuzzCommand {
         return {};
     }
 
-    static fuzz::HuntCounts sum_of(fuzz::HuntCounts sum, const fuzz::HuntCounts& now) {
-        sum.next_case = now.next_case;
-        sum.poses = now.poses;
-        sum.pairs = now.pairs;
-        sum.drawn += now.drawn;
-        sum.triangles += now.triangles;
-        sum.failed += now.failed;
-        sum.unsupported += now.unsupported;
-        sum.empty += now.empty;
-        sum.unjudged += now.unjudged;
-        sum.refused += now.refused;
-        sum.missing += now.missing;
-        sum.unrepeated += now.unrepeated;
-        sum.reductions += now.reductions;
-        sum.reduction_cases += now.reduction_cases;
-        sum.drawing_seconds += now.drawing_seconds;
-        sum.reducing_seconds += now.reducing_seconds;
-        return sum;
-    }
-
-    void tell(const Entry& entry) const {
-        status_.clear();
-        if (!entry.is_reduced) {
-            say(fmt::format("FOUND {}, not reduced\n      {}\n      in {}\n",
-                            to_text(entry.symptom), (folder_ / entry.file).string(),
-                            plural(entry.count, "case")));
-            return;
-        }
-        std::string with;
-        for (const std::string& word : entry.essentials) {
-            with += (with.empty() ? "" : ", ") + word;
-        }
-        say(fmt::format("{} {}\n      {}{}\n      with {}\n",
-                        entry.stale_file.empty() ? "FOUND" : "GRAVER", to_text(entry.symptom),
-                        (folder_ / entry.file).string(),
-                        entry.stale_file.empty() ? "" : " instead of " + entry.stale_file,
-                        with.empty() ? "nothing special" : with));
-        for (size_t k = 0; k < std::min<size_t>(entry.needs.size(), 6); ++k) {
-            say("      " + entry.needs[k] + "\n");
-        }
-        for (size_t k = 0; k < std::min<size_t>(entry.passes.size(), 3); ++k) {
-            say("      passes " + entry.passes[k] + "\n");
-        }
-        std::fflush(stdout);
-    }
-
-    std::string variety(const fuzz::HuntCounts& c) const {
-        if (starts_ == 0) {
-            return fmt::format("{}, {} of features", plural(c.poses, "pose"),
-                               plural(c.pairs, "pair"));
-        }
-        return plural(c.refused, "change") + " that made no case" +
-               (c.missing == 0 ? "" : ", " + plural(c.missing, "number") + " without a case");
-    }
-
     int conclude_hunt(Hunt& hunter, Hunt::State state) {
-        size_t fresh = 0, known = 0, met = 0;
+        size_t fresh = 0;
         for (const Entry& entry : ledger_.entries) {
             if (!entry.is_reduced) {
-                tell(entry);
-                continue;
+                tell_cause(entry, folder_);
             }
-            ++(entry.is_known ? known : fresh);
-            met += entry.is_known && entry.count > 0 ? 1U : 0U;
+            fresh += entry.is_reduced && !entry.is_known ? 1U : 0U;
         }
+        tell_counts(ledger_, starts_);
         const fuzz::HuntCounts& c = ledger_.counts;
-        const double drawing = std::max(c.drawing_seconds, 1e-9);
-        say(fmt::format(
-            "{} and {} judged in {:.1f} s ({:.0f} cases/s, {:.0f} triangles/s while drawing); {} "
-            "unsupported, {} with nothing to judge; {}\n",
-            plural(c.drawn, "case"), plural(c.triangles, "triangle"), ledger_.seconds,
-            static_cast<double>(c.drawn) / drawing, static_cast<double>(c.triangles) / drawing,
-            c.unsupported, c.empty, variety(c)));
-        say(fmt::format("{} failed, by {}{}; {} took {:.1f} s and {}\n", plural(c.failed, "case"),
-                        plural(fresh, "cause"),
-                        known > 0 ? fmt::format(" and {} of {} known ones", met, known) : "",
-                        plural(c.reductions, "reduction"), c.reducing_seconds,
-                        plural(c.reduction_cases, "more case")));
         if (!ledger_.waiting.empty()) {
             say(
                 fmt::format("not reduced, and explained by no cause: {}; go on with 'edgecase fuzz "
                             "--resume {}'\n",
-                            plural(ledger_.waiting.size(), "failing case"), folder_.string()));
+                            counted(ledger_.waiting.size(), "failing case"), folder_.string()));
         }
         size_t number = 0;
         for (const std::string& text : hunter.unrepeated()) {
@@ -531,7 +386,7 @@ class FuzzCommand {
         }
         if (c.unrepeated > 0) {
             say(fmt::format("did not come again when drawn alone: {}; see {}\n",
-                            plural(c.unrepeated, "failing case"),
+                            counted(c.unrepeated, "failing case"),
                             (folder_ / "unrepeated-1.toml").string()));
         }
         std::set<std::string> told;
@@ -569,7 +424,7 @@ class FuzzCommand {
 
     const Program& program_;
     const FuzzOptions& options_;
-    Status status_;
+    HuntStatus status_;
     Ledger ledger_;
     fuzz::MakeSource source_;
     size_t starts_ = 0;  // cases that the hunt starts from; 0: it makes its own

@@ -18,6 +18,9 @@ namespace fuzz {
 
 namespace {
 
+// Each cast of the dice is a statement or an item of a braced list: C++ leaves the order in which
+// the arguments of a call are evaluated to the compiler.
+
 // Streams of the dice (dice.hpp): poses take 1.
 constexpr uint64_t kStateStream = 2, kGeometryStream = 3;
 
@@ -57,8 +60,8 @@ class CaseWriter {
         line("description = \"Made by edgecase fuzz.\"");
         line("rules = [\"cover.inside\"]");
         if (pose_.is("relation", "scissor-tiles")) {
-            line("relations = [{{ scissor-tiles = [{}, {}] }}]", state_.between(1, 9),
-                 state_.between(1, 9));
+            const int64_t height = state_.between(1, 9), width = state_.between(1, 9);
+            line("relations = [{{ scissor-tiles = [{}, {}] }}]", width, height);
         } else if (!pose_.is_default("relation")) {
             line("relations = [\"{}\"]", pose_.value("relation"));
         }
@@ -98,7 +101,8 @@ class CaseWriter {
         if (!pose_.is_default("sample-locations")) {
             std::vector<std::string> places;
             for (uint32_t s = 0; s < samples_; ++s) {
-                places.push_back(fmt::format("[{}, {}]", state_.below(16), state_.below(16)));
+                const uint64_t y = state_.below(16), x = state_.below(16);
+                places.push_back(fmt::format("[{}, {}]", x, y));
             }
             line("sample_locations = {}", joined(places));
         }
@@ -200,20 +204,22 @@ class CaseWriter {
         const std::string_view viewport = pose_.value("viewport");
         if (viewport == "inner") {
             const int64_t x = dice_.between(0, w - 1), y = dice_.between(0, h - 1);
-            line("viewport = [{}, {}, {}, {}]", x, y, dice_.between(1, w - x),
-                 dice_.between(1, h - y));
+            const int64_t height = dice_.between(1, h - y), width = dice_.between(1, w - x);
+            line("viewport = [{}, {}, {}, {}]", x, y, width, height);
         } else if (viewport == "beyond") {
-            line("viewport = [{}, {}, {}, {}]", dice_.between(-w, w), dice_.between(-h, h),
-                 dice_.between(1, 3 * w), dice_.between(1, 3 * h));
+            const int64_t height = dice_.between(1, 3 * h), width = dice_.between(1, 3 * w);
+            const int64_t y = dice_.between(-h, h), x = dice_.between(-w, w);
+            line("viewport = [{}, {}, {}, {}]", x, y, width, height);
         } else if (viewport == "flipped") {
             line("viewport = [0, {}, {}, {}]", h, w, -h);
         } else if (viewport == "fractional") {
-            line("viewport = [{}, {}, {}, {}]", fraction(dice_, -8, 8, 4),
-                 fraction(dice_, -8, 8, 4), static_cast<double>(w) + fraction(dice_, 0, 16, 8),
-                 static_cast<double>(h) + fraction(dice_, 0, 16, 8));
+            const double height = static_cast<double>(h) + fraction(dice_, 0, 16, 8);
+            const double width = static_cast<double>(w) + fraction(dice_, 0, 16, 8);
+            const double y = fraction(dice_, -8, 8, 4), x = fraction(dice_, -8, 8, 4);
+            line("viewport = [{}, {}, {}, {}]", x, y, width, height);
         } else if (viewport == "depth") {
-            line("viewport = {{ depth = [{}, {}] }}", fraction(dice_, 0, 8, 8),
-                 fraction(dice_, 0, 8, 8));
+            const double far = fraction(dice_, 0, 8, 8), near = fraction(dice_, 0, 8, 8);
+            line("viewport = {{ depth = [{}, {}] }}", near, far);
         }
     }
 
@@ -222,14 +228,15 @@ class CaseWriter {
         const std::string_view scissor = pose_.value("scissor");
         if (scissor == "inner") {
             const int64_t x = dice_.between(0, w - 1), y = dice_.between(0, h - 1);
-            line("scissor = [{}, {}, {}, {}]", x, y, dice_.between(1, w - x),
-                 dice_.between(1, h - y));
+            const int64_t height = dice_.between(1, h - y), width = dice_.between(1, w - x);
+            line("scissor = [{}, {}, {}, {}]", x, y, width, height);
         } else if (scissor == "beyond") {
-            line("scissor = [{}, {}, {}, {}]", dice_.between(0, w / 2), dice_.between(0, h / 2),
-                 3 * w, dice_.one_in(2) ? 3 * h : int64_t{1} << 30);
+            const int64_t height = dice_.one_in(2) ? 3 * h : int64_t{1} << 30;
+            const int64_t y = dice_.between(0, h / 2), x = dice_.between(0, w / 2);
+            line("scissor = [{}, {}, {}, {}]", x, y, 3 * w, height);
         } else if (scissor == "thin") {
-            line("scissor = [{}, {}, {}, {}]", dice_.between(0, w - 1), 0, dice_.one_in(2) ? 1 : 2,
-                 h);
+            const int width = dice_.one_in(2) ? 1 : 2;
+            line("scissor = [{}, 0, {}, {}]", dice_.between(0, w - 1), width, h);
         }
     }
 
@@ -247,10 +254,13 @@ class CaseWriter {
                 "dst-alpha", "constant-color"};
             static constexpr std::array<std::string_view, 5> kOps = {
                 "add", "subtract", "reverse-subtract", "min", "max"};
+            const std::string constants = color(state_);
+            const std::string_view op = state_.of(kOps);
+            const std::string_view destination = state_.of(kFactors), source = state_.of(kFactors);
             keys += fmt::format(
                 ", blend = {{ source = \"{}\", destination = \"{}\", op = \"{}\" }}, constants = "
                 "{}",
-                state_.of(kFactors), state_.of(kFactors), state_.of(kOps), color(state_));
+                source, destination, op, constants);
         } else if (!pose_.is_default("blend")) {
             keys += fmt::format(", blend = \"{}\"", pose_.value("blend"));
         }
@@ -318,7 +328,8 @@ class CaseWriter {
             return std::ldexp(1.0, static_cast<int>(dice_.between(-6, 6)));
         }
         if (w == "behind") {
-            return fraction(dice_, 1, 15, 4) * (dice_.one_in(4) ? -1 : 1);
+            const double magnitude = fraction(dice_, 1, 15, 4);
+            return dice_.one_in(4) ? -magnitude : magnitude;
         }
         return 1;
     }
@@ -330,8 +341,10 @@ class CaseWriter {
             for (size_t k = 0; k < count; ++k) {
                 line("[[draw.{}]]", key);
                 if (dice_.one_in(2)) {
-                    line("half_space = [{}, {}, {}, {}]", dice_.between(-3, 3),
-                         dice_.between(-3, 3), dice_.between(-1, 1), fraction(dice_, -8, 8, 8));
+                    const double d = fraction(dice_, -8, 8, 8);
+                    const int64_t c = dice_.between(-1, 1);
+                    const int64_t b = dice_.between(-3, 3), a = dice_.between(-3, 3);
+                    line("half_space = [{}, {}, {}, {}]", a, b, c, d);
                     continue;
                 }
                 std::vector<std::string> values;
@@ -387,10 +400,11 @@ class CaseWriter {
                 if (probe == "at-sample") {
                     line("sample = {}", state_.below(samples_));
                 } else if (probe == "at-offset") {
-                    line("offset = [{}, {}]", fraction(state_, -8, 7, 16),
-                         fraction(state_, -8, 7, 16));
+                    const double y = fraction(state_, -8, 7, 16), x = fraction(state_, -8, 7, 16);
+                    line("offset = [{}, {}]", x, y);
                 } else if (probe == "query-lod") {
-                    line("texture = [{}, {}]", 1U << state_.below(9), 1U << state_.below(9));
+                    const uint32_t height = 1U << state_.below(9), width = 1U << state_.below(9);
+                    line("texture = [{}, {}]", width, height);
                     components = 2;
                 }
             }

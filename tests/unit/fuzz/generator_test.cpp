@@ -20,14 +20,15 @@ Pose next(Poses& poses, uint64_t seed) {
 }
 
 TEST(Generator, MakesTheSameCasesOnEveryMachine) {
-    // A change of these numbers changes what every seed means: say so in the changelog.
+    // A change of this number changes what every seed means: say so in the changelog. So many poses
+    // draw every feature, whose dice another compiler could cast in another order.
     Poses poses(1);
     uint64_t hash = 0;
-    for (uint64_t k = 0; k < 16; ++k) {
+    for (uint64_t k = 0; k < 256; ++k) {
         const Pose pose = next(poses, 1);
         hash = cases::stable_hash(case_text(1, pose, k, k * 128 + 5), hash);
     }
-    EXPECT_EQ(cases::hex(hash), "b2b20e15660d3e01");
+    EXPECT_EQ(cases::hex(hash), "1d06fca27ab6f249");
 }
 
 TEST(Generator, SeedsDiffer) {

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/fuzzing/hunt_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+
+namespace cli {
+
+namespace fs = std::filesystem;
+using fuzz::Entry;
+
+OrStop<fs::path> open_hunt_folder(const fs::path& path) {
+    std::error_code error;
+    fs::create_directories(path / "found", error);
+    if (error) {
+        return tl::unexpected(
+            stop_with(report::kExitUsage,
+                      "the folder '" + path.string() + "' cannot be made: " + error.message()));
+    }
+    const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        ::close(fd);
+        return tl::unexpected(stop_with(
+            report::kExitUsage,
+            "another hunt is writing to '" + path.string() + "'; name another folder with -o"));
+    }
+    return path;
+}
+
+void name_file(Entry& entry, const std::string& below, const std::vector<Entry>& entries,
+               const fs::path& folder) {
+    const std::string what = entry.symptom.status == report::Status::fail
+                                 ? entry.symptom.rule
+                                 : std::string(report::to_string(entry.symptom.status));
+    size_t number = 1;
+    std::error_code none;
+    const auto is_taken = [&](const Entry& other) {
+        return &other != &entry && other.file == entry.file;
+    };
+    do {
+        entry.file = fmt::format("{}/{:03}-{}.toml", below, number++, what);
+    } while (std::any_of(entries.begin(), entries.end(), is_taken) ||
+             fs::exists(folder / entry.file, none));
+}
+
+}  // namespace cli
