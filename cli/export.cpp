@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <variant>
 
 #include "capture/exchange/export_case.hpp"
 #include "capture/exchange/plane_files.hpp"
@@ -27,14 +28,19 @@ namespace fs = std::filesystem;
 namespace {
 
 // Writes into a folder that is made if it is not there.
-cases::Expected<void> write_below(const fs::path& file, const std::string& text) {
+OrStop<std::monostate> write_below(const fs::path& file, const std::string& text) {
     std::error_code error;
     fs::create_directories(file.parent_path(), error);
     if (error) {
-        return cases::failure("the folder '" + file.parent_path().string() +
-                              "' cannot be made: " + error.message() + "; choose another with -o");
+        return tl::unexpected(
+            stop_with(report::kExitUsage, "the folder '" + file.parent_path().string() +
+                                              "' cannot be made: " + error.message() +
+                                              "; choose another with -o"));
     }
-    return write_text(file.string(), text);
+    if (auto written = write_text(file.string(), text); !written) {
+        return tl::unexpected(stop_with(report::kExitInternal, written.error().message));
+    }
+    return std::monostate{};
 }
 
 int export_reproducer(const Program& program, const ExportOptions& options) {
@@ -54,7 +60,7 @@ int export_reproducer(const Program& program, const ExportOptions& options) {
         return report_stop({report::kExitUsage, {text.error().message}});
     }
     if (auto written = write_text(options.output, *text); !written) {
-        return report_stop({report::kExitUsage, {written.error().message}});
+        return report_stop({report::kExitInternal, {written.error().message}});
     }
     say(fmt::format("{}: build it with 'cc -std=c99 {} -lvulkan -lm'\n",
                     cases::printable(options.output), cases::printable(options.output)));
@@ -79,7 +85,7 @@ int export_command(const Program& program, const ExportOptions& options) {
         const std::string name = capture::folder_of(c.id);
         if (auto written = write_below(folder / (name + ".json"), capture::export_case(c));
             !written) {
-            return report_stop({report::kExitUsage, {written.error().message}});
+            return report_stop(written.error());
         }
         if (k >= suite->outside) {
             carried[c.id.substr(0, c.id.find(':')) + ".toml"] = c.where.file;
@@ -93,14 +99,14 @@ int export_command(const Program& program, const ExportOptions& options) {
         std::ifstream in(file, std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(in), {}};
         if (auto written = write_below(folder / kCarried / place, text); !written) {
-            return report_stop({report::kExitUsage, {written.error().message}});
+            return report_stop(written.error());
         }
     }
     const nlohmann::ordered_json index = {{"schema", "edgecase-export-1"},
                                           {"tool", {{"name", "edgecase"}, {"version", kVersion}}},
                                           {"cases", std::move(list)}};
     if (auto written = write_below(folder / "index.json", index.dump(1) + "\n"); !written) {
-        return report_stop({report::kExitUsage, {written.error().message}});
+        return report_stop(written.error());
     }
     say(fmt::format("{} case{} in {}\n", suite->selected.size(),
                     suite->selected.size() == 1 ? "" : "s", folder.string()));

@@ -32,11 +32,15 @@ ExpectedAll<std::vector<Case>> load_text(std::string_view toml, const std::strin
 ExpectedAll<std::vector<Case>> load_file(const std::filesystem::path& file,
                                          const std::filesystem::path& suite_root);
 
+// Every *.toml below root but those whose names, or whose folders' names, begin with a dot; sorted.
+// Links are followed. Errors: what cannot be read, and a link to a folder that it stands below.
+Expected<std::vector<std::filesystem::path>> case_files(const std::filesystem::path& root);
+
 struct Suite {
     std::vector<Case> cases;  // sorted by file path, leaves in file order
     Errors errors;            // of all files; ids are unique over the suite
 };
-// Loads every *.toml below root but dotfiles. A missing or empty root is an error.
+// Loads case_files(). A missing or empty root is an error.
 Suite load_suite(const std::filesystem::path& root, Contents contents = Contents::all);
 
 }  // namespace cases

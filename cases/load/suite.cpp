@@ -88,6 +88,43 @@ ExpectedAll<std::vector<Case>> load_as(const fs::path& file, const std::string& 
     return cases;
 }
 
+// Adds the case files of a folder and of those below it. `above`: where the folders truly are that
+// lead to it.
+Expected<void> add_case_files(const fs::path& folder, std::vector<fs::path>& above,
+                              std::vector<fs::path>& files) {
+    std::error_code error;
+    const fs::path place = fs::canonical(folder, error);
+    if (!error && std::find(above.begin(), above.end(), place) != above.end()) {
+        return tl::unexpected(Error{
+            {folder.string(), 0, 0},
+            "the link leads to '" + place.string() + "', a folder that holds it; remove the link"});
+    }
+    std::vector<fs::path> folders;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        if (is_hidden(it->path())) {
+            continue;
+        }
+        std::error_code unknown;  // of a link that leads nowhere: reading the file will tell
+        if (it->is_directory(unknown)) {
+            folders.push_back(it->path());
+        } else if (it->path().extension() == ".toml") {
+            files.push_back(it->path());
+        }
+    }
+    if (error) {
+        return tl::unexpected(
+            Error{{folder.string(), 0, 0}, "the folder cannot be read: " + error.message()});
+    }
+    above.push_back(place);
+    for (const fs::path& below : folders) {
+        if (auto added = add_case_files(below, above, files); !added) {
+            return added;
+        }
+    }
+    above.pop_back();
+    return {};
+}
+
 // Each file's cases, in the order of the files. Files do not depend on each other, so several
 // threads read them.
 std::vector<ExpectedAll<std::vector<Case>>> load_all(const std::vector<fs::path>& files,
@@ -106,6 +143,15 @@ ExpectedAll<std::vector<Case>> load_file(const fs::path& file, const fs::path& s
     return load_as(file, case_id(file, suite_root), Contents::all);
 }
 
+Expected<std::vector<fs::path>> case_files(const fs::path& root) {
+    std::vector<fs::path> above, files;
+    if (auto added = add_case_files(root, above, files); !added) {
+        return tl::unexpected(added.error());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
 Suite load_suite(const fs::path& root, Contents contents) {
     Suite suite;
     std::error_code error;
@@ -113,26 +159,16 @@ Suite load_suite(const fs::path& root, Contents contents) {
         suite.errors.push_back({{root.string(), 0, 0}, "no such folder of case files"});
         return suite;
     }
-    std::vector<fs::path> files;
-    fs::recursive_directory_iterator it(root, error);
-    while (!error && it != fs::recursive_directory_iterator()) {
-        if (is_hidden(it->path())) {
-            it.disable_recursion_pending();
-        } else if (it->path().extension() == ".toml" && !it->is_directory(error)) {
-            files.push_back(it->path());
-        }
-        it.increment(error);
-    }
-    if (error) {
-        suite.errors.push_back(
-            {{root.string(), 0, 0}, "the folder cannot be read: " + error.message()});
+    const Expected<std::vector<fs::path>> found = case_files(root);
+    if (!found) {
+        suite.errors.push_back(found.error());
         return suite;
     }
+    const std::vector<fs::path>& files = *found;
     if (files.empty()) {
         suite.errors.push_back({{root.string(), 0, 0}, "the folder has no case file (*.toml)"});
         return suite;
     }
-    std::sort(files.begin(), files.end());
     for (ExpectedAll<std::vector<Case>>& loaded : load_all(files, root, contents)) {
         if (!loaded) {
             suite.errors.insert(suite.errors.end(), loaded.error().begin(), loaded.error().end());

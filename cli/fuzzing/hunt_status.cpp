@@ -24,13 +24,12 @@ void HuntStatus::show(const fuzz::HuntCounts& c, size_t causes) {
         return;
     }
     last_ = now;
-    std::fprintf(stderr, "\r%s\x1b[K",
-                 fmt::format("{} judged, {:.0f}/s, {}, {}", counted(c.drawn, "case"),
-                             c.drawing_seconds > 0
-                                 ? static_cast<double>(c.drawn) / c.drawing_seconds
-                                 : 0.0,
-                             counted(c.poses, "pose"), counted(causes, "cause"))
-                     .c_str());
+    std::fprintf(
+        stderr, "\r%s\x1b[K",
+        fmt::format("{} judged, {:.0f}/s, {}, {}", counted(c.drawn, "case"),
+                    c.drawing_seconds > 0 ? static_cast<double>(c.drawn) / c.drawing_seconds : 0.0,
+                    counted(c.poses, "pose"), counted(causes, "cause"))
+            .c_str());
     std::fflush(stderr);
 }
 

@@ -31,9 +31,8 @@ std::string variety_of(const fuzz::HuntCounts& c, size_t starts) {
 
 void tell_cause(const Entry& entry, const fs::path& folder) {
     if (!entry.is_reduced) {
-        say(fmt::format("FOUND {}, not reduced\n      {}\n      in {}\n",
-                        to_text(entry.symptom), (folder / entry.file).string(),
-                        counted(entry.count, "case")));
+        say(fmt::format("FOUND {}, not reduced\n      {}\n      in {}\n", to_text(entry.symptom),
+                        (folder / entry.file).string(), counted(entry.count, "case")));
         return;
     }
     std::string with;

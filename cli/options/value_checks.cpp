@@ -5,10 +5,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "report/record/run.hpp"
 
@@ -21,6 +26,13 @@ namespace {
 // Options that take a value.
 bool takes_value(const CLI::Option& option) {
     return option.get_items_expected_max() > 0 && !option.get_positional();
+}
+
+// The folder of -o; empty if none is named.
+fs::path named_folder(const CLI::App& command) {
+    const CLI::Option* output = command.get_option_no_throw("--output");
+    return output == nullptr || output->results().empty() ? fs::path()
+                                                          : fs::path(output->results().back());
 }
 
 bool has_value(const CLI::App& command, const char* name) {
@@ -59,6 +71,47 @@ std::string unwritable(const fs::path& file, const fs::path& folder_to_be) {
     const fs::path asked = fs::exists(file, error) ? file : parent;
     if (::access(asked.c_str(), W_OK) != 0) {
         return "'" + file.string() + "' cannot be written: " + std::strerror(errno);
+    }
+    return {};
+}
+
+// Where a file is or will be, without links.
+fs::path place_of(const fs::path& file) {
+    std::error_code error;
+    return fs::weakly_canonical(fs::absolute(file, error), error);
+}
+
+// How a report begins that an earlier command left. What begins otherwise is somebody's own file.
+std::string_view beginning_of(const std::string& option) {
+    return option == "--json" ? "{" : option == "--junit" ? "<?xml" : "<!DOCTYPE html>";
+}
+
+// Why the report would take another file's place; empty if it does not.
+std::string overwritten(const std::string& option, const fs::path& file, const fs::path& folder) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOfRun = {
+        {{"results.json", "--json"},
+         {"junit.xml", "--junit"},
+         {"report.html", "--html"},
+         {"gl-code-quality.json", ""}}};
+    if (file.filename() == "journal.jsonl") {
+        return "'" + file.string() + "' is what a run's journal is called; name another file";
+    }
+    std::error_code error;
+    const fs::path place = place_of(file);
+    for (const auto& [name, writer] : kOfRun) {
+        if (!folder.empty() && writer != option && place == place_of(folder / name)) {
+            return "the run itself writes '" + file.string() + "'; name another file";
+        }
+    }
+    if (fs::is_regular_file(file, error) && fs::file_size(file, error) > 0) {
+        const std::string_view expected = beginning_of(option);
+        std::string begin(expected.size(), '\0');
+        std::ifstream(file, std::ios::binary)
+            .read(begin.data(), static_cast<std::streamsize>(begin.size()));
+        if (begin != expected) {
+            return "'" + file.string() +
+                   "' holds something else than such a report; remove it, or name another file";
+        }
     }
     return {};
 }
@@ -153,6 +206,7 @@ OrStop<std::monostate> check_alternatives(const CLI::App& command) {
 
 OrStop<std::monostate> check_files(const CLI::App& command) {
     std::string taken;
+    std::vector<std::pair<fs::path, std::string>> places;  // of the files, and their options
     for (const char* name : {"--json", "--junit", "--html"}) {
         const CLI::Option* option = command.get_option_no_throw(name);
         if (option == nullptr || !takes_value(*option) || option->results().empty()) {
@@ -160,10 +214,22 @@ OrStop<std::monostate> check_files(const CLI::App& command) {
         }
         const std::string& file = option->results().back();
         if (file != "-") {
-            if (const std::string why = unwritable(file, folder_to_be(command)); !why.empty()) {
+            std::string why = unwritable(file, folder_to_be(command));
+            if (why.empty()) {
+                why = overwritten(name, file, named_folder(command));
+            }
+            std::error_code none;
+            const fs::path place = place_of(file);
+            for (const auto& [other, its_option] : places) {
+                if (why.empty() && place == other && !fs::is_other(place, none)) {
+                    why = "the same file as " + its_option + "; give each report a file of its own";
+                }
+            }
+            if (!why.empty()) {
                 return tl::unexpected(
                     usage_error(std::string(name) + ": " + why, command.get_name()));
             }
+            places.emplace_back(place, name);
             continue;
         }
         if (!taken.empty()) {

@@ -52,10 +52,8 @@ bool is_outside_folder(const fs::path& selector, const fs::path& root) {
     if (!is_folder(selector) || is_below(selector, root) || is_below(root, selector)) {
         return false;
     }
-    std::error_code ignored;
-    const fs::recursive_directory_iterator files(selector, ignored);
-    return std::any_of(begin(files), end(files),
-                       [](const auto& entry) { return entry.path().extension() == ".toml"; });
+    const auto files = cases::case_files(selector);
+    return !files || !files->empty();  // what cannot be read is told by whoever loads it
 }
 
 // A leaf of a case file: "FILE.toml:seed=1". The leaf is empty where a selector names none.
@@ -389,16 +387,9 @@ std::string hash_of_files(const std::set<std::string>& files) {
 }
 
 uint64_t suite_hash(const std::filesystem::path& root) {
-    std::error_code none;
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none)) {
-        if (entry.path().extension() == ".toml") {
-            files.push_back(entry.path());
-        }
-    }
-    std::sort(files.begin(), files.end());
     uint64_t hash = 0;
-    for (const std::filesystem::path& file : files) {
+    for (const std::filesystem::path& file :
+         cases::case_files(root).value_or(std::vector<std::filesystem::path>())) {
         hash = cases::stable_hash(file.lexically_relative(root).string(), hash);
         hash = cases::stable_hash(text_of(file), hash);
     }

@@ -72,6 +72,25 @@ class Usage(ProgramTest):
         self.edgecase("run", "--renderer=reference", "fam/c1", "-o", "a/b/c", "--json", "a/b/x.json", check=0)
         self.assertTrue((self.folder / "a/b/x.json").exists() and (self.out / "more.json").exists())
 
+    def test_a_report_takes_no_other_files_place(self):
+        case = self.suite / "fam" / "c1.toml"
+        text = case.read_text()
+        expected = self.folder / "e.txt"
+        expected.write_text("# edgecase-expectations 2\n# device: *\n")
+        for words in (("--json", case), ("--junit", expected, "--expect", expected), ("--html", case)):
+            done = self.edgecase("run", "--renderer=reference", "-o", self.out, *words, check=2)
+            self.assertIn("holds something else than such a report", done.stderr)
+        self.assertEqual((case.read_text(), expected.read_text()[:1]), (text, "#"))
+        for words, part in ((("--json", "x", "--junit", "./x"), "the same file as --json"),
+                            (("--junit", self.out / "results.json"), "the run itself writes"),
+                            (("--json", self.out / "journal.jsonl"), "a run's journal")):
+            self.assertIn(part, self.edgecase("run", "--renderer=reference", "-o", self.out, *words, check=2).stderr)
+        # What an earlier command left is replaced.
+        for _ in range(2):
+            self.edgecase("run", "--renderer=reference", "-q", "-o", self.out, "--json", self.folder / "r.json", "--junit", self.folder / "r.xml",
+                          "--html", self.folder / "r.html", check=0)
+        self.edgecase("compare", self.out, self.out, "--html", self.folder / "r.html", check=0)
+
     def test_form_of_a_value(self):
         self.refused(["explain", "fam/c1", "--pixel", "3"], "--pixel: '3' is not a value that it takes; write X,Y")
 
@@ -150,6 +169,23 @@ class Usage(ProgramTest):
         self.refused(["run", "notes.txt"], "notes.txt is no case file (*.toml)", 4)
         (self.folder / "fam").mkdir()
         self.refused(["run", "fam"], "did you mean fam/**?", 4)
+
+    def test_links_to_folders_are_followed(self):
+        other = self.folder / "elsewhere"
+        other.mkdir()
+        (other / "linked.toml").write_text((self.suite / "fam" / "c1.toml").read_text())
+        (self.suite / "more").symlink_to(other)
+        self.assertIn("more/linked\n", self.edgecase("list", "--ids", check=0).stdout)
+        done = self.edgecase("run", "--renderer=reference", "-o", self.out, fault="flip-pixel@more/linked", check=1)
+        self.assertIn("more/linked", done.stdout)
+        mine = self.folder / "mine"
+        mine.mkdir()
+        (mine / "sub").symlink_to(other)
+        self.assertEqual(self.edgecase("list", "--ids", mine, check=0).stdout, "sub/linked\n")
+        (other / "up").symlink_to(self.suite)
+        done = self.edgecase("lint", check=3)
+        self.assertIn("a folder that holds it", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
     def test_help_of_commands_for_one_case(self):
         for command in ("explain", "render"):

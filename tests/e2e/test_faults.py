@@ -161,6 +161,17 @@ class Output(ProgramTest):
         done = self.run_suite("--json", "/dev/full", check=7)
         self.assertIn("No space left", done.stderr)
 
+    def test_a_picture_on_a_full_disk(self):
+        for name in ("a.png", "a.exr", "a.tif", "a.json"):
+            (self.folder / name).symlink_to("/dev/full")
+            done = self.edgecase("render", "fam/c1", "-o", self.folder / name, check=7)
+            self.assertIn("No space left", done.stderr, name)
+
+    def test_an_export_on_a_full_disk(self):
+        (self.folder / "export" / "fam").mkdir(parents=True)
+        (self.folder / "export" / "fam" / "c1.json").symlink_to("/dev/full")
+        self.assertIn("No space left", self.edgecase("export", "fam/c1", "-o", self.folder / "export", check=7).stderr)
+
     def test_a_file_that_may_not_grow(self):
         done = subprocess.run(["bash", "-c", 'ulimit -f 4; exec "$@"', "bash", PROGRAM, "run", "--renderer=reference", "-o",
                                str(self.out)], env=self.environment(), cwd=self.folder, capture_output=True, text=True, check=False)

@@ -205,7 +205,7 @@ class OldReports(JournalTest):
 
     def test_a_run_that_cannot_begin(self):
         extra = self.folder / "extra.xml"
-        extra.write_text("green")
+        extra.write_text("<?xml version=\"1.0\"?><testsuites/>")
         done = self.edgecase("run", "--icd", "nowhere.json", "-o", self.out, "--junit", extra)
         self.assertIn(done.returncode, (3, 5))
         self.assertEqual(self.left(), {"journal.jsonl.old", "mine.txt"})

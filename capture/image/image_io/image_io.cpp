@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/image/image_io/image_io.hpp"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,11 +34,26 @@ bool ends_with(const std::string& text, const std::string& end) {
            text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+// What the file system says; empty if it took all.
+std::string write_bytes(const char* path, const std::vector<unsigned char>& bytes) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path, "wb"),
+                                                               &std::fclose);
+    if (!file || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
+        std::fflush(file.get()) != 0) {
+        return std::strerror(errno);
+    }
+    return {};
+}
+
 std::string write(const char* path, const EdgecaseImage& image) {
     const auto output = OIIO::ImageOutput::create(path);
-    if (!output) {
+    if (!output || output->supports("ioproxy") == 0) {
         return "no writer for this kind of file: " + OIIO::geterror();
     }
+    // Into memory first: the writers of some formats do not tell what the file system refuses.
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    output->set_ioproxy(&memory);
     const bool png = ends_with(path, ".png");
     OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
                          static_cast<int>(image.channels),
@@ -57,7 +77,7 @@ std::string write(const char* path, const EdgecaseImage& image) {
         const std::string reason = output->geterror();
         return reason.empty() ? "unknown error" : reason;
     }
-    return {};
+    return write_bytes(path, bytes);
 }
 
 std::string read(const char* path, uint32_t wanted_width, uint32_t wanted_height,
