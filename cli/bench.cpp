@@ -17,12 +17,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <sstream>
 
+#include "cases/base/counted.hpp"
+#include "cli/bench/judging.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/suite.hpp"
-#include "diff/verdict.hpp"
+#include "run/order.hpp"
 #include "run/worker/backend.hpp"
 #include "vk_harness/public/harness.hpp"
 
@@ -96,6 +100,40 @@ void add_device(std::vector<std::string>& words, const DeviceOptions& device) {
     }
 }
 
+// A file of one's own.
+constexpr std::string_view kOwnCase =
+    "format = 1\ndescription = \"One triangle.\"\nrules = [\"cover.inside\"]\n"
+    "[target]\nsize = [64, 64]\n[[draw]]\nvertices = [[1, 1], [60, 5], [7, 62]]\n";
+
+constexpr const char* kShaderCache = "MESA_SHADER_CACHE_DIR";
+
+// Medians of commands that draw nothing, over a file in `folder`.
+std::vector<std::pair<std::string, double>> time_commands(const Program& program,
+                                                          const std::string& folder) {
+    const std::string own = folder + "/own.toml";
+    std::ofstream(own) << kOwnCase;
+    const std::vector<std::pair<std::string, std::vector<std::string>>> commands = {
+        {"--help", {}},
+        {"lint", {own}},
+        {"explain", {own, "--pixel", "20,20"}},
+        {"render", {own, "-o", folder + "/own.json"}}};
+    std::vector<std::pair<std::string, double>> out;
+    for (const auto& [name, words] : commands) {
+        std::vector<std::string> command = self(program, name);
+        command.insert(command.end(), words.begin(), words.end());
+        std::vector<double> seconds;
+        int exit_code = 0;
+        for (int k = 0; k < 9; ++k) {
+            if (const auto t = timed(command, "/dev/null", folder + "/errors.txt", exit_code);
+                t && exit_code == 0) {
+                seconds.push_back(*t);
+            }
+        }
+        out.emplace_back(name, median(seconds));
+    }
+    return out;
+}
+
 std::vector<cases::Case> selected_cases(LoadedSuite& suite) {
     std::vector<cases::Case> result;
     for (const size_t k : suite.selected) {
@@ -165,61 +203,95 @@ int bare_command(const Program& program, const BenchOptions& options) {
 struct Figures {
     size_t cases = 0;
     uint64_t samples = 0;
-    double help = 0;                    // seconds, median
-    double run = 0, bare = 0;           // seconds of the whole processes, medians
-    double ratio = 0;                   // run / bare, median of the pairs
-    double bare_warm = 0;               // seconds of the second pass over all cases in one process
-    double reference = 0, compare = 0;  // seconds over all cases, one thread
+    double run = 0, bare = 0;      // seconds of the whole processes, medians
+    double ratio = 0;              // run / bare, median of the pairs
+    double run_without_cache = 0;  // seconds, with nothing in Mesa's shader cache
+    double bare_warm = 0;          // seconds of the second pass over all cases in one process
+    std::vector<std::pair<std::string, double>> commands;  // that draw nothing, seconds, medians
+    JudgingFigures judging;
 };
-
-// Reference and comparison in this process, on captures that need no driver.
-void time_reference(const std::vector<cases::Case>& cases, Figures& figures) {
-    const ref::Limits limits;
-    for (const cases::Case& c : cases) {
-        if (c.blit) {
-            continue;  // texels, not triangles
-        }
-        const capture::Capture capture = rasterizers::draw_by_reference(c);
-        Clock::time_point begin = Clock::now();
-        const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
-        figures.reference += seconds_since(begin);
-        begin = Clock::now();
-        const diff::Verdict verdict = diff::compare(c, expectation, capture);
-        figures.compare += seconds_since(begin);
-        if (!verdict.ok()) {
-            fmt::print(stderr,
-                       "edgecase: note: the reference's own picture of {} is not accepted\n", c.id);
-        }
-    }
-}
 
 std::string text_of(const Figures& f) {
     const auto cases = static_cast<double>(f.cases);
     const auto samples = static_cast<double>(f.samples);
-    const double checking = f.reference + f.compare;
-    return fmt::format(
+    const JudgingFigures& judging = f.judging;
+    const double checking = judging.reference + judging.compare;
+    std::string out = fmt::format(
         "{} cases, {} samples\n"
         "run          {:8.1f} ms   {:7.0f} cases/s   {:6.3f} ms a case, whole process, cold\n"
         "bare         {:8.1f} ms   {:7.0f} cases/s   drawing only, whole process, cold\n"
         "run / bare   {:8.2f}\n"
+        "empty cache  {:8.1f} ms   {:7.2f} times run, with nothing in Mesa's shader cache\n"
         "drawing      {:8.1f} ms   {:7.1f} million samples/s, warm, in one process\n"
         "reference    {:8.1f} ms   {:7.1f} million samples/s, one thread\n"
         "comparison   {:8.1f} ms   {:7.1f} million samples/s, one thread\n"
-        "both         {:8.1f} ms   {:7.1f} million samples/s, {:.2f} times the speed of drawing\n"
-        "--help       {:8.2f} ms\n",
+        "both         {:8.1f} ms   {:7.1f} million samples/s, {:.2f} times the speed of drawing\n",
         f.cases, f.samples, f.run * 1e3, cases / f.run, f.run * 1e3 / cases, f.bare * 1e3,
-        cases / f.bare, f.ratio, f.bare_warm * 1e3, samples / f.bare_warm * 1e-6, f.reference * 1e3,
-        samples / f.reference * 1e-6, f.compare * 1e3, samples / f.compare * 1e-6, checking * 1e3,
-        samples / checking * 1e-6, f.bare_warm / checking, f.help * 1e3);
+        cases / f.bare, f.ratio, f.run_without_cache * 1e3, f.run_without_cache / f.run,
+        f.bare_warm * 1e3, samples / f.bare_warm * 1e-6, judging.reference * 1e3,
+        samples / judging.reference * 1e-6, judging.compare * 1e3, samples / judging.compare * 1e-6,
+        checking * 1e3, samples / checking * 1e-6, f.bare_warm / checking);
+    out += fmt::format(
+        "right        {:8.1f} ms   {:7.0f} cases/s   judged and recorded, half of --quick\n"
+        "broken       {:8.1f} ms   {:7.2f} times right: half a pixel off, {} of {} cases fail\n",
+        judging.right * 1e3, static_cast<double>(judging.quick_cases) / judging.right,
+        judging.broken * 1e3, judging.broken / judging.right, judging.broken_cases,
+        judging.quick_cases);
+    for (const JudgingFigures::Size& size : judging.sizes) {
+        out += fmt::format(
+            "{:<12} {:8.2f} ns a sample, judged; the reference alone {:.0f} million samples/s\n",
+            fmt::format("{0} x {0}", size.side), 1e9 / size.all, size.reference * 1e-6);
+    }
+    out += fmt::format("dearest size {:8.2f} times the cheapest, a sample\n",
+                       spread_of(judging.sizes));
+    for (const JudgingFigures::Small& small : judging.small) {
+        out += fmt::format("small        {:8.0f} cases/s of {} in {} x {}, judged, one thread\n",
+                           small.cases, cases::counted(small.triangles, "triangle"), small.side,
+                           small.side);
+    }
+    for (const JudgingFigures::Megapixel& picture : judging.megapixels) {
+        out += fmt::format("megapixel    {:8.2f} ms   {}, one triangle, one thread\n",
+                           picture.seconds * 1e3, picture.what);
+    }
+    for (const auto& [name, seconds] : f.commands) {
+        out += fmt::format("{:<12} {:8.2f} ms\n", name, seconds * 1e3);
+    }
+    return out;
 }
 
 std::string json_of(const Figures& f) {
-    return fmt::format(
-        "{{\"cases\": {}, \"samples\": {}, \"run_seconds\": {}, \"bare_seconds\": {}, \"ratio\": "
-        "{}, "
-        "\"drawing_seconds\": {}, \"reference_seconds\": {}, \"comparison_seconds\": {}, "
-        "\"help_seconds\": {}}}\n",
-        f.cases, f.samples, f.run, f.bare, f.ratio, f.bare_warm, f.reference, f.compare, f.help);
+    using Json = nlohmann::ordered_json;
+    const JudgingFigures& judging = f.judging;
+    Json out = {{"cases", f.cases},
+                {"samples", f.samples},
+                {"run_seconds", f.run},
+                {"bare_seconds", f.bare},
+                {"ratio", f.ratio},
+                {"run_without_cache_seconds", f.run_without_cache},
+                {"drawing_seconds", f.bare_warm},
+                {"reference_seconds", judging.reference},
+                {"comparison_seconds", judging.compare},
+                {"right_seconds", judging.right},
+                {"broken_seconds", judging.broken},
+                {"quick_cases", judging.quick_cases},
+                {"broken_cases", judging.broken_cases}};
+    for (const JudgingFigures::Size& size : judging.sizes) {
+        out["sizes"].push_back({{"side", size.side},
+                                {"reference_samples_per_second", size.reference},
+                                {"samples_per_second", size.all}});
+    }
+    for (const JudgingFigures::Small& small : judging.small) {
+        out["small"].push_back({{"side", small.side},
+                                {"triangles", small.triangles},
+                                {"cases_per_second", small.cases}});
+    }
+    for (const JudgingFigures::Megapixel& picture : judging.megapixels) {
+        out["megapixels"].push_back({{"what", picture.what}, {"seconds", picture.seconds}});
+    }
+    for (const auto& [name, seconds] : f.commands) {
+        out["commands"].push_back({{"command", name}, {"seconds", seconds}});
+    }
+    return out.dump() + "\n";
 }
 
 }  // namespace
@@ -259,7 +331,7 @@ int bench_command(const Program& program, const BenchOptions& options) {
 
     int exit_code = 0;
     bool failed = false;
-    std::vector<double> runs, bares, ratios, helps;
+    std::vector<double> runs, bares, ratios;
     for (uint32_t k = 0; k <= options.runs && !failed; ++k) {
         std::filesystem::remove_all(folder + "/run");
         const std::optional<double> a = timed(run, "/dev/null", errors, exit_code);
@@ -268,17 +340,18 @@ int bench_command(const Program& program, const BenchOptions& options) {
             tell_failure("'run'", errors, exit_code);
             break;
         }
+        if (k == 0) {
+            continue;  // the first run warms the caches of the disk and of the driver
+        }
         const std::optional<double> b = timed(bare, text, errors, exit_code);
         failed = !b || exit_code != 0;
         if (failed) {
             tell_failure("bare drawing", errors, exit_code);
             break;
         }
-        if (k > 0) {  // the first pair warms the disk cache
-            runs.push_back(*a);
-            bares.push_back(*b);
-            ratios.push_back(*a / *b);
-        }
+        runs.push_back(*a);
+        bares.push_back(*b);
+        ratios.push_back(*a / *b);
     }
     if (!failed) {
         setenv("EDGECASE_BENCH_TWICE", "1", 1);
@@ -286,11 +359,21 @@ int bench_command(const Program& program, const BenchOptions& options) {
         unsetenv("EDGECASE_BENCH_TWICE");
         double cold = 0;
         std::ifstream(text) >> cold >> figures.bare_warm;
-        for (int k = 0; k < 15; ++k) {
-            if (const std::optional<double> t =
-                    timed(self(program, "--help"), "/dev/null", errors, exit_code)) {
-                helps.push_back(*t);
-            }
+        figures.commands = time_commands(program, folder);
+    }
+    if (!failed) {
+        const char* before = std::getenv(kShaderCache);
+        const std::optional<std::string> kept =
+            before != nullptr ? std::optional<std::string>(before) : std::nullopt;
+        setenv(kShaderCache, (folder + "/cache").c_str(), 1);
+        std::filesystem::remove_all(folder + "/run");
+        const std::optional<double> seconds = timed(run, "/dev/null", errors, exit_code);
+        failed = !seconds || exit_code > report::kExitUnexpected;
+        figures.run_without_cache = seconds.value_or(0);
+        if (kept) {
+            setenv(kShaderCache, kept->c_str(), 1);
+        } else {
+            unsetenv(kShaderCache);
         }
     }
     std::filesystem::remove_all(folder);
@@ -300,8 +383,9 @@ int bench_command(const Program& program, const BenchOptions& options) {
     figures.run = median(runs);
     figures.bare = median(bares);
     figures.ratio = median(ratios);
-    figures.help = median(helps);
-    time_reference(cases, figures);
+    std::vector<size_t> all(cases.size());
+    std::iota(all.begin(), all.end(), size_t{0});
+    figures.judging = time_judging(cases, run::first_and_last(cases, all));
     std::fputs((options.json ? json_of(figures) : text_of(figures)).c_str(), stdout);
     return report::kExitOk;
 }

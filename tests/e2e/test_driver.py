@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Edgecase authors
 # SPDX-License-Identifier: Apache-2.0
 """The whole way through a real Vulkan driver. A machine without one fails these tests: they are never skipped."""
+import json
 import os
 import pathlib
 import re
@@ -19,6 +20,20 @@ class Driver(ProgramTest):
     def test_small_suite(self):
         self.run_driver(check=0)
         self.assertEqual(set(self.statuses().values()), {"pass"})
+
+    def test_bench_tells_every_figure_and_complains_about_nothing(self):
+        done = self.edgecase("bench", "--runs", "1", "--json", check=0)
+        self.assertEqual(done.stderr, "")
+        told = json.loads(done.stdout)
+        for name in ("run", "bare", "run_without_cache", "drawing", "reference", "comparison", "right", "broken"):
+            self.assertGreater(told[f"{name}_seconds"], 0, name)
+        self.assertGreater(told["broken_cases"], 0)
+        self.assertEqual([size["side"] for size in told["sizes"]], [64, 256, 1024, 4096])
+        self.assertTrue(all(size["samples_per_second"] > 0 for size in told["sizes"]))
+        self.assertEqual(len(told["small"]), 3)
+        self.assertEqual(len(told["megapixels"]), 3)
+        self.assertEqual([c["command"] for c in told["commands"]], ["--help", "lint", "explain", "render"])
+        self.assertTrue(all(c["seconds"] > 0 for c in told["commands"]))
 
     def test_flipped_pixel_is_found(self):
         self.run_driver(fault="flip-pixel@fam/c3", check=1)
