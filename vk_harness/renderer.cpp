@@ -35,7 +35,8 @@ void reject(Rendered& result, const Failure& failure) {
     result.reason = std::string(to_string(failure.stage)) + ": " + failure.message;
 }
 
-// Where a case's planes are guarded, and what the attachments are called.
+}  // namespace
+
 std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan) {
     std::vector<std::pair<Guard*, std::string>> out;
     if (plan.blit != nullptr) {
@@ -48,6 +49,8 @@ std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan) {
     }
     return out;
 }
+
+namespace {
 
 // Of the damage, what lies beside the case's attachments.
 std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
@@ -136,6 +139,25 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
     }
     plan.images = std::move(*images);
     return true;
+}
+
+capture::PlaneSpans BatchRenderer::place_planes(const CasePlan& plan, Rendered& result,
+                                                const PlaneStore& store) const {
+    const cases::Target& target = plan.test->target;
+    capture::Capture& capture = result.capture;
+    capture.target = target;
+    capture.has_primitive = device_->capabilities().info.has_primitive_id;
+    capture.attribute_count = target.has_instruments ? cases::attributes_of(*plan.test) : 0;
+    if (store) {
+        result.placed = store(plan.slot, capture::plane_bytes(target, capture.attribute_count));
+    }
+    if (!result.placed.empty()) {
+        return capture::planes_at(target, capture.attribute_count, result.placed.data());
+    }
+    capture::for_each_plane(
+        [](const capture::Plane& plane, auto& entries) { entries.resize(plane.entries); }, capture,
+        capture);
+    return capture::PlaneSpans(capture);
 }
 
 Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back,
@@ -237,26 +259,8 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
         }
         damage = std::move(*found);
         for (const CasePlan& plan : plans) {
-            const cases::Target& target = plan.test->target;
-            const bool has_primitive = device_->capabilities().info.has_primitive_id;
-            Rendered& result = results[plan.slot];
-            if (store) {
-                const uint64_t bytes =
-                    capture::plane_bytes(target, cases::attributes_of(*plan.test));
-                result.placed = store(plan.slot, bytes);
-            }
-            if (result.placed.empty()) {
-                result.capture = read_capture(target, plan.attachments, has_primitive,
-                                              plan.readback, readback->bytes());
-            } else {
-                result.capture.target = target;
-                result.capture.has_primitive = has_primitive;
-                result.capture.attribute_count =
-                    target.has_instruments ? cases::attributes_of(*plan.test) : 0;
-                read_planes(plan.attachments, plan.readback, readback->bytes(),
-                            capture::planes_at(target, result.capture.attribute_count,
-                                               result.placed.data()));
-            }
+            read_planes(plan.attachments, plan.readback, readback->bytes(),
+                        place_planes(plan, results[plan.slot], store));
         }
     }
     for (const CasePlan& plan : plans) {
@@ -300,7 +304,9 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
         return;
     }
     std::vector<GuardDamage> damage;
-    auto done = draw_chunk(plans, read_back, results, step, store, damage);
+    auto done = read_back && is_large(plans)
+                    ? draw_large(plans.front(), results[plans.front().slot], step, store, damage)
+                    : draw_chunk(plans, read_back, results, step, store, damage);
     if (done && !damage.empty()) {
         done = blame(plans, damage, results, step);
     }

@@ -42,6 +42,9 @@ class Submission {
     Buffer readback_;
 };
 
+// Where a case's planes are guarded, and what the attachments are called.
+std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan);
+
 class BatchRenderer {
   public:
     static Result<BatchRenderer> create(const Options& options);
@@ -68,6 +71,19 @@ class BatchRenderer {
                             std::vector<Rendered>& results,
                             const std::function<void(std::string_view)>& step,
                             const PlaneStore& store, std::vector<GuardDamage>& damage);
+    // Where the planes of a case go that has been drawn: to the store's memory, if it has room.
+    capture::PlaneSpans place_planes(const CasePlan& plan, Rendered& result,
+                                     const PlaneStore& store) const;
+    // Whether a case that is drawn alone is so large that draw_large() reads it back.
+    static bool is_large(std::span<const CasePlan> plans);
+    // As draw_chunk() with read-back, of one case, in little more memory than its capture takes:
+    // attachments are read back one after another, by rows, and freed.
+    Result<void> draw_large(CasePlan& plan, Rendered& result,
+                            const std::function<void(std::string_view)>& step,
+                            const PlaneStore& store, std::vector<GuardDamage>& damage);
+    // Reads attachments back that are decoded together, from `first` up to `end`.
+    Result<void> read_rows(const CasePlan& plan, size_t first, size_t end,
+                           const capture::PlaneSpans& to);
     // Finds out which of the plans, drawn in one submission, did the damage: each is drawn alone.
     Result<void> blame(std::span<CasePlan> plans, std::span<const GuardDamage> damage,
                        std::vector<Rendered>& results,

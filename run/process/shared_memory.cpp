@@ -34,7 +34,7 @@ SharedMemory::~SharedMemory() {
 }
 
 bool SharedMemory::has_free() const {
-    return std::any_of(is_taken_.begin(), is_taken_.end(),
+    return std::any_of(is_taken_.begin(), is_taken_.begin() + kRegions,
                        [](const std::atomic<bool>& taken) { return !taken; });
 }
 
@@ -43,7 +43,7 @@ void SharedMemory::give_back(size_t k, bool is_large) const {
         // If the system cannot, the memory is used again all the same.
         static_cast<void>(::fallocate(fd_.get(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
                                       static_cast<off_t>(k * kRegionBytes + kKeptBytes),
-                                      static_cast<off_t>(kRegionBytes - kKeptBytes)));
+                                      static_cast<off_t>(bytes_of(k) - kKeptBytes)));
     }
     is_taken_.at(k) = false;  // not before: the next batch writes there
 }
@@ -59,13 +59,14 @@ std::shared_ptr<const Region> SharedMemory::take(uint64_t bytes) {
             : memory(std::move(m)),
               k(number),
               is_large(large),
-              region{k * kRegionBytes, {memory->data_ + k * kRegionBytes, kRegionBytes}} {}
+              region{k * kRegionBytes, {memory->data_ + k * kRegionBytes, bytes_of(k)}} {}
         Reader(const Reader&) = delete;
         Reader& operator=(const Reader&) = delete;
         ~Reader() { memory->give_back(k, is_large); }
     };
-    for (size_t k = 0; k < kRegions; ++k) {
-        if (!is_taken_.at(k).exchange(true)) {
+    for (size_t k = bytes > kRegionBytes ? kRegions : 0; k < is_taken_.size(); ++k) {
+        if (bytes <= bytes_of(k) && (k < kRegions || bytes > kRegionBytes) &&
+            !is_taken_.at(k).exchange(true)) {
             const auto reader =
                 std::make_shared<const Reader>(shared_from_this(), k, bytes > kKeptBytes);
             return {reader, &reader->region};

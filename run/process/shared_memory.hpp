@@ -23,12 +23,15 @@ struct Region {
     std::span<const std::byte> bytes;  // in the parent
 };
 
+// It is taken from the system only where it is written to.
 class SharedMemory : public std::enable_shared_from_this<SharedMemory> {
   public:
     static constexpr size_t kRegions = 4;
     static constexpr uint64_t kRegionBytes = uint64_t{65} << 20;  // a batch has 64 MiB at most
-    static constexpr uint64_t kBytes = kRegions * kRegionBytes;   // taken only where written to
-    static constexpr uint64_t kKeptBytes = uint64_t{8} << 20;     // of a region that is free again
+    // One region more, behind the others, for a case that is larger than a batch.
+    static constexpr uint64_t kLargeBytes = uint64_t{16} << 30;
+    static constexpr uint64_t kBytes = kRegions * kRegionBytes + kLargeBytes;
+    static constexpr uint64_t kKeptBytes = uint64_t{8} << 20;  // of a region that is free again
 
     // Null if the system has no such memory; captures travel through the pipe then.
     static std::shared_ptr<SharedMemory> create();
@@ -37,18 +40,21 @@ class SharedMemory : public std::enable_shared_from_this<SharedMemory> {
     SharedMemory& operator=(const SharedMemory&) = delete;
 
     int fd() const { return fd_.get(); }
-    // The first free region, for a batch of so many bytes; null if none is free. What a large batch
-    // had taken from the system goes back to it with the region.
+    // The first free region that holds a batch of so many bytes; null if none is free. What a large
+    // batch had taken from the system goes back to it with the region.
     std::shared_ptr<const Region> take(uint64_t bytes);
-    bool has_free() const;
+    bool has_free() const;  // of those for batches
 
   private:
+    static uint64_t bytes_of(size_t region) {
+        return region < kRegions ? kRegionBytes : kLargeBytes;
+    }
     SharedMemory(Fd fd, const std::byte* data) : fd_(std::move(fd)), data_(data) {}
     // Of a region that nobody reads any more, on whichever thread that happens.
     void give_back(size_t k, bool is_large) const;
     Fd fd_;
     const std::byte* data_;
-    mutable std::array<std::atomic<bool>, kRegions> is_taken_{};
+    mutable std::array<std::atomic<bool>, kRegions + 1> is_taken_{};
 };
 
 // The worker's side. Everything fails softly: what finds no place goes through the pipe.

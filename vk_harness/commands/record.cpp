@@ -334,26 +334,32 @@ void record_draws(const Device& device, const PipelineCache& pipelines, VkComman
     }
 }
 
+void record_copy(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
+                 size_t attachment, const Rows& rows, VkBuffer readback, VkDeviceSize offset) {
+    const cases::Target& target = plan.test->target;
+    const Attachment& from = plan.attachments[attachment];
+    const VkImageAspectFlags aspect = from.role == Role::stencil ? VK_IMAGE_ASPECT_STENCIL_BIT
+                                      : from.is_depth()          ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                 : VK_IMAGE_ASPECT_COLOR_BIT;
+    VkBufferImageCopy region{};
+    region.imageOffset = {0, static_cast<int32_t>(rows.first), 0};
+    region.imageExtent = {target.width, rows.count, 1};
+    region.bufferOffset = offset;
+    region.imageSubresource = {aspect, 0, 0, target.layers};  // stacked
+    device.vk().vkCmdCopyImageToBuffer(commands, plan.images[attachment]->get(), kCopied.layout,
+                                       readback, 1, &region);
+}
+
 void record_copies(const Device& device, std::span<const VkPipeline> pipelines,
                    VkPipelineLayout copy_layout, VkCommandBuffer commands, const CasePlan& plan,
                    VkBuffer readback, std::span<const VkDescriptorSet> sets) {
     const VolkDeviceTable& vk = device.vk();
     const cases::Target& target = plan.test->target;
-    VkBufferImageCopy region{};
-    region.imageExtent = {target.width, target.height, 1};
     for (size_t k = 0; k < plan.images.size(); ++k) {
-        const Attachment& attachment = plan.attachments[k];
-        if (attachment.samples_of(target) > 1) {
-            continue;
+        if (plan.attachments[k].samples_of(target) == 1) {
+            record_copy(device, commands, plan, k, {0, target.height}, readback,
+                        plan.readback.offset[k]);
         }
-        const VkImageAspectFlags aspect = attachment.role == Role::stencil
-                                              ? VK_IMAGE_ASPECT_STENCIL_BIT
-                                          : attachment.is_depth() ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                  : VK_IMAGE_ASPECT_COLOR_BIT;
-        region.bufferOffset = plan.readback.offset[k];
-        region.imageSubresource = {aspect, 0, 0, target.layers};  // stacked
-        vk.vkCmdCopyImageToBuffer(commands, plan.images[k]->get(), kCopied.layout, readback, 1,
-                                  &region);
     }
     if (target.samples == 1) {
         return;

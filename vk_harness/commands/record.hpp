@@ -48,6 +48,16 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory);
 void record_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                   const CasePlan& plan, VkBuffer vertices, bool for_copies);
 
+// Rows of a target, `count` from `first` on.
+struct Rows {
+    uint32_t first = 0, count = 0;
+};
+
+// Records the copy of an attachment of one sample a pixel, of these rows of each of its layers, to
+// the read-back buffer from byte `offset` on.
+void record_copy(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
+                 size_t attachment, const Rows& rows, VkBuffer readback, VkDeviceSize offset);
+
 // Records the copies of all samples to the read-back buffer. If the target is multisampled, `sets`
 // and `pipelines` hold one descriptor set and one compute pipeline an attachment, else nothing.
 void record_copies(const Device& device, std::span<const VkPipeline> pipelines,

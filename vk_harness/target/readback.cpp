@@ -317,22 +317,6 @@ void decode_attribute(const std::vector<Attachment>& attachments, const Readback
 
 }  // namespace
 
-capture::Capture read_capture(const cases::Target& target,
-                              const std::vector<Attachment>& attachments, bool has_primitive,
-                              const ReadbackLayout& layout, std::span<const std::byte> memory) {
-    capture::Capture capture;
-    capture.target = target;
-    capture.has_primitive = has_primitive;
-    capture.attribute_count = static_cast<uint32_t>(
-        std::count_if(attachments.begin(), attachments.end(),
-                      [](const Attachment& a) { return a.role == Role::attribute; }));
-    capture::for_each_plane(
-        [](const capture::Plane& plane, auto& entries) { entries.resize(plane.entries); }, capture,
-        capture);
-    read_planes(attachments, layout, memory, capture::PlaneSpans(capture));
-    return capture;
-}
-
 void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                  std::span<const std::byte> memory, const capture::PlaneSpans& to) {
     size_t attribute = 0;

@@ -30,12 +30,7 @@ ReadbackLayout make_layout(const cases::Target& target, const std::vector<Attach
 // Fills memory with capture::kPoison words, so that what the device does not copy is seen.
 void poison(std::span<std::byte> memory);
 
-// The capture of a case from read-back memory.
-capture::Capture read_capture(const cases::Target& target,
-                              const std::vector<Attachment>& attachments, bool has_primitive,
-                              const ReadbackLayout& layout, std::span<const std::byte> memory);
-
-// The same into planes that are there (capture::planes_at).
+// The planes of a case from read-back memory, to where they belong (capture::planes_at).
 void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                  std::span<const std::byte> memory, const capture::PlaneSpans& to);
 

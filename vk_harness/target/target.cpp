@@ -71,6 +71,12 @@ Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
     return out;
 }
 
+void TargetCache::release(const Image* image) {
+    for (const auto& shelf : shelves_) {
+        std::erase_if(shelf->images, [image](const auto& held) { return held.get() == image; });
+    }
+}
+
 void TargetCache::trim(VkDeviceSize limit) {
     std::sort(shelves_.begin(), shelves_.end(),
               [](const auto& a, const auto& b) { return a->last_use > b->last_use; });

@@ -26,6 +26,9 @@ class TargetCache {
     Result<std::vector<const Image*>> get(const cases::Target& target,
                                           const std::vector<Attachment>& attachments);
 
+    // Frees an image, with what it holds of the device's memory; null is left alone.
+    void release(const Image* image);
+
     // Frees the images that were not used for longest until at most `limit` bytes are held.
     void trim(VkDeviceSize limit);
 

@@ -52,6 +52,25 @@ TEST(SharedMemory, ARegionIsTakenAgainOnlyWhenNobodyReadsIt) {
     EXPECT_EQ(again->offset, SharedMemory::kRegionBytes);
 }
 
+TEST(SharedMemory, ACaseLargerThanABatchHasARegionOfItsOwn) {
+    const std::shared_ptr<SharedMemory> memory = SharedMemory::create();
+    constexpr uint64_t kLarge = SharedMemory::kRegionBytes + 1;
+    std::shared_ptr<const Region> region = memory->take(kLarge);
+    ASSERT_TRUE(region);
+    EXPECT_EQ(region->offset, SharedMemory::kRegions * SharedMemory::kRegionBytes);
+    EXPECT_FALSE(memory->take(kLarge));
+    EXPECT_FALSE(memory->take(SharedMemory::kLargeBytes + 1));
+    EXPECT_EQ(memory->take(kLarge - 1)->offset, 0U);  // batches have theirs
+    SharedWriter writer(memory->fd());
+    writer.open(region->offset, kLarge);
+    writer.place(kLarge).back() = std::byte{7};
+    EXPECT_EQ(region->bytes[kLarge - 1], std::byte{7});
+    region.reset();  // back to the system
+    region = memory->take(kLarge);
+    ASSERT_TRUE(region);
+    EXPECT_EQ(region->bytes[kLarge - 1], std::byte{0});
+}
+
 TEST(SharedMemory, ReadersOutliveTheOwner) {
     std::shared_ptr<SharedMemory> memory = SharedMemory::create();
     const std::shared_ptr<const Region> region = memory->take(1);

@@ -162,6 +162,23 @@ TEST(DecodeTexel, ComponentsInTheOrderOfTheFormat) {
     }
 }
 
+// The capture of a case from read-back memory.
+capture::Capture read_capture(const cases::Target& target,
+                              const std::vector<Attachment>& attachments, bool has_primitive,
+                              const ReadbackLayout& layout, std::span<const std::byte> memory) {
+    capture::Capture capture;
+    capture.target = target;
+    capture.has_primitive = has_primitive;
+    capture.attribute_count = static_cast<uint32_t>(
+        std::count_if(attachments.begin(), attachments.end(),
+                      [](const Attachment& a) { return a.role == Role::attribute; }));
+    capture::for_each_plane(
+        [](const capture::Plane& plane, auto& entries) { entries.resize(plane.entries); }, capture,
+        capture);
+    read_planes(attachments, layout, memory, capture::PlaneSpans(capture));
+    return capture;
+}
+
 TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     cases::Case c = target_case({2, 1, 1}, 1);
     c.target.color = {cases::ColorFormat::rgba8_unorm, {}};

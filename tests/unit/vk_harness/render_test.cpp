@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "hand_case.hpp"
 
@@ -299,6 +300,45 @@ TEST(Render, FourAttributesOfAllModes) {
     EXPECT_EQ(capture.attributes[1][k], values[0]);
     EXPECT_EQ(capture.attributes[0][k], capture.attributes[3][k]);
     EXPECT_LT(capture.attributes[0][k].x, 0.25F);
+}
+
+// A large case that is alone is read back piece by piece; beside another one, in one piece.
+TEST(Render, ALargeCaseIsTheSameInPieces) {
+    using cases::Interpolation;
+    cases::Case c = perspective_square(Interpolation::smooth);
+    c.target.width = 1000;
+    c.target.height = 999;
+    std::vector<glm::vec4> values = c.draws[0].attributes[0].values;
+    for (const uint32_t components : {1U, 2U, 3U}) {
+        for (glm::vec4& value : values) {
+            for (uint32_t k = components; k < 4; ++k) {
+                value[static_cast<int>(k)] = 0;
+            }
+        }
+        cases::Attribute a = attribute(Interpolation::noperspective, values);
+        a.components = components;
+        c.draws[0].attributes.push_back(a);
+        values = c.draws[0].attributes[0].values;
+    }
+    c.draws[0].viewport.width = 900;
+    c.draws[0].viewport.height = 950;
+    c.draws[0].scissor = {0, 0, 1000, 999};
+    for (const cases::DepthFormat depth :
+         {cases::DepthFormat::d32_float, cases::DepthFormat::d16_unorm}) {
+        c.target.depth_format = depth;
+        c.target.color = cases::ColorTarget{cases::ColorFormat::rgba8_unorm, {}};
+        const capture::Capture alone = draw(c);
+        const capture::Capture beside = draw_all({make_case(k64, half_square()), c}).back();
+        EXPECT_GT(count(alone).back + count(alone).front, 800'000U);
+        EXPECT_GT(count(alone).clear, 100'000U);
+        capture::for_each_plane(
+            [](const capture::Plane& plane, const auto& a, const auto& b) {
+                ASSERT_EQ(a.size(), plane.entries) << plane.name;
+                const auto size = plane.entries * sizeof(a[0]);
+                EXPECT_TRUE(size == 0 || std::memcmp(a.data(), b.data(), size) == 0) << plane.name;
+            },
+            alone, alone, beside);
+    }
 }
 
 TEST(Render, DrawsWithFewerAttributesLeaveTheClearValue) {
