@@ -195,7 +195,8 @@ void tell(const cases::Case& c, const ref::Exercise& exercise) {
     std::string text = c.id + "\n";
     for (const ref::RuleShare& share : exercise.rules) {
         text +=
-            fmt::format("    {}: {} of {} {}\n", share.rule, share.samples, exercise.samples, unit);
+            fmt::format("    {}: {}{} of {} {}\n", share.rule, share.is_least ? "at least " : "",
+                        share.samples, exercise.samples, unit);
     }
     if (exercise.free_samples > 0) {
         text +=

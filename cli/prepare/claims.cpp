@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -63,6 +64,11 @@ void ClaimedFile::note(const ref::Exercise& found) {
             }
         }
     }
+    for (size_t d = 0; d < std::min(draws.size(), found.draws.size()); ++d) {
+        ref::Sight best = draws[d];
+        while (best < found.draws[d] && !draws[d].compare_exchange_weak(best, found.draws[d])) {
+        }
+    }
 }
 
 std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>& all,
@@ -80,6 +86,35 @@ std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>&
     }
     return files;
 }
+
+namespace {
+
+// Rules that are broken elsewhere than by what a draw leaves: a draw may be there to be harmless.
+constexpr std::string_view kOfUnseenDraws[] = {
+    cases::rule::number_undefined,
+    cases::rule::write_outside,
+};
+
+void check_draws(const ClaimedFile& file, cases::Errors& errors) {
+    if (std::ranges::any_of(kOfUnseenDraws, [&](std::string_view rule) {
+            return std::ranges::count(file.first->rules, rule) > 0;
+        })) {
+        return;
+    }
+    for (size_t d = 0; d < file.draws.size(); ++d) {
+        if (file.draws[d] == ref::Sight::nothing) {
+            errors.push_back(
+                {file.first->draws[d].where,
+                 fmt::format(
+                     "nothing of draw {} can be seen: with it, without it and with it twice "
+                     "the attachments hold the same; choose another colour or another "
+                     "clear colour, or take the draw away",
+                     d)});
+        }
+    }
+}
+
+}  // namespace
 
 cases::Errors check_claims(const std::vector<cases::Case>& all,
                            std::map<std::string, ClaimedFile>& files) {
@@ -100,15 +135,21 @@ cases::Errors check_claims(const std::vector<cases::Case>& all,
         }
     });
     cases::Errors errors;
+    for (const auto& [name, file] : files) {
+        if (file.is_whole) {
+            check_draws(file, errors);
+        }
+    }
     for (const ClaimedFile* file : open) {
         for (const std::string& rule : file->open_rules()) {
             if (cases::find_rule(rule) == nullptr) {
                 continue;  // an error of its own
             }
-            errors.push_back({rule_place(*file->first, rule),
-                              fmt::format("no sample exercises the rule {}; one does {}, so take "
-                                          "the rule away or add a triangle{}",
-                                          rule, ref::exercise_of(rule), condition_of(rule))});
+            errors.push_back(
+                {rule_place(*file->first, rule),
+                 fmt::format("no sample exercises the rule {}, which takes a sample {}; "
+                             "take the rule away or change the case{}",
+                             rule, ref::exercise_of(rule), condition_of(rule))});
         }
     }
     return errors;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rules that case files claim to test, and whether some sample is decided by each.
+// The rules that case files claim to test, and whether some sample is decided by each; and their
+// draws, and whether something can be seen of each.
 #pragma once
 
 #include <atomic>
@@ -21,8 +22,10 @@ struct ClaimedFile {
     std::vector<size_t> cases;  // the chosen ones
     bool is_whole = false;      // they are all cases of the file
     std::vector<std::atomic<bool>> exercised;
+    std::vector<std::atomic<ref::Sight>> draws;  // the best sight of each
 
-    explicit ClaimedFile(const cases::Case& c) : first(&c), exercised(c.rules.size()) {}
+    explicit ClaimedFile(const cases::Case& c)
+        : first(&c), exercised(c.rules.size()), draws(c.draws.size()) {}
     // The claims of which no sample is known yet.
     std::vector<std::string> open_rules() const;
     // Takes down what a case exercises; several threads may do so at once.
@@ -37,7 +40,8 @@ std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>&
                                                  const std::vector<size_t>& chosen);
 
 // One error for each open claim of a whole file that no sample exercises with the fewest subpixel
-// bits that a device may have either: with these, more samples are near edges.
+// bits that a device may have either: with these, more samples are near edges. And one for each
+// draw of which nothing can be seen in any case of a whole file.
 cases::Errors check_claims(const std::vector<cases::Case>& all,
                            std::map<std::string, ClaimedFile>& files);
 

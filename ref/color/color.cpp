@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
+#include <utility>
 
 #include "cases/model/rule_ids.hpp"
 
@@ -325,6 +326,16 @@ std::array<uint32_t, 4> ColorReference::codes(size_t index, cases::SampleId id,
     const std::vector<Sequence> sets = allowed(index, witness);
     const glm::vec4* last = witness ? witness->written : nullptr;
     return unit_.codes_of(sets.empty() ? cleared_ : color_of(sets.front(), id, last));
+}
+
+std::vector<uint32_t> ColorReference::drawn(size_t index) const {
+    std::vector<Sequence> sets = allowed(index, std::nullopt);
+    return sets.empty() ? Sequence() : std::move(sets.front());
+}
+
+std::array<uint32_t, 4> ColorReference::codes_after(std::span<const uint32_t> triangles,
+                                                    cases::SampleId id) {
+    return unit_.codes_of(color_of({triangles.begin(), triangles.end()}, id, nullptr));
 }
 
 // Equal z and w = 1 at all vertices, in a viewport of depths 0 to 1: the depth is z itself.

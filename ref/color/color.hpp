@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,10 @@ class ColorReference {
     // is none.
     std::array<uint32_t, 4> codes(size_t index, cases::SampleId id,
                                   const std::optional<ColorWitness>& witness);
+    // The triangles of the first allowed set of fragments, in drawing order; none if there is none.
+    std::vector<uint32_t> drawn(size_t index) const;
+    // Codes that the fragments of these triangles leave, whether or not they are allowed there.
+    std::array<uint32_t, 4> codes_after(std::span<const uint32_t> triangles, cases::SampleId id);
     // Whether depth may be what the last of an allowed set of fragments left, for targets without
     // instruments; `clear`: what it holds where nothing was drawn. Only for D32 and draws that
     // write depth without a test, bias or clamp; true otherwise.

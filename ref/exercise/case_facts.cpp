@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ref/exercise/exercise_table.hpp"
+#include "ref/exercise/view.hpp"
 #include "ref/position/position.hpp"
 
 namespace ref {
@@ -34,8 +34,12 @@ bool has_bad_numbers(const cases::Case& c) {
 
 }  // namespace
 
-CaseFacts::CaseFacts(const cases::Case& c, const Limits& limits)
-    : case_(c), limits_(limits), triangles_(cases::assemble(c)), quantities_(c.draws.size()) {}
+CaseFacts::CaseFacts(const cases::Case& c, const Limits& limits, Shown* shown)
+    : case_(c),
+      limits_(limits),
+      shown_(shown),
+      triangles_(cases::assemble(c)),
+      quantities_(c.draws.size()) {}
 
 const std::vector<value::Quantity>& CaseFacts::quantities(uint32_t draw) {
     if (quantities_[draw].empty()) {

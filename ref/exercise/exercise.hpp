@@ -20,13 +20,22 @@
 
 namespace ref {
 
+// What can be seen of a draw in a target without instruments.
+enum class Sight : uint8_t {
+    covers_nothing,  // no decided sample
+    nothing,  // with or without it, once or twice, in whatever order and with whatever blending and
+              // mask, the attachments hold the same
+    something
+};
+
 // Which samples exercise a rule, in words: "that a triangle covers wherever its vertices may lie".
 // Every rule has such a row.
 std::string_view exercise_of(std::string_view rule);
 
 struct RuleShare {
     std::string_view rule;
-    uint64_t samples = 0;  // that exercise it; where only `some` are asked for, 1 or none
+    uint64_t samples = 0;   // that exercise it; where only `some` are asked for, 1 or none
+    bool is_least = false;  // not all were looked at: there may be more
 };
 
 struct Exercise {
@@ -35,6 +44,7 @@ struct Exercise {
     uint64_t free_samples = 0;     // more than one number of hits is right, at profile direct3d
     // Samples that must be covered, by profile; 0 of a blit, whose texels are all decided.
     std::array<uint64_t, std::size(cases::kProfiles)> must_samples{};
+    std::vector<Sight> draws;  // by draw, of a target without instruments; else empty
 };
 
 // Whether all samples that exercise a rule are counted, or one is looked for, which is faster.

@@ -14,6 +14,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/statement.hpp"
+#include "ref/exercise/exercise.hpp"
 #include "tests/docs/wrapped.hpp"
 
 namespace {
@@ -132,7 +133,10 @@ int main(int argc, char** argv) {
             "The profile is the loosest one at which breaking the rule is a finding: `vulkan` is "
             "what the Vulkan text forbids, `practice` adds floor/ceil snapping and "
             "binary32-like arithmetic, `direct3d` adds what Direct3D 11 writes down and nearly "
-            "all devices do. Only a finding at `vulkan` says that a device is not conformant."));
+            "all devices do. Only a finding at `vulkan` says that a device is not conformant. "
+            "\"Exercised by\" tells where a case tests a rule: where a device that is wrong about "
+            "it in one of the ways named would have a finding. `edgecase lint` looks for such a "
+            "sample for each rule that a case claims (`ref/exercise/exercise_table.cpp`)."));
     for (const cases::Rule& rule : cases::all_rules()) {
         fmt::print("| {} | {} | {} | {} |\n", link_to(rule.id), to_string(rule.profile), rule.title,
                    leaves_of_rule[std::string(rule.id)]);
@@ -151,6 +155,9 @@ int main(int argc, char** argv) {
         if (!rule.direct3d.empty()) {
             fmt::print("* Direct3D 11.3 functional specification: section {}\n", rule.direct3d);
         }
+        fmt::print(
+            "{}",
+            wrapped(fmt::format("* Exercised by a sample {}", ref::exercise_of(rule.id)), "  "));
         std::string cases = "* Cases:";
         for (const std::string& file : files_of_rule[std::string(rule.id)]) {
             cases += " `" + file + "`";

@@ -373,7 +373,7 @@ class Listing(ProgramTest):
         done = self.edgecase("lint", "fam/c3", check=3)
         self.assertEqual(done.stdout, "fam/c3\n    cover.inside: 30 of 64 samples\n    depth.compare: 0 of 64 samples\n"
                          "    cover.shared-edge: 6 of 64 samples\n1 case checked, 1 error\n")
-        self.assertIn("error: no sample exercises the rule depth.compare; one does where the depth test", done.stderr)
+        self.assertIn("error: no sample exercises the rule depth.compare, which takes a sample where the depth test", done.stderr)
         self.assertEqual(self.edgecase("lint", "fam/c3", "-q", check=3).stdout, "")
 
     def test_a_run_of_ones_own_tells_what_it_does_not_test(self):
@@ -382,13 +382,39 @@ class Listing(ProgramTest):
         self.assertNotIn("warning", self.edgecase("run", "mine.toml", "-o", "out", check=0).stderr)
         (self.folder / "mine.toml").write_text(text.replace('"cover.inside"', '"cover.inside", "depth.compare"'))
         done = self.edgecase("run", "mine.toml", "-o", "out", check=0)
-        self.assertIn("warning: mine.toml:3:26: no sample exercises the rule depth.compare; one does where", done.stderr)
+        self.assertIn("warning: mine.toml:3:26: no sample exercises the rule depth.compare, which takes a sample where", done.stderr)
         # A claim that the profile does not judge.
         (self.folder / "mine.toml").write_text(text.replace('"cover.inside"', '"cover.inside",\n"tie.top-left"'))
         self.assertNotIn("is judged at", self.edgecase("run", "mine.toml", "-o", "out").stderr)
         done = self.edgecase("run", "mine.toml", "--profile", "practice", "-o", "out")
         self.assertIn("warning: mine.toml:4:1: the rule tie.top-left is judged at profile direct3d, and this run is at practice: "
                       "it says nothing of it\n", done.stderr)
+
+    def test_what_only_has_the_key_exercises_no_rule(self):
+        """A rule is exercised where a device that is wrong about it would draw something else."""
+        for rule, keys in (("scissor.half-open", "scissor = [0, 0, 100, 100]"), ("clip.distance", "[[draw.clip_distance]]\nconstant = 1"),
+                           ("interp.perspective", "[[draw.attribute]]\nconstant = 0.5")):
+            (self.folder / "mine.toml").write_text(CASE.format(n=0).replace('"cover.inside"', f'"cover.inside", "{rule}"') + keys + "\n")
+            done = self.edgecase("lint", "mine.toml", check=3)
+            self.assertIn(f"\n    {rule}: 0 of 64 samples\n", done.stdout)
+            self.assertIn(f"mine.toml:3:26: error: no sample exercises the rule {rule}, which takes a sample ", done.stderr)
+
+    def test_a_draw_that_cannot_be_seen(self):
+        case = ('format = 1\ndescription = "Two triangles."\nrules = ["cover.inside"%s]\n[matrix]\nred = [%s]\n'
+                '[target]\nsize = [8, 8]\nattachments = "color"\n[target.color]\nformat = "rgba8-unorm"\n'
+                '[[draw]]\nvertices = [[0,0], [8,0], [0,8]]\ncolor = { value = ["red", 0, 0, 0] }\n'
+                '[[draw]]\nvertices = [[0,0], [4,0], [0,4]]\ncolor = { value = [1, 0, 0, 1] }\n')
+        own = self.folder / "own.toml"
+        own.write_text(case % ("", "0, -1"))
+        told = (r"nothing of draw 0 can be seen: with it, without it and with it twice the attachments hold the same; "
+                r"choose another colour or another clear colour, or take the draw away\n")
+        self.assertRegex(self.edgecase("lint", own, check=3).stderr, rf"own\.toml:11:\d+: error: {told}")
+        self.assertRegex(self.edgecase("run", own, "-o", "out", check=0).stderr, rf"warning: \S*own\.toml:11:\d+: {told}")
+        # One case of the file shows it; or the draw is there to be harmless.
+        for change in (("", "0, 1"), (', "write.outside"', "0, -1")):
+            own.write_text(case % change)
+            self.assertEqual(self.edgecase("lint", own, check=0).stderr, "")
+            self.assertEqual(self.edgecase("run", own, "-o", "out", check=0).stderr, "")
 
     def test_a_folder_of_ones_own_tells_what_it_does_not_test(self):
         for name in ("a", "sub/b"):
@@ -397,7 +423,7 @@ class Listing(ProgramTest):
             path.write_text(CASE.format(n=0).replace('"cover.inside"', '"cover.inside", "depth.compare", "tie.top-left"'))
         done = self.edgecase("run", "mine", "--profile", "practice", "-o", "out", check=0)
         for name in ("a", "sub/b"):
-            self.assertIn(f"warning: mine/{name}.toml:3:26: no sample exercises the rule depth.compare; one does where", done.stderr)
+            self.assertIn(f"warning: mine/{name}.toml:3:26: no sample exercises the rule depth.compare, which takes a sample where", done.stderr)
         self.assertEqual(done.stderr.count("the rule tie.top-left is judged at profile direct3d"), 1)
         self.assertIn("it says nothing of it, nor in 1 other file\n", done.stderr)
 

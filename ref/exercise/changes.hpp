@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A case as a device sees it that is wrong about a rule: the changes that the table tells a right
+// device from a wrong one by. Each says whether it changed anything, and keeps the triangles and
+// their numbers, so that the two cases can be compared one by one.
+#pragma once
+
+#include <cstdint>
+
+#include "cases/model/case.hpp"
+
+namespace ref {
+
+// What triangles may cover.
+bool open_scissors(cases::Case& c);
+bool write_all_samples(cases::Case& c);
+bool reverse_masks(cases::Case& c);
+bool drop_clip_distances(cases::Case& c);
+bool put_zero_distances_outside(cases::Case& c);
+bool drop_cull_distances(cases::Case& c);
+bool cull_nothing(cases::Case& c);
+bool cull_other_faces(cases::Case& c);
+bool turn_faces(cases::Case& c);
+bool draw_what_is_discarded(cases::Case& c);
+bool draw_to_first_layer(cases::Case& c);
+bool draw_to_last_layer(cases::Case& c);
+bool move_samples_to_centre(cases::Case& c);
+bool move_samples_to_first(cases::Case& c);
+
+// Depth.
+bool toggle_depth_clip(cases::Case& c);
+bool toggle_volume(cases::Case& c);
+bool compare_always(cases::Case& c);
+bool drop_bias(cases::Case& c);
+// The bias is 256 times as large, as if its steps were those of a depth with eight bits less.
+bool enlarge_bias(cases::Case& c);
+// Every depth is that of the draw's first vertex.
+bool level_depths(cases::Case& c);
+
+// Values.
+bool take_centroids_at_centre(cases::Case& c);
+bool take_centroids_at_samples(cases::Case& c);
+bool ignore_perspective(cases::Case& c);
+// f/w is interpolated, and not divided by the interpolated 1/w.
+bool forget_division(cases::Case& c);
+// Every third vertex has twice its w at the same place of the framebuffer.
+bool take_other_w(cases::Case& c);
+// Every attribute has the value of the draw's first vertex.
+bool level_attributes(cases::Case& c);
+
+bool drop_probes(cases::Case& c, cases::Probe probe);
+// The input is looked at in the pixel's upper left corner.
+bool probe_at_corner(cases::Case& c, cases::Probe probe);
+template <cases::Probe probe>
+bool drop_probe(cases::Case& c) {
+    return drop_probes(c, probe);
+}
+template <cases::Probe probe>
+bool move_probe_to_corner(cases::Case& c) {
+    return probe_at_corner(c, probe);
+}
+
+bool turn_provoking(cases::Case& c, cases::ProvokingVertex convention);
+template <cases::ProvokingVertex convention>
+bool turn_provoking(cases::Case& c) {
+    return turn_provoking(c, convention);
+}
+
+// Colours.
+bool blend_nothing(cases::Case& c);
+bool exchange_factors(cases::Case& c);
+// Each draw that blends is drawn once more; the triangles get other numbers.
+bool blend_twice(cases::Case& c);
+bool write_all_components(cases::Case& c);
+
+}  // namespace ref

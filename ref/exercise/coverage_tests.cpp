@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "ref/exercise/tests.hpp"
+
+namespace ref {
+
+using cases::Profile;
+
+bool is_surely_covered(const View& view, std::string_view) {
+    return std::ranges::any_of(view.sample.hits, [&](const Hit& hit) {
+        return hit.coverage == Coverage::must && view.shows(hit.triangle);
+    });
+}
+
+namespace {
+bool is_hit(const View& view, uint32_t t) {
+    return std::ranges::any_of(view.sample.hits, [&](const Hit& hit) { return hit.triangle == t; });
+}
+}  // namespace
+
+// A triangle that may draw in the sample's place, and does not.
+bool is_outside_one(const View& view, std::string_view) {
+    const JudgedSample& s = view.sample;
+    const auto& triangles = view.facts.triangles();
+    if (s.hits.size() == triangles.size()) {
+        return false;
+    }
+    for (uint32_t t = 0; t < triangles.size(); ++t) {
+        if (view.facts.draw_of(t).layer != s.id.layer || is_hit(view, t)) {
+            continue;
+        }
+        const TriangleSetup& setup = view.setups[t];
+        if (setup.kind == TriangleSetup::Kind::outlines && setup.window.may_touch(s.p) &&
+            setup.window.may_write(s.id.sample) && view.shows(t)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool is_in_set(const View& view, std::string_view rule) {
+    return std::ranges::any_of(view.sample.reasons.sets, [&](const FixedSet& set) {
+        return rule_of(set.why, Profile::vulkan) == rule &&
+               std::ranges::any_of(set.triangles, [&](uint32_t t) { return view.shows(t); });
+    });
+}
+
+namespace {
+bool has_reason_of(const Decision& decision, std::string_view rule) {
+    return std::ranges::any_of(decision.reasons, [&](const Reason& r) {
+        return rule_of(r.kind, Profile::direct3d) == rule;
+    });
+}
+}  // namespace
+
+// Profile practice leaves a triangle open at the sample, and direct3d decides it for this rule.
+bool is_settled(const View& view, std::string_view rule) {
+    return std::ranges::any_of(view.sample.hits, [&](const Hit& hit) {
+        if (hit.coverage != Coverage::either || !view.shows(hit.triangle)) {
+            return false;
+        }
+        const Decision decision = view.facts.decide(hit.triangle, view.sample);
+        return decision.coverage != Coverage::either && has_reason_of(decision, rule);
+    });
+}
+
+// The same by where its vertices snap, also where the sample is then on an edge.
+bool is_settled_by_snapping(const View& view, std::string_view) {
+    return std::ranges::any_of(view.sample.hits, [&](const Hit& hit) {
+        const std::span<const Box> boxes = view.setups[hit.triangle].unclipped.vertices();
+        return hit.coverage == Coverage::either && view.shows(hit.triangle) &&
+               std::ranges::any_of(
+                   boxes, [](const Box& box) { return box.x0 != box.x1 || box.y0 != box.y1; }) &&
+               view.facts.decide(hit.triangle, view.sample).coverage != Coverage::either;
+    });
+}
+
+namespace {
+// Whether this reason may keep a triangle from the sample at all; it is cheap to say.
+bool may_keep(ReasonKind kind, const View& view, uint32_t t) {
+    switch (kind) {
+        case ReasonKind::viewport:
+            return !view.setups[t].window.is_in_zone(view.sample.p);
+        case ReasonKind::clip_plane:
+            return view.setups[t].is_clipped || view.setups[t].kind == TriangleSetup::Kind::nothing;
+        default:
+            return false;
+    }
+}
+}  // namespace
+
+// A triangle that would cover the sample is kept from it by the rule.
+bool is_kept_away(const View& view, std::string_view rule) {
+    for (auto k = size_t{0}; k <= static_cast<size_t>(kLastReason); ++k) {
+        const auto kind = static_cast<ReasonKind>(k);
+        if (rule_of(kind, Profile::vulkan) != rule) {
+            continue;
+        }
+        for (uint32_t t = 0; t < view.facts.triangles().size(); ++t) {
+            if (!may_keep(kind, view, t) || is_hit(view, t)) {
+                continue;
+            }
+            const Decision decision = view.facts.decide(t, view.sample);
+            if (is_suppressed(decision) &&
+                std::ranges::any_of(decision.reasons,
+                                    [&](const Reason& r) { return r.kind == kind; }) &&
+                view.shows(t)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool shows_face(const View& view, std::string_view) {
+    return view.of().target.has_instruments && any_writer(view, [&](uint32_t t) {
+               const TriangleSetup& setup = view.setups[t];
+               return setup.can_be_front != setup.can_be_back;
+           });
+}
+
+bool is_beside_bad_number(const View& view, std::string_view) {
+    return !view.sample.hits.empty() && view.facts.has_bad_number();
+}
+
+// A triangle with a vertex beyond a border of the viewport.
+bool crosses_border(const View& view, std::string_view) {
+    return any_writer(view, [&](uint32_t t) {
+        return std::ranges::any_of(view.facts.triangles()[t].vertex, [&](uint32_t v) {
+            const glm::vec4& p = view.facts.draw_of(t).positions[v];
+            return std::fabs(p.x) > p.w || std::fabs(p.y) > p.w;
+        });
+    });
+}
+
+// A triangle with a vertex outside the view volume, or on one of its depth planes.
+bool reaches_volume(const View& view, std::string_view) {
+    return any_writer(view, [&](uint32_t t) {
+        const cases::Draw& draw = view.facts.draw_of(t);
+        return view.setups[t].is_clipped ||
+               std::ranges::any_of(view.facts.triangles()[t].vertex, [&](uint32_t v) {
+                   const glm::vec4& p = draw.positions[v];
+                   const float low = draw.depth.negative_one_to_one ? -p.w : 0.0F;
+                   return p.z <= low || p.z >= p.w;
+               });
+    });
+}
+
+}  // namespace ref

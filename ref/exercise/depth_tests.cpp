@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/exercise/tests.hpp"
+
+namespace ref {
+
+using cases::Profile;
+
+bool is_overwritten(const View& view, std::string_view) {
+    return view.sample.bounds.total_max >= 2 &&
+           view.sample.writers.size() < view.sample.hits.size() && view.shows_order();
+}
+
+bool is_compared(const View& view, std::string_view rule) {
+    const DepthResolution& depth = view.sample.reasons.depth;
+    for (size_t m = 0; m < depth.outcomes.size(); ++m) {
+        const cases::CompareOp op = view.facts.draw_of(view.sample.hits[m].triangle).depth.compare;
+        if (depth.outcomes[m] != DepthOutcome::open && op != cases::CompareOp::always &&
+            op != cases::CompareOp::never && rule_of(depth.reasons[m], Profile::vulkan) == rule &&
+            view.shows(view.sample.hits[m].triangle)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool is_depth_kept(const View& view, std::string_view) {
+    const DepthResolution& depth = view.sample.reasons.depth;
+    for (size_t m = 0; m < depth.outcomes.size(); ++m) {
+        const uint32_t t = view.sample.hits[m].triangle;
+        if ((depth.outcomes[m] == DepthOutcome::fails || !view.facts.draw_of(t).depth.write) &&
+            view.shows(t)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool is_depth_rounded(const View& view, std::string_view) {
+    return view.of().target.has_instruments && !view.sample.writers.empty() &&
+           view.of().target.depth_format != cases::DepthFormat::d32_float;
+}
+
+bool is_clamped(const View& view, std::string_view) {
+    return view.of().target.has_instruments && any_writer(view, [&](uint32_t t) {
+               return view.facts.draw_of(t).depth.clamp &&
+                      view.facts.is_beyond_range(t, view.sample);
+           });
+}
+
+bool is_counted_by_stencil(const View& view, std::string_view) {
+    return view.of().target.has_stencil && !view.sample.hits.empty();
+}
+
+}  // namespace ref

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ref/exercise/shown.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ref {
+
+using Triangles = std::vector<uint32_t>;
+
+Shown::Shown(const cases::Case& c, const Expectation& expectation)
+    : case_(c), colors_(c, expectation), values_(c, expectation.limits, expectation.profile) {}
+
+float Shown::depth_of(uint32_t t, cases::SampleId id) {
+    for (const ExpectedValue& value : values_.expected(t, id)) {
+        if (value.quantity.is_depth()) {
+            return static_cast<float>(value.nearest);
+        }
+    }
+    return std::nanf("");
+}
+
+bool Shown::tells_depth(size_t index, cases::SampleId id, std::span<const uint32_t> triangles,
+                        Shown& of) {
+    const float clear = case_.target.depth_clear;
+    return case_.target.has_depth &&
+           !colors_.explains_depth(
+               index, id, triangles.empty() ? clear : of.depth_of(triangles.back(), id), clear);
+}
+
+bool Shown::tells(size_t index, cases::SampleId id, std::span<const uint32_t> theirs,
+                  Shown& other) {
+    return !colors_.explains(index, id, other.colors_.codes_after(theirs, id), std::nullopt) ||
+           tells_depth(index, id, theirs, other);
+}
+
+bool Shown::shows(size_t index, cases::SampleId id, uint32_t t) {
+    Triangles changed = drawn(index);
+    const auto at = std::ranges::lower_bound(changed, t);
+    if (at != changed.end() && *at == t) {
+        changed.erase(at);
+    } else {
+        changed.insert(at, t);
+    }
+    return tells(index, id, changed, *this);
+}
+
+bool Shown::shows_twice(size_t index, cases::SampleId id, uint32_t t) {
+    Triangles changed = drawn(index);
+    changed.insert(std::ranges::lower_bound(changed, t), t);
+    return tells(index, id, changed, *this);
+}
+
+bool Shown::leaves_a_mark(cases::SampleId id, uint32_t t) {
+    return colors_.codes_after({&t, 1}, id) != colors_.codes_after({}, id);
+}
+
+bool Shown::shows_order(size_t index, cases::SampleId id) {
+    Triangles changed = drawn(index);
+    std::ranges::reverse(changed);
+    return changed.size() > 1 && tells(index, id, changed, *this);
+}
+
+bool is_shown(const cases::Case& c, const cases::Draw& draw, const QuantityId& id) {
+    return c.target.has_instruments || (id.is_depth() && c.target.has_depth) ||
+           (id.is_attribute() && c.target.color && draw.color.attribute == id.attribute);
+}
+
+}  // namespace ref

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tests of the table: whether a rule decides what a sample may show. `rule` is that of the row.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+
+#include "cases/format/color_format.hpp"
+#include "cases/model/case.hpp"
+#include "ref/exercise/view.hpp"
+
+namespace ref {
+
+using ExerciseTest = bool (*)(const View& view, std::string_view rule);
+
+// Some triangle that may have written last, and that the attachments show.
+template <class Test>
+bool any_writer(const View& view, const Test& test) {
+    return std::ranges::any_of(view.sample.writers,
+                               [&](uint32_t t) { return test(t) && view.shows(t); });
+}
+template <class Test>
+bool any_writing_draw(const View& view, const Test& test) {
+    return any_writer(view, [&](uint32_t t) { return test(view.facts.draw_of(t)); });
+}
+
+// What the triangles cover, or not (coverage_tests.cpp).
+bool is_surely_covered(const View& view, std::string_view rule);
+bool is_outside_one(const View& view, std::string_view rule);
+bool is_in_set(const View& view, std::string_view rule);
+bool is_settled(const View& view, std::string_view rule);
+bool is_settled_by_snapping(const View& view, std::string_view rule);
+bool is_kept_away(const View& view, std::string_view rule);
+bool is_beside_bad_number(const View& view, std::string_view rule);
+bool crosses_border(const View& view, std::string_view rule);
+bool reaches_volume(const View& view, std::string_view rule);
+
+// With instruments, which count front and back faces apart.
+bool shows_face(const View& view, std::string_view rule);
+
+// Order, depth and stencil (depth_tests.cpp).
+bool is_overwritten(const View& view, std::string_view rule);
+bool is_compared(const View& view, std::string_view rule);
+bool is_depth_kept(const View& view, std::string_view rule);
+bool is_depth_rounded(const View& view, std::string_view rule);
+bool is_clamped(const View& view, std::string_view rule);
+bool is_counted_by_stencil(const View& view, std::string_view rule);
+
+// Values and what is stored of them (value_tests.cpp).
+bool has_value(const View& view, std::string_view rule);
+bool has_interpolated(const View& view, std::string_view rule);
+bool has_barycentric(const View& view, std::string_view rule);
+bool is_at_sample(const View& view, std::string_view rule);
+bool is_sample_shaded(const View& view, std::string_view rule);
+bool is_written(const View& view, std::string_view rule);
+
+// With instruments, which tell the provoking vertex of what was written last.
+template <cases::ProvokingVertex convention>
+bool is_provoked_by(const View& view, std::string_view) {
+    return view.of().target.has_instruments && any_writing_draw(view, [](const cases::Draw& draw) {
+               return draw.provoking == convention;
+           });
+}
+
+template <cases::ComponentKind kind>
+bool is_stored_as(const View& view, std::string_view) {
+    const std::optional<cases::ColorTarget>& color = view.of().target.color;
+    return color && cases::row_of(color->format).kind == kind &&
+           any_writer(view, [](uint32_t) { return true; });
+}
+
+template <auto... modes>
+bool is_resolved(const View& view, std::string_view) {
+    const cases::Target& target = view.of().target;
+    return ((target.color_resolve == modes || target.depth_resolve == modes) || ...) &&
+           any_writer(view, [](uint32_t) { return true; });
+}
+
+template <cases::RelationKind kind>
+bool is_repeated(const View& view, std::string_view) {
+    return !view.sample.hits.empty() &&
+           std::ranges::any_of(view.of().relations,
+                               [](const cases::Relation& r) { return r.kind == kind; });
+}
+
+}  // namespace ref

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "ref/exercise/tests.hpp"
+#include "ref/value/fragment/shading_rate.hpp"
+
+namespace ref {
+
+using value::Kind;
+
+namespace {
+
+// Some quantity of a writer for which the test holds.
+template <class Test>
+bool any_quantity(const View& view, const Test& test) {
+    return any_writer(view, [&](uint32_t t) {
+        const uint32_t draw = view.facts.triangles()[t].draw;
+        return std::ranges::any_of(view.facts.quantities(draw), [&](const value::Quantity& q) {
+            return test(q) && is_shown(view.of(), view.of().draws[draw], q.id);
+        });
+    });
+}
+
+}  // namespace
+
+bool has_value(const View& view, std::string_view rule) {
+    return any_quantity(view, [&](const value::Quantity& q) { return q.rule == rule; });
+}
+
+bool has_interpolated(const View& view, std::string_view) {
+    return any_quantity(view, [](const value::Quantity& q) {
+        return q.id.is_attribute() && (q.kind == Kind::linear || q.kind == Kind::perspective);
+    });
+}
+
+bool has_barycentric(const View& view, std::string_view) {
+    return any_writing_draw(view, [](const cases::Draw& draw) {
+        return std::ranges::any_of(draw.attributes, [](const cases::Attribute& a) {
+            return a.source == cases::Source::barycentric;
+        });
+    });
+}
+
+bool is_at_sample(const View& view, std::string_view) {
+    return any_quantity(view, [](const value::Quantity& q) {
+        return (q.id.is_attribute() && q.at_sample) || q.kind == Kind::sample_position;
+    });
+}
+
+bool is_sample_shaded(const View& view, std::string_view) {
+    return view.of().target.has_instruments && any_writing_draw(view, [&](const cases::Draw& draw) {
+               const auto rate = value::shading_rate(draw, view.of().target.samples);
+               return rate == value::ShadingRate::some || rate == value::ShadingRate::sample;
+           });
+}
+
+bool is_written(const View& view, std::string_view) {
+    return !view.sample.writers.empty();
+}
+
+}  // namespace ref
