@@ -13,6 +13,8 @@
 #include "diagnosis/fit.hpp"
 #include "diagnosis/hypothesis.hpp"
 #include "diagnosis/match.hpp"
+#include "diagnosis/partly.hpp"
+#include "diagnosis/tally.hpp"
 #include "rasterizers/strength/recorded.hpp"
 #include "rasterizers/strength/strength.hpp"
 
@@ -82,38 +84,6 @@ std::vector<Choice> by_turn(
     return out;
 }
 
-// What a hypothesis says of one failed case.
-enum class Says : uint8_t { nothing, explains, otherwise };
-struct Answer {
-    Says says = Says::nothing;
-    Match match;
-};
-
-struct Tally {
-    size_t hypothesis = 0;        // index
-    std::vector<Answer> answers;  // by subject
-    uint64_t passed_against = 0, passed_tried = 0;
-
-    size_t count(Says what) const {
-        return static_cast<size_t>(
-            std::count_if(answers.begin(), answers.end(),
-                          [what](const Answer& answer) { return answer.says == what; }));
-    }
-    // A device may have other errors, too, and choices that the software device has not: of the
-    // cases that a hypothesis speaks of a few may end otherwise. It stands while those are an
-    // half of what it explains, and those that passed against it an eighth.
-    bool is_plausible() const { return 2 * count(Says::otherwise) <= count(Says::explains); }
-    bool stands() const { return 8 * passed_against <= count(Says::explains); }
-    std::pair<size_t, int64_t> score() const {
-        return {count(Says::explains), -static_cast<int64_t>(count(Says::otherwise))};
-    }
-    bool is_alike(const Tally& other) const {
-        return std::equal(answers.begin(), answers.end(), other.answers.begin(),
-                          other.answers.end(),
-                          [](const Answer& a, const Answer& b) { return a.says == b.says; });
-    }
-};
-
 class Diagnoser {
   public:
     Diagnoser(const report::Run& run, const CaseOf& case_of)
@@ -151,7 +121,7 @@ class Diagnoser {
         known_ = hypotheses();
         answers_.assign(known_.size(), std::vector<std::optional<Answer>>(subjects_.size()));
         std::vector<bool> is_explained(subjects_.size());
-        size_t seeds = 0;
+        size_t seeds = 0, part_seeds = 0;
         uint64_t cost = 0;
         for (size_t s = 0; s < subjects_.size() && seeds < kMaxSeeds; ++s) {
             const uint64_t more = cost_of(*subjects_[s].data);
@@ -160,7 +130,11 @@ class Diagnoser {
             }
             ++seeds;
             cost += more;
-            const std::vector<Tally> best = best_for(s);
+            std::vector<Tally> best = best_for(s);
+            if (best.empty() && part_seeds < kMaxPartSeeds) {
+                ++part_seeds;
+                best = best_part_for(s);
+            }
             if (best.empty()) {
                 continue;
             }
@@ -201,49 +175,37 @@ class Diagnoser {
     const Answer& ask(size_t h, size_t subject) {
         std::optional<Answer>& answer = answers_[h][subject];
         if (!answer) {
-            answer = answer_of(known_[h], subjects_[subject], false);
+            answer = answer_of(subjects_[subject], draw(known_[h], *subjects_[subject].data));
         }
         return *answer;
     }
 
-    // The same, without a difference between what says nothing and what fails otherwise.
-    bool explains(size_t h, size_t subject) {
+    // The same, without a difference between what says nothing and what fails otherwise where that
+    // is cheaper.
+    Answer ask_in_short(size_t h, size_t subject) {
         std::optional<Answer>& answer = answers_[h][subject];
         if (answer) {
-            return answer->says == Says::explains;
+            return *answer;
         }
-        const Answer now = answer_of(known_[h], subjects_[subject], true);
-        if (now.says == Says::explains) {
-            answer = now;
-        }
-        return now.says == Says::explains;
-    }
-
-    static Answer answer_of(const Hypothesis& h, const Subject& subject, bool is_in_short) {
-        const std::optional<capture::Capture> drawn = draw(h, *subject.data);
-        if (!drawn || software::same_bits(*drawn, subject.right) ||
-            (is_in_short && !may_match(subject, *drawn))) {
+        const std::optional<capture::Capture> drawn = draw(known_[h], *subjects_[subject].data);
+        if (!drawn || !may_match(subjects_[subject], *drawn)) {
             return {};
         }
-        const diff::Verdict verdict = software::compare(*subject.data, subject.expectation, *drawn);
-        if (verdict.ok()) {
-            return {};
-        }
-        const Match m = match(*subject.record, verdict);
-        return {m.explains() ? Says::explains : Says::otherwise, m};
+        answer = answer_of(subjects_[subject], drawn);
+        return *answer;
     }
 
     // The plausible hypotheses that explain subject `seed` and most others, all that are alike.
     std::vector<Tally> best_for(size_t seed) {
-        std::vector<uint8_t> is_candidate(known_.size());
+        at_seed_.assign(known_.size(), {});
         cases::for_each_index(known_.size(),
-                              [&](size_t h) { is_candidate[h] = explains(h, seed) ? 1 : 0; });
+                              [&](size_t h) { at_seed_[h] = ask_in_short(h, seed); });
         std::vector<Tally> plausible;
         for (size_t h = 0; h < known_.size(); ++h) {
-            if (is_candidate[h] == 0) {
+            if (at_seed_[h].says != Says::explains) {
                 continue;
             }
-            Tally tally{h, std::vector<Answer>(subjects_.size()), 0, 0};
+            Tally tally{h, {}, std::vector<Answer>(subjects_.size()), 0, 0};
             cases::for_each_index(subjects_.size(),
                                   [&](size_t k) { tally.answers[k] = ask(h, k); });
             if (tally.is_plausible()) {
@@ -277,10 +239,44 @@ class Diagnoser {
         return best;
     }
 
-    // Cases that passed would have failed; for a known fault, those that are known to catch it are
-    // asked first.
-    void try_passed(Tally& tally) {
-        const Hypothesis& h = known_[tally.hypothesis];
+    // Those that, under a condition, explain subject `seed` and most others, all that are alike;
+    // after best_for().
+    std::vector<Tally> best_part_for(size_t seed) {
+        std::vector<size_t> candidates;
+        for (size_t h = 0; h < known_.size(); ++h) {
+            if (at_seed_[h].says != Says::nothing && at_seed_[h].match.covers()) {
+                candidates.push_back(h);
+            }
+        }
+        std::vector<Tally> best;
+        if (candidates.size() > kMaxPartCandidates) {
+            return best;  // the seed tells too little
+        }
+        for (const size_t h : candidates) {
+            std::vector<const Subject*> passed;
+            for (const cases::Case* c : passed_cases(h)) {
+                if (const std::optional<Subject>& subject = passed_subject(*c)) {
+                    passed.push_back(&*subject);
+                }
+            }
+            for (Tally& tally : partial_tallies(known_[h], h, subjects_, seed, passed)) {
+                if (best.empty() || tally.score() > best.front().score()) {
+                    best.clear();
+                }
+                if (best.empty() || best.front().is_alike(tally)) {
+                    best.push_back(std::move(tally));
+                }
+            }
+        }
+        if (best.size() > kMaxNamed) {
+            best.clear();
+        }
+        return best;
+    }
+
+    // Small cases that passed; for a known fault, those that are known to catch it come first.
+    std::vector<const cases::Case*> passed_cases(size_t hypothesis) const {
+        const Hypothesis& h = known_[hypothesis];
         std::vector<const cases::Case*> list;
         for (const software::Kill& kill : software::built_in_kills()) {
             const bool is_asked = h.device.fault == kill.fault &&
@@ -294,15 +290,19 @@ class Diagnoser {
         for (const Choice& choice : passed_) {
             list.push_back(choice.data);
         }
-        for (const cases::Case* c : list) {
+        return list;
+    }
+
+    // Cases that passed would have failed.
+    void try_passed(Tally& tally) {
+        for (const cases::Case* c : passed_cases(tally.hypothesis)) {
             if (!tally.stands()) {
                 return;
             }
             ++tally.passed_tried;
-            const std::optional<capture::Capture> drawn = draw(h, *c);
+            const std::optional<capture::Capture> drawn = draw(known_[tally.hypothesis], *c);
             const std::optional<Subject>& subject = drawn ? passed_subject(*c) : nothing_;
-            if (subject && !software::same_bits(*drawn, subject->right) &&
-                !software::compare(*c, subject->expectation, *drawn).ok()) {
+            if (subject && is_against(*subject, *drawn)) {
                 ++tally.passed_against;
             }
         }
@@ -320,8 +320,9 @@ class Diagnoser {
     Diagnosis told(const std::vector<Tally>& best) const {
         Diagnosis out;
         for (const Tally& tally : best) {
-            out.what.push_back(known_[tally.hypothesis].what);
-            out.names.push_back(known_[tally.hypothesis].name);
+            const Hypothesis& h = known_[tally.hypothesis];
+            out.what.push_back(tally.only ? h.what + ' ' + tally.only->what : h.what);
+            out.names.push_back(tally.only ? h.name + '@' + tally.only->name : h.name);
         }
         const Tally& first = best.front();
         out.tried = subjects_.size();
@@ -355,6 +356,7 @@ class Diagnoser {
     const CaseOf* case_of_ = nullptr;
     std::vector<Hypothesis> known_;
     std::vector<std::vector<std::optional<Answer>>> answers_;  // [hypothesis][subject]
+    std::vector<Answer> at_seed_;                              // [hypothesis], of the last seed
     std::map<const cases::Case*, std::optional<Subject>> passed_subjects_;
     const std::optional<Subject> nothing_;
 };

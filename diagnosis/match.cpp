@@ -63,16 +63,16 @@ bool is_same_number(double expected, double device, double other) {
     return apart <= std::abs(device - expected) / 16 || (is_code && apart <= 1);
 }
 
-bool is_wrong(uint8_t mark) {
-    return mark > static_cast<uint8_t>(diff::SampleMark::either);
-}
-
 // Findings of one case with the same key are about the same thing.
 auto key_of(const diff::Finding& f) {
     return std::tuple(f.layer.value_or(0), f.y, f.x, f.sample, std::string_view(f.quantity));
 }
 
 }  // namespace
+
+bool is_wrong_mark(uint8_t mark) {
+    return mark > static_cast<uint8_t>(diff::SampleMark::either);
+}
 
 bool is_same_value(std::string_view expected, std::string_view device, std::string_view other) {
     const Words d = words_of(device);
@@ -145,7 +145,7 @@ bool may_match(const Subject& subject, const capture::Capture& drawn) {
     uint64_t wrong = 0;
     uint64_t other = 0;
     for (size_t k = 0; k < pictures.marks.size(); ++k) {
-        if (is_wrong(pictures.marks[k]) && k < pictures.device_hits.size() &&
+        if (is_wrong_mark(pictures.marks[k]) && k < pictures.device_hits.size() &&
             k < drawn.hits.size()) {
             ++wrong;
             const float hits = std::min(255.0F, drawn.hits[k].x + drawn.hits[k].y);
@@ -180,9 +180,9 @@ Match match(const report::CaseRecord& device, const diff::Verdict& other) {
         const bool has_hits =
             k < device.pictures.device_hits.size() && k < other.device_hits.size();
         const bool same_hits = !has_hits || device.pictures.device_hits[k] == other.device_hits[k];
-        out.wrong += is_wrong(marks[k]) ? 1U : 0U;
-        out.same += is_wrong(marks[k]) && mark == marks[k] && same_hits ? 1U : 0U;
-        out.beyond += is_wrong(mark) && !is_wrong(marks[k]) ? 1U : 0U;
+        out.wrong += is_wrong_mark(marks[k]) ? 1U : 0U;
+        out.same += is_wrong_mark(marks[k]) && mark == marks[k] && same_hits ? 1U : 0U;
+        out.beyond += is_wrong_mark(mark) && !is_wrong_mark(marks[k]) ? 1U : 0U;
     }
     std::vector<const diff::Finding*> told;
     for (const diff::Finding& f : other.findings) {

@@ -29,9 +29,11 @@ struct Match {
     // enough: an error may reach more numbers in one device than in another, as a bias does that
     // FragCoord.z may or may not have.
     bool explains() const {
-        return same > 0 && 16 * (wrong - same) <= wrong && 16 * beyond <= wrong &&
-               2 * (values - same_values) <= values;
+        return covers() && 16 * beyond <= wrong && 2 * (values - same_values) <= values;
     }
+    // Whether the wrong samples are, whatever is wrong beyond. Of the values nothing is asked:
+    // which are told depends on what is wrong beyond.
+    bool covers() const { return same > 0 && 16 * (wrong - same) <= wrong; }
 };
 
 // A case ready to be compared with: what may be drawn of it, and what a right device draws.
@@ -49,6 +51,9 @@ std::optional<Subject> make_subject(const cases::Case& c, const report::CaseReco
 // True if the record has what match() needs: the picture of the whole target, and no finding that
 // comes of several renderings or of memory beside the attachments.
 bool can_match(const cases::Case& c, const report::CaseRecord& record);
+
+// Whether a sample with this mark (diff::SampleMark) of a picture is wrong.
+bool is_wrong_mark(uint8_t mark);
 
 // The number of a sample that a finding's quantity names: "depth", "frag_coord.z", "attribute 1.x";
 // nothing for any other.

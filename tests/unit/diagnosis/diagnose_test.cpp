@@ -8,12 +8,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cases/load/loader.hpp"
+#include "cases/model/sample.hpp"
 #include "diagnosis/hypothesis.hpp"
 #include "run/judge.hpp"
 
@@ -163,6 +167,187 @@ TEST(Diagnose, NothingIsToldOfARightDevice) {
         EXPECT_EQ(record.status, report::Status::pass) << record.id << " " << record.reason;
     }
     EXPECT_TRUE(diagnose(run).empty());
+}
+
+// A device that is right but for what `spoil` does to its pictures; and leaves of the suite beside
+// the small ones.
+using Spoil = std::function<void(const cases::Case&, capture::Capture&)>;
+using Takes = std::function<bool(const cases::Case&)>;
+report::Run run_of_part(const Spoil& spoil, const std::vector<cases::Case>& more,
+                        const Takes& takes, std::vector<const cases::Case*>& all) {
+    report::Run run;
+    run.profile = cases::Profile::direct3d;
+    run.device.subpixel_bits = kBits;
+    for (const auto* list : {&small_suite(), &more}) {
+        for (const cases::Case& c : *list) {
+            if (takes && !takes(c)) {
+                continue;
+            }
+            all.push_back(&c);
+            report::CaseRecord record = run::make_record(c);
+            capture::Capture drawn = *diagnosis::draw(Hypothesis{}, c);
+            spoil(c, drawn);
+            run::judge(record, c, drawn, {}, {kBits}, run.profile, run::KeepPictures::failed);
+            run.cases.push_back(std::move(record));
+        }
+    }
+    return run;
+}
+
+std::vector<cases::Case> leaves_of(const std::string& file) {
+    std::vector<cases::Case> out;
+    const auto suite = cases::load_suite(std::string(EDGECASE_SOURCE_DIR) + "/cases/suite");
+    std::ranges::copy_if(suite.cases, std::back_inserter(out),
+                         [&](const cases::Case& c) { return c.id.starts_with(file); });
+    return out;
+}
+
+// Quads of two triangles in perspective.
+std::vector<cases::Case> quads() {
+    std::vector<cases::Case> out;
+    for (int k = 1; k <= 8; ++k) {
+        const std::string w = std::to_string(k + 1);
+        const auto loaded = cases::load_text(
+            "format = 1\ndescription = \"A quad.\"\nrules = [\"interp.perspective\"]\n[target]\n"
+            "size = [8, 8]\n[[draw]]\nvertices = [[0,0,0,1], [8,0,0," +
+                w + "], [0,8,0,3],  [8,0,0," + w + "], [8,8,0,2], [0,8,0,3]]\n" +
+                "[[draw.attribute]]\nvalues = [0, 1, 2, 1, 3, 2]\n",
+            "quad.toml", "quads/" + std::to_string(k));
+        EXPECT_TRUE(loaded);
+        out.push_back(loaded->front());
+    }
+    return out;
+}
+
+std::vector<report::Diagnosis> diagnose_part(const Spoil& spoil,
+                                             const std::vector<cases::Case>& more = {},
+                                             const Takes& takes = {}) {
+    std::vector<const cases::Case*> all;
+    const report::Run run = run_of_part(spoil, more, takes, all);
+    return diagnosis::diagnose(run, [&](const std::string& id) -> const cases::Case* {
+        for (const cases::Case* c : all) {
+            if (c->id == id) {
+                return c;
+            }
+        }
+        return nullptr;
+    });
+}
+
+void expect_part(const std::vector<report::Diagnosis>& list, const std::string& name) {
+    ASSERT_FALSE(list.empty());
+    EXPECT_THAT(list.front().names, testing::Contains(name));
+    EXPECT_GE(list.front().cases, 2U);
+    EXPECT_EQ(list.front().samples, list.front().same_samples);
+    EXPECT_EQ(list.front().against + list.front().passed_against, 0U);
+}
+
+// Interpolates without perspective in the second triangle of each draw; false where that is none.
+bool bend_second_triangle(const cases::Case& c, capture::Capture& drawn) {
+    const auto wrong = diagnosis::draw(named("smooth-as-noperspective"), c);
+    bool is_bent = false;
+    for (size_t k = 0; wrong && k < drawn.writers.size(); ++k) {
+        if (drawn.writers[k].primitive == 1) {
+            for (size_t a = 0; a < drawn.attribute_count; ++a) {
+                is_bent = is_bent || drawn.attributes[a][k] != wrong->attributes[a][k];
+                drawn.attributes[a][k] = wrong->attributes[a][k];
+            }
+        }
+    }
+    return is_bent;
+}
+
+TEST(DiagnosePart, OneTriangleOfADraw) {
+    expect_part(diagnose_part(bend_second_triangle), "smooth-as-noperspective@second-triangle");
+}
+
+bool is_quad(const cases::Case& c) {
+    return c.id.starts_with("quads/");
+}
+
+// Where no draw has three triangles, the second one is also the last, every other and each but the
+// first: the narrowest is told.
+TEST(DiagnosePart, TheNarrowestPartIsTold) {
+    const auto list = diagnose_part(bend_second_triangle, quads(), is_quad);
+    ASSERT_FALSE(list.empty());
+    EXPECT_EQ(list.front().cases, 8U);
+    EXPECT_THAT(list.front().names, testing::Each(testing::EndsWith("@second-triangle")));
+}
+
+TEST(DiagnosePart, TargetsOfOddWidth) {
+    const Hypothesis& low = named("scissor-low");
+    expect_part(diagnose_part(
+                    [&](const cases::Case& c, capture::Capture& drawn) {
+                        if (c.target.width % 2 == 1) {
+                            drawn = diagnosis::draw(low, c).value_or(drawn);
+                        }
+                    },
+                    leaves_of("scissor/odd-target")),
+                "scissor-low@odd-width");
+}
+
+// Leaves pixel (x, y) as if nothing were drawn.
+void lose_pixel(const cases::Case& c, uint32_t x, uint32_t y, capture::Capture& drawn) {
+    const std::optional<capture::Capture> nothing = diagnosis::draw(named("draw-nothing"), c);
+    if (!nothing || c.target.width <= x || c.target.height <= y || c.blit) {
+        return;
+    }
+    for (uint32_t s = 0; s < c.target.samples; ++s) {
+        const size_t k = cases::index_of(c.target, {x, y, s, 0});
+        capture::for_each_plane(
+            [&](const capture::Plane& plane, const auto& from, auto& to) {
+                const size_t at = plane.entries == drawn.sample_count() ? k : k / c.target.samples;
+                if (!to.empty()) {
+                    to[at] = from[at];
+                }
+            },
+            *nothing, *nothing, drawn);
+    }
+}
+
+TEST(DiagnosePart, OnePixel) {
+    expect_part(diagnose_part([](const cases::Case& c, capture::Capture& drawn) {
+                    lose_pixel(c, 5, 5, drawn);
+                }),
+                "draw-nothing@pixel-5-5");
+}
+
+TEST(DiagnosePart, DepthsOfSixteenBits) {
+    const std::vector<report::Diagnosis> list =
+        diagnose_part([](const cases::Case&, capture::Capture& drawn) {
+            for (size_t k = 0; k < drawn.writers.size(); ++k) {
+                if (drawn.writers[k].draw != capture::kClearId) {
+                    float& z = drawn.frag_coord[k].z;
+                    z = std::round(z * 65535.0F) / 65535.0F;
+                    if (!drawn.depth.empty()) {
+                        drawn.depth[k] = std::round(drawn.depth[k] * 65535.0F) / 65535.0F;
+                    }
+                }
+            }
+        });
+    ASSERT_FALSE(list.empty());
+    EXPECT_THAT(list.front().names, testing::Contains("depth-16-bits"));
+}
+
+// What holds in most cases and is contradicted by one that passed, or that fails otherwise, is not
+// told, nor what a single case tells.
+TEST(DiagnosePart, NothingIsToldThatACaseContradicts) {
+    const auto told = [](const Spoil& spoil) { return diagnose_part(spoil, quads(), is_quad); };
+    EXPECT_TRUE(told([](const cases::Case& c, capture::Capture& drawn) {
+                    if (c.id != "quads/5") {
+                        bend_second_triangle(c, drawn);
+                    }
+                }).empty());
+    EXPECT_TRUE(told([](const cases::Case& c, capture::Capture& drawn) {
+                    bend_second_triangle(c, drawn);
+                    for (size_t k = 0; c.id == "quads/5" && k < drawn.writers.size(); ++k) {
+                        drawn.attributes[0][k].x += drawn.writers[k].primitive == 1 ? 64.0F : 0.0F;
+                    }
+                }).empty());
+
+    EXPECT_TRUE(diagnose_part(bend_second_triangle, quads(), [](const cases::Case& c) {
+                    return c.id == "quads/1";
+                }).empty());
 }
 
 // What fails as no error would have it is explained by none.

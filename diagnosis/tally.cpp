@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/tally.hpp"
+
+#include <algorithm>
+
+#include "diff/verdict.hpp"
+#include "rasterizers/strength/strength.hpp"
+
+namespace diagnosis {
+
+Answer answer_of(const Subject& subject, const std::optional<capture::Capture>& drawn) {
+    if (!drawn || software::same_bits(*drawn, subject.right)) {
+        return {};
+    }
+    const diff::Verdict verdict = software::compare(*subject.data, subject.expectation, *drawn);
+    if (verdict.ok()) {
+        return {};
+    }
+    const Match m = match(*subject.record, verdict);
+    return {m.explains() ? Says::explains : Says::otherwise, m};
+}
+
+bool is_against(const Subject& passed, const capture::Capture& drawn) {
+    return !software::same_bits(drawn, passed.right) &&
+           !software::compare(*passed.data, passed.expectation, drawn).ok();
+}
+
+size_t Tally::count(Says what) const {
+    return static_cast<size_t>(
+        std::count_if(answers.begin(), answers.end(),
+                      [what](const Answer& answer) { return answer.says == what; }));
+}
+
+bool Tally::is_alike(const Tally& other) const {
+    return std::equal(answers.begin(), answers.end(), other.answers.begin(), other.answers.end(),
+                      [](const Answer& a, const Answer& b) { return a.says == b.says; });
+}
+
+}  // namespace diagnosis
