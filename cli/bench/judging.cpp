@@ -68,12 +68,12 @@ cases::Case large_case(uint32_t side, std::string_view target, std::string_view 
 
 // Cases of so many plain triangles in a square target.
 std::vector<cases::Case> small_cases(uint32_t side, uint32_t triangles) {
-    std::vector<cases::Case> cases = load(
-        fmt::format("format = 1\ndescription = \"Small.\"\nrules = [\"cover.inside\"]\n"
-                    "[matrix]\nseed = [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16]\n"
-                    "[target]\nsize = [{0}, {0}]\n[[draw]]\n"
-                    "generate = {{ kind = \"triangles\", seed = \"seed\", count = {1} }}\n",
-                    side, triangles));
+    std::vector<cases::Case> cases =
+        load(fmt::format("format = 1\ndescription = \"Small.\"\nrules = [\"cover.inside\"]\n"
+                         "[matrix]\nseed = [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16]\n"
+                         "[target]\nsize = [{0}, {0}]\n[[draw]]\n"
+                         "generate = {{ kind = \"triangles\", seed = \"seed\", count = {1} }}\n",
+                         side, triangles));
     std::erase_if(cases, [](const cases::Case& c) { return expect(c).must_samples == 0; });
     return cases;
 }
@@ -184,9 +184,8 @@ JudgingFigures time_judging(std::span<const cases::Case> cases, std::span<const 
 }
 
 double spread_of(std::span<const JudgingFigures::Size> sizes) {
-    const auto [slowest, fastest] =
-        std::minmax_element(sizes.begin(), sizes.end(),
-                            [](const auto& a, const auto& b) { return a.all < b.all; });
+    const auto [slowest, fastest] = std::minmax_element(
+        sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.all < b.all; });
     return fastest->all / slowest->all;
 }
 
