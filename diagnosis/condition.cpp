@@ -141,8 +141,7 @@ bool restrict_to(const Condition& condition, const cases::Case& c, const capture
     const size_t samples = size_t{target.width} * target.rows() * target.samples;
     std::vector<bool> holds(samples);
     for (size_t k = 0; k < samples; ++k) {
-        holds[k] =
-            condition.holds({c, cases::sample_at(target, k), writer_of(right, drawn, k)});
+        holds[k] = condition.holds({c, cases::sample_at(target, k), writer_of(right, drawn, k)});
     }
     bool is_alike = true;
     capture::for_each_plane(

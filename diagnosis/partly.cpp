@@ -61,8 +61,7 @@ void leave_out_what_fails_otherwise(const Hypothesis& hypothesis, std::span<cons
                     answer_of(subjects[s], restricted(*tally.only, subjects[s], drawn));
             }
         });
-        std::erase_if(tallies,
-                      [](const Tally& tally) { return tally.count(Says::otherwise) > 0; });
+        std::erase_if(tallies, [](const Tally& tally) { return tally.count(Says::otherwise) > 0; });
     }
 }
 

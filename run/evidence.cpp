@@ -11,6 +11,7 @@
 
 #include "diff/last_fragment.hpp"
 #include "ref/value/value.hpp"
+#include "run/depth_picture.hpp"
 #include "run/picture.hpp"
 
 namespace run {
@@ -170,6 +171,7 @@ void keep_pictures(report::CaseRecord& record, const cases::Case& c, const diff:
                    const ref::Limits& limits) {
     const PictureWindow window(verdict, c.target);
     record.pictures = cut_pictures(window, c, verdict, capture);
+    add_depths(record.pictures, window, c, verdict, expectation, capture);
     record.geometry = geometry_of(window, c, limits, expectation, report::kMaxShapes);
 }
 

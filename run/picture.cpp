@@ -137,11 +137,6 @@ Pictures cut_pictures(const PictureWindow& window, const cases::Case& c,
             to.push_back(static_cast<uint8_t>(from[k]));
         }
     };
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    const auto is_drawn_depth = [&](size_t k) {
-        return k < capture.depth.size() && std::isfinite(capture.depth[k]) &&
-               !capture::is_clear_depth(c.target, capture.depth[k]);
-    };
     window.for_each([&](uint32_t, uint32_t, uint32_t, size_t k) {
         put(p.expected_hits, verdict.expected_hits, k);
         put(p.device_hits, verdict.device_hits, k);
@@ -149,22 +144,7 @@ Pictures cut_pictures(const PictureWindow& window, const cases::Case& c,
         if (has_errors) {
             p.errors.push_back(report::error_code(verdict.error_ratios[k]));
         }
-        if (is_drawn_depth(k)) {
-            low = std::min(low, static_cast<double>(capture.depth[k]));
-            high = std::max(high, static_cast<double>(capture.depth[k]));
-        }
     });
-    if (low < high) {
-        p.depth_low = low;
-        p.depth_high = high;
-        window.for_each([&](uint32_t, uint32_t, uint32_t, size_t k) {
-            p.device_depths.push_back(
-                is_drawn_depth(k)
-                    ? static_cast<uint8_t>(std::lround(
-                          1 + 254 * ((static_cast<double>(capture.depth[k]) - low) / (high - low))))
-                    : uint8_t{0});
-        });
-    }
     if (c.target.color && !capture.color.empty() && !p.marks.empty()) {
         const std::optional<ref::BlitReference> blit =
             c.blit ? std::optional<ref::BlitReference>(c) : std::nullopt;

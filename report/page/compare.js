@@ -52,7 +52,7 @@ const WIDEST = 420;  // of a picture in CSS pixels, where its column has the roo
 function sceneOf(entry, samples, hits, marks) {
   const p = entry.pictures, columns = Math.ceil(Math.sqrt(samples));
   const pictures = {width: p.width, height: p.height, left: p.left, top: p.top, layerHeight: p.layer_height || 0, expected: hits, device: hits, marks, samples, count: hits.length,
-    columns, rows: Math.ceil(samples / columns), errors: null, colors: null, expectedColors: null, depths: null};
+    columns, rows: Math.ceil(samples / columns), errors: null, colors: null, expectedColors: null, depths: null, expectedDepths: null};
   const geometry = openGeometry(p.geometry), scene = {pictures, geometry, ties: tiesIn(geometry, pictures)};
   scene.limits = limitsOf(scene);
   return scene;

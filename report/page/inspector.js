@@ -61,9 +61,9 @@ function verdictPart(scene, at, known) {
   const chip = (c) => { const s = el("span", {class: "chip", "aria-hidden": "true"}); s.style.background = "rgb(" + c.join(",") + ")"; return [s, " " + c.join(", ")]; };
   if (p.expectedColors) { fact("expected colour", chip(color(p.expectedColors))); }
   if (p.colors) { fact("device colour", [...chip(color(p.colors)), el("span", {class: "quiet"}, " of 255")]); }
-  if (p.depths && p.depths[k]) {
-    fact("device depth", "about " + shortNumber(p.depthLow + (p.depthHigh - p.depthLow) * (p.depths[k] - 1) / 254, 4));
-  }
+  const depth = (codes) => codes && codes[k] ? "about " + shortNumber(p.depthLow + (p.depthHigh - p.depthLow) * (codes[k] - 1) / 254, 4) : "";
+  fact("expected depth", depth(p.expectedDepths));
+  fact("device depth", depth(p.depths));
   return el("div", {class: "verdict-part"}, el("div", {class: "mark-line"}, swatch, el("strong", {"data-mark": MARKS[mark]}, p.isReference && mark === 0 ? "the reference" : spoken(scene, MARK_TEXT[mark]))), el("dl", {}, rows));
 }
 

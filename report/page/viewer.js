@@ -5,7 +5,7 @@
 const VIEWS = [["reference", "Reference"], ["device", "Device"], ["difference", "Difference"], ["error", "Error"], ["blink", "Blink"], ["side", "Side by side"]];
 const KIND_OF_VIEW = {reference: "expected", device: "device", difference: "difference", error: "error"};
 const PANE_TITLE = {expected: "reference", device: "device", difference: "difference", error: "error in budgets"};
-// With what it is painted by, where that is not the same in all pictures of a view: of depths the device's alone are known.
+// With what it is painted by, where that is not the same in all pictures of a view: of colours the device's alone may be known.
 const paneTitle = (kind, p, plane) => PANE_TITLE[kind] + (plane !== "hits" && (kind === "expected" || kind === "device") ? ", " + paintedBy(kind, p, plane) : "");
 const MAX_ZOOM = 128;
 // Kept from case to case.
@@ -204,7 +204,7 @@ function pictureText(record, scene, kind) {
 function paintedBy(kind, p, plane) {
   if (kind === "error" || kind === "difference") { return kind; }
   if (plane === "colour") { return (kind === "device" ? p.colors : p.expectedColors) ? "colour" : "hits"; }
-  return plane === "depth" && kind === "device" && p.depths ? "depth" : "hits";
+  return plane === "depth" && depthsOf(p, kind) ? "depth" : "hits";
 }
 
 // Names for what the pictures of this view show of this case, and for nothing else.
@@ -219,6 +219,7 @@ function legendEntries(scene, view, plane) {
       const mark = p.marks[k], count = kind === "device" ? p.device[k] : p.expected[k];
       if (by === "difference" && mark > 1) { marks.add(mark); }
       else if (by === "error" && mark > 1 && !(p.errors && p.errors[k])) { marks.add(mark); }
+      else if (by === "depth") { isFree = isFree || (kind === "expected" && count === SEVERAL); }
       else if (by === "hits" || by === "difference") {
         if (kind !== "device" && (count === SEVERAL || (by === "difference" && mark === 1))) { isFree = true; }
         else if (by === "difference") { isOk = isOk || count > 0; }

@@ -94,6 +94,9 @@ struct Pictures {
     std::vector<uint8_t> expected_colors;  // the same of a blit's nominal texels
     // Depth: 1 + 254 (z - depth_low) / (depth_high - depth_low), 0 where it holds the clear value.
     std::vector<uint8_t> device_depths;
+    // The same of the reference, 0 where a sample is free or holds the clear value; empty if no
+    // finding is about a depth.
+    std::vector<uint8_t> expected_depths;
     double depth_low = 0, depth_high = 0;
     static void fields(auto&& visit, auto&... p) {
         visit("width", p.width...);
@@ -108,6 +111,7 @@ struct Pictures {
         visit({"device_colors", cases::kOlderLackIt}, p.device_colors...);
         visit({"expected_colors", cases::kOlderLackIt}, p.expected_colors...);
         visit({"device_depths", cases::kOlderLackIt}, p.device_depths...);
+        visit({"expected_depths", cases::kOlderLackIt}, p.expected_depths...);
         visit({"depth_low", cases::kOlderLackIt}, p.depth_low...);
         visit({"depth_high", cases::kOlderLackIt}, p.depth_high...);
     }

@@ -25,6 +25,8 @@ class Shown(PageTest):
             if record["record"] == "end" and record["id"] in ("a/depth", "a/color"):
                 for finding in record["findings"]:
                     finding |= {"kind": "value", "quantity": record["id"][2:]}
+                if record["id"] == "a/depth":
+                    record["pictures"]["expected_depths"] = record["pictures"]["device_depths"]
                 record["groups"] = [group | {"kind": "value"} for group in record["groups"]]
         file.write_text("".join(json.dumps(record) + "\n" for record in records), encoding="utf-8")
         cls.edgecase("report", cls.out)
@@ -42,7 +44,7 @@ class Shown(PageTest):
 
     def test_titles_say_what_a_picture_shows(self):
         page = self.open("#case=a%2Fdepth&view=side")
-        self.assertEqual(page.run("[...document.querySelectorAll('figcaption')].map((e) => e.innerText)"), ["reference, hits", "device, depth", "difference"])
+        self.assertEqual(page.run("[...document.querySelectorAll('figcaption')].map((e) => e.innerText)"), ["reference, depth", "device, depth", "difference"])
 
     def test_samples_are_seen_on_marks_in_both_themes(self):
         for dark in (False, True):

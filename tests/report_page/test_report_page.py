@@ -435,7 +435,7 @@ class Size(PageTest):
                 record["findings"] = [dict(wrong["findings"][0], x=x, y=y, why=f"number {k} of {x * y}") for x, y in place]
                 record["counts"] = [0, 0, 300, 0, 0]
                 record["evidence"] = [dict(wrong["evidence"][0], at=[x, y, 0]) for x, y in place[:32]]
-                record["pictures"] = dict(wrong["pictures"], **pictures[k % len(pictures)], width=64, height=64, device_depths="")
+                record["pictures"] = dict(wrong["pictures"], **pictures[k % len(pictures)], width=64, height=64, device_depths="", expected_depths="")
             made.append(record)
         head = next(r for r in records if r["record"] == "run")
         head["cases"] = [{key: m[key] for key in ("id", "file", "line", "description", "rules", "links", "rerun", "catches")} for m in made]

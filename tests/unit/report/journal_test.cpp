@@ -95,6 +95,7 @@ TEST_F(JournalTest, round_trip_is_exact) {
     EXPECT_EQ(a.pictures.device_colors, b.pictures.device_colors);
     EXPECT_EQ(a.pictures.expected_colors, b.pictures.expected_colors);
     EXPECT_EQ(a.pictures.device_depths, b.pictures.device_depths);
+    EXPECT_EQ(a.pictures.expected_depths, b.pictures.expected_depths);
     EXPECT_EQ(a.geometry, b.geometry);
     EXPECT_EQ(a.evidence, b.evidence);
     EXPECT_EQ(loaded->cases[0].reference, run.cases[0].reference);
@@ -173,7 +174,7 @@ TEST(evidence, of_older_journals_is_empty) {
         json.erase(key);
     }
     for (const char* key : {"errors", "device_colors", "expected_colors", "device_depths",
-                            "depth_low", "depth_high"}) {
+                            "expected_depths", "depth_low", "depth_high"}) {
         json["pictures"].erase(key);
     }
     const CaseRecord old = decode<CaseRecord>(json);

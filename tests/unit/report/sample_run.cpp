@@ -60,6 +60,7 @@ Pictures make_pictures() {
     p.device_colors.assign(3 * 64, 7);
     p.expected_colors.assign(3 * 64, 8);
     p.device_depths.assign(64, 9);
+    p.expected_depths.assign(64, 10);
     p.depth_low = 0.25;
     p.depth_high = 0x1.8p-1;
     return p;
