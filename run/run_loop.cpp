@@ -198,6 +198,7 @@ void RunLoop::feed(Slot& slot) {
         bytes += capture::capture_bytes(cases_[k].data);
     }
     slot.answered.assign(batch.size(), false);
+    slot.failure.clear();
     slot.since = Clock::now();
     slot.sent = true;
     slot.client->render(slot.batch->attempt, batch, bytes);
@@ -267,6 +268,9 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
     const bool drawn = rendered.status == Rendered::Status::drawn;
     const bool unsupported = rendered.status == Rendered::Status::unsupported;
     if (!drawn && !unsupported && !slot.batch->fresh) {
+        if (slot.failure.empty()) {
+            slot.failure = rendered.reason;
+        }
         return;  // stays without a result; on_batch_done renders it alone
     }
     slot.answered[result.index] = true;
@@ -353,9 +357,10 @@ void RunLoop::on_batch_done(Slot& slot) {
             on_malformed(slot);
             return;
         }
-        schedule_.died(
-            *slot.batch, without_result,
-            "the device was lost, or a batch failed, while this case was drawn with others");
+        const std::string why =
+            slot.failure.empty() ? "the worker had no result of a case" : slot.failure;
+        schedule_.died(*slot.batch, without_result,
+                       why + ", while this case was drawn with others");
         slot.client.reset();  // what a driver does after that is worth nothing
     }
     slot.batch.reset();

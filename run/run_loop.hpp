@@ -79,6 +79,7 @@ class RunLoop {
         std::optional<Batch> batch;
         bool sent = false;
         std::vector<bool> answered;  // [k] of the batch has a result
+        std::string failure;         // of the batch: why the first that failed has no result
         Clock::time_point since;
         std::vector<size_t> without_result() const;  // of the batch
     };

@@ -167,6 +167,9 @@ std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& t
     const ImageLimits image =
         image_limits(c.physical, to_vulkan(color.format), color_usage(test.target.samples),
                      color_flags(test.target.samples));
+    if (image.failed != VK_SUCCESS) {
+        return invalid("{}", failed_query(image.failed));
+    }
     if ((image.samples & test.target.samples) == 0 || image.width < test.target.width ||
         image.height < test.target.height || image.layers < test.target.layers) {
         return unsupported("the device has no {} x {} target of format {} with {} samples",
@@ -346,8 +349,8 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
     if (auto rejection = c.blit ? check_blit(capabilities, c) : check_color(capabilities, c)) {
         return rejection;
     }
-    if (auto missing = missing_resolve_or_stencil(capabilities, c.target)) {
-        return unsupported("{}", *missing);
+    if (auto rejection = check_resolve_and_stencil(capabilities, c.target)) {
+        return rejection;
     }
     if (c.draws.size() >= kMaxId) {
         return unsupported("the case has {} draws, the harness tells {} apart", c.draws.size(),

@@ -18,20 +18,16 @@ namespace {
 constexpr VkDeviceSize kChunkBytes = VkDeviceSize{256} << 20;
 constexpr VkDeviceSize kKeptBytes = VkDeviceSize{512} << 20;
 
-bool out_of_memory(const Failure& failure) {
-    return failure.vk_result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
-           failure.vk_result == VK_ERROR_OUT_OF_HOST_MEMORY;
+// What is kept must not be why the next allocation fails, on a device of little memory.
+VkDeviceSize kept_bytes(const Capabilities& c) {
+    return std::min(kKeptBytes, c.total_memory / 8);
 }
 
+// A call that fails is never 'unsupported': what a device does not advertise, check_case has
+// rejected before anything is asked of the driver.
 void reject(Rendered& result, const Failure& failure) {
-    // A target that does not fit into the device's memory says nothing about rasterization.
-    if (failure.vk_result == VK_ERROR_DEVICE_LOST) {
-        result.status = Rendered::Status::device_lost;
-    } else if (failure.stage == Stage::memory && out_of_memory(failure)) {
-        result.status = Rendered::Status::unsupported;
-    } else {
-        result.status = Rendered::Status::error;
-    }
+    result.status = failure.vk_result == VK_ERROR_DEVICE_LOST ? Rendered::Status::device_lost
+                                                              : Rendered::Status::error;
     result.reason = std::string(to_string(failure.stage)) + ": " + failure.message;
 }
 
@@ -324,8 +320,8 @@ void BatchRenderer::run_chunk(std::vector<CasePlan>& plans, bool read_back,
         lost_ = done.error().message;
     }
     plans.clear();
-    targets_.trim(kKeptBytes);
-    submission_.trim(kKeptBytes);
+    targets_.trim(kept_bytes(device_->capabilities()));
+    submission_.trim(kept_bytes(device_->capabilities()));
 }
 
 std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, bool read_back,

@@ -12,7 +12,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("EDGECASE_PROGRAM", str(SOURCE / "build" / "release" / "bin" / "edgecase"))
 LAYER = pathlib.Path(os.environ.get("EDGECASE_BREAKING_LAYER", SOURCE / "build" / "release" / "breaking_layer"))
 # They end the process or the device: no verdict on a picture is asked of them.
-DEADLY = ("lost-", "hang-", "crash-", "pipeline-refused")
+DEADLY = ("lost-", "hang-", "crash-", "pipeline-refused", "refused-")
 
 
 @dataclasses.dataclass

@@ -39,6 +39,8 @@ VkResult answer(Answer (*hook)(uint64_t), uint64_t number) {
             break;
         case Answer::unknown_error:
             return VK_ERROR_UNKNOWN;
+        case Answer::no_memory:
+            return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         default:
             break;
     }
@@ -65,6 +67,35 @@ VKAPI_ATTR VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCrea
         note_buffer(*out, info->size);
     }
     return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                               const VkAllocationCallbacks* allocator,
+                                               VkDeviceMemory* out) {
+    static std::atomic<uint64_t> allocations = 0;
+    const VkResult result = answer(hooks().allocate, ++allocations);
+    return result != VK_SUCCESS
+               ? result
+               : driver_of_handle(device).AllocateMemory(device, info, allocator, out);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreateInfo* info,
+                                            const VkAllocationCallbacks* allocator, VkImage* out) {
+    static std::atomic<uint64_t> images = 0;
+    const VkResult result = answer(hooks().make_image, ++images);
+    return result != VK_SUCCESS
+               ? result
+               : driver_of_handle(device).CreateImage(device, info, allocator, out);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL map_memory(VkDevice device, VkDeviceMemory memory,
+                                          VkDeviceSize offset, VkDeviceSize size,
+                                          VkMemoryMapFlags flags, void** data) {
+    static std::atomic<uint64_t> maps = 0;
+    const VkResult result = answer(hooks().map, ++maps);
+    return result != VK_SUCCESS
+               ? result
+               : driver_of_handle(device).MapMemory(device, memory, offset, size, flags, data);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_image_view(VkDevice device, const VkImageViewCreateInfo* info,
@@ -315,6 +346,9 @@ VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32
 const OwnCommand kCommands[] = {
     BREAKING_OWN(CreateShaderModule, create_shader_module),
     BREAKING_OWN(CreateBuffer, create_buffer),
+    BREAKING_OWN(AllocateMemory, allocate_memory),
+    BREAKING_OWN(CreateImage, create_image),
+    BREAKING_OWN(MapMemory, map_memory),
     BREAKING_OWN(CreateImageView, create_image_view),
     BREAKING_OWN(BindBufferMemory, bind_buffer_memory),
     BREAKING_OWN(BindImageMemory, bind_image_memory),

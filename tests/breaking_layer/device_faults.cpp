@@ -44,6 +44,21 @@ constexpr std::array kFaults = {
     Fault{"pipeline-refused",
           "The N-th pipeline of a process cannot be made.",
           {.make_pipeline = nth<Answer::unknown_error>}},
+    Fault{"refused-every-nth-pipeline",
+          "Every N-th pipeline cannot be made.",
+          {.make_pipeline = every_nth<Answer::unknown_error>}},
+    Fault{"refused-every-nth-allocation",
+          "Every N-th allocation of memory fails.",
+          {.allocate = every_nth<Answer::no_memory>}},
+    Fault{"refused-every-nth-image",
+          "Every N-th image cannot be made.",
+          {.make_image = every_nth<Answer::no_memory>}},
+    Fault{"refused-every-nth-map",
+          "Every N-th mapping of memory fails.",
+          {.map = every_nth<Answer::no_memory>}},
+    Fault{"refused-every-nth-submit",
+          "Every N-th submission fails for lack of memory.",
+          {.submit = every_nth<Answer::no_memory>}},
 };
 
 }  // namespace

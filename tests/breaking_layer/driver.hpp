@@ -13,6 +13,9 @@ namespace breaking {
 #define BREAKING_COMMANDS(X) \
     X(CreateShaderModule) \
     X(CreateBuffer) \
+    X(AllocateMemory) \
+    X(CreateImage) \
+    X(MapMemory) \
     X(CreateImageView) \
     X(BindBufferMemory) \
     X(BindImageMemory) \

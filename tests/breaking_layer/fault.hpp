@@ -62,7 +62,7 @@ struct DepthBias {
 };
 
 // What becomes of a call that answers with a VkResult.
-enum class Answer { as_asked, device_lost, unknown_error, hang, crash };
+enum class Answer { as_asked, device_lost, unknown_error, no_memory, hang, crash };
 
 // What a fault does to the calls of an application. Each is handed what was asked, may write to it,
 // and says whether it altered anything; what is not set lets the calls through.
@@ -99,6 +99,9 @@ struct Hooks {
     Answer (*submit)(uint64_t number) = nullptr;  // in this process, from 1
     Answer (*wait)(uint64_t number) = nullptr;
     Answer (*make_pipeline)(uint64_t number) = nullptr;
+    Answer (*allocate)(uint64_t number) = nullptr;    // vkAllocateMemory
+    Answer (*make_image)(uint64_t number) = nullptr;  // vkCreateImage
+    Answer (*map)(uint64_t number) = nullptr;         // vkMapMemory
 };
 
 struct Fault {

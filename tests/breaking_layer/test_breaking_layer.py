@@ -201,6 +201,34 @@ class Device(LayerTest):
         self.assertEqual(run.code, 7, run.out + run.err)
         self.assertIn("error", self.statuses(run).values())
 
+    def test_a_call_that_fails_is_an_error(self):
+        # What fails was promised: 'unsupported', and exit 6 or 0, would hide a broken driver.
+        for fault, told in (("refused-every-nth-allocation", r"memory: vkAllocateMemory failed with VK_ERROR_OUT_OF_DEVICE_MEMORY for \d+ bytes"),
+                            ("refused-every-nth-image", "memory: vkCreateImage failed with VK_ERROR_OUT_OF_DEVICE_MEMORY"),
+                            ("refused-every-nth-map", "memory: vkMapMemory failed with VK_ERROR_OUT_OF_DEVICE_MEMORY"),
+                            ("refused-every-nth-submit", "submit: vkQueueSubmit failed with VK_ERROR_OUT_OF_DEVICE_MEMORY"),
+                            ("refused-every-nth-pipeline", "pipeline: vkCreateGraphicsPipelines failed with VK_ERROR_UNKNOWN")):
+            with self.subTest(fault=fault):
+                run = self.run_dying(fault)
+                self.assertEqual(run.code, 7, run.out + run.err)
+                self.assertEqual(set(self.statuses(run).values()), {"error"})
+                for case in run.results["cases"]:
+                    self.assertRegex(case["reason"], "^" + told)
+
+    def test_a_call_that_fails_now_and_then_is_never_a_pass_of_all(self):
+        # A worker's first case passes; the call of a later one fails, and works again in a fresh worker.
+        for fault, call in (("refused-every-nth-allocation:3", "vkAllocateMemory failed with VK_ERROR_OUT_OF_DEVICE_MEMORY"),
+                            ("refused-every-nth-submit:2", "vkQueueSubmit failed with VK_ERROR_OUT_OF_DEVICE_MEMORY"),
+                            ("refused-every-nth-image:5", "vkCreateImage failed with VK_ERROR_OUT_OF_DEVICE_MEMORY")):
+            with self.subTest(fault=fault):
+                run = self.run_dying(fault, "-j", "1", "--batch", "1")
+                self.assertIn(run.code, (1, 7), run.out + run.err)
+                bad = [case for case in run.results["cases"] if case["status"] in ("flake", "error")]
+                self.assertNotEqual(bad, [], self.statuses(run))
+                self.assertNotIn("unsupported", self.statuses(run).values())
+                for case in bad:
+                    self.assertIn(call, case["reason"])
+
     def test_nothing_every_second_rendering(self):
         run = self.run_dying("nothing-every-nth:2", "--batch", "1", "--retries", "1")
         self.assertEqual(run.code, 1, run.out + run.err)

@@ -23,10 +23,14 @@ ImageLimits image_limits(VkPhysicalDevice physical, VkFormat format, VkImageUsag
     const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
         physical, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, flags, &properties);
     if (result != VK_SUCCESS) {
-        return {};
+        return {0, 0, 0, 0, result == VK_ERROR_FORMAT_NOT_SUPPORTED ? VK_SUCCESS : result};
     }
     return {properties.maxExtent.width, properties.maxExtent.height, properties.sampleCounts,
-            properties.maxArrayLayers};
+            properties.maxArrayLayers, VK_SUCCESS};
+}
+
+std::string failed_query(VkResult result) {
+    return call_failure(Stage::device, result, "vkGetPhysicalDeviceImageFormatProperties").message;
 }
 
 namespace {
@@ -234,6 +238,11 @@ void query_targets(Capabilities& c) {
     const ImageLimits depth = image_limits(
         c.physical, kDepthFormat,
         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
+    for (const ImageLimits& limits : {color, depth}) {
+        if (limits.failed != VK_SUCCESS) {
+            c.info.missing.push_back(failed_query(limits.failed));
+        }
+    }
     const VkPhysicalDeviceLimits& l = c.limits;
     c.max_width = std::min({l.maxImageDimension2D, l.maxFramebufferWidth, color.width, depth.width,
                             l.maxViewportDimensions[0]});

@@ -51,14 +51,17 @@ struct Capabilities {
 bool has_features(const Capabilities& c, VkFormat format, VkFormatFeatureFlags needed);
 
 // Largest size, sample counts and layers of an optimally tiled 2D image; nothing if the device has
-// no such image.
+// no such image, and why if the question itself failed, which says nothing about images.
 struct ImageLimits {
     uint32_t width = 0, height = 0;
     VkSampleCountFlags samples = 0;
     uint32_t layers = 0;
+    VkResult failed = VK_SUCCESS;
 };
 ImageLimits image_limits(VkPhysicalDevice physical, VkFormat format, VkImageUsageFlags usage,
                          VkImageCreateFlags flags);
+// The sentence of ImageLimits::failed.
+std::string failed_query(VkResult result);
 
 Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index);
 

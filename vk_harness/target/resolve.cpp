@@ -37,10 +37,16 @@ const ResolveMode& mode_of(cases::Resolve mode) {
 
 }  // namespace
 
-std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
-                                                      const cases::Target& t) {
-    const auto has_image = [&c](VkFormat format, VkImageUsageFlags usage, uint32_t samples) {
-        return (image_limits(c.physical, format, usage, 0).samples & samples) != 0;
+std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const cases::Target& t) {
+    VkResult failed = VK_SUCCESS;
+    const auto has_image = [&](VkFormat format, VkImageUsageFlags usage, uint32_t samples) {
+        const ImageLimits limits = image_limits(c.physical, format, usage, 0);
+        failed = limits.failed != VK_SUCCESS ? limits.failed : failed;
+        return (limits.samples & samples) != 0;
+    };
+    const auto unsupported = [&failed](std::string reason) {
+        return failed == VK_SUCCESS ? Rejection{Rendered::Status::unsupported, std::move(reason)}
+                                    : Rejection{Rendered::Status::error, failed_query(failed)};
     };
     if (t.has_stencil) {
         const VkImageUsageFlags read =
@@ -49,15 +55,15 @@ std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
                        t.samples) ||
             (c.limits.framebufferStencilSampleCounts & t.samples) == 0 ||
             (t.samples > 1 && (c.limits.sampledImageStencilSampleCounts & t.samples) == 0)) {
-            return fmt::format(
-                "the device cannot draw to and read back format D32_SFLOAT_S8_UINT at "
-                "sample count {}",
-                t.samples);
+            return unsupported(
+                fmt::format("the device cannot draw to and read back format D32_SFLOAT_S8_UINT at "
+                            "sample count {}",
+                            t.samples));
         }
     }
     if (capture::resolves_color(t) && !has_image(to_vulkan(t.color->format), color_usage(1), 1)) {
-        return fmt::format("the device cannot resolve into the colour format {}",
-                           cases::name_of(t.color->format));
+        return unsupported(fmt::format("the device cannot resolve into the colour format {}",
+                                       cases::name_of(t.color->format)));
     }
     if (!capture::resolves_depth(t)) {
         return std::nullopt;
@@ -67,13 +73,12 @@ std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
     get_properties(c.physical, resolve);
     const ResolveMode& mode = mode_of(t.depth_resolve);
     if ((resolve.supportedDepthResolveModes & static_cast<VkResolveModeFlags>(mode.bit)) == 0) {
-        return fmt::format("the device does not resolve depth by {}", mode.name);
+        return unsupported(fmt::format("the device does not resolve depth by {}", mode.name));
     }
     // A stencil beside it is not resolved: one of the two modes is NONE.
     if (t.has_stencil && resolve.independentResolveNone != VK_TRUE) {
-        return std::string(
-            "the device does not resolve depth without stencil "
-            "(independentResolveNone)");
+        return unsupported(
+            "the device does not resolve depth without stencil (independentResolveNone)");
     }
     return std::nullopt;
 }

@@ -5,16 +5,16 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "cases/model/case.hpp"
 #include "vk_harness/device/device.hpp"
+#include "vk_harness/device/rejection.hpp"
 
 namespace vk_harness {
 
-// What the device lacks for them, as a sentence; nothing if it can draw them all.
-std::optional<std::string> missing_resolve_or_stencil(const Capabilities& c,
-                                                      const cases::Target& t);
+// What the device lacks for them, or which question about them failed; nothing if it can draw them
+// all.
+std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const cases::Target& t);
 
 // Has the attachment `from` resolved into `view` at the end of rendering.
 void resolve_into(VkImageView view, VkImageLayout layout, cases::Resolve mode,

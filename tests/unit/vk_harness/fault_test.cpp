@@ -76,14 +76,14 @@ TEST(Fault, FailedSubmitIsAnErrorAndPasses) {
     EXPECT_EQ(count(faulty.render(half()).capture).back, 136U);
 }
 
-TEST(Fault, NoMemoryForATargetIsUnsupported) {
+TEST(Fault, NoMemoryForATargetIsAnError) {
     Faulty faulty;
     const auto allocate = faulty.vk().vkAllocateMemory;
     faulty.vk().vkAllocateMemory = [](VkDevice, const VkMemoryAllocateInfo*,
                                       const VkAllocationCallbacks*,
                                       VkDeviceMemory*) { return VK_ERROR_OUT_OF_DEVICE_MEMORY; };
     const Rendered failed = faulty.render(half());
-    EXPECT_EQ(failed.status, Rendered::Status::unsupported);
+    EXPECT_EQ(failed.status, Rendered::Status::error);
     EXPECT_THAT(failed.reason, ::testing::StartsWith("memory: vkAllocateMemory failed with "
                                                      "VK_ERROR_OUT_OF_DEVICE_MEMORY for "));
     faulty.vk().vkAllocateMemory = allocate;
