@@ -80,6 +80,7 @@ template <template <class> class Store>
 struct Planes {
     cases::Target target;
     bool has_primitive = false;  // Writer::primitive is meaningful
+    bool has_half_hits = false;  // hits were added up in binary16, not in binary32
     uint32_t attribute_count = 0;
 
     Store<glm::vec4> hits;        // front hits, back hits, kHitGuard, kHitGuard + hits
@@ -97,6 +98,7 @@ struct Planes {
     static void fields(auto&& visit, auto&... p) {
         visit("target", p.target...);
         visit("has_primitive", p.has_primitive...);
+        visit("has_half_hits", p.has_half_hits...);
         visit("attribute_count", p.attribute_count...);
     }
 };

@@ -252,6 +252,7 @@ Json to_json(const Diagnosis& d) {
                            {"max_target_size", device.max_target_size},
                            {"max_color_attachments", device.max_color_attachments},
                            {"has_primitive_id", r.has_primitive_id},
+                           {"hit_counting", device.hit_counting},
                            {"missing", device.missing}});
     }
     Json parts = Json::array();
@@ -288,7 +289,7 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
              std::to_string(device.max_target_size) + ", " +
              std::to_string(device.max_color_attachments) +
              " colour attachments, gl_PrimitiveID: " + (r.has_primitive_id ? "yes" : "no") +
-             ", UUID " + r.uuid);
+             ", hits counted in " + device.hit_counting + ", UUID " + r.uuid);
         for (const std::string& missing : device.missing) {
             line("     missing: " + missing);
         }

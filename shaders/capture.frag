@@ -67,6 +67,7 @@ layout(location = 2) out vec2 out_frag_xy;
 layout(location = 3) out vec2 out_frag_zw;
 #define FIRST_ATTRIBUTE 4
 #else
+layout(constant_id = 5) const float kBackHit = 2048.0;
 layout(location = 0) out vec4 out_writer_and_hits;
 layout(location = 1) out vec4 out_frag_coord;
 #define FIRST_ATTRIBUTE 2
@@ -180,7 +181,7 @@ void main() {
     out_frag_zw = gl_FragCoord.zw;
 #else
     out_writer_and_hits = vec4(float(draw.index), float(int(in_primitive)), float(in_vertex),
-                               gl_FrontFacing ? 1.0 : 2048.0);
+                               gl_FrontFacing ? 1.0 : kBackHit);
     out_frag_coord = gl_FragCoord;
 #endif
 #if ATTRIBUTES > 0

@@ -56,6 +56,8 @@ enum class Choice : uint32_t {
 // Ids of the specialization constants of capture.frag: k the choice (uint) of attribute k; then the
 // attribute that is the colour (-1: the push constant).
 inline constexpr uint32_t kColorAttributeConstant = kMaxAttributes;
+// What a back hit adds where front and back hits share a number.
+inline constexpr uint32_t kBackHitConstant = kColorAttributeConstant + 1;
 
 // The input of capture.frag that stands for gl_PrimitiveID.
 inline constexpr uint32_t kPrimitiveLocation = 7;

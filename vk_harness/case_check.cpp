@@ -98,6 +98,10 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
         return unsupported("the target has {} layers, the device allows {} (maxFramebufferLayers)",
                            t.layers, c.max_layers);
     }
+    if (t.layers > 1 && t.samples > 1 && !c.portability.multisampled_arrays) {
+        return unsupported(
+            "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)");
+    }
     if (names_layers(test) && !c.layer_output) {
         return unsupported(
             "the device lacks the feature shaderOutputLayer, by which a vertex shader chooses the "
@@ -143,6 +147,22 @@ std::optional<Rejection> check_target(const Capabilities& c, const cases::Case& 
     return std::nullopt;
 }
 
+// Whether a colour is blended by the constant's alpha.
+bool names_constant_alpha(const cases::Draw& draw) {
+    const auto is_alpha = [](cases::BlendFactor f) {
+        return static_cast<VkBlendFactor>(f) == VK_BLEND_FACTOR_CONSTANT_ALPHA ||
+               static_cast<VkBlendFactor>(f) == VK_BLEND_FACTOR_ONE_MINUS_CONSTANT_ALPHA;
+    };
+    return draw.color.blend && (is_alpha(draw.color.blend->color.source) ||
+                                is_alpha(draw.color.blend->color.destination));
+}
+
+// Whether the unsigned format of the same size (bits_format) has other components.
+bool is_reinterpreted(cases::ColorFormat format) {
+    const auto& bits = row_of(format).bits;
+    return std::any_of(bits.begin(), bits.end(), [](uint32_t b) { return b != 0 && b != 32; });
+}
+
 // The colour target's format, as an attachment, blended where a draw blends, read back.
 std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& test) {
     if (!test.target.color) {
@@ -155,6 +175,18 @@ std::optional<Rejection> check_color(const Capabilities& c, const cases::Case& t
         return invalid("a target of integers is blended");
     }
     const bool multisampled = test.target.samples > 1;
+    if (blends && !c.portability.constant_alpha_factors &&
+        std::any_of(test.draws.begin(), test.draws.end(), names_constant_alpha)) {
+        return unsupported(
+            "the device lacks the feature constantAlphaColorBlendFactors "
+            "(VK_KHR_portability_subset)");
+    }
+    if (multisampled && !c.portability.view_reinterpretation && is_reinterpreted(color.format)) {
+        return unsupported(
+            "single samples of {} cannot be read without the feature "
+            "imageViewFormatReinterpretation (VK_KHR_portability_subset)",
+            cases::name_of(color.format));
+    }
     const VkFormatFeatureFlags needed =
         VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
         (blends ? VkFormatFeatureFlags{VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT} : 0U) |
@@ -247,6 +279,12 @@ std::optional<Rejection> check_attribute(const Capabilities& c, const cases::Dra
     if (needs_sample_rate && !c.has_sample_shading) {
         return unsupported("the device lacks the feature sampleRateShading");
     }
+    if ((is_derivative || is_at || a.probe == cases::Probe::lod) &&
+        !c.portability.interpolation_functions) {
+        return unsupported(
+            "the device lacks the feature shaderSampleRateInterpolationFunctions "
+            "(VK_KHR_portability_subset)");
+    }
     for (const float offset : a.probe_offset) {
         // Beyond the range the position is undefined; a device's range may end at 0.
         if (a.probe == cases::Probe::at_offset && (offset < c.limits.minInterpolationOffset ||
@@ -274,7 +312,7 @@ std::optional<Rejection> check_draw(const Capabilities& c, const cases::Draw& dr
     if (s.x < 0 || s.y < 0 || int64_t{s.x} + s.width > kMax || int64_t{s.y} + s.height > kMax) {
         return invalid("the scissor must begin at 0 or later and end below 2^31");
     }
-    if (draw.topology == cases::Topology::triangle_fan && !c.triangle_fans) {
+    if (draw.topology == cases::Topology::triangle_fan && !c.portability.triangle_fans) {
         return unsupported("the device lacks the feature triangleFans");
     }
     const std::optional<float> shading = draw.multisample.min_sample_shading;
@@ -335,6 +373,41 @@ size_t most_hits(const cases::Case& c) {
     return triangles;
 }
 
+// Hits and ids have to fit into the numbers that tell them.
+std::optional<Rejection> check_counting(const Capabilities& device, const cases::Case& c,
+                                        const InstrumentLayout& layout) {
+    if (!c.target.has_instruments) {
+        return std::nullopt;
+    }
+    if (layout.halves && c.target.samples > 1 && !device.portability.view_reinterpretation) {
+        return unsupported(
+            "hits of single samples cannot be read without the feature "
+            "imageViewFormatReinterpretation (VK_KHR_portability_subset)");
+    }
+    const HitCode& code = layout.halves ? kBinary16Hits : kBinary32Hits;
+    const uint32_t most = layout.split ? code.most : code.most_packed;
+    if (most_hits(c) > most) {
+        return unsupported(
+            "the case may hit a sample {} times and {} that hits are counted up to {}; leave out "
+            "an "
+            "attribute or the colour target",
+            most_hits(c),
+            layout.halves ? "the device blends 16-bit floats only, so" : "has so many attributes",
+            most);
+    }
+    size_t ids = c.draws.size();
+    for (const cases::Draw& draw : c.draws) {
+        ids = std::max(ids, draw.indices ? std::max(draw.indices->size(), draw.positions.size())
+                                         : draw.positions.size());
+    }
+    if (layout.halves && !layout.split && ids > kMaxHalfId) {
+        return unsupported(
+            "a draw has {} vertices, and the device blends 16-bit floats only, which tell {} apart",
+            ids, kMaxHalfId);
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Rejection> check_case(const Capabilities& capabilities, const cases::Case& c) {
@@ -363,11 +436,8 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
             viewports, capabilities.max_viewports);
     }
     const InstrumentLayout layout = instrument_layout(capabilities, c);
-    if (c.target.has_instruments && !layout.split && most_hits(c) > kMaxPackedHits) {
-        return unsupported(
-            "the case may hit a sample {} times and has so many attributes that hits are "
-            "counted up to {}; leave out an attribute or the colour target",
-            most_hits(c), kMaxPackedHits);
+    if (auto rejection = check_counting(capabilities, c, layout)) {
+        return rejection;
     }
     for (const cases::Draw& draw : c.draws) {
         if (draw.layer >= c.target.layers) {

@@ -143,6 +143,7 @@ capture::PlaneSpans BatchRenderer::place_planes(const CasePlan& plan, Rendered& 
     capture::Capture& capture = result.capture;
     capture.target = target;
     capture.has_primitive = device_->capabilities().info.has_primitive_id;
+    capture.has_half_hits = counts_in_halves(plan.attachments);
     capture.attribute_count = target.has_instruments ? cases::attributes_of(*plan.test) : 0;
     if (store) {
         result.placed = store(plan.slot, capture::plane_bytes(target, capture.attribute_count));

@@ -41,11 +41,6 @@ std::string device_type_name(VkPhysicalDeviceType type) {
     return static_cast<size_t>(type) < kNames.size() ? kNames.at(type) : "other";
 }
 
-std::string version_text(uint32_t version) {
-    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
-                       VK_API_VERSION_PATCH(version));
-}
-
 bool has_device_extension(VkPhysicalDevice physical, const char* name) {
     uint32_t count = 0;
     vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
@@ -73,11 +68,16 @@ void query_properties(Capabilities& c, uint32_t index) {
     id.pNext = &maintenance;
     VkPhysicalDeviceProperties first{};
     vkGetPhysicalDeviceProperties(c.physical, &first);
-    if (first.apiVersion >= VK_API_VERSION_1_2) {
-        maintenance.pNext = &driver;
-    }
+    const bool has_driver =
+        first.apiVersion >= VK_API_VERSION_1_2 ||
+        has_device_extension(c.physical, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
     if (first.apiVersion >= VK_API_VERSION_1_1) {
+        if (has_driver) {
+            maintenance.pNext = &driver;
+        }
         get_properties(c.physical, id);
+    } else if (has_driver) {
+        get_properties(c.physical, driver);
     }
 
     DeviceInfo& info = c.info;
@@ -125,61 +125,71 @@ void query_sample_locations(Capabilities& c) {
     }
 }
 
+// What a device of the portability subset lacks of Vulkan; one that is none lacks nothing of it.
+PortabilitySupport portability_support(
+    const VkPhysicalDevicePortabilitySubsetFeaturesKHR& features) {
+    PortabilitySupport out;
+    out.is_subset = true;
+    out.triangle_fans = features.triangleFans == VK_TRUE;
+    out.interpolation_functions = features.shaderSampleRateInterpolationFunctions == VK_TRUE;
+    out.view_reinterpretation = features.imageViewFormatReinterpretation == VK_TRUE;
+    out.multisampled_arrays = features.multisampleArrayImage == VK_TRUE;
+    out.constant_alpha_factors = features.constantAlphaColorBlendFactors == VK_TRUE;
+    return out;
+}
+
+void query_optional_features(Capabilities& c) {
+    VkPhysicalDevicePortabilitySubsetFeaturesKHR portability =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR};
+    VkPhysicalDeviceVulkan12Features features12 =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
+    VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
+    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    if (c.info.api_version >= VK_API_VERSION_1_2) {
+        chain(features, features12);
+    }
+    // A structure may only be chained if the device has its extension.
+    const auto ask = [&](const char* extension, auto& structure) {
+        const bool has = has_device_extension(c.physical, extension);
+        if (has) {
+            chain(features, structure);
+        }
+        return has;
+    };
+    const bool is_subset = ask(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
+    ask(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
+    ask(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
+    vkGetPhysicalDeviceFeatures2(c.physical, &features);
+    if (is_subset) {
+        c.portability = portability_support(portability);
+    }
+    c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
+    c.depth_clamp = features.features.depthClamp == VK_TRUE;
+    c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
+    c.depth_clip_enable = depth_clip.depthClipEnable == VK_TRUE;
+    c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
+    c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
+    query_sample_locations(c);
+    // Before 1.2 the shaders that choose would need another extension and another SPIR-V.
+    if (features.features.multiViewport == VK_TRUE &&
+        features12.shaderOutputViewportIndex == VK_TRUE) {
+        c.max_viewports = c.limits.maxViewports;
+    }
+    c.layer_output = features12.shaderOutputLayer == VK_TRUE;
+    c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
+    c.clip = query_clip_support(c.physical, has_device_extension);
+    c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
+}
+
 void query_features(Capabilities& c) {
     std::vector<std::string>& missing = c.info.missing;
-    if (c.info.api_version < VK_API_VERSION_1_3) {
-        missing.push_back(fmt::format("Vulkan 1.3 is needed, the device has {}",
-                                      version_text(c.info.api_version)));
-    } else {
-        VkPhysicalDevicePortabilitySubsetFeaturesKHR portability =
-            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR};
-        VkPhysicalDeviceVulkan13Features features13 =
-            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-        VkPhysicalDeviceVulkan12Features features12 =
-            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-        features12.pNext = &features13;
-        VkPhysicalDeviceDepthClipEnableFeaturesEXT depth_clip =
-            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
-        VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-        features.pNext = &features12;
-        VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
-            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR};
-        // A structure may only be chained if the device has its extension.
-        const auto ask = [&](const char* extension, auto& structure) {
-            const bool has = has_device_extension(c.physical, extension);
-            if (has) {
-                chain(features, structure);
-            }
-            return has;
-        };
-        c.portability_subset = ask(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
-        ask(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME, barycentric);
-        ask(VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME, depth_clip);
-        vkGetPhysicalDeviceFeatures2(c.physical, &features);
-        c.triangle_fans = !c.portability_subset || portability.triangleFans == VK_TRUE;
-        c.info.has_primitive_id = features.features.geometryShader == VK_TRUE;
-        c.depth_clamp = features.features.depthClamp == VK_TRUE;
-        c.depth_bias_clamp = features.features.depthBiasClamp == VK_TRUE;
-        c.depth_clip_enable = depth_clip.depthClipEnable == VK_TRUE;
-        c.depth_bias = query_depth_bias_support(c.physical, has_device_extension);
-        c.has_sample_shading = features.features.sampleRateShading == VK_TRUE;
-        query_sample_locations(c);
-        if (features.features.multiViewport == VK_TRUE &&
-            features12.shaderOutputViewportIndex == VK_TRUE) {
-            c.max_viewports = c.limits.maxViewports;
-        }
-        c.layer_output = features12.shaderOutputLayer == VK_TRUE;
-        c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
-        c.clip = query_clip_support(c.physical, has_device_extension);
-        c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
-        for (const auto& [has, name] : {std::pair(features13.dynamicRendering, "dynamicRendering"),
-                                        {features13.synchronization2, "synchronization2"},
-                                        {features13.maintenance4, "maintenance4"},
-                                        {features.features.independentBlend, "independentBlend"}}) {
-            if (has != VK_TRUE) {
-                missing.push_back(fmt::format("the device lacks the feature {}", name));
-            }
-        }
+    c.core = query_core_support(c.physical, c.info.api_version, has_device_extension);
+    missing.insert(missing.end(), c.core.missing.begin(), c.core.missing.end());
+    if (c.core.missing.empty()) {
+        query_optional_features(c);
     }
 
     uint32_t count = 0;
@@ -198,11 +208,10 @@ void query_features(Capabilities& c) {
 }
 
 // With which sample counts narrow attachments can be drawn to and read back in targets as large as
-// those of kColorFormat; none if hits cannot be blended.
+// those of kColorFormat.
 VkSampleCountFlags narrow_sample_counts(const Capabilities& c, const ImageLimits& wide) {
-    constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
-                                             VK_FORMAT_FEATURE_TRANSFER_SRC_BIT |
-                                             VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+    constexpr VkFormatFeatureFlags kNeeded =
+        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT;
     const ImageLimits one =
         image_limits(c.physical, kTwoNumbers,
                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 0);
@@ -220,9 +229,17 @@ void query_targets(Capabilities& c) {
     require_format(c, kColorFormat, "R32G32B32A32_SFLOAT",
                    VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT,
                    "a colour attachment that is read back");
-    require_format(c, kColorFormat, "R32G32B32A32_SFLOAT",
-                   VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
-                   "a blended colour attachment, which counts hits");
+    c.blends_wide = has_features(c, kColorFormat, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
+    c.blends_narrow = has_features(c, kTwoNumbers, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
+    c.info.hit_counting = c.blends_wide ? "binary32" : "binary16";
+    if (!c.blends_wide || !c.blends_narrow) {
+        constexpr VkFormatFeatureFlags kCounts = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
+                                                 VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT |
+                                                 VK_FORMAT_FEATURE_TRANSFER_SRC_BIT;
+        constexpr const char* kPurpose = "a blended colour attachment, which counts hits";
+        require_format(c, kColorHalves, "R16G16B16A16_SFLOAT", kCounts, kPurpose);
+        require_format(c, kTwoHalves, "R16G16_SFLOAT", kCounts, kPurpose);
+    }
     require_format(
         c, kDepthFormat, "D32_SFLOAT",
         VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT,

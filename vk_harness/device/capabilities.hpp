@@ -9,10 +9,22 @@
 
 #include "cases/model/case.hpp"
 #include "vk_harness/device/clip_support.hpp"
+#include "vk_harness/device/core_support.hpp"
 #include "vk_harness/device/depth_bias_control.hpp"
 #include "vk_harness/device/instance.hpp"
 
 namespace vk_harness {
+
+// VkPhysicalDevicePortabilitySubsetFeaturesKHR, as far as the harness needs it; all there on a
+// device that is no such subset.
+struct PortabilitySupport {
+    bool is_subset = false;
+    bool triangle_fans = true;
+    bool interpolation_functions = true;  // shaderSampleRateInterpolationFunctions
+    bool view_reinterpretation = true;    // imageViewFormatReinterpretation
+    bool multisampled_arrays = true;      // multisampleArrayImage
+    bool constant_alpha_factors = true;   // constantAlphaColorBlendFactors
+};
 
 // As far as the harness needs it.
 struct Capabilities {
@@ -27,8 +39,10 @@ struct Capabilities {
     // VK_EXT_sample_locations; none of its counts without the extension.
     VkSampleCountFlags location_counts = 0;
     float location_range[2] = {0, 0};  // pixels
-    // Sample counts with which kTwoNumbers, blended, does what kColorFormat does.
+    // Sample counts with which kTwoNumbers, drawn to and read back, does what kColorFormat does.
     VkSampleCountFlags narrow_sample_counts = 0;
+    bool blends_wide = true;              // kColorFormat can be blended: counts hits
+    bool blends_narrow = true;            // kTwoNumbers, too
     bool has_standard_locations = false;  // standardSampleLocations
     bool has_sample_shading = false;      // sampleRateShading
     // By cases::DepthFormat: sample counts that can be drawn and read back; 0 if the device has not
@@ -36,7 +50,8 @@ struct Capabilities {
     std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     DepthBiasSupport depth_bias;
-    bool triangle_fans = true;
+    PortabilitySupport portability;
+    CoreSupport core;
     // That gl_ViewportIndex of a vertex shader can choose from; 1 without the features
     // multiViewport and shaderOutputViewportIndex.
     uint32_t max_viewports = 1;
@@ -44,7 +59,6 @@ struct Capabilities {
     bool layer_output = false;  // shaderOutputLayer: gl_Layer in a vertex shader
     ClipSupport clip;
     bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
-    bool portability_subset = false;
 };
 
 // Whether optimally tiled images of the format have all these features.
@@ -74,6 +88,10 @@ constexpr VkFormat depth_format(cases::DepthFormat format) {
 }
 // The format of attachments that hold two numbers a sample, if the device has it.
 inline constexpr VkFormat kTwoNumbers = VK_FORMAT_R32G32_SFLOAT;
+// What counts hits instead where these two cannot be blended; blending of 16-bit floats is required
+// of every device ("Required Format Support").
+inline constexpr VkFormat kColorHalves = VK_FORMAT_R16G16B16A16_SFLOAT;
+inline constexpr VkFormat kTwoHalves = VK_FORMAT_R16G16_SFLOAT;
 // Colour attachments before the attributes, at least: writer_and_hits, frag_coord.
 inline constexpr uint32_t kFixedAttachments = 2;
 

@@ -94,16 +94,18 @@ Result<Device> Device::create(const Capabilities& capabilities) {
 
     VkPhysicalDevicePortabilitySubsetFeaturesKHR portability =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PORTABILITY_SUBSET_FEATURES_KHR};
-    portability.triangleFans = capabilities.triangle_fans ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceVulkan13Features features13 =
-        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    features13.dynamicRendering = VK_TRUE;
-    features13.synchronization2 = VK_TRUE;
-    features13.maintenance4 = VK_TRUE;  // outputs that the next stage does not read
+    const PortabilitySupport& subset = capabilities.portability;
+    for (const auto& [has, feature] :
+         {std::pair(subset.triangle_fans, &portability.triangleFans),
+          {subset.interpolation_functions, &portability.shaderSampleRateInterpolationFunctions},
+          {subset.view_reinterpretation, &portability.imageViewFormatReinterpretation},
+          {subset.multisampled_arrays, &portability.multisampleArrayImage},
+          {subset.constant_alpha_factors, &portability.constantAlphaColorBlendFactors}}) {
+        *feature = has ? VK_TRUE : VK_FALSE;
+    }
     const VkBool32 has_viewports = capabilities.max_viewports > 1 ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceVulkan12Features features12 =
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    features12.pNext = &features13;
     features12.shaderOutputViewportIndex = has_viewports;
     features12.shaderOutputLayer = capabilities.layer_output ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentric =
@@ -113,13 +115,17 @@ Result<Device> Device::create(const Capabilities& capabilities) {
         Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
     depth_clip.depthClipEnable = VK_TRUE;
     VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    features.pNext = &features12;
+    if (capabilities.info.api_version >= VK_API_VERSION_1_2) {
+        features.pNext = &features12;
+    }
     std::vector<const char*> extensions;
+    CoreFeatures core;
+    enable_core_features(capabilities.core, features, extensions, core);
     const auto enable = [&](const char* extension, auto& structure) {
         chain(features, structure);
         extensions.push_back(extension);
     };
-    if (capabilities.portability_subset) {
+    if (subset.is_subset) {
         enable(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME, portability);
     }
     if (capabilities.depth_clip_enable) {
@@ -157,6 +163,7 @@ Result<Device> Device::create(const Capabilities& capabilities) {
     }
     device.table_ = std::make_unique<VolkDeviceTable>();
     volkLoadDeviceTable(device.table_.get(), device.device_);
+    use_extension_names(*device.table_);
     device.capabilities_ = std::make_unique<Capabilities>(capabilities);
     if (capabilities.depth_bias.control) {
         device.set_depth_bias2_ = reinterpret_cast<SetDepthBias2>(

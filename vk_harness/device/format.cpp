@@ -36,6 +36,8 @@ VkFormat bits_format(VkFormat format) {
         std::find_if(cases::kColorFormats.begin(), cases::kColorFormats.end(),
                      [format](const auto& r) { return to_vulkan(r.format) == format; });
     // kTwoNumbers alone is attached and need not be a format of cases.
+    static_assert(cases::row_of(cases::ColorFormat::rgba16_float).vulkan == kColorHalves);
+    static_assert(cases::row_of(cases::ColorFormat::rg16_float).vulkan == kTwoHalves);
     return unsigned_of(row == cases::kColorFormats.end() ? 8 : bytes_of(row->format));
 }
 

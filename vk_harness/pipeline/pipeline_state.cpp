@@ -148,13 +148,13 @@ void instrument_states(const PipelineKey& key, ColorState& state) {
     if (key.layout.split) {
         hits.write_mask = is_masked(kHitsPlane) ? kNothing : kAll;
         add(kTwoNumbers, replaced(kWritersPlane));
-        add(kTwoNumbers, hits);
+        add(key.layout.hit_format(), hits);
         add(kTwoNumbers, replaced(kFragCoordPlane));
         add(kTwoNumbers, replaced(kFragCoordPlane));
     } else {
         hits.write_mask = static_cast<uint8_t>((is_masked(kHitsPlane) ? kNothing : kAlpha) |
                                                (is_masked(kWritersPlane) ? kNothing : kRgb));
-        add(kColorFormat, hits);
+        add(key.layout.hit_format(), hits);
         add(kColorFormat, replaced(kFragCoordPlane));
     }
     for (uint32_t k = 0; k < key.attribute_count; ++k) {

@@ -76,6 +76,9 @@ void specialize(const PipelineKey& key, Specialization& out) {
         set(k, static_cast<uint32_t>(choice_of(key.attributes[k])));
     }
     set(shaders::kColorAttributeConstant, std::bit_cast<uint32_t>(key.color_attribute));
+    if (key.layout.halves) {
+        set(shaders::kBackHitConstant, std::bit_cast<uint32_t>(kBinary16Hits.back_hit));
+    }
     out.info.mapEntryCount = static_cast<uint32_t>(out.entries.size());
     out.info.pMapEntries = out.entries.data();
     out.info.dataSize = out.words.size() * sizeof(uint32_t);

@@ -28,6 +28,7 @@ struct DeviceInfo {
              max_target_size = 0;
     uint32_t interpolation_offset_bits = 0, mipmap_bits = 0;  // of interpolateAtOffset, of a LOD
     bool has_primitive_id = false;                            // the feature geometryShader
+    std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
     static void fields(auto&& visit, auto&... d) {
         visit("index", d.index...);
@@ -48,6 +49,7 @@ struct DeviceInfo {
         visit("interpolation_offset_bits", d.interpolation_offset_bits...);
         visit("mipmap_bits", d.mipmap_bits...);
         visit("has_primitive_id", d.has_primitive_id...);
+        visit("hit_counting", d.hit_counting...);
         visit("missing", d.missing...);
     }
 };

@@ -79,15 +79,20 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
         const float id = other ? kOtherClearIdAsFloat : kClearIdAsFloat;
         const VkClearValue value =
             clear_all(other ? capture::kOtherClearValue : capture::kClearValue);
-        const float hits = other ? kOtherNoHits : kNoHits;
+        const HitCode& code = layout.halves ? kBinary16Hits : kBinary32Hits;
+        const float hits = other ? code.other_none : code.none;
+        const uint32_t hit_bytes = layout.halves ? 2 : 4;
         if (layout.split) {
             out.push_back({Role::writer, kTwoNumbers, clear_all(id), 8, 8,
                            std::max(static_cast<uint32_t>(c.draws.size()), 1U)});
-            out.push_back({Role::hits, kTwoNumbers, clear_all(hits), 8, 8});
+            out.push_back({Role::hits, layout.hit_format(), clear_all(hits), 2 * hit_bytes,
+                           2 * hit_bytes, 1, layout.halves});
             out.push_back({Role::frag_xy, kTwoNumbers, value, 8, 8});
             out.push_back({Role::frag_zw, kTwoNumbers, value, 8, 8});
         } else {
-            out.push_back({Role::writer_and_hits, kColorFormat, clear_color(id, id, id, hits)});
+            out.push_back({Role::writer_and_hits, layout.hit_format(),
+                           clear_color(id, id, id, hits), 4 * hit_bytes, 4 * hit_bytes, 1,
+                           layout.halves});
             out.push_back({Role::frag_coord, kColorFormat, value});
         }
         for (uint32_t k = 0; k < cases::attributes_of(c); ++k) {

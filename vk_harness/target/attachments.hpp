@@ -37,6 +37,7 @@ struct Attachment {
     uint32_t texel_bytes = 16;   // of a single-sampled copy
     uint32_t sample_bytes = 16;  // of a sample in a multisampled copy: whole words
     uint32_t draws = 1;          // of the case: what packed_id goes by
+    bool halves = false;         // hits, and ids beside them, are binary16
     bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
     bool is_resolved() const {
         return role == Role::resolved_color || role == Role::resolved_depth;
@@ -51,6 +52,15 @@ struct Attachment {
     }
 };
 
+// How hits are counted: added to one of two clear values, each of which takes so many before the
+// next begins; what is neither is no count.
+struct HitCode {
+    float none = 0, other_none = 0;      // cases::Variation::other_clears
+    float end = 0;                       // behind the counts of other_none
+    float back_hit = 0;                  // what a back hit adds where both share a number
+    uint32_t most = 0, most_packed = 0;  // hits that are told apart in two numbers, in one
+};
+
 // Hits are added in binary32, which holds every integer below 2^24, to one of two clear values,
 // which differ from each other, from a replaced or an uncleared value, and from no clear. In two
 // numbers, of front and back hits, up to 2^22 - 1 of either kind are told apart; as the alpha of
@@ -59,6 +69,11 @@ inline constexpr float kNoHits = 0x1p23F;
 inline constexpr float kOtherNoHits = 0x1p23F + 0x1p22F;  // cases::Variation::other_clears
 inline constexpr float kBackHit = 2048.0F;                // as shaders/capture.frag adds it
 inline constexpr uint32_t kMaxPackedHits = 2047;
+inline constexpr HitCode kBinary32Hits = {kNoHits,  kOtherNoHits,   0x1p24F,
+                                          kBackHit, (1U << 22) - 1, kMaxPackedHits};
+// The same in binary16, which holds every integer from -2048 to 2048: a replaced value (1, or a
+// back hit) is no count here either, because counts are negative.
+inline constexpr HitCode kBinary16Hits = {-2048.0F, -1024.0F, 0.0F, 32.0F, 1023, 31};
 
 // In the order of shader locations: writer_and_hits, frag_coord, or writer, hits, frag_xy, frag_zw
 // if the layout is split; attributes (or their pairs), color; then depth, which has no location,

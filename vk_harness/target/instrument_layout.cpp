@@ -55,6 +55,7 @@ VkFormat InstrumentLayout::attribute_format(uint32_t attribute) const {
 
 InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test) {
     InstrumentLayout layout;
+    layout.halves = test.target.has_instruments && !c.blends_wide;
     if (!test.target.has_instruments || !ids_fit(test) ||
         (c.narrow_sample_counts & test.target.samples) == 0) {
         return layout;
@@ -72,6 +73,7 @@ InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& tes
     const uint32_t limit = std::min(kMaxSplitAttachments, c.info.max_color_attachments);
     layout.split = all <= limit;
     layout.pairs = has_wide && all + attributes <= limit;
+    layout.halves = layout.split ? !c.blends_narrow : !c.blends_wide;
     return layout;
 }
 

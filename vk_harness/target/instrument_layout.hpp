@@ -18,6 +18,9 @@ namespace vk_harness {
 struct InstrumentLayout {
     bool split = false;  // writer, hits and FragCoord as four attachments of two numbers
     bool pairs = false;  // split: each attribute as two attachments of two numbers
+    // The attachment that counts hits holds binary16: that of hits if the layout is split, else
+    // writer_and_hits, whose ids are then below kMaxHalfId.
+    bool halves = false;
     // 2 or 4 by attribute: numbers that are drawn and read back; the others are 0 at every vertex
     // and 0 in the capture. One number costs as much as two, and would be one shader more.
     std::array<uint8_t, cases::kMaxAttributes> components = {4, 4, 4, 4};
@@ -26,6 +29,10 @@ struct InstrumentLayout {
     // attribute that a case may have.
     uint32_t numbers(uint32_t attribute) const;
     VkFormat attribute_format(uint32_t attribute) const;
+    // Of the attachment that counts hits.
+    VkFormat hit_format() const {
+        return split ? (halves ? kTwoHalves : kTwoNumbers) : (halves ? kColorHalves : kColorFormat);
+    }
     uint32_t attribute_attachments() const { return pairs ? 2 : 1; }
     friend auto operator<=>(const InstrumentLayout&, const InstrumentLayout&) = default;
 };
@@ -33,6 +40,9 @@ struct InstrumentLayout {
 inline constexpr uint32_t kSplitAttachments = 4;
 inline constexpr uint32_t kMaxSplitAttachments =
     8;  // with attributes and colour: cmake/Shaders.cmake
+
+// Integers up to this are exact in binary16.
+inline constexpr uint32_t kMaxHalfId = 2048;
 
 // The narrowest layout that the device has.
 InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test);

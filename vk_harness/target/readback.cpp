@@ -50,13 +50,13 @@ void decode_depth(const cases::Target& target, std::span<const std::byte> from, 
 }
 
 // Whether some number of hits makes this of a clear value.
-bool is_hits(float sum) {
-    return sum >= kNoHits && sum < 2 * kNoHits;
+bool is_hits(float sum, const HitCode& code) {
+    return sum >= code.none && sum < code.end && !(std::floor(sum) < sum);
 }
 
 // Of which of the two clear values; is_hits(sum).
-bool is_of_other_clear(float sum) {
-    return sum >= kOtherNoHits;
+bool is_of_other_clear(float sum, const HitCode& code) {
+    return sum >= code.other_none;
 }
 
 glm::vec4 hits_of(float front, float back, bool other) {
@@ -72,9 +72,10 @@ struct WriterAndHits {
 };
 
 // `draws`: 0 if words are draw, primitive, vertex and hits, else packed_id, vertex and either hits.
-WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words, uint32_t draws) {
+WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words, uint32_t draws,
+                                     const HitCode& code) {
     WriterAndHits out;
-    out.hits = draws == 0 ? decode_hits(words[3]) : decode_hits(words[2], words[3]);
+    out.hits = draws == 0 ? decode_hits(words[3], code) : decode_hits(words[2], words[3], code);
     const auto [draw, primitive] = draws == 0 ? std::pair(decode_id(words[0]), decode_id(words[1]))
                                               : decode_packed_id(words[0], draws);
     const bool is_clear = out.hits.x + out.hits.y < 1;
@@ -87,11 +88,32 @@ WriterAndHits decode_writer_and_hits(const std::array<uint32_t, 4>& words, uint3
     return out;
 }
 
+// A binary16 as the binary32 of the same value.
+float widened(uint16_t half) {
+    const uint32_t sign = (half & 0x8000U) << 16U;
+    const uint32_t exponent = half >> 10U & 0x1fU;
+    const uint32_t mantissa = half & 0x3ffU;
+    if (exponent == 0) {
+        const auto size = static_cast<float>(mantissa) * 0x1p-24F;
+        return sign != 0 ? -size : size;
+    }
+    const uint32_t wide = exponent == 0x1f ? 0xffU : exponent + 112;
+    return std::bit_cast<float>(sign | wide << 23U | mantissa << 13U);
+}
+
 // Numbers of one attachment in read-back memory, `words` a sample.
 struct Words {
     const uint32_t* first = nullptr;
     uint32_t words = 4;
-    uint32_t at(size_t sample, uint32_t word) const { return first[sample * words + word]; }
+    bool halves = false;  // each word is a binary16; two of poison are one word of it
+    uint32_t at(size_t sample, uint32_t word) const {
+        if (!halves) {
+            return first[sample * words + word];
+        }
+        const auto* numbers = reinterpret_cast<const uint16_t*>(first) + sample * words;
+        const uint32_t both = uint32_t{numbers[word | 1U]} << 16U | numbers[word & ~1U];
+        return both == capture::kPoison ? both : std::bit_cast<uint32_t>(widened(numbers[word]));
+    }
 };
 
 // Two words of `ids` and the two of `hits` that follow or stand beside them. Neighbours mostly have
@@ -99,14 +121,15 @@ struct Words {
 void decode_writers_and_hits(const Words& ids, const Words& hit_words, uint32_t draws, size_t count,
                              glm::vec4* hits, capture::Writer* writers) {
     const uint32_t first_hit = draws == 0 ? 2 : 0;
+    const HitCode& code = hit_words.halves ? kBinary16Hits : kBinary32Hits;
     std::array<uint32_t, 4> last{};
-    WriterAndHits decoded = decode_writer_and_hits(last, draws);
+    WriterAndHits decoded = decode_writer_and_hits(last, draws, code);
     for (size_t k = 0; k < count; ++k) {
         const std::array<uint32_t, 4> words = {
             ids.at(k, 0), ids.at(k, 1), hit_words.at(k, first_hit), hit_words.at(k, first_hit + 1)};
         if (words != last) {
             last = words;
-            decoded = decode_writer_and_hits(words, draws);
+            decoded = decode_writer_and_hits(words, draws, code);
         }
         hits[k] = decoded.hits;
         writers[k] = decoded.writer;
@@ -181,31 +204,33 @@ void poison(std::span<std::byte> memory) {
     std::fill(words, words + memory.size() / sizeof(uint32_t), capture::kPoison);
 }
 
-glm::vec4 decode_hits(uint32_t bits) {
+glm::vec4 decode_hits(uint32_t bits, const HitCode& code) {
     const auto sum = std::bit_cast<float>(bits);
     if (bits == capture::kPoison) {
         return glm::vec4(sum);
     }
-    if (!is_hits(sum)) {
+    if (!is_hits(sum, code)) {
         return {0, 0, -1, sum};
     }
-    // Every number of this range is an integer.
-    const float hits = sum - (is_of_other_clear(sum) ? kOtherNoHits : kNoHits);
-    const float back = std::floor(hits / kBackHit);
-    return hits_of(hits - back * kBackHit, back, is_of_other_clear(sum));
+    const bool other = is_of_other_clear(sum, code);
+    const float hits = sum - (other ? code.other_none : code.none);
+    const float back = std::floor(hits / code.back_hit);
+    return hits_of(hits - back * code.back_hit, back, other);
 }
 
-glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits) {
+glm::vec4 decode_hits(uint32_t front_bits, uint32_t back_bits, const HitCode& code) {
     const auto front = std::bit_cast<float>(front_bits);
     const auto back = std::bit_cast<float>(back_bits);
     if (front_bits == capture::kPoison || back_bits == capture::kPoison) {
         return glm::vec4(std::bit_cast<float>(capture::kPoison));
     }
-    if (!is_hits(front) || !is_hits(back) || is_of_other_clear(front) != is_of_other_clear(back)) {
+    if (!is_hits(front, code) || !is_hits(back, code) ||
+        is_of_other_clear(front, code) != is_of_other_clear(back, code)) {
         return {0, 0, -1, front};
     }
-    const float none = is_of_other_clear(front) ? kOtherNoHits : kNoHits;
-    return hits_of(front - none, back - none, is_of_other_clear(front));
+    const bool other = is_of_other_clear(front, code);
+    const float none = other ? code.other_none : code.none;
+    return hits_of(front - none, back - none, other);
 }
 
 uint32_t decode_id(uint32_t bits) {
@@ -265,8 +290,9 @@ namespace {
 // Where the planes of a capture go that are decoded together.
 Words words_of(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                std::span<const std::byte> memory, size_t attachment) {
+    const Attachment& a = attachments[attachment];
     return {reinterpret_cast<const uint32_t*>(memory.data() + layout.offset[attachment]),
-            attachments[attachment].sample_bytes / 4};
+            a.sample_bytes / (a.halves ? 2U : 4U), a.halves};
 }
 
 // The planes that attachment k begins: hits and writers, or FragCoord.
@@ -310,12 +336,18 @@ void decode_attribute(const std::vector<Attachment>& attachments, const Readback
     if (first.words == 4) {
         std::memcpy(to, first.first, count * sizeof(glm::vec4));
     } else {
-        widen(first, is_pair ? words_of(attachments, layout, memory, k + 1) : Words{nullptr, 0},
+        widen(first,
+              is_pair ? words_of(attachments, layout, memory, k + 1) : Words{nullptr, 0, false},
               count, attachments[k].clear, to);
     }
 }
 
 }  // namespace
+
+bool counts_in_halves(const std::vector<Attachment>& attachments) {
+    return std::any_of(attachments.begin(), attachments.end(),
+                       [](const Attachment& a) { return a.halves; });
+}
 
 void read_planes(const std::vector<Attachment>& attachments, const ReadbackLayout& layout,
                  std::span<const std::byte> memory, const capture::PlaneSpans& to) {

@@ -143,6 +143,57 @@ TEST(CaseCheck, HitsThatShareANumber) {
     EXPECT_FALSE(check_case(m, c).has_value());
 }
 
+TEST(CaseCheck, HitsInHalves) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    m.blends_wide = false;
+    m.blends_narrow = false;
+    cases::Case c = good();
+    c.draws[0].positions.resize(size_t{3} * 31);
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws.push_back(good().draws[0]);
+    expect_rejected(m, c, unsupported,
+                    "the case may hit a sample 32 times and the device blends 16-bit floats only, "
+                    "so that hits are counted up to 31; leave out an attribute or the colour "
+                    "target");
+    m.narrow_sample_counts = VK_SAMPLE_COUNT_1_BIT;
+    c.draws[0].positions.resize(size_t{3} * 1022);
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws[0].positions.resize(size_t{3} * 1023);
+    EXPECT_TRUE(check_case(m, c).has_value());
+    // Ids that share an attachment with hits.
+    m.narrow_sample_counts = 0;
+    c = good();
+    c.draws[0].indices = std::vector<uint32_t>{0, 1, 2};
+    c.draws[0].positions.resize(2049);
+    expect_rejected(m, c, unsupported,
+                    "a draw has 2049 vertices, and the device blends 16-bit floats only, which "
+                    "tell 2048 apart");
+}
+
+TEST(CaseCheck, PortabilitySubset) {
+    using enum Rendered::Status;
+    Capabilities m = made_up();
+    m.has_sample_shading = true;
+    m.portability.is_subset = true;
+    m.portability.interpolation_functions = false;
+    m.portability.multisampled_arrays = false;
+    cases::Case c = good();
+    c.draws[0].attributes = {attribute(3)};
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.draws[0].attributes[0].probe = cases::Probe::dx;
+    expect_rejected(m, c, unsupported,
+                    "the device lacks the feature shaderSampleRateInterpolationFunctions "
+                    "(VK_KHR_portability_subset)");
+    c = good();
+    c.target.samples = 4;
+    EXPECT_FALSE(check_case(m, c).has_value());
+    c.target.layers = 2;
+    expect_rejected(
+        m, c, unsupported,
+        "the device lacks the feature multisampleArrayImage (VK_KHR_portability_subset)");
+}
+
 TEST(CaseCheck, Target) {
     using enum Rendered::Status;
     const Capabilities m = made_up();
@@ -216,7 +267,7 @@ TEST(CaseCheck, Draw) {
     expect_rejected(m, c, error, "primitive restart needs indices and a strip or a fan");
     c.draws[0].topology = cases::Topology::triangle_fan;
     EXPECT_FALSE(check_case(m, c).has_value());
-    m.triangle_fans = false;
+    m.portability.triangle_fans = false;
     expect_rejected(m, c, unsupported, "the device lacks the feature triangleFans");
 }
 

@@ -90,6 +90,33 @@ TEST(DecodeHits, NothingElseLooksLikeACount) {
     EXPECT_EQ(bits(decode_hits(capture::kPoison, bits(kNoHits)).z), capture::kPoison);
 }
 
+// The same in binary16: from -2048 to 2048 it holds every integer, so these sums are its own.
+TEST(DecodeHits, CountsInHalves) {
+    const HitCode& code = kBinary16Hits;
+    for (const float none : {code.none, code.other_none}) {
+        const float guard = none < code.other_none ? capture::kHitGuard : capture::kOtherHitGuard;
+        for (uint32_t front = 0; front <= code.most_packed; ++front) {
+            for (uint32_t back = 0; back <= code.most_packed; ++back) {
+                const auto f = static_cast<float>(front);
+                const auto b = static_cast<float>(back);
+                const glm::vec4 hits(f, b, guard, guard + f + b);
+                EXPECT_EQ(decode_hits(bits(none + f + b * code.back_hit), code), hits);
+            }
+        }
+        for (uint32_t count = 0; count <= code.most; ++count) {
+            const auto n = static_cast<float>(count);
+            EXPECT_EQ(decode_hits(bits(none + n), bits(none), code),
+                      glm::vec4(n, 0, guard, guard + n));
+        }
+        // One more would count as another clear value's, or as none.
+        EXPECT_NE(decode_hits(bits(none + static_cast<float>(code.most) + 1), bits(none), code).z,
+                  guard);
+    }
+    for (const float replaced : {1.0F, code.back_hit, 0.0F, -0.5F, -2049.0F, NAN}) {
+        EXPECT_LT(decode_hits(bits(replaced), code).z, 0) << replaced;
+    }
+}
+
 // A case of one draw with `attributes` attributes.
 cases::Case target_case(cases::Target target, size_t attributes) {
     cases::Case c;
@@ -316,6 +343,50 @@ TEST(ReadCapture, NarrowAttachmentsHoldTheSame) {
     EXPECT_EQ(split.writers[1], (capture::Writer{3, capture::kNoPrimitive, 5, capture::kClearId}));
     EXPECT_EQ(split.hits[1], glm::vec4(0, 2, capture::kHitGuard, capture::kHitGuard + 2));
     EXPECT_EQ(split.attributes[1][1], glm::vec4(0, 8, 0, 0));
+}
+
+// Hits that were counted in binary16, in either layout: the capture is the same to the bit, and
+// says how they were counted.
+TEST(ReadCapture, HalvesHoldTheSame) {
+    cases::Case c = target_case({3, 1, 1}, 0);
+    c.draws.resize(5);
+    const float clear = capture::kClearValue;
+    const std::vector<float> frag = {clear, clear, clear, clear, 9, 10, 11, 12};
+    const auto read = [&](const InstrumentLayout& layout,
+                          const std::vector<std::vector<uint16_t>>& halves,
+                          const std::vector<std::vector<float>>& words) {
+        const std::vector<Attachment> attachments = attachments_of(c, layout);
+        EXPECT_EQ(counts_in_halves(attachments), layout.halves);
+        const ReadbackLayout places = make_layout(c.target, attachments, 0, 64);
+        std::vector<std::byte> memory(places.end);
+        poison(memory);
+        for (size_t k = 0; k < attachments.size() - 1; ++k) {  // the last is depth
+            std::memcpy(memory.data() + places.offset[k], halves[k].data(),
+                        halves[k].size() * sizeof(uint16_t));
+            std::memcpy(memory.data() + places.offset[k], words[k].data(),
+                        words[k].size() * sizeof(float));
+        }
+        return read_capture(c.target, attachments, true, places, memory);
+    };
+    // The first sample is clear, the second has two hits by back faces, the third is not copied.
+    const capture::Capture wide =
+        read({}, {{}, {}}, {{-1, -1, -1, kNoHits, 3, -2, 5, kNoHits + 2 * kBackHit}, frag});
+    InstrumentLayout halves;
+    halves.halves = true;
+    const capture::Capture packed = read(
+        halves, {{0xbc00, 0xbc00, 0xbc00, 0xe800, 0x4200, 0xc000, 0x4500, 0xe7c0}, {}},  // -1984
+        {{}, frag});
+    InstrumentLayout split = halves;
+    split.split = true;
+    const capture::Capture apart =
+        read(split, {{}, {0xe800, 0xe800, 0xe800, 0xe7fe}, {}, {}},
+             {{-1, -1, 3, 5}, {}, {clear, clear, 9, 10}, {clear, clear, 11, 12}});
+    for (const capture::Capture& capture : {packed, apart}) {
+        EXPECT_EQ(std::memcmp(wide.hits.data(), capture.hits.data(), 48), 0);
+        EXPECT_EQ(wide.writers, capture.writers);
+        EXPECT_EQ(std::memcmp(wide.frag_coord.data(), capture.frag_coord.data(), 48), 0);
+    }
+    EXPECT_EQ(packed.hits[1], glm::vec4(0, 2, capture::kHitGuard, capture::kHitGuard + 2));
 }
 
 // Capabilities with which everything may be narrow.
