@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "driver.hpp"
@@ -26,21 +25,10 @@ bool alter(bool (*hook)(Parameters...), Arguments&&... arguments) {
     return altered;
 }
 
-// The types are those of the headers: a signature that is not the command's does not compile.
-#define BREAKING_OWN(name, function) \
-    { "vk" #name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vk##name>(function)) }
+#define BREAKING_OWN(name, function) VULKAN_LAYER_OWN(name, function)
 
-using OwnCommand = std::pair<const char*, PFN_vkVoidFunction>;
-
-inline PFN_vkVoidFunction find_command(std::span<const OwnCommand> commands,
-                                       std::string_view name) {
-    for (const auto& [own_name, command] : commands) {
-        if (name == own_name) {
-            return command;
-        }
-    }
-    return nullptr;
-}
+using vulkan_layer::find_command;
+using vulkan_layer::OwnCommand;
 
 // Commands that set dynamic state and bindings.
 std::span<const OwnCommand> state_commands();

@@ -368,11 +368,70 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(CmdDispatch, dispatch),
 };
 
-}  // namespace
-
-PFN_vkVoidFunction own_device_command(const char* name) {
-    const PFN_vkVoidFunction own = find_command(kCommands, name);
-    return own != nullptr ? own : find_command(state_commands(), name);
+// Lines and points need a feature that the application has no reason to enable.
+VkResult create_with_lines(const vulkan_layer::Instance& instance, VkPhysicalDevice physical,
+                           const VkDeviceCreateInfo& asked,
+                           const vulkan_layer::CreateNext& create) {
+    VkPhysicalDeviceFeatures offered{};
+    instance.get<PFN_vkGetPhysicalDeviceFeatures>("vkGetPhysicalDeviceFeatures")(physical,
+                                                                                 &offered);
+    VkDeviceCreateInfo own = asked;
+    for (auto* s = static_cast<const VkBaseInStructure*>(own.pNext); s != nullptr; s = s->pNext) {
+        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2) {
+            auto* chained =
+                reinterpret_cast<VkPhysicalDeviceFeatures2*>(const_cast<VkBaseInStructure*>(s));
+            chained->features.fillModeNonSolid = offered.fillModeNonSolid;
+            return create(own);
+        }
+    }
+    VkPhysicalDeviceFeatures features =
+        own.pEnabledFeatures != nullptr ? *own.pEnabledFeatures : VkPhysicalDeviceFeatures{};
+    features.fillModeNonSolid = offered.fillModeNonSolid;
+    own.pEnabledFeatures = &features;
+    return create(own);
 }
 
+}  // namespace
+
 }  // namespace breaking
+
+namespace vulkan_layer {
+
+bool is_ready() {
+    return breaking::chosen_fault() != nullptr;
+}
+
+std::span<const char* const> needed_instance_commands() {
+    static constexpr std::array kNames = {"vkGetPhysicalDeviceFeatures"};
+    return kNames;
+}
+
+VkResult create_next_device(const Instance& instance, VkPhysicalDevice physical,
+                            const VkDeviceCreateInfo& asked, const CreateNext& create) {
+    return breaking::chosen_fault()->needs_lines
+               ? breaking::create_with_lines(instance, physical, asked, create)
+               : create(asked);
+}
+
+std::unique_ptr<Device> load_device(VkDevice device, PFN_vkGetDeviceProcAddr next) {
+    auto driver = std::make_unique<breaking::Driver>();
+#define BREAKING_LOAD(name) driver->name = reinterpret_cast<PFN_vk##name>(next(device, "vk" #name));
+    BREAKING_COMMANDS(BREAKING_LOAD)
+#undef BREAKING_LOAD
+    return driver;
+}
+
+PFN_vkVoidFunction own_instance_command(const char* /*name*/) {
+    return nullptr;
+}
+
+PFN_vkVoidFunction own_device_command(const char* name) {
+    const PFN_vkVoidFunction own = find_command(breaking::kCommands, name);
+    return own != nullptr ? own : find_command(breaking::state_commands(), name);
+}
+
+bool shows_device_command(VkDevice /*device*/, const char* /*name*/) {
+    return true;
+}
+
+}  // namespace vulkan_layer

@@ -4,7 +4,7 @@
 
 #include <vulkan/vulkan.h>
 
-#include <memory>
+#include "vulkan_layer/layer.hpp"
 
 namespace breaking {
 
@@ -54,31 +54,15 @@ namespace breaking {
 // clang-format on
 
 // The next layer's, or the driver's, commands of one device.
-struct Driver {
-    PFN_vkGetDeviceProcAddr GetDeviceProcAddr = nullptr;
-    PFN_vkDestroyDevice DestroyDevice = nullptr;
+struct Driver : vulkan_layer::Device {
 #define BREAKING_MEMBER(name) PFN_vk##name name = nullptr;
     BREAKING_COMMANDS(BREAKING_MEMBER)
 #undef BREAKING_MEMBER
 };
 
-// Devices, queues and command buffers of one device begin with the same pointer, the loader's
-// dispatch table.
-template <typename Handle>
-void* dispatch_key(Handle handle) {
-    return *reinterpret_cast<void**>(handle);
-}
-
-void add_driver(void* key, std::unique_ptr<Driver> driver);
-void remove_driver(void* key);
-const Driver& driver_of(void* key);
-
 template <typename Handle>
 const Driver& driver_of_handle(Handle handle) {
-    return driver_of(dispatch_key(handle));
+    return static_cast<const Driver&>(vulkan_layer::device_of(vulkan_layer::dispatch_key(handle)));
 }
-
-// The layer's own version of a device command; nothing if it has none.
-PFN_vkVoidFunction own_device_command(const char* name);
 
 }  // namespace breaking

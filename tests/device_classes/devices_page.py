@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the suite under every class and writes docs/devices.md: what share of it each device runs, and what it lacks."""
+import collections
+import pathlib
+import re
+import sys
+import tempfile
+
+import device_classes
+
+HEAD = """# What real devices run of the suite
+
+No GPU has run the suite yet. What a device can run follows from what it advertises, so the layer in
+[tests/device_classes](../tests/device_classes/README.md) makes lavapipe look like a device of each class: its features,
+limits, formats and extensions, as drivers' sources and reports publish them; the files beside it say of each figure
+where it is from and which are estimates. The layer ends the process when something that the class does not advertise is
+used. Nothing fails under a class that does not fail on lavapipe itself.
+
+`cmake --build --preset release --target devices_page` runs the suite under every class and writes this page; a test
+compares it. *Unsupported* is the share of the suite's cases, *aim* what it shall be at most, *hits* in which numbers
+hits are counted. *Untried* are cases that the class might run and lavapipe cannot: it has 1 and 4 samples a pixel
+alone.
+
+| class | Vulkan | unsupported | aim | untried | hits |
+| --- | --- | --- | --- | --- | --- |
+"""
+
+
+def reasons_of(results):
+    """How many cases each reason leaves unsupported; numbers that differ from case to case are left out."""
+    counts = collections.Counter()
+    for case in results["cases"]:
+        if case["status"] == "unsupported":
+            counts[re.sub(r"\b\d+ (?=times|vertices|colour attachments, the|samples|viewports)", "N ", case["reason"])] += 1
+    return counts
+
+
+RESOLVES = {"SAMPLE_ZERO": 1, "AVERAGE": 2, "MIN": 4, "MAX": 8}
+
+
+def lavapipe_alone_lacks(device, reason):
+    """Whether the class has what the reason misses: then it is lavapipe that lacks it."""
+    if found := re.search(r"does not draw (\d+) samples a pixel|target of format \S+ with (\d+) samples|D32_SFLOAT_S8_UINT at sample count (\d+)",
+                          reason):
+        return int(next(group for group in found.groups() if group)) in device["samples"] and "at sample count 1" not in reason
+    if found := re.search(r"resolve depth by (\w+)", reason):
+        return bool(device["limits"].get("supportedDepthResolveModes", 15) & RESOLVES[found[1]])
+    for text, facts in (("fragmentShaderBarycentric", "features"), ("VK_EXT_sample_locations", "extensions"), ("depthBiasControl", "features")):
+        if text in reason:
+            return text in device[facts]
+    return False
+
+
+def facts(device, results, printed, hits):
+    """What the page says of one class: numbers, reasons and nothing of the run."""
+    if results is None:
+        lines = [line.strip() for line in printed.splitlines() if "device 0" in line]
+        return {"all": 0, "unsupported": None, "alone": 0, "reasons": lines or [printed.strip()], "hits": "-"}
+    alone = {c["id"] for c in results["cases"] if c["status"] == "unsupported" and lavapipe_alone_lacks(device, c["reason"])}
+    counts = reasons_of({"cases": [c for c in results["cases"] if c["id"] not in alone]})
+    return {"all": len(results["cases"]), "unsupported": sum(counts.values()), "alone": len(alone), "hits": hits,
+            "reasons": sorted(counts.items(), key=lambda item: (-item[1], item[0]))}
+
+
+def section(device, found):
+    if found["unsupported"] is None:
+        text = f"\n## {device['name']}\nNo case can run:\n\n"
+        return text + "".join("* " + re.sub(r"^.*?device 0 \(.*?\)\): ", "", line) + "\n" for line in found["reasons"])
+    if not found["reasons"]:
+        return f"\n## {device['name']}\nEverything runs.\n"
+    rows = "".join(f"| {count} | {reason.replace('|', '/')} |\n" for reason, count in found["reasons"])
+    return f"\n## {device['name']}\n| cases | why they are unsupported |\n| --- | --- |\n{rows}"
+
+
+def page(all_found):
+    table, sections = "", ""
+    for name, found in all_found.items():
+        device = device_classes.read(name)
+        share = "100 %" if found["unsupported"] is None else f"{100 * found['unsupported'] / found['all']:.1f} %"
+        table += f"| {device['name']} | {device['api']} | {share} | {device['aim']} % | {found['alone']} | {found['hits']} |\n"
+        sections += section(device, found)
+    return HEAD + table + sections
+
+
+def measure(name):
+    device = device_classes.read(name)
+    with tempfile.TemporaryDirectory(prefix="edgecase-class-") as folder:
+        _, results, printed = device_classes.run(device, folder)
+        return facts(device, results, printed, device_classes.hit_counting(device, folder))
+
+
+def main():
+    path = pathlib.Path(sys.argv[1])
+    names = sys.argv[2:] or device_classes.names()
+    found = {name: measure(name) for name in names}
+    text = page(found)
+    if sys.argv[2:]:
+        print(text)
+    else:
+        path.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""The program on lavapipe that looks like other devices. A machine without lavapipe fails these tests: they are never
+skipped."""
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import device_classes
+import devices_page
+
+WIDE = {"r32-sfloat", "r32g32-sfloat", "r32g32b32a32-sfloat"}
+
+
+class ClassTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-class-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def statuses(self, device, selectors=()):
+        code, results, printed = device_classes.run(device, self.folder, selectors)
+        self.assertIsNotNone(results, printed)
+        return results, {case["id"]: case["status"] for case in results["cases"]}, printed
+
+
+class Layer(ClassTest):
+    def test_what_the_class_lacks_is_asked_first(self):
+        device = device_classes.read("nvidia")
+        device["features"].remove("shaderClipDistance")
+        results, statuses, printed = self.statuses(device, ["clip-distance/attributes:rotation=0", "coverage/half-square"])
+        self.assertEqual(statuses["coverage/half-square"], "pass", printed)
+        reasons = {case["reason"] for case in results["cases"] if case["status"] == "unsupported"}
+        self.assertEqual(reasons, {"the device lacks the feature shaderClipDistance"})
+
+    def test_what_is_used_without_being_advertised_ends_the_process(self):
+        # What the program uses if it is told that it is there, but what the class does not have.
+        for feature, selector in (("shaderClipDistance", "clip-distance/attributes:rotation=0"),
+                                  ("depthClamp", "depth-clamp/bias:format=d32-float,slope=-8,near=0.25"),
+                                  ("sampleRateShading", "multisample/shading-coverage:samples=4,shading=0.5"),
+                                  ("geometryShader", "coverage/half-square")):
+            with self.subTest(feature=feature):
+                device = device_classes.read("nvidia")
+                device["traps"] = [feature]
+                code, results, printed = device_classes.run(device, self.folder, [selector])
+                self.assertEqual(code, 1, printed)
+                crashes = [case for case in results["cases"] if case["status"] == "crash"]
+                self.assertNotEqual(crashes, [], printed)
+                self.assertIn(f"the feature {feature} is used, which a device of the class 'NVIDIA' does not advertise",
+                              crashes[0]["stderr"])
+
+    def test_a_device_without_what_every_case_needs(self):
+        # 16-bit floats have to be blended where wider ones are not.
+        device = device_classes.read("nvidia")
+        device["lacks"] = {name: ["blend"] for name in [*WIDE, "r16g16-sfloat", "r16g16b16a16-sfloat"]}
+        code, _, printed = device_classes.run(device, self.folder, ["coverage/half-square"])
+        self.assertEqual(code, 5, printed)
+        self.assertIn("R16G16B16A16_SFLOAT as a blended colour attachment, which counts hits", printed)
+        device = device_classes.read("nvidia")
+        device["api"] = "1.0"
+        code, _, printed = device_classes.run(device, self.folder, ["coverage/half-square"])
+        self.assertEqual(code, 5, printed)
+        self.assertIn("Vulkan 1.1 is needed, the device has 1.0", printed)
+
+    def test_a_wrong_class_stops_the_run(self):
+        device = device_classes.read("nvidia")
+        device["name"] = ""
+        code, _, printed = device_classes.run(device, self.folder, ["coverage/half-square"])
+        self.assertEqual(code, 5, printed)
+        self.assertIn("EDGECASE_DEVICE_CLASS names no file", printed)
+
+
+class Suite(ClassTest):
+    def test_hits_in_halves_are_the_same(self):
+        # The same device but for blending of 32-bit floats: wherever both run a case they say the same.
+        device = device_classes.read("nvidia")
+        _, wide, _ = self.statuses(device)
+        self.assertEqual(device_classes.hit_counting(device, self.folder), "binary32")
+        device["lacks"] = {name: ["blend"] for name in WIDE}
+        for attachments in (8, 4):
+            device["limits"]["maxColorAttachments"] = attachments
+            _, halves, printed = self.statuses(device)
+            self.assertEqual(device_classes.hit_counting(device, self.folder), "binary16")
+            both = [case for case in wide if "unsupported" not in (wide[case], halves[case])]
+            self.assertGreater(len(both), 3000 if attachments == 8 else 2700, printed)
+            self.assertEqual({case: (wide[case], halves[case]) for case in both if wide[case] != halves[case]}, {})
+
+    def test_the_page_is_what_runs_say(self):
+        _, plain, _ = self.statuses(None)
+        found = {}
+        for name in device_classes.names():
+            device = device_classes.read(name)
+            _, results, printed = device_classes.run(device, self.folder)
+            found[name] = devices_page.facts(device, results, printed, device_classes.hit_counting(device, self.folder))
+            with self.subTest(device=name):
+                if results is not None:
+                    worse = [c["id"] for c in results["cases"] if c["status"] not in (plain[c["id"]], "unsupported")]
+                    self.assertEqual(worse, [], printed)
+                    self.assertLessEqual(100 * found[name]["unsupported"], device.get("reaches", device["aim"]) * found[name]["all"])
+                else:
+                    self.assertEqual(device.get("reaches", device["aim"]), 100, printed)
+        page = (device_classes.SOURCE / "docs" / "devices.md").read_text(encoding="utf-8")
+        self.assertEqual(page, devices_page.page(found), "write it anew: cmake --build --preset release --target devices_page")
+
+
+if __name__ == "__main__":
+    unittest.main()

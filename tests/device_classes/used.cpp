@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is made on a device: whatever the class does not advertise is complained about.
+#include <algorithm>
+#include <cstring>
+
+#include "shown.hpp"
+
+namespace device_classes {
+
+namespace {
+
+struct Driver : vulkan_layer::Device {
+    PFN_vkCreateImage CreateImage = nullptr;
+    PFN_vkCreateShaderModule CreateShaderModule = nullptr;
+    PFN_vkCreateGraphicsPipelines CreateGraphicsPipelines = nullptr;
+    PFN_vkCmdSetPrimitiveTopology CmdSetPrimitiveTopology = nullptr;
+};
+
+template <typename Handle>
+const Driver& driver_of(Handle handle) {
+    return static_cast<const Driver&>(vulkan_layer::device_of(vulkan_layer::dispatch_key(handle)));
+}
+
+bool lacks(VkFormat format, VkFormatFeatureFlags features) {
+    const auto found = shown_class()->lacks.find(format);
+    return found != shown_class()->lacks.end() && (found->second & features) != 0;
+}
+
+std::string format_text(VkFormat format) {
+    return "the format " + std::to_string(static_cast<int>(format));
+}
+
+void need(bool is_used, const char* feature) {
+    if (is_used && !shown_class()->may_use(feature)) {
+        complain(std::string("the feature ") + feature);
+    }
+}
+
+void need_samples(VkSampleCountFlags count) {
+    if ((shown_class()->samples & count) == 0) {
+        complain("the sample count " + std::to_string(count));
+    }
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreateInfo* info,
+                                            const VkAllocationCallbacks* allocator, VkImage* out) {
+    if (lacks(info->format, features_of(info->usage))) {
+        complain(format_text(info->format) + " with usage " + std::to_string(info->usage));
+    }
+    need_samples(info->samples);
+    if (shown_class()->extensions.count(kPortability) > 0) {
+        need(info->samples != VK_SAMPLE_COUNT_1_BIT && info->arrayLayers > 1,
+             "multisampleArrayImage");
+    }
+    return driver_of(device).CreateImage(device, info, allocator, out);
+}
+
+// The capabilities of a module that stand for features.
+VKAPI_ATTR VkResult VKAPI_CALL create_shader_module(VkDevice device,
+                                                    const VkShaderModuleCreateInfo* info,
+                                                    const VkAllocationCallbacks* allocator,
+                                                    VkShaderModule* out) {
+    const DeviceClass& shown = *shown_class();
+    const size_t words = info->codeSize / sizeof(uint32_t);
+    constexpr uint32_t kOpCapability = 17;
+    constexpr size_t kHeader = 5;
+    // Of the version word: 1.3 for Vulkan 1.1, 1.5 for 1.2, 1.6 for 1.3.
+    const uint32_t version = info->pCode[1] >> 8U & 0xffU;
+    const uint32_t minor = VK_API_VERSION_MINOR(shown.api_version);
+    if (version > (minor == 0 ? 0U : minor == 1 ? 3U : minor == 2 ? 5U : 6U)) {
+        complain("SPIR-V 1." + std::to_string(version));
+    }
+    for (size_t at = kHeader; at < words;) {
+        const uint32_t word = info->pCode[at];
+        if ((word & 0xffffU) == kOpCapability) {
+            const uint32_t capability = info->pCode[at + 1];
+            need(capability == 2, "geometryShader");
+            need(capability == 32, "shaderClipDistance");
+            need(capability == 33, "shaderCullDistance");
+            need(capability == 35, "sampleRateShading");
+            need(capability == 52 && shown.extensions.count(kPortability) > 0,
+                 "shaderSampleRateInterpolationFunctions");
+            need(capability == 69, "shaderOutputLayer");
+            need(capability == 70, "shaderOutputViewportIndex");
+            need(capability == 5284, "fragmentShaderBarycentric");
+        }
+        at += std::max(word >> 16U, 1U);
+    }
+    return driver_of(device).CreateShaderModule(device, info, allocator, out);
+}
+
+void check_pipeline(const VkGraphicsPipelineCreateInfo& info) {
+    const DeviceClass& shown = *shown_class();
+    if (info.pMultisampleState != nullptr) {
+        need(info.pMultisampleState->sampleShadingEnable == VK_TRUE, "sampleRateShading");
+        need_samples(info.pMultisampleState->rasterizationSamples);
+    }
+    if (info.pRasterizationState != nullptr) {
+        need(info.pRasterizationState->depthClampEnable == VK_TRUE, "depthClamp");
+        need(info.pRasterizationState->polygonMode != VK_POLYGON_MODE_FILL, "fillModeNonSolid");
+    }
+    need(info.pViewportState != nullptr && info.pViewportState->viewportCount > 1,
+         "multiViewport");
+    const auto most = shown.limits.find("maxColorAttachments");
+    for (auto* s = static_cast<const VkBaseInStructure*>(info.pNext); s != nullptr; s = s->pNext) {
+        if (s->sType != VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO) {
+            continue;
+        }
+        const auto& rendering = *reinterpret_cast<const VkPipelineRenderingCreateInfo*>(s);
+        if (most != shown.limits.end() && rendering.colorAttachmentCount > most->second) {
+            complain(std::to_string(rendering.colorAttachmentCount) + " colour attachments");
+        }
+        for (uint32_t k = 0; k < rendering.colorAttachmentCount; ++k) {
+            const VkFormat format = rendering.pColorAttachmentFormats[k];
+            if (lacks(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)) {
+                complain(format_text(format) + " as a colour attachment");
+            }
+            if (info.pColorBlendState->pAttachments[k].blendEnable == VK_TRUE &&
+                lacks(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)) {
+                complain(format_text(format) + ", blended,");
+            }
+        }
+    }
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipelineCache cache,
+                                                         uint32_t count,
+                                                         const VkGraphicsPipelineCreateInfo* infos,
+                                                         const VkAllocationCallbacks* allocator,
+                                                         VkPipeline* out) {
+    std::for_each(infos, infos + count, check_pipeline);
+    return driver_of(device).CreateGraphicsPipelines(device, cache, count, infos, allocator, out);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_primitive_topology(VkCommandBuffer commands,
+                                                  VkPrimitiveTopology topology) {
+    if (shown_class()->extensions.count(kPortability) > 0) {
+        need(topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN, "triangleFans");
+    }
+    driver_of(commands).CmdSetPrimitiveTopology(commands, topology);
+}
+
+const vulkan_layer::OwnCommand kCommands[] = {
+    VULKAN_LAYER_OWN(CreateImage, create_image),
+    VULKAN_LAYER_OWN(CreateShaderModule, create_shader_module),
+    VULKAN_LAYER_OWN(CreateGraphicsPipelines, create_graphics_pipelines),
+    VULKAN_LAYER_OWN(CmdSetPrimitiveTopology, set_primitive_topology),
+    VULKAN_LAYER_OWN(CmdSetPrimitiveTopologyEXT, set_primitive_topology),
+};
+
+// Commands by the version whose core has them, as far as the program may use them.
+struct CoreCommand {
+    const char* name;
+    uint32_t since;
+};
+constexpr CoreCommand kCore[] = {
+    {"vkGetImageMemoryRequirements2", VK_API_VERSION_1_1},
+    {"vkGetBufferMemoryRequirements2", VK_API_VERSION_1_1},
+    {"vkBindBufferMemory2", VK_API_VERSION_1_1},
+    {"vkBindImageMemory2", VK_API_VERSION_1_1},
+    {"vkGetDeviceQueue2", VK_API_VERSION_1_1},
+    {"vkCreateRenderPass2", VK_API_VERSION_1_2},
+    {"vkCmdBeginRenderPass2", VK_API_VERSION_1_2},
+    {"vkCmdDrawIndirectCount", VK_API_VERSION_1_2},
+    {"vkCmdDrawIndexedIndirectCount", VK_API_VERSION_1_2},
+    {"vkResetQueryPool", VK_API_VERSION_1_2},
+    {"vkCmdBeginRendering", VK_API_VERSION_1_3},
+    {"vkCmdEndRendering", VK_API_VERSION_1_3},
+    {"vkCmdPipelineBarrier2", VK_API_VERSION_1_3},
+    {"vkQueueSubmit2", VK_API_VERSION_1_3},
+    {"vkCmdCopyBuffer2", VK_API_VERSION_1_3},
+    {"vkCmdCopyImage2", VK_API_VERSION_1_3},
+    {"vkCmdCopyImageToBuffer2", VK_API_VERSION_1_3},
+    {"vkCmdBlitImage2", VK_API_VERSION_1_3},
+    {"vkCmdSetCullMode", VK_API_VERSION_1_3},
+    {"vkCmdSetFrontFace", VK_API_VERSION_1_3},
+    {"vkCmdSetPrimitiveTopology", VK_API_VERSION_1_3},
+    {"vkCmdSetPrimitiveRestartEnable", VK_API_VERSION_1_3},
+    {"vkCmdSetRasterizerDiscardEnable", VK_API_VERSION_1_3},
+    {"vkCmdSetDepthTestEnable", VK_API_VERSION_1_3},
+    {"vkCmdSetDepthCompareOp", VK_API_VERSION_1_3},
+    {"vkCmdSetDepthWriteEnable", VK_API_VERSION_1_3},
+    {"vkCmdSetDepthBiasEnable", VK_API_VERSION_1_3},
+    {"vkCmdSetStencilTestEnable", VK_API_VERSION_1_3},
+    {"vkCmdSetStencilOp", VK_API_VERSION_1_3},
+    {"vkCmdBindVertexBuffers2", VK_API_VERSION_1_3},
+};
+
+}  // namespace
+
+}  // namespace device_classes
+
+namespace vulkan_layer {
+
+std::unique_ptr<Device> load_device(VkDevice device, PFN_vkGetDeviceProcAddr next) {
+    auto driver = std::make_unique<device_classes::Driver>();
+    const auto load = [&](auto& command, const char* name) {
+        command = reinterpret_cast<std::decay_t<decltype(command)>>(next(device, name));
+    };
+    load(driver->CreateImage, "vkCreateImage");
+    load(driver->CreateShaderModule, "vkCreateShaderModule");
+    load(driver->CreateGraphicsPipelines, "vkCreateGraphicsPipelines");
+    load(driver->CmdSetPrimitiveTopology, "vkCmdSetPrimitiveTopology");
+    return driver;
+}
+
+PFN_vkVoidFunction own_device_command(const char* name) {
+    return find_command(device_classes::kCommands, name);
+}
+
+bool shows_device_command(VkDevice /*device*/, const char* name) {
+    const auto* const end = std::end(device_classes::kCore);
+    const auto* const found =
+        std::find_if(std::begin(device_classes::kCore), end, [name](const auto& command) {
+            return std::strcmp(command.name, name) == 0;
+        });
+    return found == end || device_classes::shown_class()->api_version >= found->since;
+}
+
+}  // namespace vulkan_layer
