@@ -14,8 +14,8 @@
 namespace run {
 
 // Adds both, in one scale from the least depth to the greatest. The reference's, which take time,
-// only if a finding is about a depth: they are the middle of what is accepted of the fragments whose
-// depth may be stored; none where a sample is free, or where nothing is promised.
+// only if a finding is about a depth: they are the middle of what is accepted of the fragments
+// whose depth may be stored; none where a sample is free, or where nothing is promised.
 void add_depths(report::Pictures& pictures, const PictureWindow& window, const cases::Case& c,
                 const diff::Verdict& verdict, const ref::Expectation& expectation,
                 const capture::CaptureView& capture);

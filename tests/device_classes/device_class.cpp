@@ -26,7 +26,9 @@ bool read_line(const std::string& line, DeviceClass& out) {
     } else if (word == "feature" || word == "extension" || word == "trap") {
         std::string name;
         in >> name;
-        (word == "feature" ? out.features : word == "trap" ? out.traps : out.extensions)
+        (word == "feature" ? out.features
+         : word == "trap"  ? out.traps
+                           : out.extensions)
             .insert(name);
     } else if (word == "limit") {
         std::string name;

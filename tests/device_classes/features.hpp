@@ -12,8 +12,8 @@ namespace device_classes {
 struct DepthBiasControl {
     VkStructureType type;
     void* next;
-    VkBool32 depthBiasControl, leastRepresentableValueForceUnormRepresentation,
-        floatRepresentation, depthBiasExact;
+    VkBool32 depthBiasControl, leastRepresentableValueForceUnormRepresentation, floatRepresentation,
+        depthBiasExact;
 };
 inline constexpr auto kDepthBiasControlType = static_cast<VkStructureType>(1000283000);
 
@@ -102,7 +102,8 @@ bool each_feature(void* structure, Visit&& visit) {
             return true;
         }
         case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR: {
-            auto& s = *static_cast<VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR*>(structure);
+            auto& s =
+                *static_cast<VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR*>(structure);
             DEVICE_CLASSES_FEATURE(fragmentShaderBarycentric)
             return true;
         }

@@ -3,13 +3,14 @@
 //
 // What is asked of a physical device, answered as the class would; and the device that is made of
 // it, which may enable nothing else.
+#include "shown.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <string_view>
 #include <vector>
 
 #include "features.hpp"
-#include "shown.hpp"
 
 namespace device_classes {
 
@@ -40,7 +41,8 @@ void narrow(const char* name, T& limit) {
     const std::string_view text = name;
     if (text == "supportedDepthResolveModes") {
         limit = static_cast<T>(static_cast<uint64_t>(limit) & static_cast<uint64_t>(own));
-    } else if (text.starts_with("min") || text.starts_with("optimal") || text.ends_with("Range[0]")) {
+    } else if (text.starts_with("min") || text.starts_with("optimal") ||
+               text.ends_with("Range[0]")) {
         limit = std::max(limit, own);
     } else {
         limit = std::min(limit, own);
@@ -50,8 +52,7 @@ void narrow(const char* name, T& limit) {
 void show_limits(VkPhysicalDeviceProperties& properties) {
     const DeviceClass& shown = *shown_class();
     if (properties.apiVersion >= shown.api_version + VK_MAKE_API_VERSION(0, 0, 1, 0)) {
-        properties.apiVersion =
-            shown.api_version | VK_API_VERSION_PATCH(properties.apiVersion);
+        properties.apiVersion = shown.api_version | VK_API_VERSION_PATCH(properties.apiVersion);
     }
     VkPhysicalDeviceLimits& l = properties.limits;
 #define DEVICE_CLASSES_LIMIT(name) narrow(#name, l.name);
@@ -156,8 +157,8 @@ VKAPI_ATTR VkResult VKAPI_CALL get_image_properties(VkPhysicalDevice physical, V
         return VK_ERROR_FORMAT_NOT_SUPPORTED;
     }
     const VkResult result = next_of<PFN_vkGetPhysicalDeviceImageFormatProperties>(
-        physical, "vkGetPhysicalDeviceImageFormatProperties")(physical, format, type, tiling,
-                                                              usage, flags, out);
+        physical, "vkGetPhysicalDeviceImageFormatProperties")(physical, format, type, tiling, usage,
+                                                              flags, out);
     const DeviceClass& shown = *shown_class();
     out->sampleCounts &= shown.samples;
     const auto at_most = [&shown](uint32_t& value, const char* limit) {
@@ -225,8 +226,8 @@ const vulkan_layer::OwnCommand kCommands[] = {
 VkFormatFeatureFlags features_of(VkImageUsageFlags usage) {
     VkFormatFeatureFlags out = 0;
     for (const auto& [bit, feature] :
-         {std::pair<VkImageUsageFlags, VkFormatFeatureFlags>{
-              VK_IMAGE_USAGE_SAMPLED_BIT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT},
+         {std::pair<VkImageUsageFlags, VkFormatFeatureFlags>{VK_IMAGE_USAGE_SAMPLED_BIT,
+                                                             VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT},
           {VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT},
           {VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
            VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT}}) {

@@ -101,8 +101,7 @@ void check_pipeline(const VkGraphicsPipelineCreateInfo& info) {
         need(info.pRasterizationState->depthClampEnable == VK_TRUE, "depthClamp");
         need(info.pRasterizationState->polygonMode != VK_POLYGON_MODE_FILL, "fillModeNonSolid");
     }
-    need(info.pViewportState != nullptr && info.pViewportState->viewportCount > 1,
-         "multiViewport");
+    need(info.pViewportState != nullptr && info.pViewportState->viewportCount > 1, "multiViewport");
     const auto most = shown.limits.find("maxColorAttachments");
     for (auto* s = static_cast<const VkBaseInStructure*>(info.pNext); s != nullptr; s = s->pNext) {
         if (s->sType != VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO) {
@@ -213,9 +212,8 @@ PFN_vkVoidFunction own_device_command(const char* name) {
 bool shows_device_command(VkDevice /*device*/, const char* name) {
     const auto* const end = std::end(device_classes::kCore);
     const auto* const found =
-        std::find_if(std::begin(device_classes::kCore), end, [name](const auto& command) {
-            return std::strcmp(command.name, name) == 0;
-        });
+        std::find_if(std::begin(device_classes::kCore), end,
+                     [name](const auto& command) { return std::strcmp(command.name, name) == 0; });
     return found == end || device_classes::shown_class()->api_version >= found->since;
 }
 

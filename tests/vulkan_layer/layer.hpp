@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the layers of the tests share: the loader's side. Each layer links layer.cpp and defines what
-// is declared under "Defined by each layer".
+// What the layers of the tests share: the loader's side. Each layer links layer.cpp and defines
+// what is declared under "Defined by each layer".
 #pragma once
 
 #include <vulkan/vulkan.h>

@@ -35,8 +35,8 @@ CoreSupport query_core_support(VkPhysicalDevice physical, uint32_t api_version,
     CoreSupport out;
     if (api_version < VK_API_VERSION_1_1) {
         // The shaders are SPIR-V 1.3 (shaders/compile.cmake).
-        out.missing.push_back(fmt::format("Vulkan 1.1 is needed, the device has {}",
-                                          short_version(api_version)));
+        out.missing.push_back(
+            fmt::format("Vulkan 1.1 is needed, the device has {}", short_version(api_version)));
         return out;
     }
     for (const Promoted& p : kPromoted) {
