@@ -37,6 +37,7 @@ int edgecase_main(int argc, const char* const* argv) {
         {"reduce", [&] { return reduce_command(program, all.reduce); }},
         {"diagnose", [&] { return diagnose_command(program, all.diagnose); }},
         {"list", [&] { return list_command(program, all.list); }},
+        {"doors", [] { return doors_command(); }},
         {"lint", [&] { return lint_command(program, all.lint); }},
         {"explain", [&] { return explain_command(program, all.explain); }},
         {"render", [&] { return render_command(program, all.render); }},

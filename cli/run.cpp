@@ -132,7 +132,11 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     }
     for (run::PlannedCase& c : p.plan) {
         c.selector = shell_quote(selector_of(options, c.data.id));
-        c.rerun = rerun_line(program, options, c.data.id);
+        std::vector<std::string> doors;
+        for (const cases::Door door : c.data.doors) {
+            doors.emplace_back(cases::row_of(door).word);
+        }
+        c.rerun = rerun_line(program, options, c.data.id, doors);
         c.explain = explain_line(program, options, c.data.id, device.subpixel_bits);
         c.no_reproducer = undrawable_part(c.data);
         if (c.no_reproducer.empty()) {

@@ -20,6 +20,9 @@ using capture::kWritersPlane;
 
 namespace {
 
+// Words of a writer: its draw, gl_PrimitiveID, gl_VertexIndex of its provoking vertex.
+constexpr uint32_t kDrawWord = 0, kPrimitiveWord = 1, kVertexWord = 2;
+
 // A plane as 32-bit words, `words` a sample; empty if the capture has none.
 struct PlaneWords {
     const std::byte* data = nullptr;
@@ -92,6 +95,9 @@ uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, capture::Samp
         return std::bit_cast<uint32_t>(std::bit_cast<float>(base) +
                                        (capture::kOtherHitGuard - capture::kHitGuard));
     }
+    if (plane == kWritersPlane && word == kVertexWord && state == capture::SampleState::drawn) {
+        return base + cases::vertex_shift(variation.door);
+    }
     return base;
 }
 
@@ -102,6 +108,15 @@ bool may_be_clear_depth(uint32_t plane, uint32_t base, uint32_t got,
     return plane == kDepthPlane && variation.other_depth_clear &&
            base == std::bit_cast<uint32_t>(capture::kClearDepth) &&
            got == std::bit_cast<uint32_t>(capture::kOtherClearDepth);
+}
+
+// gl_PrimitiveID counts the primitives of a drawing command, and of one that has several draws the
+// text does not say whether it begins again with each of them.
+bool may_begin_again(uint32_t plane, uint32_t word, uint32_t base, uint32_t got, uint32_t draw,
+                     const cases::Variation& variation) {
+    const uint32_t split = draw < variation.splits.size() ? variation.splits[draw] : 0;
+    return plane == kWritersPlane && word == kPrimitiveWord && split > 0 && base >= split &&
+           got == base - split;
 }
 
 // Which plane of the case's own rendering a plane of the derived one is held against; kPlanes:
@@ -124,7 +139,10 @@ class BitComparison {
           variation_(derivation.variation),
           theirs_(planes_of(derived)),
           alike_(!variation_.other_clears && !variation_.other_depth_clear &&
-                 variation_.masked == 0 && !variation_.masks_depth) {
+                 variation_.masked == 0 && !variation_.masks_depth &&
+                 cases::vertex_shift(variation_.door) == 0 &&
+                 std::all_of(variation_.splits.begin(), variation_.splits.end(),
+                             [](uint32_t split) { return split == 0; })) {
         const std::array<PlaneWords, kPlanes> own = planes_of(base);
         for (uint32_t p = 0; p < kPlanes; ++p) {
             const uint32_t original = original_of(p, base, derivation);
@@ -166,9 +184,11 @@ class BitComparison {
         for (uint32_t p = 0; p < kPlanes; ++p) {
             for (uint32_t w = 0; is_compared_[p] && w < ours_[p].words; ++w) {
                 const uint32_t base = ours_[p].at(sample, w);
+                const uint32_t draw = p == kWritersPlane ? ours_[p].at(sample, kDrawWord) : 0;
                 const uint32_t expected = varied_word(p, w, base, state, variation_);
                 const uint32_t got = theirs_[p].at(sample, w);
-                if (got == expected || may_be_clear_depth(p, base, got, variation_)) {
+                if (got == expected || may_be_clear_depth(p, base, got, variation_) ||
+                    may_begin_again(p, w, base, got, draw, variation_)) {
                     continue;
                 }
                 ++result_.different;
@@ -188,9 +208,36 @@ class BitComparison {
     Consistency result_;
 };
 
-std::string why_of(const cases::Derivation& derivation) {
+std::string why_of_door(const cases::DoorRow& door, const Consistency& found) {
+    std::string does(door.does);
+    does.pop_back();  // its full stop
+    std::string why =
+        fmt::format("through the door {} the sample has other bits than in the plain picture ({})",
+                    door.word, does);
+    if (door.promise == cases::DoorPromise::same_bits) {
+        return why + "; the same vertices reach the same pipeline (Invariance, Rule 4)";
+    }
+    return why +
+           (found.wrong.empty()
+                ? "; the pipeline or its state is another one, so that Vulkan itself does not "
+                  "demand the bits, and the picture is not wrong at profile vulkan"
+                : fmt::format("; the picture is wrong by itself: {}", found.wrong));
+}
+
+// The loosest profile at which the difference is a finding.
+cases::Profile level_of(const cases::Rule& rule, const cases::Derivation& derivation,
+                        const Consistency& found) {
+    const bool is_only_other =
+        derivation.kind == cases::RelationKind::door && found.wrong.empty() &&
+        cases::row_of(derivation.variation.door).promise == cases::DoorPromise::right_picture;
+    return is_only_other ? std::max(rule.profile, cases::Profile::practice) : rule.profile;
+}
+
+std::string why_of(const cases::Derivation& derivation, const Consistency& found) {
     using cases::RelationKind;
     switch (derivation.kind) {
+        case RelationKind::door:
+            return why_of_door(cases::row_of(derivation.variation.door), found);
         case RelationKind::same_twice:
             return derivation.variation.later
                        ? "the same commands in a later submission gave other bits"
@@ -282,26 +329,30 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
                      std::span<const Consistency> found, Verdict& verdict) {
     for (size_t k = 0; k < found.size() && k < derivations.size(); ++k) {
         const cases::Rule* rule = cases::find_rule(derivations[k].rule);
-        if (rule == nullptr || rule->profile > verdict.profile) {
+        if (rule == nullptr) {
+            continue;
+        }
+        const cases::Profile level = level_of(*rule, derivations[k], found[k]);
+        if (level > verdict.profile) {
             continue;
         }
         for (const Difference& difference : found[k].differences) {
             Finding finding = finding_at(FindingKind::value, c.target,
                                          cases::sample_at(c.target, difference.sample));
             finding.rule = rule->id;
-            finding.level = rule->profile;
+            finding.level = level;
             finding.quantity = fmt::format("{}, {}", plane_name(difference.plane, difference.word),
                                            derivations[k].name);
             finding.expected = show_bits(difference.plane, difference.expected);
             finding.got = show_bits(difference.plane, difference.got);
-            finding.why = why_of(derivations[k]);
+            finding.why = why_of(derivations[k], found[k]);
             verdict.add(std::move(finding), c.target);
         }
         if (const uint64_t more = found[k].different - found[k].differences.size(); more > 0) {
             Finding untold;
             untold.kind = FindingKind::value;
             untold.rule = rule->id;
-            untold.level = rule->profile;
+            untold.level = level;
             verdict.count(untold, more);
             verdict.has_unmarked = true;
         }

@@ -41,10 +41,17 @@ struct Consistency {
     uint64_t compared = 0;                // samples
     uint64_t different = 0;               // samples
     std::vector<Difference> differences;  // the first kMaxDifferences
+    // Of a picture through a door: why the device has no such door; then nothing was compared.
+    std::string closed;
+    // Of a door that need not have the same bits and has others: what of its picture is wrong by
+    // the reference at profile vulkan; empty if nothing is.
+    std::string wrong;
     static void fields(auto&& visit, auto&... c) {
         visit("compared", c.compared...);
         visit("different", c.different...);
         visit("differences", c.differences...);
+        visit("closed", c.closed...);
+        visit("wrong", c.wrong...);
     }
     friend bool operator==(const Consistency&, const Consistency&) = default;
 };

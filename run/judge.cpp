@@ -35,6 +35,22 @@ bool keep_verdict(CaseRecord& record, const diff::Verdict& verdict, KeepPictures
            (pictures == KeepPictures::failed && record.status != Status::pass);
 }
 
+// Through which doors the case was drawn, and which the device lacks.
+void note_doors(CaseRecord& record, std::span<const cases::Derivation> derivations,
+                std::span<const diff::Consistency> found) {
+    for (size_t k = 0; k < found.size() && k < derivations.size(); ++k) {
+        if (derivations[k].kind != cases::RelationKind::door) {
+            continue;
+        }
+        const std::string word(cases::row_of(derivations[k].variation.door).word);
+        if (found[k].closed.empty()) {
+            record.drawn_doors.push_back(word);
+        } else {
+            record.closed_doors.emplace_back(word, found[k].closed);
+        }
+    }
+}
+
 }  // namespace
 
 CaseRecord make_record(const cases::Case& c) {
@@ -46,7 +62,16 @@ CaseRecord make_record(const cases::Case& c) {
     record.rules = c.rules;
     record.links = c.links;
     record.catches = c.catches;
-    record.content = cases::hex(cases::stable_hash(cases::to_bytes(c), 0));
+    // What a run asks for besides makes no other case of it.
+    cases::Case own;
+    if (!c.doors.empty()) {
+        own = c;
+        own.doors.clear();
+    }
+    record.content = cases::hex(cases::stable_hash(cases::to_bytes(c.doors.empty() ? c : own), 0));
+    for (const cases::Door door : c.doors) {
+        record.doors.emplace_back(cases::row_of(door).word);
+    }
     return record;
 }
 
@@ -65,7 +90,9 @@ void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView&
                 "choose another colour, or another clear colour";
         }
         if (verdict.error.empty()) {
-            diff::add_differences(c, cases::derivations(c), found.consistency, verdict);
+            const std::vector<cases::Derivation> derivations = cases::derivations(c);
+            note_doors(record, derivations, found.consistency);
+            diff::add_differences(c, derivations, found.consistency, verdict);
             diff::add_stray_writes(c, found.stray_writes, verdict);
         }
         if (!capture.hits.empty()) {

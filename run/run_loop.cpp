@@ -250,6 +250,7 @@ CaseRecord RunLoop::fresh_record(size_t k, Status status, const std::string& rea
     record.status = status;
     record.reason = reason;
     record.rerun = cases_[k].rerun;
+    record.left_out_doors = cases_[k].left_out_doors;
     return record;
 }
 

@@ -30,11 +30,12 @@ namespace run {
 struct PlannedCase {
     cases::Case data;
     std::optional<ExpectationLine> expected;
-    std::string error;                      // not empty: not rendered, status error
-    bool alone = false;                     // was in flight when an earlier run was cut off
-    std::string selector;                   // names the case in a command line
-    std::string rerun, explain;             // command lines without --pixel
-    std::string reproducer, no_reproducer;  // as in report::CaseRecord
+    std::vector<std::string> left_out_doors;  // as in report::PlannedCase
+    std::string error;                        // not empty: not rendered, status error
+    bool alone = false;                       // was in flight when an earlier run was cut off
+    std::string selector;                     // names the case in a command line
+    std::string rerun, explain;               // command lines without --pixel
+    std::string reproducer, no_reproducer;    // as in report::CaseRecord
 };
 
 struct LoopConfig {

@@ -454,6 +454,11 @@ std::optional<Rejection> check_case(const Capabilities& capabilities, const case
     if (auto missing = missing_clip_support(capabilities.clip, c)) {
         return unsupported("{}", *missing);
     }
+    if (c.variation.door != cases::Door::none) {
+        if (auto missing = missing_door_support(capabilities.doors, c.variation.door)) {
+            return unsupported("{}", *missing);
+        }
+    }
     return check_target(capabilities, c);
 }
 

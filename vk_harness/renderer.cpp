@@ -64,6 +64,10 @@ std::vector<capture::StrayWrite> stray_writes(const CasePlan& plan,
     return out;
 }
 
+bool is_feeding(cases::Door door) {
+    return door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices;
+}
+
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
@@ -93,6 +97,7 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         result.reason = std::move(rejection->reason);
         return false;
     }
+    const bool is_fed = is_feeding(test.variation.door);
     plan.input_count = input_count(test);
     const InstrumentLayout layout = instrument_layout(device_->capabilities(), test);
     for (const cases::Draw& draw : test.draws) {
@@ -105,6 +110,9 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         item.draw = &draw;
         item.pipeline = *pipeline;
         item.is_split = layout.split;
+        if (is_fed) {
+            item.feed = std::make_shared<Feed>(test, draw);
+        }
         for (const cases::Attribute& attribute : draw.attributes) {
             if (attribute.probe == cases::Probe::lod) {
                 auto texture = textures_.get(pipelines_, attribute.texture_size);
@@ -181,6 +189,9 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
     }
     for (const CasePlan& plan : plans) {
         write_vertices(plan, (*vertices)->bytes());
+        if (auto made = make_door_buffers(*device_, plan, (*vertices)->bytes()); !made) {
+            return made;
+        }
     }
     if (auto flushed = (*vertices)->flush(); !flushed) {
         return flushed;

@@ -59,7 +59,8 @@ Result<Buffer*> Submission::grow(Buffer& buffer, VkDeviceSize size, VkBufferUsag
 
 Result<Buffer*> Submission::vertices(VkDeviceSize size) {
     return grow(vertices_, size,
-                VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                    VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                 HostAccess::write);
 }
 

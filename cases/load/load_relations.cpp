@@ -43,6 +43,11 @@ std::string objection(const Relation& relation, const Case& c) {
     switch (relation.kind) {
         case RelationKind::same_twice:
             return {};
+        case RelationKind::door:
+            return can_take(relation.door, c)
+                       ? std::string()
+                       : fmt::format("does not suit the case: it takes {}; leave it out",
+                                     row_of(relation.door).takes);
         case RelationKind::scissor_tiles:
             if (const uint64_t tiles = tile_count(c.target, relation); tiles > kMaxTiles) {
                 return fmt::format("has {} tiles, at most {} are drawn; make them larger", tiles,
@@ -81,6 +86,42 @@ std::string objection(const Relation& relation, const Case& c) {
     return {};
 }
 
+// What `{ doors = [...] }` lists, one relation a door.
+std::vector<Relation> load_doors(LeafContext& context, const TomlValue& value) {
+    std::vector<std::string_view> words;
+    for (const DoorRow& row : all_doors()) {
+        words.push_back(row.word);
+    }
+    std::vector<Relation> doors;
+    if (!context.array(value, "doors")) {
+        return doors;
+    }
+    for (const TomlValue& element : value.array) {
+        if (const std::optional<size_t> word = context.word(element, "a door", words)) {
+            doors.push_back({RelationKind::door, {}, all_doors()[*word].door});
+        }
+    }
+    if (value.array.empty()) {
+        context.error(value.where, "doors is empty; write one at least, as \"index-16\"");
+    }
+    return doors;
+}
+
+// Adds a relation that the case can have, once.
+void add(LeafContext& context, const TomlValue& element, const Relation& relation, const Case& c,
+         std::vector<Relation>& relations) {
+    const std::string name = relation.kind == RelationKind::door
+                                 ? fmt::format("door {}", row_of(relation.door).word)
+                                 : fmt::format("relation {}", to_string(relation.kind));
+    if (std::find(relations.begin(), relations.end(), relation) != relations.end()) {
+        context.error(element.where, fmt::format("the {} stands twice", name));
+    } else if (const std::string why = objection(relation, c); !why.empty()) {
+        context.error(element.where, fmt::format("the {} {}", name, why));
+    } else {
+        relations.push_back(relation);
+    }
+}
+
 }  // namespace
 
 std::vector<Relation> load_relations(LeafContext& context, const TomlValue& value, const Case& c) {
@@ -90,8 +131,12 @@ std::vector<Relation> load_relations(LeafContext& context, const TomlValue& valu
     }
     for (const TomlValue& element : value.array) {
         Relation relation;
-        if (element.is(TomlValue::Kind::table)) {
-            context.known_keys(element, "a relation", {"scissor-tiles"});
+        std::vector<Relation> found;
+        if (element.is(TomlValue::Kind::table) && element.find("doors") != nullptr) {
+            context.known_keys(element, "a relation", {"scissor-tiles", "doors"});
+            found = load_doors(context, *element.find("doors"));
+        } else if (element.is(TomlValue::Kind::table)) {
+            context.known_keys(element, "a relation", {"scissor-tiles", "doors"});
             const TomlValue* tile = element.find("scissor-tiles");
             if (tile == nullptr ||
                 !context.array_of(*tile, "scissor-tiles", 2, "[width, height]")) {
@@ -103,24 +148,20 @@ std::vector<Relation> load_relations(LeafContext& context, const TomlValue& valu
                     context.integer(tile->array[k], "a tile's side", 1, kMaxTargetSize)
                         .value_or(1));
             }
+            found = {relation};
         } else {
             const std::optional<size_t> word = context.word(element, "a relation", kPlainWords);
             if (!word) {
                 continue;
             }
             relation.kind = kPlainKinds[*word];
+            found = {relation};
         }
         if (!context.errors().empty()) {
             continue;
         }
-        if (std::find(relations.begin(), relations.end(), relation) != relations.end()) {
-            context.error(element.where,
-                          fmt::format("the relation {} stands twice", to_string(relation.kind)));
-        } else if (const std::string why = objection(relation, c); !why.empty()) {
-            context.error(element.where,
-                          fmt::format("the relation {} {}", to_string(relation.kind), why));
-        } else {
-            relations.push_back(relation);
+        for (const Relation& one : found) {
+            add(context, element, one, c, relations);
         }
     }
     return relations;

@@ -86,6 +86,7 @@ struct Case {
     std::vector<Draw> draws;
     std::optional<Blit> blit = {};         // then there are no draws
     std::vector<Relation> relations = {};  // renderings that must have the same bits
+    std::vector<Door> doors = {};          // the same, asked for by a run instead of the file
     Variation variation = {};  // of such a rendering, derive.hpp; neither in files nor on the wire
     std::optional<ExpectedHits> expected_hits;
     std::vector<std::string> notes;  // conversions that rounded, one sentence each
@@ -101,6 +102,7 @@ struct Case {
         visit("draws", c.draws...);
         visit("blit", c.blit...);
         visit("relations", c.relations...);
+        visit({"doors", kNotExported}, c.doors...);
         visit({"variation", kNotOnWire}, c.variation...);  // the worker makes it of relations
         visit({"expected_hits", kNotOnWire}, c.expected_hits...);  // for the reference
         visit({"notes", kNotOnWire}, c.notes...);                  // for readers

@@ -13,8 +13,8 @@ namespace cases {
 
 namespace {
 
-std::string_view rule_of(RelationKind kind) {
-    switch (kind) {
+std::string_view rule_of(const Relation& relation) {
+    switch (relation.kind) {
         case RelationKind::same_twice:
             return rule::repeat_same;
         case RelationKind::scissor_tiles:
@@ -23,6 +23,8 @@ std::string_view rule_of(RelationKind kind) {
             return rule::repeat_clears;
         case RelationKind::write_masks:
             return rule::repeat_write_masks;
+        case RelationKind::door:
+            return row_of(relation.door).rule;
         case RelationKind::fewer_attributes:
         case RelationKind::more_attributes:
             break;
@@ -39,6 +41,18 @@ bool depth_is_only_written(const Case& c) {
     return is_usual && std::all_of(c.draws.begin(), c.draws.end(), [](const Draw& draw) {
                return draw.depth.compare == CompareOp::always;
            });
+}
+
+// Those of the file, then the doors that a run asks for besides.
+std::vector<Relation> all_relations(const Case& c) {
+    std::vector<Relation> all = c.relations;
+    for (const Door door : c.doors) {
+        const Relation relation{RelationKind::door, {}, door};
+        if (std::find(all.begin(), all.end(), relation) == all.end()) {
+            all.push_back(relation);
+        }
+    }
+    return all;
 }
 
 void drop_attributes(Case& c) {
@@ -81,10 +95,10 @@ uint32_t attributes_of(const Case& c) {
 
 std::vector<Derivation> derivations(const Case& c) {
     std::vector<Derivation> result;
-    for (const Relation& relation : c.relations) {
+    for (const Relation& relation : all_relations(c)) {
         Derivation d;
         d.name = to_string(relation.kind);
-        d.rule = rule_of(relation.kind);
+        d.rule = rule_of(relation);
         d.kind = relation.kind;
         switch (relation.kind) {
             case RelationKind::same_twice:
@@ -109,6 +123,16 @@ std::vector<Derivation> derivations(const Case& c) {
                 d.variation.masks_depth = depth_is_only_written(c);
                 d.name = "write-masks, the others";
                 break;
+            case RelationKind::door:
+                d.name = fmt::format("door {}", row_of(relation.door).word);
+                d.variation.door = relation.door;
+                // A count that a driver keeps too long shall not fall on the other doors.
+                d.variation.later = relation.door == Door::indirect_count ||
+                                    relation.door == Door::indirect_after_count;
+                for (const Draw& draw : c.draws) {
+                    d.variation.splits.push_back(split_of(relation.door, draw));
+                }
+                break;
             case RelationKind::fewer_attributes:
             case RelationKind::more_attributes:
                 break;
@@ -121,6 +145,7 @@ std::vector<Derivation> derivations(const Case& c) {
 Case derive(const Case& c, const Derivation& derivation) {
     Case derived = c;
     derived.relations.clear();
+    derived.doors.clear();
     derived.expected_hits.reset();
     derived.variation = derivation.variation;
     if (derivation.kind == RelationKind::fewer_attributes) {

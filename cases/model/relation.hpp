@@ -7,6 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
+
+#include "cases/model/door.hpp"
 
 namespace cases {
 
@@ -17,15 +20,18 @@ enum class RelationKind : uint8_t {
     write_masks,       // one half of the attachments is not written, then the other half
     fewer_attributes,  // without the attributes, so with fewer colour attachments
     more_attributes,   // with copies of the attributes, so with more colour attachments
+    door,              // through another way of the API
 };
-inline constexpr RelationKind kLastRelationKind = RelationKind::more_attributes;
+inline constexpr RelationKind kLastRelationKind = RelationKind::door;
 
 struct Relation {
     RelationKind kind = RelationKind::same_twice;
     std::array<uint32_t, 2> tile{};  // scissor_tiles: width and height in pixels
+    Door door = Door::none;          // door: which one
     static void fields(auto&& visit, auto&... r) {
         visit("kind", r.kind...);
         visit("tile", r.tile...);
+        visit("door", r.door...);
     }
     friend bool operator==(const Relation&, const Relation&) = default;
 };
@@ -39,6 +45,8 @@ struct Variation {
     uint32_t masked = 0;             // bit k: plane k is not written
     bool masks_depth = false;        // depth is not written
     bool later = false;              // in a later submission than the case
+    Door door = Door::none;
+    std::vector<uint32_t> splits = {};  // split_of() every draw, if the door splits any
     static void fields(auto&& visit, auto&... v) {
         visit("tile", v.tile...);
         visit("other_clears", v.other_clears...);
@@ -46,6 +54,8 @@ struct Variation {
         visit("masked", v.masked...);
         visit("masks_depth", v.masks_depth...);
         visit("later", v.later...);
+        visit("door", v.door...);
+        visit("splits", v.splits...);
     }
     friend bool operator==(const Variation&, const Variation&) = default;
 };

@@ -234,6 +234,45 @@ constexpr std::array kRules = {
          "bits of its original (Corollary 2). The shader is another one, so Vulkan does not demand "
          "it in so many words; every known device does it.",
          "invariance", "", "diff/consistency.cpp"},
+    Rule{
+        rule::door_index, Profile::vulkan, "Indices of every type name the same vertices",
+        "With indices of 8, 16 or 32 bits, or none, the same vertices reach the same pipeline: the "
+        "picture has the same bits (Invariance, Rule 4).",
+        "vkCmdBindIndexBuffer", "", "diff/consistency.cpp"},
+    Rule{rule::door_restart, Profile::vulkan, "The largest index restarts only where restart is on",
+         "Restart off: the largest value of an index type is a vertex like any other, and the "
+         "picture has the same bits (Rule 4). Restart on, though nothing needs it: restarts before "
+         "the first and behind the last index change nothing. The state is another one there, so "
+         "at vulkan the picture only has to be right; from practice on it has the same bits.",
+         "vkCmdSetPrimitiveRestartEnable", "", "diff/consistency.cpp"},
+    Rule{rule::door_first, Profile::vulkan,
+         "firstVertex, firstIndex and vertexOffset choose vertices",
+         "firstVertex and vertexOffset count in gl_VertexIndex, vertexOffset may be negative, and "
+         "firstIndex counts indices. The same vertices reach the same pipeline: the picture has "
+         "the same bits (Rule 4).",
+         "vkCmdDrawIndexed", "", "diff/consistency.cpp"},
+    Rule{rule::door_buffer, Profile::vulkan, "Where buffers are bound changes no vertex",
+         "Vertex buffers and the index buffer may be bound at any offset that is a multiple of "
+         "what they hold, and every binding in a buffer of its own. The same vertices reach the "
+         "same pipeline: the picture has the same bits (Rule 4).",
+         "vkCmdBindVertexBuffers", "", "diff/consistency.cpp"},
+    Rule{rule::door_layout, Profile::vulkan, "How vertices lie in memory changes nothing",
+         "Strides with room between vertices, strides given with the buffers, all inputs in one "
+         "binding, positions of three numbers whose fourth is 1. The pipeline is another one, so "
+         "Rule 4 does not promise the bits: at vulkan the picture has to be right by the rules of "
+         "every picture, from practice on it has the same bits.",
+         "fxvertex-input", "", "diff/consistency.cpp"},
+    Rule{
+        rule::door_instance, Profile::vulkan, "Inputs of an instance are those of its number",
+        "What is read once an instance is read at firstInstance for the first one. The pipeline is "
+        "another one: at vulkan the picture has to be right, from practice on it has the same "
+        "bits.",
+        "VkVertexInputRate", "", "diff/consistency.cpp"},
+    Rule{rule::door_indirect, Profile::vulkan, "Draws from a buffer are draws",
+         "An indirect draw, one of several in a command, or one whose number is read from a "
+         "buffer, draws what the same parameters draw directly: the same vertices reach the same "
+         "pipeline, and the picture has the same bits (Rule 4).",
+         "vkCmdDrawIndexedIndirect", "", "diff/consistency.cpp"},
     Rule{rule::depth_store, Profile::vulkan, "Fixed-point depth is stored as either neighbour",
          "z (2^n - 1) rounds down or up; a whole number of steps is stored as it is. Direct3D "
          "rounds within 0.6 of a step.",

@@ -89,9 +89,9 @@ inline constexpr WordList<2> kWords<BlitFilter> = {"nearest", "linear"};
 template <>
 inline constexpr WordList<2> kWords<BlitPattern> = {"unique", "ramp"};
 template <>
-inline constexpr WordList<6> kWords<RelationKind> = {"same-twice",       "scissor-tiles",
-                                                     "other-clears",     "write-masks",
-                                                     "fewer-attributes", "more-attributes"};
+inline constexpr WordList<7> kWords<RelationKind> = {
+    "same-twice",       "scissor-tiles",   "other-clears", "write-masks",
+    "fewer-attributes", "more-attributes", "doors"};
 // DepthState::negative_one_to_one.
 inline constexpr WordList<2> kVolumeWords = {"zero-to-one", "negative-one-to-one"};
 

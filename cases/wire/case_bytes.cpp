@@ -20,7 +20,11 @@ bool has_possible_sizes(const Case& c) {
     };
     return (!c.blit || fits(c.blit->source_width, c.blit->source_height)) &&
            std::all_of(c.relations.begin(), c.relations.end(),
-                       [&fits](const Relation& r) { return fits(r.tile[0], r.tile[1]); });
+                       [&fits](const Relation& r) {
+                           return fits(r.tile[0], r.tile[1]) &&
+                                  (r.kind == RelationKind::door) == (r.door != Door::none);
+                       }) &&
+           std::find(c.doors.begin(), c.doors.end(), Door::none) == c.doors.end();
 }
 
 }  // namespace

@@ -27,10 +27,18 @@ std::string relations_text(const std::vector<Relation>& relations) {
     std::vector<std::string> items;
     for (const Relation& relation : relations) {
         const std::string_view word = word_of(relation.kind);
-        items.push_back(
-            relation.kind == RelationKind::scissor_tiles
-                ? fmt::format("{{ {} = [{}, {}] }}", word, relation.tile[0], relation.tile[1])
-                : string_toml(word));
+        switch (relation.kind) {
+            case RelationKind::scissor_tiles:
+                items.push_back(
+                    fmt::format("{{ {} = [{}, {}] }}", word, relation.tile[0], relation.tile[1]));
+                break;
+            case RelationKind::door:
+                items.push_back(
+                    fmt::format("{{ {} = [{}] }}", word, string_toml(row_of(relation.door).word)));
+                break;
+            default:
+                items.push_back(string_toml(word));
+        }
     }
     return array_toml(items, 0);
 }

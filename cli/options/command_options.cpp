@@ -122,6 +122,10 @@ void define_run(CLI::App& app, RunOptions& o) {
     add_value(run, "--failed-in", o.failed_in,
               "only the cases that ended unexpectedly in an earlier run", "DIR", "Selection");
     add_shard(run, o.shard, "the I-th of N parts, by a hash of the id; 1 <= I <= N");
+    add_value(run, "--doors", o.doors,
+              "draw each case through other ways of the API, too: all, default (each door with "
+              "each family), or names of 'edgecase doors', separated by commas [none]",
+              "NAMES", "Selection");
     run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
         ->group("Selection");
     add_value(run, "--seed", o.seed, "seed of --shuffle [1]", "N", "Selection")
@@ -309,6 +313,8 @@ void define_others(CLI::App& app, AllOptions& all) {
     list->add_flag("--long", all.list.long_form, "with file, rules, description and notes");
     list->add_flag("--ids", all.list.ids, "ids only, one a line");
     list->add_flag("--json", all.list.json, "as JSON");
+
+    app.add_subcommand("doors", "list the doors of 'run --doors': other ways of the API");
 
     CLI::App* lint =
         app.add_subcommand("lint", "check case and expectation files; needs no Vulkan");

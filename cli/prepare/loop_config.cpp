@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/prepare/loop_config.hpp"
 
-#include <algorithm>
 #include <chrono>
 
 #include "cli/prepare/device_answer.hpp"
+#include "run/worker/derived.hpp"
 
 namespace cli {
 
@@ -27,11 +27,7 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
 }
 
 void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
-    config.limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
-    // A device that rasterizes a sample only at the centre may have 0 bits, and asks for no offset.
-    config.limits.interpolation_offset_bits =
-        std::max(4, static_cast<int>(device.interpolation_offset_bits));
-    config.limits.mipmap_bits = std::max(4, static_cast<int>(device.mipmap_bits));
+    config.limits = run::limits_of(device);
 }
 
 std::string file_name_of(const std::string& device) {

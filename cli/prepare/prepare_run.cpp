@@ -225,6 +225,12 @@ OrStop<Prepared> prepare_resume(const Program& program, const RunOptions& now) {
         }
         run::PlannedCase planned;
         planned.data = *found->second;
+        planned.left_out_doors = record.left_out_doors;
+        for (const std::string& word : record.doors) {
+            if (const std::optional<cases::Door> door = cases::find_door(word)) {
+                planned.data.doors.push_back(*door);
+            }
+        }
         planned.alone = cut_off.contains(record.id);
         p.plan.push_back(std::move(planned));
     }
@@ -252,8 +258,13 @@ OrStop<Prepared> prepare(const Program& program, const RunOptions& options) {
     header.jobs = options.jobs;
     for (cases::Case& c : p.selection.cases) {
         header.cases.push_back(run::make_record(c));
-        header.cases.back().rerun = rerun_line(program, options, c.id);
+        header.cases.back().rerun = rerun_line(program, options, c.id, header.cases.back().doors);
         run::PlannedCase planned;
+        if (const auto left_out = p.selection.left_out_doors.find(c.id);
+            left_out != p.selection.left_out_doors.end()) {
+            planned.left_out_doors = left_out->second;
+            header.cases.back().left_out_doors = left_out->second;
+        }
         planned.data = std::move(c);
         p.plan.push_back(std::move(planned));
     }

@@ -86,6 +86,9 @@ std::string settings_of(const RunOptions& options) {
         }
     }
     const RunOptions usual;
+    if (options.doors != usual.doors) {
+        words.push_back("--doors " + options.doors);
+    }
     for (const auto& [name, value, other] :
          {std::tuple("--repeat", options.repeat, usual.repeat),
           std::tuple("--retries", options.retries, usual.retries)}) {
@@ -118,8 +121,15 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
     for (size_t k = suite->outside; k < suite->cases.size(); ++k) {
         selection.own_files.insert(suite->cases[k].where.file);
     }
+    if (options.doors != RunOptions().doors && !options.device.renderer.empty()) {
+        return tl::unexpected(
+            stop_with(report::kExitUsage,
+                      "--doors needs a Vulkan driver, and --renderer names another; "
+                      "leave one of them out"));
+    }
     std::vector<std::string> ids;
     std::set<std::string> own;
+    std::vector<cases::Case*> chosen;  // of all shards
     for (const size_t k :
          options.quick ? run::first_and_last(suite->cases, suite->selected) : suite->selected) {
         cases::Case& c = suite->cases[k];
@@ -130,8 +140,16 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
         if (k >= suite->outside) {
             own.insert(c.where.file);
         }
-        if (run::shard_of(c.id, options.shard.count) == options.shard.index) {
-            selection.cases.push_back(std::move(c));
+        chosen.push_back(&c);
+    }
+    OrStop<LeftOutDoors> left_out = choose_doors(options.doors, chosen);
+    if (!left_out) {
+        return tl::unexpected(left_out.error());
+    }
+    selection.left_out_doors = std::move(*left_out);
+    for (cases::Case* c : chosen) {
+        if (run::shard_of(c->id, options.shard.count) == options.shard.index) {
+            selection.cases.push_back(std::move(*c));
         }
     }
     selection.of_all_shards = selection_text(std::move(ids));
@@ -263,7 +281,8 @@ std::string driver_settings() {
 
 }  // namespace
 
-std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id) {
+std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id,
+                       const std::vector<std::string>& doors) {
     std::vector<std::string> words = {program.arguments.front(), "run", selector_of(options, id)};
     add_suite_and_profile(words, options);
     add_given(words, "--device", options.device.device);
@@ -272,6 +291,9 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
         words.emplace_back("--validation");
     }
     add_given(words, "--renderer", options.device.renderer);
+    if (!doors.empty()) {
+        words.insert(words.end(), {"--doors", doors_words(options.doors, doors)});
+    }
     if (options.repeat > 1) {
         words.insert(words.end(), {"--repeat", std::to_string(options.repeat)});
     }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/options/options.hpp"
+#include "cli/prepare/doors.hpp"
 #include "cli/prepare/suite.hpp"
 #include "run/run_loop.hpp"
 
@@ -24,6 +25,7 @@ struct Selection {
     std::vector<std::string> known_ids;  // of the whole suite, and of the cases outside of it
     std::vector<std::string> suite_ids;  // of the suite alone
     bool whole_suite = false;
+    LeftOutDoors left_out_doors;
     std::set<std::string> own_files;  // of the cases that are not the suite's
 };
 // Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop.
@@ -39,7 +41,8 @@ report::Run new_header(const Program& program, const RunOptions& options,
                        const Selection& selection);
 
 // The words of a command on one case that repeat how this run was set up, quoted for a shell.
-std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id);
+std::string rerun_line(const Program& program, const RunOptions& options, const std::string& id,
+                       const std::vector<std::string>& doors = {});
 std::string diff_line(const Program& program, const DiffOptions& options, const std::string& id);
 std::string explain_line(const Program& program, const RunOptions& options, const std::string& id,
                          uint32_t subpixel_bits);

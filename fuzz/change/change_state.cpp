@@ -305,6 +305,17 @@ Words add_relation(Document& document, Dice& dice) {
             numbers({static_cast<double>(dice.between(1, 9)),
                      static_cast<double>(dice.between(1, 9))}));
     }
+    if (word == "doors") {
+        std::vector<std::string_view> doors;
+        for (const cases::DoorRow& row : cases::all_doors()) {
+            doors.push_back(row.word);
+        }
+        const std::string_view door = any_of(doors, dice);
+        relation = table();
+        set(relation, word, list({text(std::string(door))}));
+        set(document, "relations", list({std::move(relation)}));
+        return fmt::format("the door {}", door);
+    }
     set(document, "relations", list({std::move(relation)}));
     return fmt::format("the relation {}", word);
 }

@@ -179,6 +179,13 @@ constexpr ExerciseRow kRows[] = {
      kOfRelation,
      {at_all(is_repeated<RelationKind::fewer_attributes>),
       at_all(is_repeated<RelationKind::more_attributes>)}},
+    {rule::door_index, kOfRelation, {at_all(goes_through_door)}},
+    {rule::door_restart, kOfRelation, {at_all(goes_through_door)}},
+    {rule::door_first, kOfRelation, {at_all(goes_through_door)}},
+    {rule::door_buffer, kOfRelation, {at_all(goes_through_door)}},
+    {rule::door_layout, kOfRelation, {at_all(goes_through_door)}},
+    {rule::door_instance, kOfRelation, {at_all(goes_through_door)}},
+    {rule::door_indirect, kOfRelation, {at_all(goes_through_door)}},
     {rule::depth_store, "of a target with fixed-point depth", {at_all(is_depth_rounded)}},
     {rule::depth_bias,
      "whose depth, or depth test, would come out otherwise without the bias, or with 256 times as "

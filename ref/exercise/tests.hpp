@@ -86,4 +86,11 @@ bool is_repeated(const View& view, std::string_view) {
                                [](const cases::Relation& r) { return r.kind == kind; });
 }
 
+inline bool goes_through_door(const View& view, std::string_view rule) {
+    return !view.sample.hits.empty() &&
+           std::ranges::any_of(view.of().relations, [rule](const cases::Relation& r) {
+               return r.kind == cases::RelationKind::door && cases::row_of(r.door).rule == rule;
+           });
+}
+
 }  // namespace ref

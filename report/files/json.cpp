@@ -11,6 +11,7 @@
 #include "report/journal/json_object.hpp"
 #include "report/journal/picture_codec.hpp"
 #include "report/text/causes.hpp"
+#include "report/text/doors_text.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -154,6 +155,18 @@ Json run_json(const Run& run) {
     };
 }
 
+Json doors_json(const Run& run) {
+    Json list = Json::array();
+    for (const DoorCount& count : door_counts(run)) {
+        list.push_back(Json{{"door", count.door},
+                            {"pictures", count.pictures},
+                            {"left_out", count.left_out},
+                            {"unsupported", count.closed},
+                            {"reason", cases::printable(count.reason)}});
+    }
+    return list;
+}
+
 Json causes_json(const Run& run) {
     Json list = Json::array();
     for (const Cause& cause : causes(run)) {
@@ -195,6 +208,7 @@ std::string to_json(const Run& run) {
                                    : Json{{"ratio", encode_number(worst->worst_ratio)},
                                           {"quantity", cases::printable(worst->worst_quantity)},
                                           {"case", cases::printable(worst->id)}}},
+        {"doors", doors_json(run)},
         {"diagnoses", encode(run.diagnoses)},
         {"causes", causes_json(run)},
         {"cases", std::move(list)},

@@ -142,6 +142,9 @@ struct PlannedCase {
     std::vector<std::string> rules, links;
     std::string rerun;    // command line that repeats it
     std::string catches;  // which fault would break the case
+    // Doors (cases/model/door.hpp) that the run asks for beyond those of the file, and those of
+    // them that the case cannot take.
+    std::vector<std::string> doors, left_out_doors;
     std::string content;  // a hash of all that is drawn of it, hexadecimal; empty in older journals
     static void fields(auto&& visit, auto&... p) {
         visit("id", p.id...);
@@ -153,6 +156,8 @@ struct PlannedCase {
         visit("rerun", p.rerun...);
         visit({"catches", cases::kOlderLackIt}, p.catches...);
         visit({"content", cases::kOlderLackIt}, p.content...);
+        visit({"doors", cases::kLeftOutIfEmpty}, p.doors...);
+        visit({"left_out_doors", cases::kLeftOutIfEmpty}, p.left_out_doors...);
     }
 };
 
@@ -178,6 +183,10 @@ struct CaseRecord : PlannedCase, diff::Outcome {
     double seconds = 0;
     uint32_t attempts = 0;
     std::vector<std::string> messages;  // validation layer
+    // Doors through which a picture was drawn and compared, the file's among them; and those that
+    // the device lacks, with the reason.
+    std::vector<std::string> drawn_doors;
+    std::vector<std::pair<std::string, std::string>> closed_doors;
     Pictures pictures;
     Reference reference;  // of a case that passes and whose pictures were not kept
     std::string explain;  // command line that explains the first wrong sample; empty if none
@@ -207,6 +216,8 @@ struct CaseRecord : PlannedCase, diff::Outcome {
         visit("seconds", r.seconds...);
         visit("attempts", r.attempts...);
         visit("messages", r.messages...);
+        visit({"drawn_doors", cases::kLeftOutIfEmpty}, r.drawn_doors...);
+        visit({"closed_doors", cases::kLeftOutIfEmpty}, r.closed_doors...);
         diff::Outcome::fields(visit, r...);
         visit("explain", r.explain...);
         visit({"reproducer", cases::kOlderLackIt}, r.reproducer...);

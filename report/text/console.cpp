@@ -14,6 +14,7 @@
 #include "report/text/causes.hpp"
 #include "report/text/commands.hpp"
 #include "report/text/diagnosis_text.hpp"
+#include "report/text/doors_text.hpp"
 #include "report/text/headline.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
@@ -324,6 +325,7 @@ std::string console_summary(const Run& run, const std::string& report_path,
     if (const std::string unseen = new_pictures_text(run); !unseen.empty()) {
         text += unseen + "; --strict makes them unexpected\n";
     }
+    text += doors_text(run, style.verbose);
     if (style.verbose) {
         text += free_text(run);
     }

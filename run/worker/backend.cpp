@@ -76,7 +76,9 @@ class ReferenceBackend : public Backend {
         step("submit");
         std::vector<Rendered> results(batch.size());
         for (size_t k = 0; k < batch.size(); ++k) {
-            if (algorithm_ != nullptr) {
+            if (batch[k].variation.door != cases::Door::none) {
+                results[k].reason = "what draws here has no Vulkan, and so no doors";
+            } else if (algorithm_ != nullptr) {
                 results[k].reason = rasterizers::unsupported_reason(batch[k]);
             }
             if (!results[k].reason.empty()) {

@@ -2,8 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/worker/derived.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <exception>
 #include <iterator>
+
+#include "diff/verdict.hpp"
+#include "ref/expectation/expectation.hpp"
 
 namespace run {
 
@@ -16,6 +22,24 @@ struct Origin {
     size_t of = 0;          // number of the case in the batch
     size_t derivation = 0;  // of the case
 };
+
+// What of a picture that has other bits than the plain one is wrong by itself, at profile vulkan;
+// empty if nothing is.
+std::string wrong_at_vulkan(const cases::Case& c, const Rendered& drawn,
+                            const vk_harness::DeviceInfo& device) {
+    try {
+        const ref::Expectation expectation =
+            ref::expect(c, limits_of(device), cases::Profile::vulkan);
+        const diff::Verdict verdict = diff::compare(c, expectation, view_of(drawn));
+        if (!verdict.error.empty() || verdict.findings.empty()) {
+            return verdict.error;
+        }
+        const diff::Finding& first = verdict.findings.front();
+        return fmt::format("{} at ({}, {}): {}", first.rule, first.x, first.y, first.why);
+    } catch (const std::exception& e) {
+        return fmt::format("the comparison failed: {}", e.what());
+    }
+}
 
 struct Round {
     std::vector<cases::Case> cases;
@@ -30,6 +54,16 @@ capture::CaptureView view_of(const Rendered& rendered) {
                ? capture::CaptureView(c)
                : capture::view_planes(c.target, c.has_primitive, c.attribute_count,
                                       rendered.placed.data());
+}
+
+ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
+    ref::Limits limits;
+    limits.subpixel_bits = static_cast<int>(device.subpixel_bits);
+    // A device that rasterizes a sample only at the centre may have 0 bits, and asks for no offset.
+    limits.interpolation_offset_bits =
+        std::max(4, static_cast<int>(device.interpolation_offset_bits));
+    limits.mipmap_bits = std::max(4, static_cast<int>(device.mipmap_bits));
+    return limits;
 }
 
 std::vector<RenderedCase> render_with_derived(
@@ -73,6 +107,11 @@ std::vector<RenderedCase> render_with_derived(
         if (own.status != Rendered::Status::drawn) {
             return;
         }
+        const bool is_door = derivation.kind == cases::RelationKind::door;
+        if (is_door && derived.status == Rendered::Status::unsupported) {
+            result.consistency[origin.derivation].closed = derived.reason;
+            return;
+        }
         if (derived.status != Rendered::Status::drawn) {
             own.status = derived.status;
             own.reason = "the rendering " + derivation.name + ": " + derived.reason;
@@ -84,8 +123,12 @@ std::vector<RenderedCase> render_with_derived(
         if (damage) {
             damage(origin.of, derived);
         }
-        result.consistency[origin.derivation] =
-            diff::compare_bits(view_of(own), view_of(derived), derivation);
+        diff::Consistency& found = result.consistency[origin.derivation];
+        found = diff::compare_bits(view_of(own), view_of(derived), derivation);
+        if (is_door && found.different > 0 &&
+            cases::row_of(derivation.variation.door).promise == cases::DoorPromise::right_picture) {
+            found.wrong = wrong_at_vulkan(batch[origin.of], derived, backend.device());
+        }
     };
     for (size_t k = 0; k < beside.origins.size(); ++k) {
         compare(beside.origins[k], drawn[batch.size() + k]);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diff/consistency.hpp"
+#include "ref/position/limits.hpp"
 #include "run/worker/backend.hpp"
 
 namespace run {
@@ -27,6 +28,9 @@ std::vector<RenderedCase> render_with_derived(
     Backend& backend, const std::vector<cases::Case>& batch,
     const std::function<void(std::string_view)>& step, const vk_harness::PlaneStore& store,
     const std::function<void(size_t, vk_harness::Rendered&)>& damage = {});
+
+// What the reference has to know of a device.
+ref::Limits limits_of(const vk_harness::DeviceInfo& device);
 
 // The capture of a drawn case, wherever its planes lie.
 capture::CaptureView view_of(const vk_harness::Rendered& rendered);

@@ -43,7 +43,7 @@ std::optional<RenderRequest> decode_request(std::string_view bytes) {
 
 namespace {
 
-constexpr size_t kMaxDerivations = 64;
+constexpr size_t kMaxDerivations = 256;
 // Two sides of every attachment, in the case's rendering and in each derived one.
 constexpr size_t kMaxStrayWrites = 4096;
 

@@ -32,5 +32,10 @@ using vulkan_layer::OwnCommand;
 
 // Commands that set dynamic state and bindings.
 std::span<const OwnCommand> state_commands();
+// Indirect draws, and several draws in a command.
+std::span<const OwnCommand> indirect_commands();
+
+// Draws directly, as the chosen fault alters it.
+void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances);
 
 }  // namespace breaking

@@ -88,16 +88,6 @@ VKAPI_ATTR VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreate
                : driver_of_handle(device).CreateImage(device, info, allocator, out);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL map_memory(VkDevice device, VkDeviceMemory memory,
-                                          VkDeviceSize offset, VkDeviceSize size,
-                                          VkMemoryMapFlags flags, void** data) {
-    static std::atomic<uint64_t> maps = 0;
-    const VkResult result = answer(hooks().map, ++maps);
-    return result != VK_SUCCESS
-               ? result
-               : driver_of_handle(device).MapMemory(device, memory, offset, size, flags, data);
-}
-
 VKAPI_ATTR VkResult VKAPI_CALL create_image_view(VkDevice device, const VkImageViewCreateInfo* info,
                                                  const VkAllocationCallbacks* allocator,
                                                  VkImageView* out) {
@@ -124,6 +114,21 @@ VKAPI_ATTR void VKAPI_CALL free_memory(VkDevice device, VkDeviceMemory memory,
                                        const VkAllocationCallbacks* allocator) {
     forget_memory(memory);
     driver_of_handle(device).FreeMemory(device, memory, allocator);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL map_memory(VkDevice device, VkDeviceMemory memory,
+                                          VkDeviceSize offset, VkDeviceSize size,
+                                          VkMemoryMapFlags flags, void** data) {
+    static std::atomic<uint64_t> maps = 0;
+    if (const VkResult refused = answer(hooks().map, ++maps); refused != VK_SUCCESS) {
+        return refused;
+    }
+    const VkResult result =
+        driver_of_handle(device).MapMemory(device, memory, offset, size, flags, data);
+    if (result == VK_SUCCESS) {
+        note_map(memory, offset, *data);
+    }
+    return result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipelineCache cache,
@@ -167,32 +172,13 @@ VKAPI_ATTR VkResult VKAPI_CALL wait_for_fences(VkDevice device, uint32_t count,
                : driver_of_handle(device).WaitForFences(device, count, fences, all, timeout);
 }
 
-void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances,
-               uint32_t first_instance) {
-    Recording& recording = recording_of(commands);
-    call.topology = recording.topology;
-    call.number = recording.draws++;
-    call.rendering = recording.rendering;
-    alter(hooks().draw, call);
-    recording.draw([=] {
-        const Driver& driver = driver_of_handle(commands);
-        for (uint32_t n = 0; n < call.times; ++n) {
-            if (call.indexed) {
-                driver.CmdDrawIndexed(commands, call.count, instances, call.first,
-                                      call.vertex_offset, first_instance);
-            } else {
-                driver.CmdDraw(commands, call.count, instances, call.first, first_instance);
-            }
-        }
-    });
-}
-
 VKAPI_ATTR void VKAPI_CALL draw(VkCommandBuffer commands, uint32_t count, uint32_t instances,
                                 uint32_t first, uint32_t first_instance) {
     DrawCall call;
     call.count = count;
     call.first = first;
-    draw_call(commands, call, instances, first_instance);
+    call.first_instance = first_instance;
+    draw_call(commands, call, instances);
 }
 
 VKAPI_ATTR void VKAPI_CALL draw_indexed(VkCommandBuffer commands, uint32_t count,
@@ -203,7 +189,8 @@ VKAPI_ATTR void VKAPI_CALL draw_indexed(VkCommandBuffer commands, uint32_t count
     call.count = count;
     call.first = first;
     call.vertex_offset = vertex_offset;
-    draw_call(commands, call, instances, first_instance);
+    call.first_instance = first_instance;
+    draw_call(commands, call, instances);
 }
 
 VKAPI_ATTR void VKAPI_CALL begin_rendering(VkCommandBuffer commands, const VkRenderingInfo* info) {
@@ -393,6 +380,37 @@ VkResult create_with_lines(const vulkan_layer::Instance& instance, VkPhysicalDev
 
 }  // namespace
 
+void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
+    Recording& recording = recording_of(commands);
+    call.topology = recording.topology;
+    call.number = recording.draws++;
+    call.rendering = recording.rendering;
+    call.index_type = recording.index_type;
+    call.has_restart = recording.has_restart;
+    if (call.indexed && call.index_type == VK_INDEX_TYPE_UINT32) {
+        call.first_value =
+            word_at(recording.index_buffer, recording.index_offset + call.first * sizeof(uint32_t));
+    }
+    alter(hooks().draw, call);
+    recording.draw([=] {
+        const Driver& driver = driver_of_handle(commands);
+        if (call.restart) {
+            driver.CmdSetPrimitiveRestartEnable(commands, *call.restart ? VK_TRUE : VK_FALSE);
+        }
+        for (uint32_t n = 0; n < call.times; ++n) {
+            if (call.indexed) {
+                driver.CmdDrawIndexed(commands, call.count, instances, call.first,
+                                      call.vertex_offset, call.first_instance);
+            } else {
+                driver.CmdDraw(commands, call.count, instances, call.first, call.first_instance);
+            }
+        }
+        if (call.restart) {
+            driver.CmdSetPrimitiveRestartEnable(commands, call.has_restart ? VK_TRUE : VK_FALSE);
+        }
+    });
+}
+
 }  // namespace breaking
 
 namespace vulkan_layer {
@@ -427,7 +445,11 @@ PFN_vkVoidFunction own_instance_command(const char* /*name*/) {
 
 PFN_vkVoidFunction own_device_command(const char* name) {
     const PFN_vkVoidFunction own = find_command(breaking::kCommands, name);
-    return own != nullptr ? own : find_command(breaking::state_commands(), name);
+    if (own != nullptr) {
+        return own;
+    }
+    const PFN_vkVoidFunction indirect = find_command(breaking::indirect_commands(), name);
+    return indirect != nullptr ? indirect : find_command(breaking::state_commands(), name);
 }
 
 bool shows_device_command(VkDevice /*device*/, const char* /*name*/) {

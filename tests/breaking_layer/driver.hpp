@@ -43,6 +43,13 @@ namespace breaking {
     X(CmdBindIndexBuffer) \
     X(CmdDraw) \
     X(CmdDrawIndexed) \
+    X(CmdBindVertexBuffers2) \
+    X(CmdDrawIndirect) \
+    X(CmdDrawIndexedIndirect) \
+    X(CmdDrawIndirectCount) \
+    X(CmdDrawIndexedIndirectCount) \
+    X(CmdDrawMultiEXT) \
+    X(CmdDrawMultiIndexedEXT) \
     X(CmdBeginRendering) \
     X(CmdEndRendering) \
     X(CmdPipelineBarrier2) \

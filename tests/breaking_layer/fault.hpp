@@ -37,6 +37,50 @@ struct DrawCall {
     uint32_t number = 0;     // in its rendering, from 0
     uint64_t rendering = 0;  // in this process, from 1
     uint32_t times = 1;      // how often the driver is asked
+    uint32_t first_instance = 0;
+    VkIndexType index_type = VK_INDEX_TYPE_UINT32;  // indexed only
+    bool has_restart = false;                       // primitive restart is on
+    // Set by a fault: restart is on or off for this draw whatever was asked.
+    std::optional<bool> restart;
+    // The first index of an indexed draw, if the buffer is mapped.
+    std::optional<uint32_t> first_value;
+};
+
+// One command with draws in a buffer. The buffer is read as the fault says, and what is found there
+// is drawn directly.
+struct IndirectCall {
+    bool indexed = false;
+    VkDeviceSize offset = 0;
+    uint32_t count = 0;  // of draws; with a count in a buffer: the most
+    uint32_t stride = 0;
+    std::optional<VkDeviceSize> count_offset;  // of the count in its buffer
+};
+struct IndirectDraw {
+    bool indexed = false;
+    uint32_t count = 0, instances = 0, first = 0, first_instance = 0;
+    int32_t vertex_offset = 0;
+};
+
+// Several draws of one command, from memory of the application.
+struct MultiDraw {
+    bool indexed = false;
+    std::vector<IndirectDraw> draws;
+};
+
+// Buffers bound by vkCmdBindVertexBuffers or vkCmdBindVertexBuffers2.
+struct VertexBuffers {
+    uint32_t first = 0;
+    std::vector<VkBuffer> buffers;
+    std::vector<VkDeviceSize> offsets;
+    std::vector<VkDeviceSize> strides;       // empty: those of the pipeline
+    VkBuffer first_buffer = VK_NULL_HANDLE;  // what is bound at 0
+    VkDeviceSize first_stride = 0;           // with strides: what was given for 0
+};
+struct IndexBuffer {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkIndexType type = VK_INDEX_TYPE_UINT32;
+    VkBuffer first_buffer = VK_NULL_HANDLE;  // the vertex buffer that is bound at 0
 };
 
 // Buffers that lie directly before and after an attachment's image in its memory.
@@ -78,6 +122,11 @@ struct Hooks {
     bool (*primitive_restart)(VkBool32&) = nullptr;
     bool (*rasterizer_discard)(VkBool32&) = nullptr;
     bool (*index_type)(VkIndexType&) = nullptr;
+    bool (*vertex_buffers)(VertexBuffers&) = nullptr;
+    bool (*index_buffer)(IndexBuffer&) = nullptr;
+    bool (*indirect)(IndirectCall&) = nullptr;
+    bool (*indirect_draw)(IndirectDraw&) = nullptr;
+    bool (*multi_draw)(MultiDraw&) = nullptr;
     bool (*depth_compare)(VkCompareOp&) = nullptr;
     bool (*depth_write)(VkBool32&) = nullptr;
     bool (*depth_bias_enable)(VkBool32&) = nullptr;
@@ -121,6 +170,7 @@ std::span<const Fault> multisample_faults();
 std::span<const Fault> shader_faults();
 std::span<const Fault> transfer_faults();
 std::span<const Fault> device_faults();
+std::span<const Fault> door_faults();
 std::vector<const Fault*> all_faults();
 
 // The N of EDGECASE_BREAK=NAME:N; 1 if none is given.

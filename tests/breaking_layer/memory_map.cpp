@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "memory_map.hpp"
 
+#include <cstddef>
+#include <cstring>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -21,6 +23,8 @@ struct Map {
     std::map<VkImageView, VkImage> images;
     std::map<VkDeviceMemory, Contents> memories;
     std::map<VkImage, VkDeviceMemory> memory_of;
+    std::map<VkBuffer, std::pair<VkDeviceMemory, VkDeviceSize>> place_of;
+    std::map<VkDeviceMemory, const std::byte*> mapped;  // byte 0
 };
 
 Map& map() {
@@ -43,6 +47,7 @@ void note_view(VkImageView view, VkImage image) {
 void note_binding(VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset) {
     const std::lock_guard lock(map().mutex);
     map().memories[memory].buffers[offset] = buffer;
+    map().place_of[buffer] = {memory, offset};
 }
 
 void note_binding(VkImage image, VkDeviceMemory memory, VkDeviceSize offset) {
@@ -54,6 +59,27 @@ void note_binding(VkImage image, VkDeviceMemory memory, VkDeviceSize offset) {
 void forget_memory(VkDeviceMemory memory) {
     const std::lock_guard lock(map().mutex);
     map().memories.erase(memory);
+    map().mapped.erase(memory);
+}
+
+void note_map(VkDeviceMemory memory, VkDeviceSize offset, void* data) {
+    const std::lock_guard lock(map().mutex);
+    map().mapped[memory] = static_cast<const std::byte*>(data) - offset;
+}
+
+std::optional<uint32_t> word_at(VkBuffer buffer, VkDeviceSize offset) {
+    const std::lock_guard lock(map().mutex);
+    const auto place = map().place_of.find(buffer);
+    if (place == map().place_of.end() || offset + sizeof(uint32_t) > map().sizes[buffer]) {
+        return std::nullopt;
+    }
+    const auto mapped = map().mapped.find(place->second.first);
+    if (mapped == map().mapped.end()) {
+        return std::nullopt;
+    }
+    uint32_t word = 0;
+    std::memcpy(&word, mapped->second + place->second.second + offset, sizeof word);
+    return word;
 }
 
 Neighbours neighbours_of(VkImageView view) {

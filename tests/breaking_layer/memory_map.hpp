@@ -15,6 +15,11 @@ void note_binding(VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset);
 void note_binding(VkImage image, VkDeviceMemory memory, VkDeviceSize offset);
 void forget_memory(VkDeviceMemory memory);
 
+void note_map(VkDeviceMemory memory, VkDeviceSize offset, void* data);
+
+// A word of a buffer whose memory the application has mapped; nothing if it has not.
+std::optional<uint32_t> word_at(VkBuffer buffer, VkDeviceSize offset);
+
 // The buffers next to the image of a view.
 Neighbours neighbours_of(VkImageView view);
 

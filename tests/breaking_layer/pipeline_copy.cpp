@@ -51,6 +51,9 @@ PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(fro
     inputs.assign(
         vertex_input.pVertexAttributeDescriptions,
         vertex_input.pVertexAttributeDescriptions + vertex_input.vertexAttributeDescriptionCount);
+    bindings.assign(
+        vertex_input.pVertexBindingDescriptions,
+        vertex_input.pVertexBindingDescriptions + vertex_input.vertexBindingDescriptionCount);
 
     rasterization = *from.pRasterizationState;
     for (const auto* s = first_of(rasterization.pNext); s != nullptr; s = s->pNext) {
@@ -91,6 +94,8 @@ PipelineCopy::PipelineCopy(const VkGraphicsPipelineCreateInfo& from) : info_(fro
 const VkGraphicsPipelineCreateInfo& PipelineCopy::info() {
     vertex_input.pVertexAttributeDescriptions = inputs.data();
     vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(inputs.size());
+    vertex_input.pVertexBindingDescriptions = bindings.data();
+    vertex_input.vertexBindingDescriptionCount = static_cast<uint32_t>(bindings.size());
     info_.pVertexInputState = &vertex_input;
 
     rasterization.pNext = nullptr;

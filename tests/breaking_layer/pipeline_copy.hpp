@@ -18,6 +18,7 @@ class PipelineCopy {
 
     VkPipelineVertexInputStateCreateInfo vertex_input{};
     std::vector<VkVertexInputAttributeDescription> inputs;
+    std::vector<VkVertexInputBindingDescription> bindings;
     VkPipelineRasterizationStateCreateInfo rasterization{};
     std::optional<VkPipelineRasterizationDepthClipStateCreateInfoEXT> depth_clip;
     std::optional<VkPipelineRasterizationProvokingVertexStateCreateInfoEXT> provoking;

@@ -24,9 +24,15 @@ class Recording {
     using StateKey = std::pair<std::string_view, uint32_t>;
 
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    uint32_t draws = 0;                    // in this rendering
-    uint64_t rendering = 0;                // in this process, from 1
-    std::vector<VkImageView> attachments;  // of this rendering
+    bool has_restart = false;
+    VkIndexType index_type = VK_INDEX_TYPE_UINT32;
+    VkBuffer index_buffer = VK_NULL_HANDLE;
+    VkDeviceSize index_offset = 0;
+    VkBuffer first_buffer = VK_NULL_HANDLE;  // bound for vertices at 0
+    VkDeviceSize first_stride = 0;           // if strides are dynamic
+    uint32_t draws = 0;                      // in this rendering
+    uint64_t rendering = 0;                  // in this process, from 1
+    std::vector<VkImageView> attachments;    // of this rendering
 
     void begin_rendering(bool holds_back);
     // Does the command now, or keeps it. A later command of the same key takes its place.

@@ -59,6 +59,7 @@ VKAPI_ATTR void VKAPI_CALL set_topology(VkCommandBuffer commands, VkPrimitiveTop
 }
 
 VKAPI_ATTR void VKAPI_CALL set_restart(VkCommandBuffer commands, VkBool32 enable) {
+    recording_of(commands).has_restart = enable == VK_TRUE;
     set_value(commands, "restart", enable, hooks().primitive_restart,
               driver_of_handle(commands).CmdSetPrimitiveRestartEnable);
 }
@@ -131,22 +132,65 @@ VKAPI_ATTR void VKAPI_CALL push_constants(VkCommandBuffer commands, VkPipelineLa
     });
 }
 
+void alter_vertex_buffers(VkCommandBuffer commands, VertexBuffers& own) {
+    Recording& recording = recording_of(commands);
+    if (own.first == 0) {
+        recording.first_buffer = own.buffers.front();
+        recording.first_stride = own.strides.empty() ? 0 : own.strides.front();
+    }
+    own.first_buffer = recording.first_buffer;
+    own.first_stride = recording.first_stride;
+    alter(hooks().vertex_buffers, own);
+}
+
 VKAPI_ATTR void VKAPI_CALL bind_vertex_buffers(VkCommandBuffer commands, uint32_t first,
                                                uint32_t count, const VkBuffer* buffers,
                                                const VkDeviceSize* offsets) {
-    const std::vector<VkBuffer> own(buffers, buffers + count);
-    const std::vector<VkDeviceSize> own_offsets(offsets, offsets + count);
+    VertexBuffers own;
+    own.first = first;
+    own.buffers.assign(buffers, buffers + count);
+    own.offsets.assign(offsets, offsets + count);
+    alter_vertex_buffers(commands, own);
     recording_of(commands).set_state({"vertex buffers", first}, [=] {
-        driver_of_handle(commands).CmdBindVertexBuffers(commands, first, count, own.data(),
-                                                        own_offsets.data());
+        driver_of_handle(commands).CmdBindVertexBuffers(commands, first, count, own.buffers.data(),
+                                                        own.offsets.data());
+    });
+}
+
+VKAPI_ATTR void VKAPI_CALL bind_vertex_buffers2(VkCommandBuffer commands, uint32_t first,
+                                                uint32_t count, const VkBuffer* buffers,
+                                                const VkDeviceSize* offsets,
+                                                const VkDeviceSize* sizes,
+                                                const VkDeviceSize* strides) {
+    VertexBuffers own;
+    own.first = first;
+    own.buffers.assign(buffers, buffers + count);
+    own.offsets.assign(offsets, offsets + count);
+    if (strides != nullptr) {
+        own.strides.assign(strides, strides + count);
+    }
+    const std::vector<VkDeviceSize> own_sizes =
+        sizes != nullptr ? std::vector(sizes, sizes + count) : std::vector<VkDeviceSize>();
+    alter_vertex_buffers(commands, own);
+    recording_of(commands).set_state({"vertex buffers", first}, [=] {
+        driver_of_handle(commands).CmdBindVertexBuffers2(
+            commands, first, count, own.buffers.data(), own.offsets.data(),
+            own_sizes.empty() ? nullptr : own_sizes.data(),
+            own.strides.empty() ? nullptr : own.strides.data());
     });
 }
 
 VKAPI_ATTR void VKAPI_CALL bind_index_buffer(VkCommandBuffer commands, VkBuffer buffer,
                                              VkDeviceSize offset, VkIndexType type) {
     alter(hooks().index_type, type);
-    recording_of(commands).set_state({"index buffer", 0}, [=] {
-        driver_of_handle(commands).CmdBindIndexBuffer(commands, buffer, offset, type);
+    Recording& recording = recording_of(commands);
+    IndexBuffer own{buffer, offset, type, recording.first_buffer};
+    alter(hooks().index_buffer, own);
+    recording.index_type = own.type;
+    recording.index_buffer = own.buffer;
+    recording.index_offset = own.offset;
+    recording.set_state({"index buffer", 0}, [=] {
+        driver_of_handle(commands).CmdBindIndexBuffer(commands, own.buffer, own.offset, own.type);
     });
 }
 
@@ -167,6 +211,7 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(CmdBindDescriptorSets, bind_descriptor_sets),
     BREAKING_OWN(CmdPushConstants, push_constants),
     BREAKING_OWN(CmdBindVertexBuffers, bind_vertex_buffers),
+    BREAKING_OWN(CmdBindVertexBuffers2, bind_vertex_buffers2),
     BREAKING_OWN(CmdBindIndexBuffer, bind_index_buffer),
 };
 

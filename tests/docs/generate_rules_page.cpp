@@ -13,7 +13,7 @@
 
 #include "cases/load/loader.hpp"
 #include "cases/model/rule.hpp"
-#include "cases/model/statement.hpp"
+#include "cases/statement/statement.hpp"
 #include "ref/exercise/exercise.hpp"
 #include "tests/docs/wrapped.hpp"
 

@@ -178,7 +178,8 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     vk.vkCmdSetCullMode(commands, to_vulkan(draw.cull));
     vk.vkCmdSetFrontFace(commands, to_vulkan(draw.front_face));
     vk.vkCmdSetPrimitiveTopology(commands, to_vulkan(draw.topology));
-    vk.vkCmdSetPrimitiveRestartEnable(commands, draw.primitive_restart ? VK_TRUE : VK_FALSE);
+    const bool has_restart = plan.feed ? plan.feed->has_restart() : draw.primitive_restart;
+    vk.vkCmdSetPrimitiveRestartEnable(commands, has_restart ? VK_TRUE : VK_FALSE);
     vk.vkCmdSetRasterizerDiscardEnable(commands, draw.rasterizer_discard ? VK_TRUE : VK_FALSE);
     const cases::DepthState& depth = draw.depth;
     vk.vkCmdSetDepthCompareOp(commands, static_cast<VkCompareOp>(depth.compare));
@@ -211,6 +212,15 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
                           &constants);
     const glm::vec4 blend = draw.color.blend ? draw.color.blend->constants : glm::vec4(0);
     vk.vkCmdSetBlendConstants(commands, &blend.x);
+    const auto scissors = scissors_of(draw, test);
+    if (plan.feed) {
+        plan.feed->bind(device, commands, vertices);
+        for (const VkRect2D& scissor : scissors) {
+            bind_viewports(device, commands, test, draw, scissor);
+            plan.feed->draw(device, commands, vertices);
+        }
+        return;
+    }
     std::array<VkBuffer, 1 + cases::kMaxAttributes> buffers{};
     buffers.fill(vertices);
     vk.vkCmdBindVertexBuffers(commands, 0, binding_count, buffers.data(), plan.vertices.data());
@@ -224,7 +234,7 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
     if (draw.indices) {
         vk.vkCmdBindIndexBuffer(commands, vertices, plan.indices, VK_INDEX_TYPE_UINT32);
     }
-    for (const VkRect2D& scissor : scissors_of(draw, test)) {
+    for (const VkRect2D& scissor : scissors) {
         bind_viewports(device, commands, test, draw, scissor);
         if (draw.indices) {
             vk.vkCmdDrawIndexed(commands, count, 1, 0, 0, 0);
@@ -239,6 +249,10 @@ void record_draw(const Device& device, const PipelineCache& pipelines, VkCommand
 VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin) {
     VkDeviceSize offset = begin;
     for (DrawPlan& draw : plan.draws) {
+        if (draw.feed) {
+            offset = draw.feed->place(offset);
+            continue;
+        }
         const VkDeviceSize array = draw.draw->positions.size() * sizeof(glm::vec4);
         for (uint32_t binding = 0; binding <= plan.input_count; ++binding) {
             draw.vertices[binding] = offset;
@@ -262,6 +276,10 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
     };
     for (const DrawPlan& item : plan.draws) {
         const cases::Draw& draw = *item.draw;
+        if (item.feed) {
+            item.feed->write(memory);
+            continue;
+        }
         const size_t array = draw.positions.size() * sizeof(glm::vec4);
         write(item.vertices[0], draw.positions.data(), array);
         for (uint32_t k = 0; k < plan.input_count; ++k) {
@@ -280,6 +298,18 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory) {
             write(item.indices, draw.indices->data(), draw.indices->size() * sizeof(uint32_t));
         }
     }
+}
+
+Result<void> make_door_buffers(const Device& device, const CasePlan& plan,
+                               std::span<const std::byte> memory) {
+    for (const DrawPlan& item : plan.draws) {
+        if (item.feed) {
+            if (auto made = item.feed->make_buffers(device, memory); !made) {
+                return made;
+            }
+        }
+    }
+    return {};
 }
 
 void record_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vk_harness/commands/blit.hpp"
+#include "vk_harness/door/feed.hpp"
 #include "vk_harness/pipeline/pipeline_cache.hpp"
 #include "vk_harness/target/readback.hpp"
 #include "vk_harness/target/target.hpp"
@@ -25,6 +26,7 @@ struct DrawPlan {
     VkDeviceSize indices = 0;
     bool has_integer_color = false;  // the colour target's format holds integers
     bool is_split = false;           // InstrumentLayout::split
+    std::shared_ptr<Feed> feed;      // of a door that feeds vertices in another way
 };
 
 struct CasePlan {
@@ -42,6 +44,10 @@ struct CasePlan {
 VkDeviceSize place_vertices(CasePlan& plan, VkDeviceSize begin);
 // Writes them there, bits unchanged.
 void write_vertices(const CasePlan& plan, std::span<std::byte> memory);
+
+// Gives the doors that need them buffers of their own; `memory` is what was written.
+Result<void> make_door_buffers(const Device& device, const CasePlan& plan,
+                               std::span<const std::byte> memory);
 
 // Records clearing and drawing of a case. Afterwards its attachments are in the layout that
 // record_copies expects if `for_copies`.

@@ -180,6 +180,7 @@ void query_optional_features(Capabilities& c) {
     }
     c.layer_output = features12.shaderOutputLayer == VK_TRUE;
     c.max_layers = std::min(c.limits.maxFramebufferLayers, c.limits.maxImageArrayLayers);
+    c.doors = query_door_support(c.physical, has_device_extension);
     c.clip = query_clip_support(c.physical, has_device_extension);
     c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
 }

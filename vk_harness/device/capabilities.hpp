@@ -11,6 +11,7 @@
 #include "vk_harness/device/clip_support.hpp"
 #include "vk_harness/device/core_support.hpp"
 #include "vk_harness/device/depth_bias_control.hpp"
+#include "vk_harness/device/door_support.hpp"
 #include "vk_harness/device/instance.hpp"
 
 namespace vk_harness {
@@ -58,6 +59,7 @@ struct Capabilities {
     uint32_t max_layers = 1;    // of a target
     bool layer_output = false;  // shaderOutputLayer: gl_Layer in a vertex shader
     ClipSupport clip;
+    DoorSupport doors;
     bool barycentrics = false;  // VK_KHR_fragment_shader_barycentric
 };
 

@@ -146,6 +146,8 @@ Result<Device> Device::create(const Capabilities& capabilities) {
 
     ClipFeatures clip;
     enable_clip_features(capabilities.clip, features, extensions, clip);
+    DoorFeatures doors;
+    enable_door_features(capabilities.doors, features, features12, extensions, doors);
     DepthBiasControlFeatures bias_control;
     enable_depth_bias_control(capabilities.depth_bias, features, extensions, bias_control);
 

@@ -175,19 +175,21 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     ColorState color;
     color_state(key, color);
 
-    const std::array<VkDynamicState, 12> dynamic_states = {
-        VK_DYNAMIC_STATE_BLEND_CONSTANTS,
-        VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
-        VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
-        VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
-        VK_DYNAMIC_STATE_DEPTH_BIAS,
-        VK_DYNAMIC_STATE_VIEWPORT,
-        VK_DYNAMIC_STATE_SCISSOR,
-        VK_DYNAMIC_STATE_CULL_MODE,
-        VK_DYNAMIC_STATE_FRONT_FACE,
-        VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
-        VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
-        VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE};
+    std::vector<VkDynamicState> dynamic_states = {VK_DYNAMIC_STATE_BLEND_CONSTANTS,
+                                                  VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
+                                                  VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
+                                                  VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
+                                                  VK_DYNAMIC_STATE_DEPTH_BIAS,
+                                                  VK_DYNAMIC_STATE_VIEWPORT,
+                                                  VK_DYNAMIC_STATE_SCISSOR,
+                                                  VK_DYNAMIC_STATE_CULL_MODE,
+                                                  VK_DYNAMIC_STATE_FRONT_FACE,
+                                                  VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
+                                                  VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
+                                                  VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE};
+    if (key.way.dynamic_stride) {
+        dynamic_states.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);
+    }
     VkPipelineDynamicStateCreateInfo dynamic =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
     dynamic.dynamicStateCount = static_cast<uint32_t>(dynamic_states.size());

@@ -56,6 +56,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.layer = names_layers(c);
     key.clip_count = draw.distances.clip_count;
     key.cull_count = draw.distances.cull_count;
+    key.way = vertex_way(c, draw);
     key.negative_one_to_one = draw.depth.negative_one_to_one;
     key.provoking = draw.provoking;
     key.writes_mask = draw.multisample.shader_mask.has_value();

@@ -12,6 +12,7 @@
 
 #include "cases/model/case.hpp"
 #include "shaders/shaders.hpp"
+#include "vk_harness/pipeline/vertex_way.hpp"
 #include "vk_harness/target/attachments.hpp"
 
 namespace vk_harness {
@@ -40,6 +41,7 @@ struct PipelineKey {
     uint32_t samples = 1;
     // Vertex stage.
     uint32_t clip_count = 0, cull_count = 0;
+    VertexWay way;
     bool layer = false, viewport_index = false;
     uint32_t viewports = 1;            // that are bound; viewport_index: more than one
     bool negative_one_to_one = false;  // depth clip control

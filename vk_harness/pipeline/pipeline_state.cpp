@@ -3,7 +3,6 @@
 #include "vk_harness/pipeline/pipeline_state.hpp"
 
 #include <bit>
-#include <utility>
 
 #include "capture/capture.hpp"
 #include "vk_harness/device/sample_locations.hpp"
@@ -11,17 +10,28 @@
 namespace vk_harness {
 
 void vertex_input_state(const PipelineKey& key, VertexInputState& state) {
-    // Binding and location 0: positions; 1..: attributes. Each is an array of its own.
-    for (uint32_t binding = 0; binding <= key.attribute_count; ++binding) {
-        state.bindings.push_back({binding, 16, VK_VERTEX_INPUT_RATE_VERTEX});
-        state.inputs.push_back({binding, binding, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
-    }
-    for (const auto& [count, binding] :
-         {std::pair(key.clip_count, kClipBinding), std::pair(key.cull_count, kCullBinding)}) {
-        if (count > 0) {
-            state.bindings.push_back({binding, 16, VK_VERTEX_INPUT_RATE_VERTEX});
-            state.inputs.push_back({binding, binding, VK_FORMAT_R32G32B32A32_SFLOAT, 0});
+    // Binding and location 0: positions; 1..: attributes; distances. Each is an array of its own,
+    // but if all lie together.
+    const Bindings bindings = bindings_of(key.attribute_count, key.clip_count, key.cull_count);
+    uint32_t offset = 0;
+    for (const uint32_t binding : bindings) {
+        const VkFormat format = size_of(key.way, binding) == 12 ? VK_FORMAT_R32G32B32_SFLOAT
+                                                                : VK_FORMAT_R32G32B32A32_SFLOAT;
+        if (key.way.interleaved) {
+            state.inputs.push_back({binding, 0, format, offset});
+            offset += size_of(key.way, binding);
+            continue;
         }
+        const VkVertexInputRate rate = (key.way.instance_rate >> binding & 1U) != 0
+                                           ? VK_VERTEX_INPUT_RATE_INSTANCE
+                                           : VK_VERTEX_INPUT_RATE_VERTEX;
+        const uint32_t stride =
+            key.way.dynamic_stride ? kIgnoredStride : stride_of(key.way, binding);
+        state.bindings.push_back({binding, stride, rate});
+        state.inputs.push_back({binding, binding, format, 0});
+    }
+    if (key.way.interleaved) {
+        state.bindings.push_back({0, offset, VK_VERTEX_INPUT_RATE_VERTEX});
     }
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
     state.info.vertexBindingDescriptionCount = static_cast<uint32_t>(state.bindings.size());

@@ -76,7 +76,7 @@ TEST(Relations, EverySentence) {
          R"(f:4:14: error: a relation is "twice"; write "same-twice", "other-clears", )"
          R"("write-masks", "fewer-attributes" or "more-attributes")"},
         {file(R"([{ tiles = [1, 2] }])"),
-         R"(f:4:16: error: a relation has no key "tiles"; its keys are scissor-tiles)"},
+         R"(f:4:16: error: a relation has no key "tiles"; its keys are scissor-tiles, doors)"},
         {file(R"([{ scissor-tiles = [1] }])"),
          "f:4:32: error: scissor-tiles has 1 numbers; write [width, height]"},
         {file(R"([{ scissor-tiles = [0, 1] }])"),

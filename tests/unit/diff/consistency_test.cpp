@@ -202,7 +202,7 @@ TEST(Consistency, AllDifferentSamplesAreCountedAndTheFirstOnesKept) {
 TEST(Consistency, OtherShadersAreHeldToItFromPracticeOn) {
     const Scene scene(RelationKind::more_attributes);
     const std::vector<Derivation> d = scene.derivations();
-    const std::vector<Consistency> found = {{64, 1, {{18, 3, 0, 1, 2}}}};
+    const std::vector<Consistency> found = {{64, 1, {{18, 3, 0, 1, 2}}, {}, {}}};
     Verdict verdict;
     verdict.profile = cases::Profile::vulkan;
     add_differences(scene.test, d, found, verdict);
@@ -210,6 +210,99 @@ TEST(Consistency, OtherShadersAreHeldToItFromPracticeOn) {
     verdict.profile = cases::Profile::practice;
     add_differences(scene.test, d, found, verdict);
     EXPECT_FALSE(verdict.ok());
+}
+
+namespace {
+
+// The scene with one door instead of its relation.
+std::vector<Derivation> through(Scene& scene, cases::Door door) {
+    scene.test.relations = {{RelationKind::door, {}, door}};
+    return scene.derivations();
+}
+
+}  // namespace
+
+TEST(Consistency, ADoorMovesTheNumbersOfVerticesAndNothingElse) {
+    Scene scene;
+    const Derivation d = through(scene, cases::Door::vertex_offset).front();
+    EXPECT_EQ(compare_bits(scene.base, scene.base, d).different, 15U);
+    capture::Capture moved = scene.base;
+    vary(moved, d.variation);
+    EXPECT_EQ(compare_bits(scene.base, moved, d).different, 0U);
+    EXPECT_EQ(moved.writers[2 * 8 + 2].provoking_vertex,
+              scene.base.writers[2 * 8 + 2].provoking_vertex + cases::kMovedVertices);
+    flip_each(moved, [&](size_t sample, uint32_t plane, uint32_t word) {
+        const Consistency found = compare_bits(scene.base, moved, d);
+        ASSERT_EQ(found.different, 1U) << plane << " " << word;
+        EXPECT_EQ(found.differences.front().sample, sample);
+    });
+    const Derivation plain = through(scene, cases::Door::index_16).front();
+    EXPECT_EQ(compare_bits(scene.base, scene.base, plain).different, 0U);
+    EXPECT_NE(compare_bits(scene.base, moved, plain).different, 0U);
+}
+
+TEST(Consistency, WhatIsMaskedHoldsItsClearValueInEveryWord) {
+    const Scene scene(RelationKind::write_masks);
+    capture::Capture masked = scene.base;
+    vary(masked, scene.derivations()[1].variation);
+    EXPECT_EQ(masked.writers[2 * 8 + 2], capture::Writer{});
+    EXPECT_NE(scene.base.writers[2 * 8 + 2], capture::Writer{});
+}
+
+TEST(Consistency, PrimitivesOfASplitDrawMayBeginAgainAndNothingElse) {
+    Scene scene;
+    Derivation d = through(scene, cases::Door::multi_draw).front();
+    ASSERT_EQ(d.variation.splits, std::vector<uint32_t>{0});
+    d.variation.splits = {2};  // as if the triangle were the fifth
+    capture::Capture base = scene.base;
+    const size_t at = 2 * 8 + 2;
+    base.writers[at].primitive = 4;
+    capture::Capture derived = base;
+    vary(derived, d.variation);
+    const auto different = [&](uint32_t primitive) {
+        derived.writers[at].primitive = primitive;
+        return compare_bits(base, derived, d).different;
+    };
+    EXPECT_EQ(different(4), 0U);
+    EXPECT_EQ(different(2), 0U);
+    EXPECT_EQ(different(3), 1U);
+    EXPECT_EQ(different(0), 1U);
+    base.writers[at].primitive = 1;  // of the first half
+    EXPECT_EQ(different(1), 0U);
+    EXPECT_EQ(different(0), 1U);
+}
+
+TEST(Consistency, WhatNoRulePromisesIsAFindingAtVulkanOnlyIfThePictureIsWrong) {
+    Scene scene;
+    const auto level = [&](cases::Door door, cases::Profile profile, const std::string& wrong) {
+        const std::vector<Derivation> d = through(scene, door);
+        const std::vector<Consistency> found = {{64, 1, {{18, 3, 0, 1, 2}}, {}, wrong}};
+        Verdict verdict;
+        verdict.profile = profile;
+        add_differences(scene.test, d, found, verdict);
+        return verdict.ok() ? std::string("none")
+                            : std::string(cases::to_string(verdict.findings.front().level));
+    };
+    using cases::Door;
+    using cases::Profile;
+    EXPECT_EQ(level(Door::index_16, Profile::vulkan, ""), "vulkan");
+    EXPECT_EQ(level(Door::index_16, Profile::direct3d, ""), "vulkan");
+    EXPECT_EQ(level(Door::interleaved, Profile::vulkan, ""), "none");
+    EXPECT_EQ(level(Door::interleaved, Profile::practice, ""), "practice");
+    EXPECT_EQ(level(Door::interleaved, Profile::vulkan, "cover.inside at (1, 1): ..."), "vulkan");
+}
+
+TEST(Consistency, ADoorIsNamedWithWhatItDoes) {
+    Scene scene;
+    const std::vector<Derivation> d = through(scene, cases::Door::index_offset);
+    const std::vector<Consistency> found = {{64, 1, {{18, 0, 1, 1, 2}}, {}, {}}};
+    Verdict verdict;
+    add_differences(scene.test, d, found, verdict);
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    EXPECT_EQ(verdict.findings.front().rule, "door.buffer");
+    EXPECT_EQ(verdict.findings.front().quantity, "back hits, door index-offset");
+    EXPECT_NE(verdict.findings.front().why.find("through the door index-offset"),
+              std::string::npos);
 }
 
 }  // namespace diff

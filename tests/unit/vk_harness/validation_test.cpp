@@ -72,6 +72,25 @@ std::vector<cases::Case> all_states() {
     return batch;
 }
 
+TEST(Validation, NothingToSayAboutAnyDoor) {
+    auto renderer = Renderer::create(with_validation());
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    std::vector<cases::Case> batch;
+    for (const cases::DoorRow& row : cases::all_doors()) {
+        cases::Case c = make_case({32, 16, 1}, half_square());
+        c.draws[0].attributes.push_back(constant(cases::Interpolation::smooth, 3));
+        c.draws.push_back(c.draws[0]);
+        c.draws[1].topology = cases::Topology::triangle_strip;
+        c.draws[1].indices = {{0, 1, 2}};
+        c.variation.door = row.door;
+        batch.push_back(c);
+    }
+    for (const Rendered& rendered : renderer->render(batch, {})) {
+        EXPECT_THAT(rendered.messages, ::testing::IsEmpty());
+        EXPECT_NE(rendered.status, Rendered::Status::error) << rendered.reason;
+    }
+}
+
 TEST(Validation, NothingToSayAboutAnyState) {
     auto renderer = Renderer::create(with_validation());
     ASSERT_TRUE(renderer) << renderer.error().message;

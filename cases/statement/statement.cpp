@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cases/model/statement.hpp"
+#include "cases/statement/statement.hpp"
 
 namespace cases {
 
@@ -294,6 +294,18 @@ constexpr Statement kStatements[] = {
     {93, "rasterizer discard", exact, not_spoken,
      "A draw with it leaves no trace in any attachment; the draws around it are as ever.",
      {"discard.rasterizer"}, ""},
+    {94, "what names the vertices of a draw: indices of any type, none, the largest one without restart", exact, not_spoken,
+     "The picture has the bits of the plain one; where restart is switched on for nothing, from practice on.",
+     {"door.index", "door.restart"}, ""},
+    {95, "firstVertex, firstIndex, vertexOffset, and where buffers are bound", exact, not_spoken,
+     "The picture has the bits of the plain one; gl_VertexIndex counts firstVertex and vertexOffset.",
+     {"door.first", "door.buffer"}, ""},
+    {96, "strides, interleaved inputs, formats of fewer components, inputs of an instance", exact, not_spoken,
+     "The picture is right at vulkan and has the bits of the plain one from practice on: the pipeline is another one.",
+     {"door.layout", "door.instance"}, ""},
+    {97, "indirect draws, several draws in a command", exact, not_spoken,
+     "The picture has the bits of the plain one.",
+     {"door.indirect"}, ""},
     // clang-format on
 };
 

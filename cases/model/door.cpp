@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cases/model/door.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "cases/model/case.hpp"
+#include "cases/model/rule_ids.hpp"
+
+namespace cases {
+
+namespace {
+
+constexpr uint32_t kLargest8 = 0xff, kLargest16 = 0xffff;
+
+template <class Predicate>
+bool all_draws(const Case& c, Predicate holds) {
+    return std::all_of(c.draws.begin(), c.draws.end(), holds);
+}
+template <class Predicate>
+bool any_draw(const Case& c, Predicate holds) {
+    return std::any_of(c.draws.begin(), c.draws.end(), holds);
+}
+
+bool is_any(const Case&) {
+    return true;
+}
+
+// With restart the largest value of a type is no index.
+template <uint32_t largest>
+bool has_indices_up_to(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        return largest_index(draw) <= largest - (draw.primitive_restart ? 1 : 0);
+    });
+}
+
+template <uint32_t largest>
+bool can_use_largest(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        return !draw.primitive_restart && largest_index(draw) <= largest;
+    });
+}
+
+bool has_strip_or_fan(const Case& c) {
+    return any_draw(c, [](const Draw& draw) { return draw.topology != Topology::triangle_list; });
+}
+
+bool has_no_indices(const Case& c) {
+    return all_draws(c, [](const Draw& draw) { return !draw.indices; });
+}
+
+bool is_one(float value) {
+    return value >= 1 && value <= 1;
+}
+
+bool has_w_one(const Case& c) {
+    return any_draw(c, [](const Draw& draw) {
+        return !draw.positions.empty() &&
+               std::all_of(draw.positions.begin(), draw.positions.end(),
+                           [](const glm::vec4& p) { return is_one(p.w); });
+    });
+}
+
+bool is_constant(const std::vector<glm::vec4>& values) {
+    return !values.empty() &&
+           std::all_of(values.begin(), values.end(), [&values](const glm::vec4& value) {
+               return std::memcmp(&value, &values.front(), sizeof value) == 0;
+           });
+}
+
+// Without instruments the only attribute that is drawn is the colour.
+bool has_constant_input(const Case& c) {
+    return any_draw(c, [&c](const Draw& draw) {
+        const auto& attributes = draw.attributes;
+        if (is_constant(draw.distances.clip) || is_constant(draw.distances.cull)) {
+            return true;
+        }
+        if (!c.target.has_instruments) {
+            return draw.color.attribute >= 0 &&
+                   static_cast<size_t>(draw.color.attribute) < attributes.size() &&
+                   is_constant(attributes[static_cast<size_t>(draw.color.attribute)].values);
+        }
+        return std::any_of(attributes.begin(), attributes.end(),
+                           [](const Attribute& a) { return is_constant(a.values); });
+    });
+}
+
+constexpr DoorGroup kVertices = DoorGroup::vertices;
+constexpr DoorPromise kSame = DoorPromise::same_bits, kRight = DoorPromise::right_picture;
+constexpr std::string_view kAny = "every case that draws";
+
+constexpr std::array<DoorRow, kDoors - 1> kRows = {{
+    {Door::index_8, "index-8", kVertices, kSame, rule::door_index,
+     "Vertices are named by indices of 8 bits; a draw without indices gets 0, 1, 2, ...",
+     "indexTypeUint8 (VK_EXT_index_type_uint8)", "indices up to 255, 254 with restart",
+     has_indices_up_to<kLargest8>},
+    {Door::index_16, "index-16", kVertices, kSame, rule::door_index,
+     "Vertices are named by indices of 16 bits; a draw without indices gets 0, 1, 2, ...", "",
+     "indices up to 65535, 65534 with restart", has_indices_up_to<kLargest16>},
+    {Door::index_32, "index-32", kVertices, kSame, rule::door_index,
+     "Vertices are named by indices of 32 bits, in draws without indices, too.", "", kAny, is_any},
+    {Door::index_8_largest, "index-8-largest", kVertices, kSame, rule::door_restart,
+     "Restart is off, and the largest index in use is 255, which is then a vertex like any other; "
+     "a negative vertexOffset leads back to the vertices.",
+     "indexTypeUint8 (VK_EXT_index_type_uint8)", "indices up to 255, no draw with restart",
+     can_use_largest<kLargest8>},
+    {Door::index_16_largest, "index-16-largest", kVertices, kSame, rule::door_restart,
+     "The same with indices of 16 bits, of which the largest is 65535.", "",
+     "indices up to 65535, no draw with restart", can_use_largest<kLargest16>},
+    {Door::restart_extra, "restart-extra", kVertices, kRight, rule::door_restart,
+     "Strips and fans are drawn with restart: twice before their first index and once behind their "
+     "last one.",
+     "", "a strip or a fan", has_strip_or_fan},
+    {Door::first_vertex, "first-vertex", kVertices, kSame, rule::door_first,
+     "Draws begin at firstVertex 5, behind vertices that must not be read.", "",
+     "no draw with indices", has_no_indices},
+    {Door::first_index, "first-index", kVertices, kSame, rule::door_first,
+     "Draws begin at firstIndex 7, behind indices of other vertices.", "", kAny, is_any},
+    {Door::vertex_offset, "vertex-offset", kVertices, kSame, rule::door_first,
+     "vertexOffset is 5, and five vertices that must not be read lie before the others.", "", kAny,
+     is_any},
+    {Door::vertex_offset_negative, "vertex-offset-negative", kVertices, kSame, rule::door_first,
+     "Indices are larger by 9, and vertexOffset is -9.", "", kAny, is_any},
+    {Door::bind_offset, "bind-offset", kVertices, kSame, rule::door_buffer,
+     "Vertex buffers are bound at offsets that are multiples of 4 and of nothing larger, each "
+     "binding at another.",
+     "", kAny, is_any},
+    {Door::index_offset, "index-offset", kVertices, kSame, rule::door_buffer,
+     "The index buffer is bound in the middle of other indices, on a multiple of 4 bytes.", "",
+     kAny, is_any},
+    {Door::separate_buffers, "separate-buffers", kVertices, kSame, rule::door_buffer,
+     "Each binding, and the indices, have a buffer and memory of their own.", "", kAny, is_any},
+    {Door::stride_padded, "stride-padded", kVertices, kRight, rule::door_layout,
+     "Vertices lie further apart than they are long: 12 bytes between them, another number for "
+     "each binding.",
+     "", kAny, is_any},
+    {Door::stride_dynamic, "stride-dynamic", kVertices, kRight, rule::door_layout,
+     "The strides are dynamic state, given with the buffers, and those of the pipeline are others.",
+     "", kAny, is_any},
+    {Door::interleaved, "interleaved", kVertices, kRight, rule::door_layout,
+     "All that a vertex has lies together, in one binding.", "", kAny, is_any},
+    {Door::three_components, "three-components", kVertices, kRight, rule::door_layout,
+     "Positions whose w is 1 are read as three numbers; the fourth is 1 by the format.", "",
+     "a draw whose positions all have w = 1", has_w_one},
+    {Door::instance_rate, "instance-rate", kVertices, kRight, rule::door_instance,
+     "What is the same at every vertex is read once an instance, and the only instance is number "
+     "2: firstInstance is 2.",
+     "", "a draw with an attribute or distances that are the same at every vertex",
+     has_constant_input},
+    {Door::indirect, "indirect", kVertices, kSame, rule::door_indirect,
+     "Draws are indirect: their parameters are read from a buffer, from firstVertex or "
+     "vertexOffset 5 on, behind a draw that is not asked for.",
+     "", kAny, is_any},
+    {Door::indirect_count, "indirect-count", kVertices, kSame, rule::door_indirect,
+     "The number of indirect draws is read from a buffer, too: one, of three that are allowed; "
+     "indices are bound at an offset.",
+     "drawIndirectCount", kAny, is_any},
+    {Door::multi_indirect, "multi-indirect", kVertices, kSame, rule::door_indirect,
+     "One command has three indirect draws, 32 bytes apart, from firstVertex or vertexOffset 5 on: "
+     "the first half of a list's triangles, none, the second half.",
+     "multiDrawIndirect", kAny, is_any},
+    {Door::indirect_after_count, "indirect-after-count", kVertices, kSame, rule::door_indirect,
+     "The same, directly after a command that reads the number of its draws from a buffer, which "
+     "is "
+     "0.",
+     "drawIndirectCount and multiDrawIndirect", kAny, is_any},
+    {Door::multi_draw, "multi-draw", kVertices, kSame, rule::door_indirect,
+     "One command has three draws from memory of the application, from firstVertex or vertexOffset "
+     "5 "
+     "on: the first half of a list's triangles, none, the second half.",
+     "multiDraw (VK_EXT_multi_draw)", kAny, is_any},
+    {Door::multi_draw_empty, "multi-draw-empty", kVertices, kSame, rule::door_indirect,
+     "The same, with a draw of no vertices first, then the whole, then another of none.",
+     "multiDraw (VK_EXT_multi_draw)", kAny, is_any},
+}};
+
+constexpr bool is_in_order() {
+    for (size_t k = 0; k < kRows.size(); ++k) {
+        if (static_cast<size_t>(kRows[k].door) != k + 1) {
+            return false;
+        }
+    }
+    return true;
+}
+static_assert(is_in_order());
+
+}  // namespace
+
+std::string_view to_string(DoorGroup group) {
+    constexpr std::array<std::string_view, 4> kNames = {"feeding vertices", "state", "recording",
+                                                        "stages"};
+    return kNames.at(static_cast<size_t>(group));
+}
+
+std::span<const DoorRow> all_doors() {
+    return kRows;
+}
+
+const DoorRow& row_of(Door door) {
+    return kRows.at(static_cast<size_t>(door) - 1);
+}
+
+std::optional<Door> find_door(std::string_view word) {
+    for (const DoorRow& row : kRows) {
+        if (row.word == word) {
+            return row.door;
+        }
+    }
+    return std::nullopt;
+}
+
+bool can_take(Door door, const Case& c) {
+    return !c.blit && any_draw(c, [](const Draw& draw) { return !draw.positions.empty(); }) &&
+           row_of(door).can_take(c);
+}
+
+uint32_t vertex_shift(Door door) {
+    switch (door) {
+        case Door::first_vertex:
+        case Door::vertex_offset:
+        case Door::indirect:
+        case Door::indirect_count:
+        case Door::multi_indirect:
+        case Door::indirect_after_count:
+        case Door::multi_draw:
+        case Door::multi_draw_empty:
+            return kMovedVertices;
+        default:
+            return 0;
+    }
+}
+
+uint32_t split_of(Door door, const Draw& draw) {
+    if ((door != Door::multi_indirect && door != Door::indirect_after_count &&
+         door != Door::multi_draw) ||
+        draw.topology != Topology::triangle_list) {
+        return 0;
+    }
+    const size_t elements = draw.indices ? draw.indices->size() : draw.positions.size();
+    return static_cast<uint32_t>(elements / 3 / 2);
+}
+
+uint32_t largest_index(const Draw& draw) {
+    if (!draw.indices) {
+        return draw.positions.empty() ? 0 : static_cast<uint32_t>(draw.positions.size() - 1);
+    }
+    uint32_t largest = 0;
+    for (const uint32_t index : *draw.indices) {
+        if (!draw.primitive_restart || index != kRestartIndex) {
+            largest = std::max(largest, index);
+        }
+    }
+    return largest;
+}
+
+}  // namespace cases

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Doors: other ways of the API by which the triangles of a case reach the rasterizer. A picture
+// through a door must be that of the case as it stands.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "cases/base/fields.hpp"
+
+namespace cases {
+
+struct Case;
+
+// In the order of the table in door.cpp, which says what each of them does.
+enum class Door : uint8_t {
+    none,  // as a case is drawn without relations
+    index_8,
+    index_16,
+    index_32,
+    index_8_largest,
+    index_16_largest,
+    restart_extra,
+    first_vertex,
+    first_index,
+    vertex_offset,
+    vertex_offset_negative,
+    bind_offset,
+    index_offset,
+    separate_buffers,
+    stride_padded,
+    stride_dynamic,
+    interleaved,
+    three_components,
+    instance_rate,
+    indirect,
+    indirect_count,
+    multi_indirect,
+    indirect_after_count,
+    multi_draw,
+    multi_draw_empty,
+};
+inline constexpr Door kLastDoor = Door::multi_draw_empty;
+inline constexpr size_t kDoors = static_cast<size_t>(kLastDoor) + 1;  // `none` among them
+template <>
+inline constexpr size_t kValueCount<Door> = kDoors;
+
+enum class DoorGroup : uint8_t { vertices, state, recording, stages };
+std::string_view to_string(DoorGroup group);
+
+// What equal bits follow from.
+enum class DoorPromise : uint8_t {
+    // The pipeline, the state and the vertices that reach it are those of the plain picture
+    // (Invariance, Rule 4): other bits are a finding at `vulkan`.
+    same_bits,
+    // Another pipeline, or state that no rule of invariance names: at `vulkan` the picture has to
+    // be right by the rules of every picture, and only from `practice` on it has to be the same.
+    right_picture,
+};
+
+struct DoorRow {
+    Door door;
+    std::string_view word;  // in files and on the command line
+    DoorGroup group;
+    DoorPromise promise;
+    std::string_view rule;   // what a finding names
+    std::string_view does;   // one sentence
+    std::string_view needs;  // of the device, beyond what every case needs; may be empty
+    std::string_view takes;  // which cases can go through it
+    bool (*can_take)(const Case&);
+};
+
+// All doors but `none`, in the order of the enumeration.
+std::span<const DoorRow> all_doors();
+const DoorRow& row_of(Door door);
+std::optional<Door> find_door(std::string_view word);
+
+// Whether the case can go through the door; a case without draws goes through none.
+bool can_take(Door door, const Case& c);
+
+// Vertices that some doors put before those of a draw. gl_VertexIndex is as much larger there.
+inline constexpr uint32_t kMovedVertices = 5;
+uint32_t vertex_shift(Door door);
+
+// Some doors draw a list of several triangles as two draws: how many triangles the first one has,
+// after which gl_PrimitiveID may begin again; 0 if the door does not split the draw.
+uint32_t split_of(Door door, const struct Draw& draw);
+
+// The largest index of a draw's vertices, written out or counted; 0 without vertices.
+uint32_t largest_index(const struct Draw& draw);
+
+}  // namespace cases

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/text/doors_text.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "cases/base/counted.hpp"
+#include "cases/base/printable.hpp"
+#include "cases/model/door.hpp"
+
+namespace report {
+
+std::vector<DoorCount> door_counts(const Run& run) {
+    std::map<std::string, DoorCount> by_word;
+    for (const CaseRecord& record : run.cases) {
+        for (const std::string& door : record.doors) {
+            by_word[door];
+        }
+        for (const std::string& door : record.left_out_doors) {
+            ++by_word[door].left_out;
+        }
+        for (const std::string& door : record.drawn_doors) {
+            ++by_word[door].pictures;
+        }
+        for (const auto& [door, reason] : record.closed_doors) {
+            DoorCount& count = by_word[door];
+            ++count.closed;
+            if (count.reason.empty()) {
+                count.reason = reason;
+            }
+        }
+    }
+    std::vector<DoorCount> counts;
+    for (const cases::DoorRow& row : cases::all_doors()) {
+        if (const auto found = by_word.find(std::string(row.word)); found != by_word.end()) {
+            counts.push_back(found->second);
+            counts.back().door = row.word;
+        }
+    }
+    return counts;
+}
+
+std::string doors_text(const Run& run, bool verbose) {
+    const std::vector<DoorCount> counts = door_counts(run);
+    if (counts.empty()) {
+        return {};
+    }
+    size_t pictures = 0, left_out = 0, open = 0;
+    for (const DoorCount& count : counts) {
+        pictures += count.pictures;
+        left_out += count.left_out;
+        open += count.pictures > 0 ? 1 : 0;
+    }
+    std::string text =
+        fmt::format("doors: {} through {} of {}", cases::counted(pictures, "picture"), open,
+                    cases::counted(counts.size(), "door"));
+    if (left_out > 0) {
+        text += fmt::format("; {} left out, since the case cannot take the door", left_out);
+    }
+    text += '\n';
+    for (const DoorCount& count : counts) {
+        if (!verbose && count.pictures > 0 && count.closed == 0) {
+            continue;
+        }
+        text += fmt::format("  {}: {}", count.door,
+                            count.pictures == 0 ? "no picture was drawn"
+                                                : cases::counted(count.pictures, "picture"));
+        if (count.left_out > 0) {
+            text += fmt::format(", {} left out", count.left_out);
+        }
+        if (count.closed > 0) {
+            text +=
+                fmt::format(", {} unsupported: {}", count.closed, cases::printable(count.reason));
+        } else if (count.pictures == 0) {
+            text += "; no case that can take it was judged";
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace report

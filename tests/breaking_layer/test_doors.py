@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: The Edgecase authors
+# SPDX-License-Identifier: Apache-2.0
+"""Faults that only a picture through a door shows: nobody sees them without doors, the door of doors.json does, and it
+says so by a rule of its own."""
+import json
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import broken
+import doors
+
+FOUND = json.loads((pathlib.Path(__file__).parent / "doors.json").read_text())
+
+
+class Doors(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-doors-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def test_every_fault_has_a_door(self):
+        self.assertEqual(sorted(doors.names()), sorted(FOUND))
+        self.assertGreaterEqual(len(FOUND), 35)
+        for name, found in FOUND.items():
+            self.assertTrue(found, name)
+
+    def test_each_fault_is_seen_through_its_door_alone(self):
+        for name, found in FOUND.items():
+            with self.subTest(fault=name):
+                unseen, run = doors.seen(name, self.folder, "none")
+                self.assertEqual((unseen, run.code), ([], 0), run.out + run.err)
+                caught, run = doors.seen(name, self.folder, found[0])
+                self.assertGreater(run.altered, 0)
+                self.assertTrue(caught, f"{name} through {found[0]}")
+                rules = {f["rule"] for case in run.results["cases"] for f in case["findings"]}
+                self.assertTrue(all(rule.startswith("door.") for rule in rules), rules)
+                told = {f["quantity"].split(", door ")[-1] for case in run.results["cases"] for f in case["findings"]}
+                self.assertEqual(told, {found[0]})
+
+    def test_without_a_fault_no_door_is_wrong(self):
+        for door in sorted({found[0] for found in FOUND.values()}):
+            with self.subTest(door=door):
+                caught, run = doors.seen("", self.folder, door)
+                self.assertEqual((caught, run.altered), ([], 0), run.out)
+
+
+if __name__ == "__main__":
+    unittest.main()

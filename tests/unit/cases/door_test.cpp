@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The table of doors: who can take which, what is read of it, and what comes of it.
+#include "cases/model/door.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cases/load/loader.hpp"
+#include "cases/model/derive.hpp"
+#include "cases/model/rule.hpp"
+#include "cases/wire/case_bytes.hpp"
+#include "cases/write/to_toml.hpp"
+
+namespace cases {
+namespace {
+
+std::string file(const std::string& doors, const std::string& draw) {
+    return "format = 1\ndescription = \"d\"\nrules = [\"door.index\"]\n" +
+           (doors.empty() ? "" : "relations = [{ doors = " + doors + " }]\n") +
+           "[target]\nsize = [8, 4]\n[[draw]]\n" + draw;
+}
+const std::string kTriangle = "vertices = [[0,0],[8,0],[0,4]]\n";
+const std::string kStrip =
+    "topology = \"triangle-strip\"\nvertices = [[0,0],[8,0],[0,4],[8,4]]\n"
+    "indices = [0, 1, 2, \"restart\", 1, 2, 3]\n";
+
+std::string error_of(const std::string& text) {
+    const ExpectedAll<std::vector<Case>> loaded = load_text(text, "f", "id");
+    return loaded ? "no error" : to_string(loaded.error().front());
+}
+
+Case case_of(const std::string& text) {
+    return load_text(text, "f", "id").value().front();
+}
+
+std::set<std::string_view> takes(const Case& c) {
+    std::set<std::string_view> words;
+    for (const DoorRow& row : all_doors()) {
+        if (can_take(row.door, c)) {
+            words.insert(row.word);
+        }
+    }
+    return words;
+}
+
+}  // namespace
+
+TEST(Door, EveryRowHasAWordASentenceAndARule) {
+    std::set<std::string_view> words;
+    for (const DoorRow& row : all_doors()) {
+        EXPECT_TRUE(words.insert(row.word).second) << row.word;
+        EXPECT_EQ(find_door(row.word), row.door);
+        EXPECT_EQ(&row_of(row.door), &row);
+        EXPECT_TRUE(row.does.ends_with('.')) << row.word;
+        EXPECT_FALSE(row.takes.empty()) << row.word;
+        ASSERT_NE(find_rule(row.rule), nullptr) << row.word;
+        EXPECT_TRUE(row.rule.starts_with("door."));
+        EXPECT_EQ(find_rule(row.rule)->profile, Profile::vulkan);
+    }
+    EXPECT_EQ(words.size() + 1, kDoors);
+    EXPECT_EQ(find_door("none"), std::nullopt);
+}
+
+TEST(Door, ATriangleTakesAllButWhatNeedsMore) {
+    const std::set<std::string_view> taken = takes(case_of(file("", kTriangle)));
+    for (const DoorRow& row : all_doors()) {
+        const bool needs_more = row.door == Door::restart_extra || row.door == Door::instance_rate;
+        EXPECT_EQ(taken.contains(row.word), !needs_more) << row.word;
+    }
+}
+
+TEST(Door, WhatRestartsTakesNoLargestIndex) {
+    const std::set<std::string_view> taken = takes(case_of(file("", kStrip)));
+    EXPECT_TRUE(taken.contains("index-8"));
+    EXPECT_TRUE(taken.contains("restart-extra"));
+    EXPECT_FALSE(taken.contains("index-8-largest"));
+    EXPECT_FALSE(taken.contains("index-16-largest"));
+    EXPECT_FALSE(taken.contains("first-vertex"));
+}
+
+TEST(Door, IndicesHaveToFit) {
+    Case c = case_of(file("", kTriangle));
+    const auto with_vertices = [&c](size_t count) {
+        c.draws.front().positions.resize(count, c.draws.front().positions.front());
+        return takes(c);
+    };
+    EXPECT_TRUE(with_vertices(256).contains("index-8"));
+    EXPECT_TRUE(with_vertices(256).contains("index-8-largest"));
+    EXPECT_FALSE(with_vertices(257).contains("index-8"));
+    EXPECT_TRUE(with_vertices(65536).contains("index-16-largest"));
+    EXPECT_FALSE(with_vertices(65537).contains("index-16"));
+    EXPECT_TRUE(with_vertices(65537).contains("index-32"));
+    // With restart the largest value is no index.
+    Case strip = case_of(file("", kStrip));
+    strip.draws.front().positions.resize(256, glm::vec4(0, 0, 0, 1));
+    strip.draws.front().indices = {{0, 1, 255}};
+    EXPECT_FALSE(takes(strip).contains("index-8"));
+    strip.draws.front().indices = {{0, 1, 254}};
+    EXPECT_TRUE(takes(strip).contains("index-8"));
+    EXPECT_EQ(largest_index(strip.draws.front()), 254U);
+}
+
+TEST(Door, ABlitTakesNone) {
+    Case c;
+    c.blit.emplace();
+    EXPECT_TRUE(takes(c).empty());
+}
+
+TEST(Door, ListsAreSplitInTheMiddle) {
+    Case c = case_of(file("", kTriangle));
+    Draw& draw = c.draws.front();
+    EXPECT_EQ(split_of(Door::multi_draw, draw), 0U);
+    draw.positions.resize(15, draw.positions.front());
+    EXPECT_EQ(split_of(Door::multi_draw, draw), 2U);
+    EXPECT_EQ(split_of(Door::multi_indirect, draw), 2U);
+    EXPECT_EQ(split_of(Door::multi_draw_empty, draw), 0U);
+    EXPECT_EQ(split_of(Door::index_16, draw), 0U);
+    draw.topology = Topology::triangle_fan;
+    EXPECT_EQ(split_of(Door::multi_draw, draw), 0U);
+}
+
+TEST(Door, RelationsAreReadWrittenAndDerived) {
+    const Case c = case_of(file(R"(["index-16", "vertex-offset"])", kTriangle));
+    ASSERT_EQ(c.relations.size(), 2U);
+    EXPECT_EQ(c.relations[1], (Relation{RelationKind::door, {}, Door::vertex_offset}));
+    const std::vector<Derivation> derived = derivations(c);
+    ASSERT_EQ(derived.size(), 2U);
+    EXPECT_EQ(derived[0].name, "door index-16");
+    EXPECT_EQ(derived[0].rule, "door.index");
+    EXPECT_EQ(derived[1].variation.door, Door::vertex_offset);
+    EXPECT_EQ(derive(c, derived[1]).variation.door, Door::vertex_offset);
+    EXPECT_TRUE(derive(c, derived[1]).relations.empty());
+    const Case again = case_of(to_toml(c).value());
+    EXPECT_EQ(again.relations, c.relations);
+}
+
+TEST(Door, ARunAddsDoorsOnce) {
+    Case c = case_of(file(R"(["index-16"])", kTriangle));
+    c.doors = {Door::index_16, Door::index_32};
+    ASSERT_EQ(derivations(c).size(), 2U);
+    EXPECT_EQ(derivations(c)[1].name, "door index-32");
+    EXPECT_EQ(from_bytes(to_bytes(c))->doors, c.doors);
+    EXPECT_TRUE(derive(c, derivations(c)[0]).doors.empty());
+    c.doors = {Door::none};
+    EXPECT_FALSE(from_bytes(to_bytes(c)));
+}
+
+TEST(Door, EverySentence) {
+    EXPECT_EQ(error_of(file(R"(["index-17"])", kTriangle)),
+              "f:4:25: error: a door is \"index-17\"; did you mean \"index-16\"?");
+    EXPECT_EQ(error_of(file(R"(["index-16", "index-16"])", kTriangle)),
+              "f:4:14: error: the door index-16 stands twice");
+    EXPECT_EQ(error_of(file(R"(["restart-extra"])", kTriangle)),
+              "f:4:14: error: the door restart-extra does not suit the case: it takes a strip or a "
+              "fan; leave it out");
+    EXPECT_EQ(error_of(file("[]", kTriangle)),
+              "f:4:24: error: doors is empty; write one at least, as \"index-16\"");
+}
+
+}  // namespace cases

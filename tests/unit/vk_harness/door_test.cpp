@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Doors on a real device: what they draw, and what is said of those that it lacks.
+#include <gtest/gtest.h>
+
+#include "hand_case.hpp"
+#include "vk_harness/device/door_support.hpp"
+
+namespace vk_harness::testing {
+namespace {
+
+// Two overlapping triangles, so that order and number of the draws are seen.
+cases::Case two_triangles(cases::Door door) {
+    cases::Case c = make_case({16, 16, 1}, {{1, 1}, {15, 1}, {1, 15}, {15, 15}, {1, 14}, {14, 1}});
+    cases::Attribute a;
+    a.name = "a";
+    a.components = 4;
+    a.values.assign(6, glm::vec4(0.25F, 3, -7, 1));
+    c.draws[0].attributes = {a};
+    if (door == cases::Door::restart_extra) {
+        c.draws[0].topology = cases::Topology::triangle_strip;
+    }
+    c.variation.door = door;
+    return c;
+}
+
+bool is_drawn_as(const capture::Capture& plain, const capture::Capture& door) {
+    return plain.hits == door.hits && plain.depth == door.depth &&
+           plain.attributes[0] == door.attributes[0] && plain.frag_coord == door.frag_coord;
+}
+
+TEST(DoorSupport, EveryNeedIsAskedFor) {
+    DoorSupport all{true, true, true, true};
+    for (const cases::DoorRow& row : cases::all_doors()) {
+        const auto missing = missing_door_support(DoorSupport{}, row.door);
+        EXPECT_EQ(missing.has_value(), !row.needs.empty()) << row.word;
+        if (missing) {
+            EXPECT_EQ(*missing, "the device lacks " + std::string(row.needs));
+        }
+        EXPECT_FALSE(missing_door_support(all, row.door)) << row.word;
+    }
+}
+
+// A door that does not draw the plain picture is one that this test knows: the findings are in
+// docs/findings.
+TEST(Door, EachDrawsThePlainPicture) {
+    for (const cases::DoorRow& row : cases::all_doors()) {
+        std::vector<cases::Case> batch = {two_triangles(row.door)};
+        cases::Case plain = batch[0];
+        plain.variation.door = cases::Door::none;
+        batch.push_back(plain);
+        const std::vector<Rendered> drawn = renderer().render(batch, {});
+        ASSERT_EQ(drawn[1].status, Rendered::Status::drawn) << drawn[1].reason;
+        if (drawn[0].status == Rendered::Status::unsupported) {
+            EXPECT_FALSE(row.needs.empty()) << row.word << ": " << drawn[0].reason;
+            continue;
+        }
+        ASSERT_EQ(drawn[0].status, Rendered::Status::drawn) << row.word << ": " << drawn[0].reason;
+        const bool is_lost_by_lavapipe = row.door == cases::Door::multi_draw_empty ||
+                                         row.door == cases::Door::indirect_after_count;
+        EXPECT_EQ(is_drawn_as(drawn[1].capture, drawn[0].capture), !is_lost_by_lavapipe)
+            << row.word;
+    }
+}
+
+}  // namespace
+}  // namespace vk_harness::testing

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/device/door_support.hpp"
+
+#include <fmt/format.h>
+
+namespace vk_harness {
+
+namespace {
+
+constexpr uint32_t kDrawsInOne = 3;  // of a command with several draws, feed.cpp
+
+}  // namespace
+
+DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_extension) {
+    DoorSupport out;
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    if (properties.apiVersion < VK_API_VERSION_1_2) {
+        return out;
+    }
+    DoorFeatures optional;
+    VkPhysicalDeviceVulkan12Features features12 =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features = Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    features.pNext = &features12;
+    VkPhysicalDeviceMultiDrawPropertiesEXT multi_draw =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTI_DRAW_PROPERTIES_EXT};
+    if (has_extension(physical, VK_EXT_INDEX_TYPE_UINT8_EXTENSION_NAME)) {
+        chain(features, optional.index_8);
+    }
+    if (has_extension(physical, VK_EXT_MULTI_DRAW_EXTENSION_NAME)) {
+        chain(features, optional.multi_draw);
+        get_properties(physical, multi_draw);
+    }
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+    out.index_8 = optional.index_8.indexTypeUint8 == VK_TRUE;
+    out.indirect_count = features12.drawIndirectCount == VK_TRUE;
+    out.multi_indirect = features.features.multiDrawIndirect == VK_TRUE &&
+                         properties.limits.maxDrawIndirectCount >= kDrawsInOne;
+    out.multi_draw =
+        optional.multi_draw.multiDraw == VK_TRUE && multi_draw.maxMultiDrawCount >= kDrawsInOne;
+    return out;
+}
+
+void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2& features,
+                          VkPhysicalDeviceVulkan12Features& features12,
+                          std::vector<const char*>& extensions, DoorFeatures& enabled) {
+    features.features.multiDrawIndirect = support.multi_indirect ? VK_TRUE : VK_FALSE;
+    features12.drawIndirectCount = support.indirect_count ? VK_TRUE : VK_FALSE;
+    if (support.index_8) {
+        enabled.index_8.indexTypeUint8 = VK_TRUE;
+        chain(features, enabled.index_8);
+        extensions.push_back(VK_EXT_INDEX_TYPE_UINT8_EXTENSION_NAME);
+    }
+    if (support.multi_draw) {
+        enabled.multi_draw.multiDraw = VK_TRUE;
+        chain(features, enabled.multi_draw);
+        extensions.push_back(VK_EXT_MULTI_DRAW_EXTENSION_NAME);
+    }
+}
+
+std::optional<std::string> missing_door_support(const DoorSupport& support, cases::Door door) {
+    using cases::Door;
+    const bool is_missing =
+        ((door == Door::index_8 || door == Door::index_8_largest) && !support.index_8) ||
+        (door == Door::indirect_count && !support.indirect_count) ||
+        (door == Door::multi_indirect && !support.multi_indirect) ||
+        (door == Door::indirect_after_count &&
+         !(support.indirect_count && support.multi_indirect)) ||
+        ((door == Door::multi_draw || door == Door::multi_draw_empty) && !support.multi_draw);
+    return is_missing ? std::optional(fmt::format("the device lacks {}", cases::row_of(door).needs))
+                      : std::nullopt;
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a device needs for the doors of cases/model/door.hpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/model/door.hpp"
+#include "vk_harness/device/clip_support.hpp"
+
+namespace vk_harness {
+
+struct DoorSupport {
+    bool index_8 = false;         // indexTypeUint8
+    bool indirect_count = false;  // drawIndirectCount
+    bool multi_indirect = false;  // multiDrawIndirect, with room for three draws
+    bool multi_draw = false;      // multiDraw, with room for three draws
+};
+
+DoorSupport query_door_support(VkPhysicalDevice physical, HasExtension has_extension);
+
+// Features to enable, as a chain that must outlive vkCreateDevice and must not be moved.
+struct DoorFeatures {
+    VkPhysicalDeviceIndexTypeUint8FeaturesEXT index_8 =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_INDEX_TYPE_UINT8_FEATURES_EXT};
+    VkPhysicalDeviceMultiDrawFeaturesEXT multi_draw =
+        Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTI_DRAW_FEATURES_EXT};
+};
+// Puts what is supported before `features`' chain, and the names of its extensions into the list.
+void enable_door_features(const DoorSupport& support, VkPhysicalDeviceFeatures2& features,
+                          VkPhysicalDeviceVulkan12Features& features12,
+                          std::vector<const char*>& extensions, DoorFeatures& enabled);
+
+// Why the device has no such door: one sentence that names what it lacks; nothing if it has it.
+std::optional<std::string> missing_door_support(const DoorSupport& support, cases::Door door);
+
+}  // namespace vk_harness

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline/vertex_way.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "vk_harness/device/clip_support.hpp"
+#include "vk_harness/target/shader_interface.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+bool is_constant(const std::vector<glm::vec4>& values) {
+    return std::all_of(values.begin(), values.end(), [&values](const glm::vec4& value) {
+        return std::memcmp(&value, &values.front(), sizeof value) == 0;
+    });
+}
+
+// The bindings whose numbers are the same at every vertex.
+uint32_t constant_bindings(const cases::Case& c, const cases::Draw& draw) {
+    uint32_t bits = 0;
+    for (uint32_t k = 0; k < input_count(c); ++k) {
+        const cases::Attribute* attribute = input_attribute(c, draw, k);
+        // An input without values is filled with one number, write_vertices().
+        if (attribute == nullptr || is_constant(attribute->values)) {
+            bits |= 1U << (1 + k);
+        }
+    }
+    if (draw.distances.clip_count > 0 && is_constant(draw.distances.clip)) {
+        bits |= 1U << kClipBinding;
+    }
+    if (draw.distances.cull_count > 0 && is_constant(draw.distances.cull)) {
+        bits |= 1U << kCullBinding;
+    }
+    return bits;
+}
+
+}  // namespace
+
+VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw) {
+    VertexWay way;
+    switch (c.variation.door) {
+        case cases::Door::stride_padded:
+            way.padded = true;
+            break;
+        case cases::Door::stride_dynamic:
+            way.padded = true;
+            way.dynamic_stride = true;
+            break;
+        case cases::Door::interleaved:
+            way.interleaved = true;
+            break;
+        case cases::Door::three_components:
+            way.three_components =
+                std::all_of(draw.positions.begin(), draw.positions.end(),
+                            [](const glm::vec4& p) { return p.w >= 1 && p.w <= 1; });
+            break;
+        case cases::Door::instance_rate:
+            way.instance_rate = constant_bindings(c, draw);
+            break;
+        default:
+            break;
+    }
+    return way;
+}
+
+uint32_t size_of(const VertexWay& way, uint32_t binding) {
+    return way.three_components && binding == 0 ? 12 : 16;
+}
+
+uint32_t stride_of(const VertexWay& way, uint32_t binding) {
+    return size_of(way, binding) + (way.padded ? 12 + 4 * binding : 0);
+}
+
+Bindings bindings_of(uint32_t attribute_count, uint32_t clip_count, uint32_t cull_count) {
+    Bindings out;
+    for (uint32_t binding = 0; binding <= attribute_count; ++binding) {
+        out.numbers[out.count++] = binding;
+    }
+    if (clip_count > 0) {
+        out.numbers[out.count++] = kClipBinding;
+    }
+    if (cull_count > 0) {
+        out.numbers[out.count++] = kCullBinding;
+    }
+    return out;
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the vertices of a draw lie in memory and are read, as far as its pipeline knows of it.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+#include "cases/model/case.hpp"
+
+namespace vk_harness {
+
+// As constructed: every input is an array of vec4 of its own.
+struct VertexWay {
+    bool padded = false;            // stride_of() has room between vertices
+    bool dynamic_stride = false;    // the strides are given with the buffers
+    bool interleaved = false;       // all inputs lie in binding 0
+    bool three_components = false;  // positions are three numbers
+    uint32_t instance_rate = 0;     // bit b: binding b is read once an instance
+    friend auto operator<=>(const VertexWay&, const VertexWay&) = default;
+};
+
+VertexWay vertex_way(const cases::Case& c, const cases::Draw& draw);
+
+// Bytes of one vertex of a binding, and from one vertex to the next.
+uint32_t size_of(const VertexWay& way, uint32_t binding);
+uint32_t stride_of(const VertexWay& way, uint32_t binding);
+// What a pipeline says of a stride that is dynamic: another one.
+inline constexpr uint32_t kIgnoredStride = 112;
+
+// The bindings that a draw reads: positions, attributes, clip and cull distances. With the
+// interleaved way they are places in binding 0, one vec4 after the other in this order.
+struct Bindings {
+    uint32_t numbers[7] = {};
+    uint32_t count = 0;
+    const uint32_t* begin() const { return numbers; }
+    const uint32_t* end() const { return numbers + count; }
+};
+Bindings bindings_of(uint32_t attribute_count, uint32_t clip_count, uint32_t cull_count);
+
+}  // namespace vk_harness
