@@ -293,6 +293,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
     std::FILE* console = console_beside(o.json, o.junit, o.html);
     report::ConsoleStyle style = console_style(console, o.color, o.verbose);
     style.folder = shell_quote(folder.string());
+    style.quiet = o.quiet;
     if (!o.quiet) {
         std::fputs((report::console_header(header, style) + *left_out).c_str(), console);
         std::fflush(console);

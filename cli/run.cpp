@@ -161,6 +161,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
         nowhere ? nowhere.get() : console_beside(options.json, options.junit, options.html);
     report::ConsoleStyle style = console_style(console, options.color, options.verbose);
     style.folder = shell_quote(p.folder.string());
+    style.quiet = options.quiet;
     if (!options.quiet) {
         std::fputs(report::console_header(p.header, style).c_str(), console);
         std::fflush(console);

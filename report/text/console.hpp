@@ -17,6 +17,7 @@ struct ConsoleStyle {
     uint32_t width = 100;     // columns
     bool wrap = false;        // lines are broken to fit the width
     std::string folder = {};  // of the run, for commands that take it; empty: they are left out
+    bool quiet = false;       // nothing follows the unexpected cases
 };
 // First line of a run: tool version, device, driver, Vulkan version, subpixel bits, profile, seed.
 std::string console_header(const Run& run, const ConsoleStyle& style);

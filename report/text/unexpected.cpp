@@ -90,7 +90,9 @@ std::string UnexpectedResults::worst() const {
     for (size_t k = 0; k < std::min(list.size(), kHandful); ++k) {
         tell(smallest_case(list[k]));
     }
-    return text + "more unexpected results: their causes follow; -v tells each\n";
+    return text + (style_.quiet
+                       ? "more unexpected results: the report and a run without -q tell them\n"
+                       : "more unexpected results: their causes follow; -v tells each\n");
 }
 
 }  // namespace report

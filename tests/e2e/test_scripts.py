@@ -180,7 +180,9 @@ class Installed(unittest.TestCase):
         root = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-e2e-"))
         self.addCleanup(shutil.rmtree, root, ignore_errors=True)
         build = pathlib.Path(PROGRAM).resolve().parents[1]
-        subprocess.run(["cmake", "--install", build, "--prefix", root / "here"], check=True, capture_output=True, timeout=120)
+        done = subprocess.run(["cmake", "--install", build, "--prefix", root / "here"], check=True, capture_output=True, text=True, timeout=120)
+        # An installation that is cut off has no program: a cache of it is not taken for a whole one.
+        self.assertTrue(done.stdout.rstrip().endswith("here/bin/edgecase"), done.stdout[-200:])
         moved = (root / "here").rename(root / "elsewhere")
         env = {k: v for k, v in os.environ.items() if not k.startswith("EDGECASE_")}
 

@@ -198,6 +198,14 @@ TEST(console, the_worst_results_are_told_in_the_order_of_the_causes) {
         EXPECT_EQ(backwards.add(run.cases[run.cases.size() - 1 - k]), "");
     }
     EXPECT_EQ(forwards.rest(), expected);
+    ConsoleStyle quiet;
+    quiet.quiet = true;
+    UnexpectedResults alone(ids, quiet);
+    for (const CaseRecord& record : run.cases) {
+        alone.add(record);
+    }
+    EXPECT_TRUE(alone.rest().ends_with(
+        "more unexpected results: the report and a run without -q tell them\n"));
     EXPECT_EQ(backwards.rest(), expected);
     EXPECT_EQ(backwards.rest(), "");
     // A handful is told whole.

@@ -94,7 +94,7 @@ TEST(Message, PlanesMustFitTheTarget) {
 
 TEST(Message, DifferencesComeBackAndImpossibleOnesAreRefused) {
     CaseResult result = small_result();
-    result.consistency = {{2, 1, {{1, 0, 3, 7, 8}}}, {2, 0, {}}};
+    result.consistency = {{2, 1, {{1, 0, 3, 7, 8}}, {}, {}}, {2, 0, {}, {}, {}}};
     const std::optional<CaseResult> back = decode_result(encode_result(result));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->consistency, result.consistency);
@@ -103,14 +103,15 @@ TEST(Message, DifferencesComeBackAndImpossibleOnesAreRefused) {
         result.consistency = {found};
         return !decode_result(encode_result(result));
     };
-    EXPECT_TRUE(refuses({3, 0, {}})) << "more samples than the target has";
-    EXPECT_TRUE(refuses({1, 2, {{0, 0, 0, 1, 2}, {1, 0, 0, 1, 2}}})) << "more than were compared";
-    EXPECT_TRUE(refuses({2, 1, {}})) << "one is kept back";
-    EXPECT_TRUE(refuses({2, 1, {{2, 0, 0, 1, 2}}})) << "a sample outside";
-    EXPECT_TRUE(refuses({2, 1, {{1, diff::kPlanes, 0, 1, 2}}})) << "no such plane";
-    EXPECT_TRUE(refuses({2, 1, {{1, 0, 4, 1, 2}}})) << "no such word";
-    EXPECT_TRUE(refuses({2, 1, {{1, 0, 0, 2, 2}}})) << "no difference";
-    result.consistency.assign(65, {2, 0, {}});
+    EXPECT_TRUE(refuses({3, 0, {}, {}, {}})) << "more samples than the target has";
+    EXPECT_TRUE(refuses({1, 2, {{0, 0, 0, 1, 2}, {1, 0, 0, 1, 2}}, {}, {}}))
+        << "more than were compared";
+    EXPECT_TRUE(refuses({2, 1, {}, {}, {}})) << "one is kept back";
+    EXPECT_TRUE(refuses({2, 1, {{2, 0, 0, 1, 2}}, {}, {}})) << "a sample outside";
+    EXPECT_TRUE(refuses({2, 1, {{1, diff::kPlanes, 0, 1, 2}}, {}, {}})) << "no such plane";
+    EXPECT_TRUE(refuses({2, 1, {{1, 0, 4, 1, 2}}, {}, {}})) << "no such word";
+    EXPECT_TRUE(refuses({2, 1, {{1, 0, 0, 2, 2}}, {}, {}})) << "no difference";
+    result.consistency.assign(65, {2, 0, {}, {}, {}});
     EXPECT_FALSE(decode_result(encode_result(result))) << "too many";
 }
 
