@@ -314,7 +314,7 @@ void define_others(CLI::App& app, AllOptions& all) {
     list->add_flag("--ids", all.list.ids, "ids only, one a line");
     list->add_flag("--json", all.list.json, "as JSON");
 
-    app.add_subcommand("doors", "list the doors of 'run --doors': other ways of the API");
+    app.add_subcommand("doors", "list the doors that a run can take: other ways of the API");
 
     CLI::App* lint =
         app.add_subcommand("lint", "check case and expectation files; needs no Vulkan");

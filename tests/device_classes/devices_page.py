@@ -7,6 +7,7 @@ import pathlib
 import re
 import sys
 import tempfile
+import textwrap
 
 import device_classes
 
@@ -67,7 +68,8 @@ def facts(device, results, printed, hits):
 def section(device, found):
     if found["unsupported"] is None:
         text = f"\n## {device['name']}\nNo case can run:\n\n"
-        return text + "".join("* " + re.sub(r"^.*?device 0 \(.*?\)\): ", "", line) + "\n" for line in found["reasons"])
+        reasons = [re.sub(r"^.*?device 0 \(.*?\)\): ", "", line) for line in found["reasons"]]
+        return text + "".join(textwrap.fill("* " + line, 120, subsequent_indent="  ", break_on_hyphens=False) + "\n" for line in reasons)
     if not found["reasons"]:
         return f"\n## {device['name']}\nEverything runs.\n"
     rows = "".join(f"| {count} | {reason.replace('|', '/')} |\n" for reason, count in found["reasons"])

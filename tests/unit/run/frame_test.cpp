@@ -111,7 +111,7 @@ TEST(Message, DifferencesComeBackAndImpossibleOnesAreRefused) {
     EXPECT_TRUE(refuses({2, 1, {{1, diff::kPlanes, 0, 1, 2}}, {}, {}})) << "no such plane";
     EXPECT_TRUE(refuses({2, 1, {{1, 0, 4, 1, 2}}, {}, {}})) << "no such word";
     EXPECT_TRUE(refuses({2, 1, {{1, 0, 0, 2, 2}}, {}, {}})) << "no difference";
-    result.consistency.assign(65, {2, 0, {}, {}, {}});
+    result.consistency.assign(257, {2, 0, {}, {}, {}});
     EXPECT_FALSE(decode_result(encode_result(result))) << "too many";
 }
 
