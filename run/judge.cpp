@@ -51,6 +51,27 @@ void note_doors(CaseRecord& record, std::span<const cases::Derivation> derivatio
     }
 }
 
+// Why a case that claims rules of doors alone has shown nothing of them: the device has none of the
+// doors that its file names. Empty if that is not so.
+std::string lacking_doors(const cases::Case& c, std::span<const cases::Derivation> derivations,
+                          std::span<const diff::Consistency> found) {
+    std::string reason;
+    for (size_t k = 0; k < found.size() && k < derivations.size(); ++k) {
+        const cases::Door door = derivations[k].variation.door;
+        const bool is_own = derivations[k].kind == cases::RelationKind::door &&
+                            std::any_of(c.relations.begin(), c.relations.end(),
+                                        [&](const cases::Relation& r) { return r.door == door; });
+        if (is_own && found[k].closed.empty()) {
+            return {};
+        }
+        reason = is_own && reason.empty() ? found[k].closed : reason;
+    }
+    const bool is_of_doors =
+        std::all_of(c.rules.begin(), c.rules.end(),
+                    [](const std::string& rule) { return rule.starts_with("door."); });
+    return is_of_doors ? reason : std::string();
+}
+
 }  // namespace
 
 CaseRecord make_record(const cases::Case& c) {
@@ -89,8 +110,10 @@ void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView&
                 "every sample may hold the clear colour, so that a black picture would pass; "
                 "choose another colour, or another clear colour";
         }
+        std::string lacking;
         if (verdict.error.empty()) {
             const std::vector<cases::Derivation> derivations = cases::derivations(c);
+            lacking = lacking_doors(c, derivations, found.consistency);
             note_doors(record, derivations, found.consistency);
             diff::add_differences(c, derivations, found.consistency, verdict);
             diff::add_stray_writes(c, found.stray_writes, verdict);
@@ -102,6 +125,10 @@ void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView&
             keep_evidence(record, c, verdict, expectation, capture, limits);
         } else if (pictures != KeepPictures::none) {
             keep_reference(record, c, verdict, expectation, limits);
+        }
+        if (record.status == Status::pass && !lacking.empty()) {
+            record.status = Status::unsupported;
+            record.reason = lacking;
         }
     } catch (const std::exception& e) {
         record.status = Status::error;
