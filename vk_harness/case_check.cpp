@@ -9,7 +9,6 @@
 
 #include "cases/format/color_format.hpp"
 #include "vk_harness/commands/blit.hpp"
-#include "vk_harness/commands/viewports.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/pipeline/pipeline_key.hpp"
 #include "vk_harness/target/resolve.hpp"

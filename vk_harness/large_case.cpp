@@ -121,6 +121,9 @@ Result<void> BatchRenderer::draw_large(CasePlan& plan, Rendered& result,
         return fail(vertices.error());
     }
     write_vertices(plan, (*vertices)->bytes());
+    if (auto made = make_door_buffers(*device_, plan, (*vertices)->bytes()); !made) {
+        return made;
+    }
     if (auto flushed = (*vertices)->flush(); !flushed) {
         return flushed;
     }
@@ -139,7 +142,9 @@ Result<void> BatchRenderer::draw_large(CasePlan& plan, Rendered& result,
     }
     textures_.record_transitions(*commands);
     guards.record_fills(*commands);
-    record_draws(*device_, pipelines_, *commands, plan, (*vertices)->get(), true);
+    if (auto recorded = record(*commands, plan, (*vertices)->get(), true); !recorded) {
+        return recorded;
+    }
     guards.record_copies(*commands, (*readback)->get());
     const std::vector<std::string> messages = instance_.messages().take();
     result.messages.insert(result.messages.end(), messages.begin(), messages.end());

@@ -68,6 +68,15 @@ bool is_feeding(cases::Door door) {
     return door != cases::Door::none && cases::row_of(door).group == cases::DoorGroup::vertices;
 }
 
+// Whether a rendering gets a submission of its own: a driver that never leaves a pipeline's
+// rasterizer discard (docs/findings) would spoil what comes after it, too, and whose fault that is
+// could not be told.
+bool is_drawn_alone(const cases::Case& c) {
+    return c.variation.door == cases::Door::state_static &&
+           std::any_of(c.draws.begin(), c.draws.end(),
+                       [](const cases::Draw& draw) { return draw.rasterizer_discard; });
+}
+
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
@@ -109,6 +118,17 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
         DrawPlan item;
         item.draw = &draw;
         item.pipeline = *pipeline;
+        if (test.variation.door == cases::Door::state_after_static) {
+            PipelineKey key = pipeline_key(test, draw, layout);
+            key.fixed =
+                other_state(draw_state(test, draw, draw.primitive_restart), Leaves::scissors_empty);
+            auto other = pipelines_.get(key);
+            if (!other) {
+                reject(result, other.error());
+                return false;
+            }
+            item.other_pipeline = *other;
+        }
         item.is_split = layout.split;
         if (is_fed) {
             item.feed = std::make_shared<Feed>(test, draw);
@@ -143,6 +163,16 @@ bool BatchRenderer::plan(CasePlan& plan, Rendered& result) {
     }
     plan.images = std::move(*images);
     return true;
+}
+
+Result<void> BatchRenderer::record(VkCommandBuffer commands, CasePlan& plan, VkBuffer vertices,
+                                   bool read_back) {
+    auto secondaries = submission_.secondaries(secondaries_of(plan));
+    if (!secondaries) {
+        return fail(secondaries.error());
+    }
+    plan.secondaries = std::move(*secondaries);
+    return record_draws(*device_, pipelines_, commands, plan, vertices, read_back);
 }
 
 capture::PlaneSpans BatchRenderer::place_planes(const CasePlan& plan, Rendered& result,
@@ -216,7 +246,7 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
         }
         guards.record_fills(*commands);
     }
-    for (const CasePlan& plan : plans) {
+    for (CasePlan& plan : plans) {
         if (plan.blit != nullptr) {
             plan.blit->record(*device_, *commands, *plan.test, plan.attachments.front().clear.color,
                               read_back ? readback->get() : VK_NULL_HANDLE,
@@ -224,7 +254,9 @@ Result<void> BatchRenderer::draw_chunk(std::span<CasePlan> plans, bool read_back
             append(results[plan.slot].messages, instance_.messages().take());
             continue;
         }
-        record_draws(*device_, pipelines_, *commands, plan, (*vertices)->get(), read_back);
+        if (auto recorded = record(*commands, plan, (*vertices)->get(), read_back); !recorded) {
+            return recorded;
+        }
         if (read_back) {
             std::vector<VkDescriptorSet> sets;
             std::vector<VkPipeline> copies;
@@ -356,14 +388,21 @@ std::vector<Rendered> BatchRenderer::render(std::span<const cases::Case> batch, 
         const VkDeviceSize size = attachment_bytes(
             item.test->target,
             attachments_of(*item.test, instrument_layout(device_->capabilities(), *item.test)));
-        if (bytes + size > kChunkBytes && !plans.empty()) {
+        const bool is_alone = is_drawn_alone(batch[slot]);
+        const auto flush = [&] {
             run_chunk(plans, read_back, results, step, store);
             bytes = 0;
             step("pipeline");
+        };
+        if ((is_alone || bytes + size > kChunkBytes) && !plans.empty()) {
+            flush();
         }
         if (plan(item, result)) {
             bytes += size;
             plans.push_back(std::move(item));
+        }
+        if (is_alone) {
+            flush();
         }
         append(result.messages, instance_.messages().take());
     }

@@ -21,6 +21,8 @@ class Submission {
     void trim(VkDeviceSize limit);
 
     Result<VkCommandBuffer> begin();
+    // Secondary command buffers that are in no use since the last begin().
+    Result<std::vector<VkCommandBuffer>> secondaries(size_t count);
     // Ends recording, submits, and waits until the device has finished.
     Result<void> run();
 
@@ -36,6 +38,8 @@ class Submission {
     const Device* device_;
     Handle<VkCommandPool> pool_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  // owned by the pool
+    std::vector<VkCommandBuffer> secondaries_;   // owned by the pool, too
+    size_t used_secondaries_ = 0;                // since the last begin()
     Handle<VkFence> fence_;
     std::vector<Handle<VkDescriptorPool>> descriptor_pools_;
     Buffer vertices_;
@@ -71,6 +75,9 @@ class BatchRenderer {
                             std::vector<Rendered>& results,
                             const std::function<void(std::string_view)>& step,
                             const PlaneStore& store, std::vector<GuardDamage>& damage);
+    // The commands of one case, with secondary command buffers if its door asks for them.
+    Result<void> record(VkCommandBuffer commands, CasePlan& plan, VkBuffer vertices,
+                        bool read_back);
     // Where the planes of a case go that has been drawn: to the store's memory, if it has room.
     capture::PlaneSpans place_planes(const CasePlan& plan, Rendered& result,
                                      const PlaneStore& store) const;

@@ -82,6 +82,7 @@ void Submission::trim(VkDeviceSize limit) {
 Result<VkCommandBuffer> Submission::begin() {
     const VolkDeviceTable& vk = device_->vk();
     descriptor_pools_.clear();
+    used_secondaries_ = 0;
     VkResult result = vk.vkResetCommandPool(device_->get(), pool_.get(), 0);
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::submit, result, "vkResetCommandPool"));
@@ -93,6 +94,27 @@ Result<VkCommandBuffer> Submission::begin() {
         return fail(call_failure(Stage::submit, result, "vkBeginCommandBuffer"));
     }
     return commands_;
+}
+
+Result<std::vector<VkCommandBuffer>> Submission::secondaries(size_t count) {
+    const size_t first = used_secondaries_;
+    if (secondaries_.size() < first + count) {
+        const size_t made = secondaries_.size();
+        secondaries_.resize(first + count);
+        VkCommandBufferAllocateInfo info = Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        info.commandPool = pool_.get();
+        info.level = VK_COMMAND_BUFFER_LEVEL_SECONDARY;
+        info.commandBufferCount = static_cast<uint32_t>(secondaries_.size() - made);
+        const VkResult result = device_->vk().vkAllocateCommandBuffers(device_->get(), &info,
+                                                                       secondaries_.data() + made);
+        if (result != VK_SUCCESS) {
+            secondaries_.resize(made);
+            return fail(call_failure(Stage::submit, result, "vkAllocateCommandBuffers"));
+        }
+    }
+    used_secondaries_ += count;
+    const auto begin = secondaries_.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::vector<VkCommandBuffer>(begin, begin + static_cast<std::ptrdiff_t>(count));
 }
 
 Result<void> Submission::run() {

@@ -87,7 +87,23 @@ bool has_constant_input(const Case& c) {
     });
 }
 
+bool has_several_draws(const Case& c) {
+    return std::count_if(c.draws.begin(), c.draws.end(),
+                         [](const Draw& draw) { return !draw.positions.empty(); }) > 1;
+}
+
+// What a pipeline may say of a draw without features that nothing else needs: of the unit of a bias
+// it needs an extension, of restarts in a list another one.
+bool can_be_static(const Case& c) {
+    return all_draws(c, [](const Draw& draw) {
+        const bool is_list = draw.topology == Topology::triangle_list;
+        return !(is_list && draw.primitive_restart) &&
+               !(draw.depth.bias && draw.depth.bias->is_controlled());
+    });
+}
+
 constexpr DoorGroup kVertices = DoorGroup::vertices;
+constexpr DoorGroup kState = DoorGroup::state, kRecording = DoorGroup::recording;
 constexpr DoorPromise kSame = DoorPromise::same_bits, kRight = DoorPromise::right_picture;
 constexpr std::string_view kAny = "every case that draws";
 
@@ -174,6 +190,37 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
     {Door::multi_draw_empty, "multi-draw-empty", kVertices, kSame, rule::door_indirect,
      "The same, with a draw of no vertices first, then the whole, then another of none.",
      "multiDraw (VK_EXT_multi_draw)", kAny, is_any},
+    {Door::state_first, "state-first", kState, kSame, rule::door_state,
+     "Dynamic state is set and buffers are bound before the pipeline is.", "", kAny, is_any},
+    {Door::state_stale, "state-stale", kState, kSame, rule::door_state,
+     "All dynamic state is first set to other values, under which the draw is recorded with "
+     "rasterization off, and then to those of the draw.",
+     "", kAny, is_any},
+    {Door::state_static, "state-static", kState, kRight, rule::door_state,
+     "What is dynamic in other pictures is a part of the pipeline.", "",
+     "no list with restart, no bias whose unit is chosen", can_be_static},
+    {Door::state_after_static, "state-after-static", kState, kSame, rule::door_state,
+     "Before each draw a pipeline is bound in which all state is static and another, and the draw "
+     "is recorded with it under empty scissors; then come the usual pipeline and its dynamic "
+     "state.",
+     "", "no list with restart, no bias whose unit is chosen", can_be_static},
+    {Door::unoptimized, "unoptimized", kState, kRight, rule::door_state,
+     "Pipelines are made with VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT.", "", kAny, is_any},
+    {Door::secondary, "secondary", kRecording, kSame, rule::door_recording,
+     "All draws are recorded in a secondary command buffer.", "", kAny, is_any},
+    {Door::secondary_each, "secondary-each", kRecording, kSame, rule::door_recording,
+     "Each draw is recorded in a secondary command buffer of its own; one command executes them.",
+     "", "several draws", has_several_draws},
+    {Door::pass_split, "pass-split", kRecording, kRight, rule::door_recording,
+     "The rendering ends after the clears and after each draw, and the next one loads what was "
+     "stored.",
+     "", kAny, is_any},
+    {Door::pass_suspended, "pass-suspended", kRecording, kRight, rule::door_recording,
+     "The rendering is suspended after the clears and after each draw, and resumed.", "", kAny,
+     is_any},
+    {Door::clear_commands, "clear-commands", kRecording, kRight, rule::door_recording,
+     "Nothing is loaded or cleared when the rendering begins; vkCmdClearAttachments clears.", "",
+     kAny, is_any},
 }};
 
 constexpr bool is_in_order() {

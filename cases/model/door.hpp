@@ -45,8 +45,18 @@ enum class Door : uint8_t {
     indirect_after_count,
     multi_draw,
     multi_draw_empty,
+    state_first,
+    state_stale,
+    state_static,
+    state_after_static,
+    unoptimized,
+    secondary,
+    secondary_each,
+    pass_split,
+    pass_suspended,
+    clear_commands,
 };
-inline constexpr Door kLastDoor = Door::multi_draw_empty;
+inline constexpr Door kLastDoor = Door::clear_commands;
 inline constexpr size_t kDoors = static_cast<size_t>(kLastDoor) + 1;  // `none` among them
 template <>
 inline constexpr size_t kValueCount<Door> = kDoors;

@@ -273,6 +273,21 @@ constexpr std::array kRules = {
          "buffer, draws what the same parameters draw directly: the same vertices reach the same "
          "pipeline, and the picture has the same bits (Rule 4).",
          "vkCmdDrawIndexedIndirect", "", "diff/consistency.cpp"},
+    Rule{rule::door_state, Profile::vulkan, "State is the same however it is given",
+         "Dynamic state may be set before or after the pipeline is bound, and only what was set "
+         "last counts, whatever was drawn with other values or with a pipeline whose state is "
+         "static: the same pipeline, state and vertices give the same bits (Rule 4). Static state "
+         "and a pipeline that is not optimized are other pipelines: at vulkan the picture has to "
+         "be right, from practice on it has the same bits.",
+         "pipelines-dynamic-state", "", "diff/consistency.cpp"},
+    Rule{rule::door_recording, Profile::vulkan, "Draws are the same however they are recorded",
+         "Secondary command buffers draw what a primary one draws: the same pipeline, state, "
+         "vertices and attachments give the same bits (Rule 4). A rendering that ends and goes on "
+         "with what was stored, one that is suspended and resumed, and vkCmdClearAttachments "
+         "instead of a load operation clear in another way, and which neighbour of a clear value "
+         "is stored is not fixed: at vulkan the picture has to be right, from practice on it has "
+         "the same bits.",
+         "vkCmdBeginRendering", "", "diff/consistency.cpp"},
     Rule{rule::depth_store, Profile::vulkan, "Fixed-point depth is stored as either neighbour",
          "z (2^n - 1) rounds down or up; a whole number of steps is stored as it is. Direct3D "
          "rounds within 0.6 of a step.",

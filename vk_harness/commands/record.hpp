@@ -20,7 +20,8 @@ namespace vk_harness {
 struct DrawPlan {
     const cases::Draw* draw = nullptr;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    VkDescriptorSet texture = VK_NULL_HANDLE;  // if an attribute asks for a level of detail
+    VkPipeline other_pipeline = VK_NULL_HANDLE;  // of the door state_after_static: all is static
+    VkDescriptorSet texture = VK_NULL_HANDLE;    // if an attribute asks for a level of detail
     std::array<VkDeviceSize, 1 + cases::kMaxAttributes> vertices{};  // positions, attributes
     DistancePlaces distances{};
     VkDeviceSize indices = 0;
@@ -36,7 +37,8 @@ struct CasePlan {
     std::vector<Attachment> attachments;
     std::vector<const Image*> images;  // one an attachment
     std::vector<DrawPlan> draws;
-    std::shared_ptr<BlitImages> blit;  // instead of images and draws
+    std::shared_ptr<BlitImages> blit;          // instead of images and draws
+    std::vector<VkCommandBuffer> secondaries;  // secondaries_of() many; empty: none
     ReadbackLayout readback;
 };
 
@@ -49,10 +51,14 @@ void write_vertices(const CasePlan& plan, std::span<std::byte> memory);
 Result<void> make_door_buffers(const Device& device, const CasePlan& plan,
                                std::span<const std::byte> memory);
 
+// How many secondary command buffers the case is recorded in, beside the primary one.
+size_t secondaries_of(const CasePlan& plan);
+
 // Records clearing and drawing of a case. Afterwards its attachments are in the layout that
 // record_copies expects if `for_copies`.
-void record_draws(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
-                  const CasePlan& plan, VkBuffer vertices, bool for_copies);
+Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
+                          VkCommandBuffer commands, const CasePlan& plan, VkBuffer vertices,
+                          bool for_copies);
 
 // Rows of a target, `count` from `first` on.
 struct Rows {

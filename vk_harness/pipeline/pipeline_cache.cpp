@@ -160,10 +160,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     VertexInputState vertex_input;
     vertex_input_state(key, vertex_input);
 
-    VkPipelineInputAssemblyStateCreateInfo assembly =
-        Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;  // the class; dynamic
-
+    const VkPipelineInputAssemblyStateCreateInfo assembly = assembly_state(key);
     ViewportState viewport;
     viewport_state(key, viewport);
 
@@ -175,25 +172,11 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     ColorState color;
     color_state(key, color);
 
-    std::vector<VkDynamicState> dynamic_states = {VK_DYNAMIC_STATE_BLEND_CONSTANTS,
-                                                  VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
-                                                  VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
-                                                  VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
-                                                  VK_DYNAMIC_STATE_DEPTH_BIAS,
-                                                  VK_DYNAMIC_STATE_VIEWPORT,
-                                                  VK_DYNAMIC_STATE_SCISSOR,
-                                                  VK_DYNAMIC_STATE_CULL_MODE,
-                                                  VK_DYNAMIC_STATE_FRONT_FACE,
-                                                  VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
-                                                  VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
-                                                  VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE};
-    if (key.way.dynamic_stride) {
-        dynamic_states.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);
-    }
+    const std::vector<VkDynamicState> states = dynamic_states(key);
     VkPipelineDynamicStateCreateInfo dynamic =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = static_cast<uint32_t>(dynamic_states.size());
-    dynamic.pDynamicStates = dynamic_states.data();
+    dynamic.dynamicStateCount = static_cast<uint32_t>(states.size());
+    dynamic.pDynamicStates = states.data();
 
     VkPipelineRenderingCreateInfo rendering =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
@@ -206,6 +189,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
 
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.pNext = &rendering;
+    info.flags = key.is_unoptimized ? VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT : 0;
     info.stageCount = static_cast<uint32_t>(stages.size());
     info.pStages = stages.data();
     info.pVertexInputState = &vertex_input.info;

@@ -66,6 +66,10 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     }
     key.sample_locations = c.target.sample_locations;
     key.masked = c.variation.masked;
+    if (c.variation.door == cases::Door::state_static) {
+        key.fixed = draw_state(c, draw, draw.primitive_restart);
+    }
+    key.is_unoptimized = c.variation.door == cases::Door::unoptimized;
     key.depth_format = c.target.depth_format;
     key.depth_clamp = draw.depth.clamp;
     key.depth_clip = draw.depth.clip;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What distinguishes two pipelines. Topology, culling, facing, viewport and scissor are dynamic.
+// What distinguishes two pipelines. Topology, culling, facing, viewport, scissor and the like
+// (DrawState) are dynamic but behind some doors.
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 
 #include "cases/model/case.hpp"
 #include "shaders/shaders.hpp"
+#include "vk_harness/pipeline/draw_state.hpp"
 #include "vk_harness/pipeline/vertex_way.hpp"
 #include "vk_harness/target/attachments.hpp"
 
@@ -64,6 +66,8 @@ struct PipelineKey {
     InstrumentLayout layout;
     // Of cases::Variation.
     uint32_t masked = 0;
+    std::optional<DrawState> fixed = {};  // static; nothing: all of it is dynamic
+    bool is_unoptimized = false;
     ColorKey color_target;
     friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };

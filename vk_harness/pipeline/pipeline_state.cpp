@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vk_harness/pipeline/pipeline_state.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 
 #include "capture/capture.hpp"
@@ -45,6 +47,16 @@ void rasterization_state(const PipelineKey& key, RasterizationState& state) {
     state.info.polygonMode = VK_POLYGON_MODE_FILL;
     state.info.lineWidth = 1.0F;
     state.info.depthClampEnable = key.depth_clamp ? VK_TRUE : VK_FALSE;
+    if (key.fixed) {
+        const auto [constant, clamp, slope] = std::bit_cast<std::array<float, 3>>(key.fixed->bias);
+        state.info.cullMode = key.fixed->cull;
+        state.info.frontFace = key.fixed->front_face;
+        state.info.rasterizerDiscardEnable = key.fixed->discard;
+        state.info.depthBiasEnable = key.fixed->has_bias;
+        state.info.depthBiasConstantFactor = constant;
+        state.info.depthBiasClamp = clamp;
+        state.info.depthBiasSlopeFactor = slope;
+    }
     if (key.depth_clip) {
         state.depth_clip.sType =
             VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_DEPTH_CLIP_STATE_CREATE_INFO_EXT;
@@ -61,10 +73,25 @@ void rasterization_state(const PipelineKey& key, RasterizationState& state) {
     }
 }
 
+VkPipelineInputAssemblyStateCreateInfo assembly_state(const PipelineKey& key) {
+    VkPipelineInputAssemblyStateCreateInfo assembly =
+        Typed{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    // Where it is dynamic, the pipeline names its class.
+    assembly.topology = key.fixed ? key.fixed->topology : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    assembly.primitiveRestartEnable = key.fixed ? key.fixed->restart : VK_FALSE;
+    return assembly;
+}
+
 void viewport_state(const PipelineKey& key, ViewportState& state) {
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
     state.info.viewportCount = key.viewports;
     state.info.scissorCount = key.viewports;
+    if (key.fixed) {
+        state.viewports = key.fixed->vulkan_viewports();
+        state.scissors = key.fixed->vulkan_scissors();
+        state.info.pViewports = state.viewports.data();
+        state.info.pScissors = state.scissors.data();
+    }
     if (key.negative_one_to_one) {
         state.depth_clip_control.sType =
             VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_DEPTH_CLIP_CONTROL_CREATE_INFO_EXT;
@@ -107,7 +134,10 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
         depth.back = depth.front;
         depth.back.passOp = VK_STENCIL_OP_DECREMENT_AND_WRAP;
     }
-    // Compare operation and writes are dynamic.
+    if (key.fixed) {
+        depth.depthCompareOp = key.fixed->compare;
+        depth.depthWriteEnable = key.fixed->depth_write;
+    }
     return depth;
 }
 
@@ -189,6 +219,32 @@ void color_state(const PipelineKey& key, ColorState& state) {
     state.info.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     state.info.attachmentCount = static_cast<uint32_t>(state.blends.size());
     state.info.pAttachments = state.blends.data();
+    if (key.fixed) {
+        const auto constants = std::bit_cast<std::array<float, 4>>(key.fixed->blend_constants);
+        std::copy(constants.begin(), constants.end(), state.info.blendConstants);
+    }
+}
+
+std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
+    std::vector<VkDynamicState> out;
+    if (!key.fixed) {
+        out = {VK_DYNAMIC_STATE_BLEND_CONSTANTS,
+               VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,
+               VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
+               VK_DYNAMIC_STATE_DEPTH_BIAS_ENABLE,
+               VK_DYNAMIC_STATE_DEPTH_BIAS,
+               VK_DYNAMIC_STATE_VIEWPORT,
+               VK_DYNAMIC_STATE_SCISSOR,
+               VK_DYNAMIC_STATE_CULL_MODE,
+               VK_DYNAMIC_STATE_FRONT_FACE,
+               VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
+               VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
+               VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE};
+    }
+    if (key.way.dynamic_stride) {
+        out.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);
+    }
+    return out;
 }
 
 }  // namespace vk_harness

@@ -26,7 +26,11 @@ struct RasterizationState {
 };
 void rasterization_state(const PipelineKey& key, RasterizationState& state);
 
+VkPipelineInputAssemblyStateCreateInfo assembly_state(const PipelineKey& key);
+
 struct ViewportState {
+    std::vector<VkViewport> viewports;
+    std::vector<VkRect2D> scissors;
     VkPipelineViewportDepthClipControlCreateInfoEXT depth_clip_control{};
     VkPipelineViewportStateCreateInfo info{};
 };
@@ -49,5 +53,8 @@ struct ColorState {
     VkPipelineColorBlendStateCreateInfo info{};
 };
 void color_state(const PipelineKey& key, ColorState& state);
+
+// What is given when a draw is recorded.
+std::vector<VkDynamicState> dynamic_states(const PipelineKey& key);
 
 }  // namespace vk_harness

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/commands/draw_commands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+#include <vector>
+
+#include "vk_harness/target/shader_interface.hpp"
+
+namespace vk_harness {
+
+using cases::Door;
+
+namespace {
+
+// The scissors that a draw is repeated under: its own, cut by each tile of the variation.
+std::vector<VkRect2D> scissors_of(const cases::Draw& draw, const cases::Case& test) {
+    const cases::Rect& own = draw.scissor;
+    const auto [tile_width, tile_height] = test.variation.tile;
+    if (tile_width == 0 || tile_height == 0) {
+        return {to_vulkan(own)};
+    }
+    // 64 bits: a scissor may end at 2^31 - 1, beyond the target.
+    const auto cut = [](int64_t begin, int64_t size, int64_t tile, int64_t tile_size) {
+        return std::pair(std::max(begin, tile), std::min(begin + size, tile + tile_size));
+    };
+    std::vector<VkRect2D> scissors;
+    for (int64_t y = 0; y < test.target.height; y += tile_height) {
+        const auto [top, bottom] = cut(own.y, own.height, y, tile_height);
+        for (int64_t x = 0; x < test.target.width; x += tile_width) {
+            const auto [left, right] = cut(own.x, own.width, x, tile_width);
+            if (left < right && top < bottom) {
+                scissors.push_back(
+                    {{static_cast<int32_t>(left), static_cast<int32_t>(top)},
+                     {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}});
+            }
+        }
+    }
+    return scissors;
+}
+
+void push_constants(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                    const DrawPlan& plan, const cases::Case& test, uint32_t draw_index) {
+    const cases::Draw& draw = *plan.draw;
+    shaders::DrawConstants constants;
+    constants.index =
+        plan.is_split ? static_cast<uint32_t>(test.draws.size()) << 16 | draw_index : draw_index;
+    constants.layer = draw.layer;
+    constants.viewport_index = draw.viewport_index;
+    for (int k = 0; k < 4; ++k) {
+        const float value = draw.color.value[k];
+        constants.color[k] =
+            plan.has_integer_color ? static_cast<uint32_t>(value) : std::bit_cast<uint32_t>(value);
+    }
+    for (size_t k = 0; k < draw.attributes.size(); ++k) {
+        constants.offsets[k][0] = draw.attributes[k].probe_offset[0];
+        constants.offsets[k][1] = draw.attributes[k].probe_offset[1];
+        constants.sample_numbers[k] = static_cast<int32_t>(draw.attributes[k].probe_sample);
+    }
+    constants.sample_mask = draw.multisample.shader_mask.value_or(0xffffffffU);
+    device.vk().vkCmdPushConstants(commands, pipelines.layout(), kDrawStages, 0, sizeof constants,
+                                   &constants);
+}
+
+void bind_inputs(const Device& device, VkCommandBuffer commands, const DrawPlan& plan,
+                 uint32_t binding_count, VkBuffer vertices) {
+    const VolkDeviceTable& vk = device.vk();
+    if (plan.feed) {
+        plan.feed->bind(device, commands, vertices);
+        return;
+    }
+    const cases::Draw& draw = *plan.draw;
+    std::array<VkBuffer, 1 + cases::kMaxAttributes> buffers{};
+    buffers.fill(vertices);
+    vk.vkCmdBindVertexBuffers(commands, 0, binding_count, buffers.data(), plan.vertices.data());
+    for (const auto& [distances, binding] : {std::pair(draw.distances.clip_count, kClipBinding),
+                                             std::pair(draw.distances.cull_count, kCullBinding)}) {
+        if (distances > 0) {
+            vk.vkCmdBindVertexBuffers(commands, binding, 1, &vertices,
+                                      &plan.distances[binding - kClipBinding]);
+        }
+    }
+    if (draw.indices) {
+        vk.vkCmdBindIndexBuffer(commands, vertices, plan.indices, VK_INDEX_TYPE_UINT32);
+    }
+}
+
+void draw_once(const Device& device, VkCommandBuffer commands, const DrawPlan& plan,
+               VkBuffer vertices) {
+    const cases::Draw& draw = *plan.draw;
+    if (plan.feed) {
+        plan.feed->draw(device, commands, vertices);
+    } else if (draw.indices) {
+        device.vk().vkCmdDrawIndexed(commands, static_cast<uint32_t>(draw.indices->size()), 1, 0, 0,
+                                     0);
+    } else {
+        device.vk().vkCmdDraw(commands, static_cast<uint32_t>(draw.positions.size()), 1, 0, 0);
+    }
+}
+
+}  // namespace
+
+void record_draw(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                 const CasePlan& of, uint32_t draw_index, VkBuffer vertices) {
+    const VolkDeviceTable& vk = device.vk();
+    const cases::Case& test = *of.test;
+    const DrawPlan& plan = of.draws[draw_index];
+    const cases::Draw& draw = *plan.draw;
+    if (draw.indices ? draw.indices->empty() : draw.positions.empty()) {
+        return;
+    }
+    const Door door = test.variation.door;
+    const auto bind = [&](VkPipeline pipeline) {
+        vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        if (plan.texture != VK_NULL_HANDLE) {
+            vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                       pipelines.layout(), 0, 1, &plan.texture, 0, nullptr);
+        }
+    };
+    DrawState state =
+        draw_state(test, draw, plan.feed ? plan.feed->has_restart() : draw.primitive_restart);
+    const bool is_dynamic = door != Door::state_static;
+    push_constants(device, pipelines, commands, plan, test, draw_index);
+    bind_inputs(device, commands, plan, 1 + of.input_count, vertices);
+    if (door == Door::state_after_static) {
+        bind(plan.other_pipeline);
+        draw_once(device, commands, plan, vertices);
+    }
+    if (door != Door::state_first) {
+        bind(plan.pipeline);
+    }
+    if (door == Door::state_stale) {
+        const DrawState other = other_state(state, Leaves::rasterization_off);
+        set_state(device, commands, other, {});
+        set_viewports(device, commands, other);
+        draw_once(device, commands, plan, vertices);
+    }
+    if (is_dynamic) {
+        set_state(device, commands, state, draw.depth.bias.value_or(cases::DepthBias{}));
+    }
+    for (const VkRect2D& scissor : scissors_of(draw, test)) {
+        if (is_dynamic) {
+            replace_scissor(state, draw, scissor);
+            set_viewports(device, commands, state);
+        }
+        if (door == Door::state_first) {
+            bind(plan.pipeline);
+        }
+        draw_once(device, commands, plan, vertices);
+    }
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The rendering of a case: attachments that are cleared, loaded and stored around its draws, in one
+// piece or as a door of the group `recording` asks for (cases/model/door.hpp).
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "vk_harness/commands/draw_commands.hpp"
+#include "vk_harness/commands/record.hpp"
+#include "vk_harness/device/sample_locations.hpp"
+#include "vk_harness/memory/barrier.hpp"
+#include "vk_harness/target/resolve.hpp"
+
+namespace vk_harness {
+
+using cases::Door;
+
+namespace {
+
+VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkClearValue clear,
+                                     VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_CLEAR) {
+    VkRenderingAttachmentInfo info = Typed{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    info.imageView = view;
+    info.imageLayout = layout;
+    info.loadOp = load;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    info.clearValue = clear;
+    return info;
+}
+
+// One barrier for all attachments of the case.
+void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& plan,
+             const ImageUse& color_before, const ImageUse& color_after,
+             const ImageUse& depth_before, const ImageUse& depth_after,
+             const ImageUse* after_resolve = nullptr) {
+    // A depth image made for sample locations is told them whenever its layout changes.
+    const std::vector<VkSampleLocationEXT> places =
+        sample_places(plan.test->target.sample_locations);
+    const VkSampleLocationsInfoEXT locations = sample_locations_info(places);
+    std::vector<VkImageMemoryBarrier2> barriers;
+    const auto add = [&](const Image& image, bool resolved, const ImageUse& before,
+                         const ImageUse& after) {
+        VkImageMemoryBarrier2 b =
+            image_barrier(image.get(), {image.aspect(), 0, 1, 0, image.layers()}, before, after);
+        if (!places.empty() && !resolved && (image.aspect() & VK_IMAGE_ASPECT_DEPTH_BIT) != 0) {
+            b.pNext = &locations;
+        }
+        barriers.push_back(b);
+    };
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        const Attachment& attachment = plan.attachments[k];
+        if (attachment.role == Role::stencil) {
+            continue;  // goes with depth
+        }
+        const bool depth = attachment.is_depth();
+        if (attachment.is_resolved() && after_resolve) {
+            add(*plan.images[k], true, depth ? depth_before : color_before, *after_resolve);
+            continue;
+        }
+        add(*plan.images[k], attachment.is_resolved(), depth ? depth_before : color_before,
+            depth ? depth_after : color_after);
+    }
+    record_barriers(device, commands, barriers);
+}
+
+constexpr ImageUse kColorDrawn = {
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+constexpr ImageUse kDepthDrawn = {
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
+        VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,  // where depth is resolved
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+        VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+    VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+// The previous user of the attachments, if any: a draw (render_bare) or a copy. Contents are
+// dropped.
+constexpr ImageUse kReused = {
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
+        VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+    VK_IMAGE_LAYOUT_UNDEFINED};
+constexpr ImageUse kCopied = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+constexpr ImageUse kSampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                               VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+
+// Clears what is resolved into, by a rendering without draws, and waits for it.
+void clear_resolved(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
+    const VolkDeviceTable& vk = device.vk();
+    const cases::Target& target = plan.test->target;
+    std::optional<VkRenderingAttachmentInfo> color, depth;
+    for (size_t k = 0; k < plan.images.size(); ++k) {
+        const Attachment& a = plan.attachments[k];
+        if (a.is_resolved()) {
+            (a.is_depth() ? depth : color) =
+                attachment(plan.images[k]->view(),
+                           a.is_depth() ? kDepthDrawn.layout : kColorDrawn.layout, a.clear);
+        }
+    }
+    if (!color && !depth) {
+        return;
+    }
+    VkRenderingInfo rendering = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    rendering.renderArea = {{0, 0}, {target.width, target.height}};
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = color ? 1 : 0;
+    rendering.pColorAttachments = color ? &*color : nullptr;
+    rendering.pDepthAttachment = depth ? &*depth : nullptr;
+    vk.vkCmdBeginRendering(commands, &rendering);
+    vk.vkCmdEndRendering(commands);
+    const MemoryUse cleared{kDepthDrawn.stage, kDepthDrawn.access};
+    memory_barrier(device, commands, cleared, cleared);
+}
+
+// What a rendering begins with, with all that it points to: not to be moved.
+class Attached {
+  public:
+    Attached(const CasePlan& plan, VkAttachmentLoadOp load, VkRenderingFlags flags,
+             bool resolves = true) {
+        const cases::Target& target = plan.test->target;
+        for (size_t k = 0; k < plan.images.size(); ++k) {
+            const Attachment& a = plan.attachments[k];
+            VkImageView view = plan.images[k]->view();
+            switch (a.role) {
+                case Role::depth:
+                    depth_ = attachment(view, kDepthDrawn.layout, a.clear, load);
+                    break;
+                case Role::stencil:
+                    stencil_ = attachment(view, kDepthDrawn.layout, a.clear, load);
+                    break;
+                case Role::resolved_color:  // the last colour attachment is the colour target
+                    if (resolves) {
+                        resolve_into(view, kColorDrawn.layout, target.color_resolve,
+                                     colors_.back());
+                    }
+                    break;
+                case Role::resolved_depth:
+                    if (resolves) {
+                        resolve_into(view, kDepthDrawn.layout, target.depth_resolve, *depth_);
+                    }
+                    break;
+                default:
+                    colors_.push_back(attachment(view, kColorDrawn.layout, a.clear, load));
+                    break;
+            }
+        }
+        info_.flags = flags;
+        info_.renderArea = {{0, 0}, {target.width, target.height}};
+        info_.layerCount = target.layers;
+        info_.colorAttachmentCount = static_cast<uint32_t>(colors_.size());
+        info_.pColorAttachments = colors_.data();
+        info_.pDepthAttachment = depth_ ? &*depth_ : nullptr;
+        info_.pStencilAttachment = stencil_ ? &*stencil_ : nullptr;
+    }
+    Attached(const Attached&) = delete;
+    Attached& operator=(const Attached&) = delete;
+    ~Attached() = default;
+    const VkRenderingInfo& info() const { return info_; }
+
+  private:
+    std::vector<VkRenderingAttachmentInfo> colors_;
+    std::optional<VkRenderingAttachmentInfo> depth_, stencil_;
+    VkRenderingInfo info_ = Typed{VK_STRUCTURE_TYPE_RENDERING_INFO};
+};
+
+// Clears all attachments of a rendering that has begun.
+void clear_by_command(const Device& device, VkCommandBuffer commands, const CasePlan& plan) {
+    const cases::Target& target = plan.test->target;
+    std::vector<VkClearAttachment> clears;
+    uint32_t color = 0;
+    for (const Attachment& a : plan.attachments) {
+        if (a.is_resolved()) {
+            continue;
+        }
+        if (a.role == Role::depth || a.role == Role::stencil) {
+            clears.push_back({static_cast<VkImageAspectFlags>(a.role == Role::depth
+                                                                  ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                  : VK_IMAGE_ASPECT_STENCIL_BIT),
+                              0, a.clear});
+        } else {
+            clears.push_back({VK_IMAGE_ASPECT_COLOR_BIT, color++, a.clear});
+        }
+    }
+    const VkClearRect all = {{{0, 0}, {target.width, target.height}}, 0, target.layers};
+    device.vk().vkCmdClearAttachments(commands, static_cast<uint32_t>(clears.size()), clears.data(),
+                                      1, &all);
+}
+
+// Records draws [first, end) to a secondary command buffer that inherits the rendering.
+Result<void> record_secondary(const Device& device, const PipelineCache& pipelines,
+                              VkCommandBuffer secondary, const CasePlan& plan, uint32_t first,
+                              uint32_t end, VkBuffer vertices) {
+    const VolkDeviceTable& vk = device.vk();
+    std::vector<VkFormat> formats;
+    VkCommandBufferInheritanceRenderingInfo rendering =
+        Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_RENDERING_INFO};
+    for (const Attachment& a : plan.attachments) {
+        if (a.role == Role::depth) {
+            rendering.depthAttachmentFormat = a.format;
+        } else if (a.role == Role::stencil) {
+            rendering.stencilAttachmentFormat = a.format;
+        } else if (!a.is_resolved()) {
+            formats.push_back(a.format);
+        }
+    }
+    rendering.colorAttachmentCount = static_cast<uint32_t>(formats.size());
+    rendering.pColorAttachmentFormats = formats.data();
+    rendering.rasterizationSamples = static_cast<VkSampleCountFlagBits>(plan.test->target.samples);
+    VkCommandBufferInheritanceInfo inheritance =
+        Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO};
+    inheritance.pNext = &rendering;
+    VkCommandBufferBeginInfo begin = Typed{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT |
+                  VK_COMMAND_BUFFER_USAGE_RENDER_PASS_CONTINUE_BIT;
+    begin.pInheritanceInfo = &inheritance;
+    if (auto begun = check(Stage::submit, vk.vkBeginCommandBuffer(secondary, &begin),
+                           "vkBeginCommandBuffer");
+        !begun) {
+        return begun;
+    }
+    for (uint32_t k = first; k < end; ++k) {
+        record_draw(device, pipelines, secondary, plan, k, vertices);
+    }
+    return check(Stage::submit, vk.vkEndCommandBuffer(secondary), "vkEndCommandBuffer");
+}
+
+Result<void> render_by_secondaries(const Device& device, const PipelineCache& pipelines,
+                                   VkCommandBuffer commands, const CasePlan& plan,
+                                   VkBuffer vertices) {
+    const auto draws = static_cast<uint32_t>(plan.draws.size());
+    const auto count = static_cast<uint32_t>(plan.secondaries.size());
+    for (uint32_t k = 0; k < count; ++k) {
+        if (auto recorded =
+                record_secondary(device, pipelines, plan.secondaries[k], plan, count == 1 ? 0 : k,
+                                 count == 1 ? draws : k + 1, vertices);
+            !recorded) {
+            return recorded;
+        }
+    }
+    const Attached attached(plan, VK_ATTACHMENT_LOAD_OP_CLEAR,
+                            VK_RENDERING_CONTENTS_SECONDARY_COMMAND_BUFFERS_BIT);
+    device.vk().vkCmdBeginRendering(commands, &attached.info());
+    device.vk().vkCmdExecuteCommands(commands, count, plan.secondaries.data());
+    device.vk().vkCmdEndRendering(commands);
+    return {};
+}
+
+// A rendering without draws, which clears, then one for each draw.
+void render_in_pieces(const Device& device, const PipelineCache& pipelines,
+                      VkCommandBuffer commands, const CasePlan& plan, VkBuffer vertices,
+                      bool suspends) {
+    const auto draws = static_cast<uint32_t>(plan.draws.size());
+    for (uint32_t piece = 0; piece <= draws; ++piece) {
+        VkRenderingFlags flags = 0;
+        if (suspends) {
+            flags = (piece > 0 ? VkRenderingFlags{VK_RENDERING_RESUMING_BIT} : 0U) |
+                    (piece < draws ? VkRenderingFlags{VK_RENDERING_SUSPENDING_BIT} : 0U);
+        } else if (piece > 0) {
+            barrier(device, commands, plan, kColorDrawn, kColorDrawn, kDepthDrawn, kDepthDrawn);
+        }
+        // All parts of a suspended rendering begin alike.
+        const bool loads = piece > 0 && !suspends;
+        const Attached attached(
+            plan, loads ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR, flags,
+            suspends || piece == draws);
+        device.vk().vkCmdBeginRendering(commands, &attached.info());
+        if (piece > 0) {
+            record_draw(device, pipelines, commands, plan, piece - 1, vertices);
+        }
+        device.vk().vkCmdEndRendering(commands);
+    }
+}
+
+void render_at_once(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
+                    const CasePlan& plan, VkBuffer vertices, bool clears_by_command) {
+    const Attached attached(plan,
+                            clears_by_command ? VK_ATTACHMENT_LOAD_OP_DONT_CARE
+                                              : VK_ATTACHMENT_LOAD_OP_CLEAR,
+                            0);
+    device.vk().vkCmdBeginRendering(commands, &attached.info());
+    if (clears_by_command) {
+        clear_by_command(device, commands, plan);
+    }
+    for (uint32_t k = 0; k < plan.draws.size(); ++k) {
+        record_draw(device, pipelines, commands, plan, k, vertices);
+    }
+    device.vk().vkCmdEndRendering(commands);
+}
+
+}  // namespace
+
+size_t secondaries_of(const CasePlan& plan) {
+    switch (plan.test->variation.door) {
+        case Door::secondary:
+            return 1;
+        case Door::secondary_each:
+            return plan.draws.size();
+        default:
+            return 0;
+    }
+}
+
+Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
+                          VkCommandBuffer commands, const CasePlan& plan, VkBuffer vertices,
+                          bool for_copies) {
+    barrier(device, commands, plan, kReused, kColorDrawn, kReused, kDepthDrawn);
+    clear_resolved(device, commands, plan);
+    const Door door = plan.test->variation.door;
+    if (!plan.secondaries.empty()) {
+        if (auto rendered = render_by_secondaries(device, pipelines, commands, plan, vertices);
+            !rendered) {
+            return rendered;
+        }
+    } else if (door == Door::pass_split || door == Door::pass_suspended) {
+        render_in_pieces(device, pipelines, commands, plan, vertices,
+                         door == Door::pass_suspended);
+    } else {
+        render_at_once(device, pipelines, commands, plan, vertices, door == Door::clear_commands);
+    }
+    if (for_copies) {
+        // Samples are read by a shader; guards (guard.hpp) are copied whatever the target is.
+        ImageUse after = plan.test->target.samples > 1 ? kSampled : kCopied;
+        after.stage |= kCopied.stage;
+        barrier(device, commands, plan, kColorDrawn, after, kDepthDrawn, after, &kCopied);
+    }
+    return {};
+}
+
+}  // namespace vk_harness

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "vk_harness/pipeline/draw_state.hpp"
+
+#include <bit>
+
+#include "vk_harness/target/shader_interface.hpp"
+
+namespace vk_harness {
+
+namespace {
+
+VkPrimitiveTopology to_vulkan(cases::Topology topology) {
+    constexpr std::array kTopologies = {VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+                                        VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
+                                        VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN};
+    static_assert(kTopologies.size() == static_cast<size_t>(cases::Topology::triangle_fan) + 1);
+    return kTopologies.at(static_cast<size_t>(topology));
+}
+
+VkCullModeFlags to_vulkan(cases::CullMode mode) {
+    constexpr std::array<VkCullModeFlags, 4> kModes = {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT,
+                                                       VK_CULL_MODE_BACK_BIT,
+                                                       VK_CULL_MODE_FRONT_AND_BACK};
+    static_assert(kModes.size() == static_cast<size_t>(cases::CullMode::front_and_back) + 1);
+    return kModes.at(static_cast<size_t>(mode));
+}
+
+VkFrontFace to_vulkan(cases::FrontFace face) {
+    return face == cases::FrontFace::clockwise ? VK_FRONT_FACE_CLOCKWISE
+                                               : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+}
+
+VkBool32 to_vulkan(bool value) {
+    return value ? VK_TRUE : VK_FALSE;
+}
+
+DrawState::Viewport bits_of(const cases::Viewport& v) {
+    return std::bit_cast<DrawState::Viewport>(
+        VkViewport{v.x, v.y, v.width, v.height, v.min_depth, v.max_depth});
+}
+
+DrawState::Scissor bits_of(const VkRect2D& rect) {
+    return std::bit_cast<DrawState::Scissor>(rect);
+}
+
+template <size_t count>
+std::array<float, count> floats(const std::array<uint32_t, count>& bits) {
+    return std::bit_cast<std::array<float, count>>(bits);
+}
+
+}  // namespace
+
+VkRect2D to_vulkan(const cases::Rect& rect) {
+    return {{rect.x, rect.y}, {rect.width, rect.height}};
+}
+
+std::vector<VkViewport> DrawState::vulkan_viewports() const {
+    std::vector<VkViewport> out;
+    for (const Viewport& viewport : viewports) {
+        out.push_back(std::bit_cast<VkViewport>(viewport));
+    }
+    return out;
+}
+
+std::vector<VkRect2D> DrawState::vulkan_scissors() const {
+    std::vector<VkRect2D> out;
+    for (const Scissor& scissor : scissors) {
+        out.push_back(std::bit_cast<VkRect2D>(scissor));
+    }
+    return out;
+}
+
+DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_restart) {
+    DrawState out;
+    out.cull = to_vulkan(own.cull);
+    out.front_face = to_vulkan(own.front_face);
+    out.topology = to_vulkan(own.topology);
+    out.restart = to_vulkan(has_restart);
+    out.discard = to_vulkan(own.rasterizer_discard);
+    out.compare = static_cast<VkCompareOp>(own.depth.compare);
+    out.depth_write = to_vulkan(own.depth.write && !c.variation.masks_depth);
+    out.has_bias = to_vulkan(own.depth.bias.has_value());
+    const cases::DepthBias bias = own.depth.bias.value_or(cases::DepthBias{});
+    out.bias = std::bit_cast<std::array<uint32_t, 3>>(
+        std::array{bias.constant, bias.clamp, bias.slope});
+    const glm::vec4 blend = own.color.blend ? own.color.blend->constants : glm::vec4(0);
+    out.blend_constants = std::bit_cast<std::array<uint32_t, 4>>(blend);
+    out.viewports.assign(viewport_count(c), bits_of(cases::Viewport{0, 0, 1, 1, 0, 1}));
+    out.scissors.assign(viewport_count(c), bits_of(VkRect2D{{0, 0}, {1, 1}}));
+    const auto put = [&out](const cases::Draw& draw) {
+        out.viewports[draw.viewport_index] = bits_of(draw.viewport);
+        out.scissors[draw.viewport_index] = bits_of(to_vulkan(draw.scissor));
+    };
+    for (const cases::Draw& draw : c.draws) {
+        put(draw);
+    }
+    put(own);
+    return out;
+}
+
+void replace_scissor(DrawState& state, const cases::Draw& own, const VkRect2D& scissor) {
+    state.scissors[own.viewport_index] = bits_of(scissor);
+}
+
+DrawState other_state(const DrawState& state, Leaves leaves) {
+    constexpr uint32_t kCompareOps = 8;
+    DrawState out = state;
+    out.cull = state.cull == VK_CULL_MODE_FRONT_AND_BACK ? VkCullModeFlags{VK_CULL_MODE_NONE}
+                                                         : VkCullModeFlags{
+                                                               VK_CULL_MODE_FRONT_AND_BACK};
+    out.front_face = state.front_face == VK_FRONT_FACE_CLOCKWISE ? VK_FRONT_FACE_COUNTER_CLOCKWISE
+                                                                 : VK_FRONT_FACE_CLOCKWISE;
+    // Not a list, whose restarts need a feature.
+    out.topology = state.topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP
+                       ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN
+                       : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+    out.restart = VK_TRUE;  // without it the draw's restarts would be indices of no vertex
+    out.compare = static_cast<VkCompareOp>((static_cast<uint32_t>(state.compare) + 4) % kCompareOps);
+    out.depth_write = to_vulkan(state.depth_write == VK_FALSE);
+    out.has_bias = to_vulkan(state.has_bias == VK_FALSE);
+    // A clamp needs a feature.
+    const std::array<float, 3> bias = floats(state.bias);
+    out.bias = std::bit_cast<std::array<uint32_t, 3>>(std::array{bias[0] + 64, 0.0F, bias[2] + 1});
+    for (uint32_t& constant : out.blend_constants) {
+        constant = std::bit_cast<uint32_t>(std::bit_cast<float>(constant) > 0.5F ? 0.25F : 0.75F);
+    }
+    for (DrawState::Viewport& viewport : out.viewports) {
+        viewport = bits_of(cases::Viewport{3, 5, 2, 2, 0.25F, 0.75F});
+    }
+    const bool is_off = leaves == Leaves::rasterization_off;
+    out.discard = to_vulkan(is_off);
+    const VkRect2D scissor = {{1, 1}, {is_off ? 1U : 0U, is_off ? 1U : 0U}};
+    out.scissors.assign(state.scissors.size(), bits_of(scissor));
+    return out;
+}
+
+void set_state(const Device& device, VkCommandBuffer commands, const DrawState& state,
+               const cases::DepthBias& bias) {
+    const VolkDeviceTable& vk = device.vk();
+    vk.vkCmdSetCullMode(commands, state.cull);
+    vk.vkCmdSetFrontFace(commands, state.front_face);
+    vk.vkCmdSetPrimitiveTopology(commands, state.topology);
+    vk.vkCmdSetPrimitiveRestartEnable(commands, state.restart);
+    vk.vkCmdSetRasterizerDiscardEnable(commands, state.discard);
+    vk.vkCmdSetDepthCompareOp(commands, state.compare);
+    vk.vkCmdSetDepthWriteEnable(commands, state.depth_write);
+    vk.vkCmdSetDepthBiasEnable(commands, state.has_bias);
+    if (bias.is_controlled()) {
+        record_controlled_bias(device.set_depth_bias2(), commands, bias);
+    } else {
+        const auto [constant, clamp, slope] = floats(state.bias);
+        vk.vkCmdSetDepthBias(commands, constant, clamp, slope);
+    }
+    const std::array<float, 4> blend = floats(state.blend_constants);
+    vk.vkCmdSetBlendConstants(commands, blend.data());
+}
+
+void set_viewports(const Device& device, VkCommandBuffer commands, const DrawState& state) {
+    const std::vector<VkViewport> viewports = state.vulkan_viewports();
+    const std::vector<VkRect2D> scissors = state.vulkan_scissors();
+    const auto count = static_cast<uint32_t>(viewports.size());
+    device.vk().vkCmdSetViewport(commands, 0, count, viewports.data());
+    device.vk().vkCmdSetScissor(commands, 0, count, scissors.data());
+}
+
+}  // namespace vk_harness
