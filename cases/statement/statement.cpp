@@ -306,6 +306,12 @@ constexpr Statement kStatements[] = {
     {97, "indirect draws, several draws in a command", exact, not_spoken,
      "The picture has the bits of the plain one.",
      {"door.indirect"}, ""},
+    {98, "when and how state is given: before the pipeline, over other state, as a part of the pipeline", exact, not_spoken,
+     "The picture has the bits of the plain one; where the pipeline is another one, from practice on.",
+     {"door.state"}, ""},
+    {99, "secondary command buffers, renderings that load or are resumed, clears by command", exact, not_spoken,
+     "The picture has the bits of the plain one; where it is cleared in another way, from practice on.",
+     {"door.recording"}, ""},
     // clang-format on
 };
 

@@ -32,6 +32,8 @@ using vulkan_layer::OwnCommand;
 
 // Commands that set dynamic state and bindings.
 std::span<const OwnCommand> state_commands();
+// Commands that make command buffers of others, or clear.
+std::span<const OwnCommand> recording_commands();
 // Indirect draws, and several draws in a command.
 std::span<const OwnCommand> indirect_commands();
 

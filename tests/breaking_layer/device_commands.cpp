@@ -142,8 +142,16 @@ VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipe
         return result;
     }
     const Driver& driver = driver_of_handle(device);
+    const auto make = [&](const VkGraphicsPipelineCreateInfo* asked) {
+        const VkResult result =
+            driver.CreateGraphicsPipelines(device, cache, count, asked, allocator, out);
+        for (uint32_t k = 0; k < count && result == VK_SUCCESS; ++k) {
+            note_pipeline(out[k], infos[k].pDynamicState->dynamicStateCount == 0);
+        }
+        return result;
+    };
     if (hooks().pipeline == nullptr) {
-        return driver.CreateGraphicsPipelines(device, cache, count, infos, allocator, out);
+        return make(infos);
     }
     std::vector<PipelineCopy> copies(infos, infos + count);
     std::vector<VkGraphicsPipelineCreateInfo> own;
@@ -151,7 +159,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_graphics_pipelines(VkDevice device, VkPipe
         alter(hooks().pipeline, copy);
         own.push_back(copy.info());
     }
-    return driver.CreateGraphicsPipelines(device, cache, count, own.data(), allocator, out);
+    return make(own.data());
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, uint32_t count,
@@ -384,6 +392,7 @@ void draw_call(VkCommandBuffer commands, DrawCall call, uint32_t instances) {
     Recording& recording = recording_of(commands);
     call.topology = recording.topology;
     call.number = recording.draws++;
+    call.in_secondary = recording.is_secondary;
     call.rendering = recording.rendering;
     call.index_type = recording.index_type;
     call.has_restart = recording.has_restart;
@@ -444,12 +453,14 @@ PFN_vkVoidFunction own_instance_command(const char* /*name*/) {
 }
 
 PFN_vkVoidFunction own_device_command(const char* name) {
-    const PFN_vkVoidFunction own = find_command(breaking::kCommands, name);
-    if (own != nullptr) {
-        return own;
+    for (const auto table :
+         {std::span<const breaking::OwnCommand>(breaking::kCommands), breaking::state_commands(),
+          breaking::indirect_commands(), breaking::recording_commands()}) {
+        if (const PFN_vkVoidFunction own = find_command(table, name); own != nullptr) {
+            return own;
+        }
     }
-    const PFN_vkVoidFunction indirect = find_command(breaking::indirect_commands(), name);
-    return indirect != nullptr ? indirect : find_command(breaking::state_commands(), name);
+    return nullptr;
 }
 
 bool shows_device_command(VkDevice /*device*/, const char* /*name*/) {

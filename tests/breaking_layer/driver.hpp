@@ -57,7 +57,10 @@ namespace breaking {
     X(CmdCopyImageToBuffer) \
     X(CmdCopyBufferToImage) \
     X(CmdBlitImage) \
-    X(CmdDispatch)
+    X(CmdDispatch) \
+    X(BeginCommandBuffer) \
+    X(CmdExecuteCommands) \
+    X(CmdClearAttachments)
 // clang-format on
 
 // The next layer's, or the driver's, commands of one device.

@@ -34,9 +34,10 @@ struct DrawCall {
     uint32_t first = 0;         // vertex or index
     int32_t vertex_offset = 0;  // indexed only
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    uint32_t number = 0;     // in its rendering, from 0
-    uint64_t rendering = 0;  // in this process, from 1
-    uint32_t times = 1;      // how often the driver is asked
+    uint32_t number = 0;        // in its rendering, from 0
+    uint64_t rendering = 0;     // in this process, from 1
+    bool in_secondary = false;  // in a secondary command buffer
+    uint32_t times = 1;         // how often the driver is asked
     uint32_t first_instance = 0;
     VkIndexType index_type = VK_INDEX_TYPE_UINT32;  // indexed only
     bool has_restart = false;                       // primitive restart is on
@@ -105,6 +106,27 @@ struct DepthBias {
     float constant, clamp, slope;
 };
 
+// One call that sets a dynamic state.
+struct StateCall {
+    std::string_view state;     // "viewport", "cull mode", ... (state_commands.cpp)
+    bool is_set_again = false;  // since the last pipeline was bound
+    // A pipeline without dynamic state was bound before, in the same rendering.
+    bool follows_static = false;
+};
+
+// What binding a pipeline with dynamic state sets, though nobody asked for it.
+struct Reset {
+    std::optional<VkPrimitiveTopology> topology;
+    std::optional<VkCullModeFlags> cull_mode;
+    std::optional<VkRect2D> scissor;  // the first
+};
+
+// One call of vkCmdClearAttachments.
+struct Clears {
+    std::vector<VkClearAttachment> attachments;
+    std::vector<VkClearRect> rects;
+};
+
 // What becomes of a call that answers with a VkResult.
 enum class Answer { as_asked, device_lost, unknown_error, no_memory, hang, crash };
 
@@ -132,6 +154,10 @@ struct Hooks {
     bool (*depth_bias_enable)(VkBool32&) = nullptr;
     bool (*depth_bias)(DepthBias&) = nullptr;
     bool (*blend_constants)(std::span<float, 4>) = nullptr;
+    bool (*drop_state)(StateCall&) = nullptr;  // whether the call is not done
+    bool (*bind)(Reset&) = nullptr;            // of a pipeline with dynamic state
+    bool (*secondaries)(std::vector<VkCommandBuffer>&) = nullptr;  // of vkCmdExecuteCommands
+    bool (*clear_attachments)(Clears&) = nullptr;
     bool (*pipeline)(PipelineCopy&) = nullptr;
     bool (*shader)(ShaderWords&) = nullptr;
     bool (*sample_locations)(std::span<VkSampleLocationEXT>) = nullptr;  // of barriers
@@ -171,6 +197,7 @@ std::span<const Fault> shader_faults();
 std::span<const Fault> transfer_faults();
 std::span<const Fault> device_faults();
 std::span<const Fault> door_faults();
+std::span<const Fault> recording_door_faults();
 std::vector<const Fault*> all_faults();
 
 // The N of EDGECASE_BREAK=NAME:N; 1 if none is given.

@@ -31,6 +31,12 @@ class PipelineCopy {
     VkPipelineColorBlendStateCreateInfo blend{};
     std::vector<VkPipelineColorBlendAttachmentState> blends;
 
+    bool is_unoptimized() const {
+        return (info_.flags & VK_PIPELINE_CREATE_DISABLE_OPTIMIZATION_BIT) != 0;
+    }
+    // Nothing of its state is dynamic.
+    bool is_static() const { return info_.pDynamicState->dynamicStateCount == 0; }
+
     // Ties the parts together; valid until the copy is changed or moved.
     const VkGraphicsPipelineCreateInfo& info();
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <mutex>
 #include <numeric>
+#include <set>
 
 namespace breaking {
 
@@ -12,7 +13,15 @@ void Recording::begin_rendering(bool holds_back) {
     static std::atomic<uint64_t> count = 0;
     rendering = ++count;
     draws = 0;
+    follows_static = false;
     holds_back_ = holds_back;
+}
+
+void Recording::begin(bool secondary) {
+    is_secondary = secondary;
+    draws = 0;
+    follows_static = false;
+    set_since_bind.clear();
 }
 
 void Recording::set_state(StateKey key, Command command) {
@@ -48,6 +57,27 @@ void Recording::end_rendering(const std::function<void(std::vector<uint32_t>&)>&
     held_.clear();
     state_.clear();
     holds_back_ = false;
+}
+
+namespace {
+
+std::mutex pipelines_mutex;
+std::set<VkPipeline> static_pipelines;
+
+}  // namespace
+
+void note_pipeline(VkPipeline pipeline, bool is_static) {
+    const std::lock_guard lock(pipelines_mutex);
+    if (is_static) {
+        static_pipelines.insert(pipeline);
+    } else {
+        static_pipelines.erase(pipeline);
+    }
+}
+
+bool is_static(VkPipeline pipeline) {
+    const std::lock_guard lock(pipelines_mutex);
+    return static_pipelines.contains(pipeline);
 }
 
 Recording& recording_of(VkCommandBuffer commands) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -33,7 +34,11 @@ class Recording {
     uint32_t draws = 0;                      // in this rendering
     uint64_t rendering = 0;                  // in this process, from 1
     std::vector<VkImageView> attachments;    // of this rendering
+    bool is_secondary = false;
+    bool follows_static = false;        // StateCall
+    std::set<StateKey> set_since_bind;  // since the last pipeline was bound
 
+    void begin(bool secondary);
     void begin_rendering(bool holds_back);
     // Does the command now, or keeps it. A later command of the same key takes its place.
     void set_state(StateKey key, Command command);
@@ -47,6 +52,10 @@ class Recording {
     State state_;
     std::vector<std::pair<State, Command>> held_;
 };
+
+// Whether a pipeline has no dynamic state: written down when it is made, asked when it is bound.
+void note_pipeline(VkPipeline pipeline, bool is_static);
+bool is_static(VkPipeline pipeline);
 
 // The recording of a command buffer; made when first asked for.
 Recording& recording_of(VkCommandBuffer commands);

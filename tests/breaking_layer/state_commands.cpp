@@ -15,20 +15,30 @@ namespace breaking {
 
 namespace {
 
+// Sets a dynamic state, unless the fault drops the call.
+void set_dynamic(VkCommandBuffer commands, Recording::StateKey key, Recording::Command set) {
+    Recording& recording = recording_of(commands);
+    StateCall call{key.first, !recording.set_since_bind.insert(key).second,
+                   recording.follows_static};
+    if (!alter(hooks().drop_state, call)) {
+        recording.set_state(key, std::move(set));
+    }
+}
+
 // A command that sets one value: altered, then set. Array arguments are copied, since it may be
 // held back.
 template <typename Value>
 void set_value(VkCommandBuffer commands, const char* key, Value value, bool (*hook)(Value&),
                void(VKAPI_PTR* set)(VkCommandBuffer, Value)) {
     alter(hook, value);
-    recording_of(commands).set_state({key, 0}, [=] { set(commands, value); });
+    set_dynamic(commands, {key, 0}, [=] { set(commands, value); });
 }
 
 VKAPI_ATTR void VKAPI_CALL set_viewport(VkCommandBuffer commands, uint32_t first, uint32_t count,
                                         const VkViewport* given) {
     std::vector<VkViewport> own(given, given + count);
     alter(hooks().viewports, std::span(own));
-    recording_of(commands).set_state({"viewport", first}, [=] {
+    set_dynamic(commands, {"viewport", first}, [=] {
         driver_of_handle(commands).CmdSetViewport(commands, first, count, own.data());
     });
 }
@@ -37,7 +47,7 @@ VKAPI_ATTR void VKAPI_CALL set_scissor(VkCommandBuffer commands, uint32_t first,
                                        const VkRect2D* given) {
     std::vector<VkRect2D> own(given, given + count);
     alter(hooks().scissors, std::span(own));
-    recording_of(commands).set_state({"scissor", first}, [=] {
+    set_dynamic(commands, {"scissor", first}, [=] {
         driver_of_handle(commands).CmdSetScissor(commands, first, count, own.data());
     });
 }
@@ -88,7 +98,7 @@ VKAPI_ATTR void VKAPI_CALL set_depth_bias(VkCommandBuffer commands, float consta
                                           float slope) {
     DepthBias bias{constant, clamp, slope};
     alter(hooks().depth_bias, bias);
-    recording_of(commands).set_state({"depth bias", 0}, [=] {
+    set_dynamic(commands, {"depth bias", 0}, [=] {
         driver_of_handle(commands).CmdSetDepthBias(commands, bias.constant, bias.clamp, bias.slope);
     });
 }
@@ -97,15 +107,32 @@ VKAPI_ATTR void VKAPI_CALL set_blend_constants(VkCommandBuffer commands, const f
     std::array<float, 4> own{};
     std::copy_n(given, 4, own.begin());
     alter(hooks().blend_constants, std::span<float, 4>(own));
-    recording_of(commands).set_state({"blend constants", 0}, [=] {
-        driver_of_handle(commands).CmdSetBlendConstants(commands, own.data());
-    });
+    set_dynamic(commands, {"blend constants", 0},
+                [=] { driver_of_handle(commands).CmdSetBlendConstants(commands, own.data()); });
 }
 
 VKAPI_ATTR void VKAPI_CALL bind_pipeline(VkCommandBuffer commands, VkPipelineBindPoint point,
                                          VkPipeline pipeline) {
-    recording_of(commands).set_state({"pipeline", point}, [=] {
-        driver_of_handle(commands).CmdBindPipeline(commands, point, pipeline);
+    Recording& recording = recording_of(commands);
+    Reset reset;
+    const bool has_dynamic = point == VK_PIPELINE_BIND_POINT_GRAPHICS && !is_static(pipeline);
+    if (has_dynamic) {
+        alter(hooks().bind, reset);
+    }
+    recording.follows_static = recording.follows_static || is_static(pipeline);
+    recording.set_since_bind.clear();
+    recording.set_state({"pipeline", point}, [=] {
+        const Driver& driver = driver_of_handle(commands);
+        driver.CmdBindPipeline(commands, point, pipeline);
+        if (reset.topology) {
+            driver.CmdSetPrimitiveTopology(commands, *reset.topology);
+        }
+        if (reset.cull_mode) {
+            driver.CmdSetCullMode(commands, *reset.cull_mode);
+        }
+        if (reset.scissor) {
+            driver.CmdSetScissor(commands, 0, 1, &*reset.scissor);
+        }
     });
 }
 

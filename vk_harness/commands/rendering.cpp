@@ -264,9 +264,9 @@ void render_in_pieces(const Device& device, const PipelineCache& pipelines,
         }
         // All parts of a suspended rendering begin alike.
         const bool loads = piece > 0 && !suspends;
-        const Attached attached(
-            plan, loads ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR, flags,
-            suspends || piece == draws);
+        const Attached attached(plan,
+                                loads ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                flags, suspends || piece == draws);
         device.vk().vkCmdBeginRendering(commands, &attached.info());
         if (piece > 0) {
             record_draw(device, pipelines, commands, plan, piece - 1, vertices);
@@ -277,10 +277,8 @@ void render_in_pieces(const Device& device, const PipelineCache& pipelines,
 
 void render_at_once(const Device& device, const PipelineCache& pipelines, VkCommandBuffer commands,
                     const CasePlan& plan, VkBuffer vertices, bool clears_by_command) {
-    const Attached attached(plan,
-                            clears_by_command ? VK_ATTACHMENT_LOAD_OP_DONT_CARE
-                                              : VK_ATTACHMENT_LOAD_OP_CLEAR,
-                            0);
+    const Attached attached(
+        plan, clears_by_command ? VK_ATTACHMENT_LOAD_OP_DONT_CARE : VK_ATTACHMENT_LOAD_OP_CLEAR, 0);
     device.vk().vkCmdBeginRendering(commands, &attached.info());
     if (clears_by_command) {
         clear_by_command(device, commands, plan);
@@ -316,8 +314,7 @@ Result<void> record_draws(const Device& device, const PipelineCache& pipelines,
             return rendered;
         }
     } else if (door == Door::pass_split || door == Door::pass_suspended) {
-        render_in_pieces(device, pipelines, commands, plan, vertices,
-                         door == Door::pass_suspended);
+        render_in_pieces(device, pipelines, commands, plan, vertices, door == Door::pass_suspended);
     } else {
         render_at_once(device, pipelines, commands, plan, vertices, door == Door::clear_commands);
     }

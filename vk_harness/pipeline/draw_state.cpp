@@ -82,8 +82,8 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
     out.depth_write = to_vulkan(own.depth.write && !c.variation.masks_depth);
     out.has_bias = to_vulkan(own.depth.bias.has_value());
     const cases::DepthBias bias = own.depth.bias.value_or(cases::DepthBias{});
-    out.bias = std::bit_cast<std::array<uint32_t, 3>>(
-        std::array{bias.constant, bias.clamp, bias.slope});
+    out.bias =
+        std::bit_cast<std::array<uint32_t, 3>>(std::array{bias.constant, bias.clamp, bias.slope});
     const glm::vec4 blend = own.color.blend ? own.color.blend->constants : glm::vec4(0);
     out.blend_constants = std::bit_cast<std::array<uint32_t, 4>>(blend);
     out.viewports.assign(viewport_count(c), bits_of(cases::Viewport{0, 0, 1, 1, 0, 1}));
@@ -106,9 +106,9 @@ void replace_scissor(DrawState& state, const cases::Draw& own, const VkRect2D& s
 DrawState other_state(const DrawState& state, Leaves leaves) {
     constexpr uint32_t kCompareOps = 8;
     DrawState out = state;
-    out.cull = state.cull == VK_CULL_MODE_FRONT_AND_BACK ? VkCullModeFlags{VK_CULL_MODE_NONE}
-                                                         : VkCullModeFlags{
-                                                               VK_CULL_MODE_FRONT_AND_BACK};
+    out.cull = state.cull == VK_CULL_MODE_FRONT_AND_BACK
+                   ? VkCullModeFlags{VK_CULL_MODE_NONE}
+                   : VkCullModeFlags{VK_CULL_MODE_FRONT_AND_BACK};
     out.front_face = state.front_face == VK_FRONT_FACE_CLOCKWISE ? VK_FRONT_FACE_COUNTER_CLOCKWISE
                                                                  : VK_FRONT_FACE_CLOCKWISE;
     // Not a list, whose restarts need a feature.
@@ -116,7 +116,8 @@ DrawState other_state(const DrawState& state, Leaves leaves) {
                        ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN
                        : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     out.restart = VK_TRUE;  // without it the draw's restarts would be indices of no vertex
-    out.compare = static_cast<VkCompareOp>((static_cast<uint32_t>(state.compare) + 4) % kCompareOps);
+    out.compare =
+        static_cast<VkCompareOp>((static_cast<uint32_t>(state.compare) + 4) % kCompareOps);
     out.depth_write = to_vulkan(state.depth_write == VK_FALSE);
     out.has_bias = to_vulkan(state.has_bias == VK_FALSE);
     // A clamp needs a feature.

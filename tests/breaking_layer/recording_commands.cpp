@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The layer's versions of the commands that begin and execute command buffers, and that clear
+// within a rendering.
+#include <vector>
+
+#include "altering.hpp"
+#include "recording.hpp"
+
+namespace breaking {
+
+namespace {
+
+VKAPI_ATTR VkResult VKAPI_CALL begin_command_buffer(VkCommandBuffer commands,
+                                                    const VkCommandBufferBeginInfo* info) {
+    // Only a secondary one continues a rendering.
+    recording_of(commands).begin(
+        (info->flags & VK_COMMAND_BUFFER_USAGE_RENDER_PASS_CONTINUE_BIT) != 0);
+    return driver_of_handle(commands).BeginCommandBuffer(commands, info);
+}
+
+VKAPI_ATTR void VKAPI_CALL execute_commands(VkCommandBuffer commands, uint32_t count,
+                                            const VkCommandBuffer* given) {
+    std::vector<VkCommandBuffer> own(given, given + count);
+    alter(hooks().secondaries, own);
+    if (!own.empty()) {
+        driver_of_handle(commands).CmdExecuteCommands(commands, static_cast<uint32_t>(own.size()),
+                                                      own.data());
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL clear_attachments(VkCommandBuffer commands, uint32_t count,
+                                             const VkClearAttachment* attachments,
+                                             uint32_t rect_count, const VkClearRect* rects) {
+    Clears own;
+    own.attachments.assign(attachments, attachments + count);
+    own.rects.assign(rects, rects + rect_count);
+    alter(hooks().clear_attachments, own);
+    driver_of_handle(commands).CmdClearAttachments(
+        commands, static_cast<uint32_t>(own.attachments.size()), own.attachments.data(),
+        static_cast<uint32_t>(own.rects.size()), own.rects.data());
+}
+
+const OwnCommand kCommands[] = {
+    BREAKING_OWN(BeginCommandBuffer, begin_command_buffer),
+    BREAKING_OWN(CmdExecuteCommands, execute_commands),
+    BREAKING_OWN(CmdClearAttachments, clear_attachments),
+};
+
+}  // namespace
+
+std::span<const OwnCommand> recording_commands() {
+    return kCommands;
+}
+
+}  // namespace breaking

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// State and recordings that go astray in one way and arrive in all others: only a picture through
+// that door shows it.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "fault.hpp"
+
+namespace breaking {
+
+namespace {
+
+template <size_t size>
+constexpr bool is_one_of(std::string_view word, const std::array<std::string_view, size>& words) {
+    return std::ranges::find(words, word) != words.end();
+}
+
+constexpr std::array<std::string_view, 2> kPlaces = {"viewport", "scissor"};
+
+bool load_as_clear(VkRenderingAttachmentInfo& attachment) {
+    return attachment.loadOp == VK_ATTACHMENT_LOAD_OP_LOAD &&
+           change(attachment.loadOp, VK_ATTACHMENT_LOAD_OP_CLEAR);
+}
+
+constexpr VkRenderingFlags kParts = VK_RENDERING_SUSPENDING_BIT | VK_RENDERING_RESUMING_BIT;
+
+constexpr std::array kFaults = {
+    Fault{"door-bind-resets-topology",
+          "Binding a pipeline sets the dynamic topology to that of the pipeline.",
+          {.bind =
+               [](Reset& r) {
+                   r.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+                   return true;
+               }}},
+    Fault{"door-bind-resets-cull-mode",
+          "Binding a pipeline sets the dynamic cull mode to that of the pipeline.",
+          {.bind =
+               [](Reset& r) {
+                   r.cull_mode = VK_CULL_MODE_NONE;
+                   return true;
+               }}},
+    Fault{"door-bind-resets-scissor",
+          "Binding a pipeline opens the scissor.",
+          {.bind =
+               [](Reset& r) {
+                   constexpr uint32_t kWhole = std::numeric_limits<int32_t>::max();
+                   r.scissor = VkRect2D{{0, 0}, {kWhole, kWhole}};
+                   return true;
+               }}},
+    Fault{"door-second-viewport-lost",
+          "Of two viewports or scissors that are set after a pipeline the first one counts.",
+          {.drop_state =
+               [](StateCall& c) { return c.is_set_again && is_one_of(c.state, kPlaces); }}},
+    Fault{"door-second-topology-lost",
+          "Of two topologies that are set after a pipeline the first one counts.",
+          {.drop_state =
+               [](StateCall& c) { return c.is_set_again && c.state == "topology"; }}},
+    Fault{"door-second-discard-lost",
+          "Of two rasterizer discards that are set after a pipeline the first one counts.",
+          {.drop_state =
+               [](StateCall& c) { return c.is_set_again && c.state == "rasterizer discard"; }}},
+    Fault{"door-static-cull-mode-lost",
+          "The cull mode of a pipeline is ignored.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   return change(p.rasterization.cullMode, VkCullModeFlags{VK_CULL_MODE_NONE});
+               }}},
+    Fault{"door-static-front-face-lost",
+          "Counter-clockwise is front for every pipeline that says itself which way is.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   return change(p.rasterization.frontFace, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+               }}},
+    Fault{"door-static-bias-lost",
+          "The depth bias of a pipeline is ignored.",
+          {.pipeline =
+               [](PipelineCopy& p) { return change(p.rasterization.depthBiasEnable, VK_FALSE); }}},
+    Fault{"door-static-compare-less",
+          "The comparison of depth that a pipeline names is LESS.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   return p.is_static() && p.depth.depthTestEnable == VK_TRUE &&
+                          change(p.depth.depthCompareOp, VK_COMPARE_OP_LESS);
+               }}},
+    Fault{"door-static-viewport-stays",
+          "Viewports and scissors of a pipeline stay in force when they are set later.",
+          {.drop_state =
+               [](StateCall& c) { return c.follows_static && is_one_of(c.state, kPlaces); }}},
+    Fault{"door-static-cull-mode-stays",
+          "The cull mode of a pipeline stays in force when it is set later.",
+          {.drop_state = [](StateCall& c) { return c.follows_static && c.state == "cull mode"; }}},
+    Fault{"door-unoptimized-writes-no-green",
+          "Pipelines that are not optimized do not write the second component.",
+          {.pipeline =
+               [](PipelineCopy& p) {
+                   bool altered = false;
+                   for (VkPipelineColorBlendAttachmentState& blend : p.blends) {
+                       altered = (p.is_unoptimized() &&
+                                  change(blend.colorWriteMask,
+                                         blend.colorWriteMask & ~VkColorComponentFlags{VK_COLOR_COMPONENT_G_BIT})) ||
+                                 altered;
+                   }
+                   return altered;
+               }}},
+    Fault{"door-secondary-last-triangle-lost",
+          "In a secondary command buffer lists lose their last triangle.",
+          {.draw =
+               [](DrawCall& d) {
+                   return d.in_secondary && d.topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST &&
+                          change(d.count, d.count - std::min(d.count, 3U));
+               }}},
+    Fault{"door-secondary-first-draw-only",
+          "In a secondary command buffer only the first draw is drawn.",
+          {.draw =
+               [](DrawCall& d) { return d.in_secondary && d.number > 0 && change(d.times, 0); }}},
+    Fault{"door-secondaries-first-only",
+          "Of several secondary command buffers only the first is executed.",
+          {.secondaries =
+               [](std::vector<VkCommandBuffer>& c) {
+                   const bool altered = c.size() > 1;
+                   c.resize(std::min<size_t>(c.size(), 1));
+                   return altered;
+               }}},
+    Fault{"door-secondaries-reversed",
+          "Several secondary command buffers are executed in reverse.",
+          {.secondaries =
+               [](std::vector<VkCommandBuffer>& c) {
+                   std::ranges::reverse(c);
+                   return c.size() > 1;
+               }}},
+    Fault{"door-load-clears-color",
+          "Colours that are loaded are cleared.",
+          {.rendering =
+               [](Rendering& r) {
+                   bool altered = false;
+                   for (VkRenderingAttachmentInfo& color : r.colors) {
+                       altered = load_as_clear(color) || altered;
+                   }
+                   return altered;
+               }}},
+    Fault{"door-load-clears-depth",
+          "Depth that is loaded is cleared.",
+          {.rendering = [](Rendering& r) { return r.depth && load_as_clear(*r.depth); }}},
+    Fault{"door-resume-clears",
+          "A rendering that is resumed begins anew, with its clears.",
+          {.rendering =
+               [](Rendering& r) { return change(r.info.flags, r.info.flags & ~kParts); }}},
+    Fault{"door-clear-first-attachment-only",
+          "vkCmdClearAttachments clears the first of its attachments to the values of all, and the "
+          "others to 0.",
+          {.clear_attachments =
+               [](Clears& c) {
+                   for (size_t k = 1; k < c.attachments.size(); ++k) {
+                       c.attachments[k].clearValue = {};
+                   }
+                   return c.attachments.size() > 1;
+               }}},
+    Fault{"door-clear-depth-of-one",
+          "vkCmdClearAttachments clears depth to 1, whatever it is told.",
+          {.clear_attachments =
+               [](Clears& c) {
+                   bool altered = false;
+                   for (VkClearAttachment& clear : c.attachments) {
+                       if (clear.aspectMask == VK_IMAGE_ASPECT_DEPTH_BIT) {
+                           altered = change(clear.clearValue.depthStencil.depth, 1) || altered;
+                       }
+                   }
+                   return altered;
+               }}},
+};
+
+}  // namespace
+
+std::span<const Fault> recording_door_faults() {
+    return kFaults;
+}
+
+}  // namespace breaking
