@@ -102,6 +102,13 @@ bool can_be_static(const Case& c) {
     });
 }
 
+// A pipeline that discards says nothing of samples, and a target of several demands that it does.
+bool can_be_all_static(const Case& c) {
+    return can_be_static(c) && (c.target.samples == 1 || all_draws(c, [](const Draw& draw) {
+                                    return !draw.rasterizer_discard;
+                                }));
+}
+
 constexpr DoorGroup kVertices = DoorGroup::vertices;
 constexpr DoorGroup kState = DoorGroup::state, kRecording = DoorGroup::recording;
 constexpr DoorPromise kSame = DoorPromise::same_bits, kRight = DoorPromise::right_picture;
@@ -198,7 +205,8 @@ constexpr std::array<DoorRow, kDoors - 1> kRows = {{
      "", kAny, is_any},
     {Door::state_static, "state-static", kState, kRight, rule::door_state,
      "What is dynamic in other pictures is a part of the pipeline.", "",
-     "no list with restart, no bias whose unit is chosen", can_be_static},
+     "no list with restart, no bias whose unit is chosen, no discarded draw to several samples",
+     can_be_all_static},
     {Door::state_after_static, "state-after-static", kState, kSame, rule::door_state,
      "Before each draw a pipeline is bound in which all state is static and another, and the draw "
      "is recorded with it under empty scissors; then come the usual pipeline and its dynamic "

@@ -50,14 +50,13 @@ constexpr std::array kFaults = {
                    r.scissor = VkRect2D{{0, 0}, {kWhole, kWhole}};
                    return true;
                }}},
-    Fault{"door-second-viewport-lost",
-          "Of two viewports or scissors that are set after a pipeline the first one counts.",
-          {.drop_state =
-               [](StateCall& c) { return c.is_set_again && is_one_of(c.state, kPlaces); }}},
+    Fault{
+        "door-second-viewport-lost",
+        "Of two viewports or scissors that are set after a pipeline the first one counts.",
+        {.drop_state = [](StateCall& c) { return c.is_set_again && is_one_of(c.state, kPlaces); }}},
     Fault{"door-second-topology-lost",
           "Of two topologies that are set after a pipeline the first one counts.",
-          {.drop_state =
-               [](StateCall& c) { return c.is_set_again && c.state == "topology"; }}},
+          {.drop_state = [](StateCall& c) { return c.is_set_again && c.state == "topology"; }}},
     Fault{"door-second-discard-lost",
           "Of two rasterizer discards that are set after a pipeline the first one counts.",
           {.drop_state =
@@ -100,7 +99,8 @@ constexpr std::array kFaults = {
                    for (VkPipelineColorBlendAttachmentState& blend : p.blends) {
                        altered = (p.is_unoptimized() &&
                                   change(blend.colorWriteMask,
-                                         blend.colorWriteMask & ~VkColorComponentFlags{VK_COLOR_COMPONENT_G_BIT})) ||
+                                         blend.colorWriteMask &
+                                             ~VkColorComponentFlags{VK_COLOR_COMPONENT_G_BIT})) ||
                                  altered;
                    }
                    return altered;
@@ -112,10 +112,10 @@ constexpr std::array kFaults = {
                    return d.in_secondary && d.topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST &&
                           change(d.count, d.count - std::min(d.count, 3U));
                }}},
-    Fault{"door-secondary-first-draw-only",
-          "In a secondary command buffer only the first draw is drawn.",
-          {.draw =
-               [](DrawCall& d) { return d.in_secondary && d.number > 0 && change(d.times, 0); }}},
+    Fault{
+        "door-secondary-first-draw-only",
+        "In a secondary command buffer only the first draw is drawn.",
+        {.draw = [](DrawCall& d) { return d.in_secondary && d.number > 0 && change(d.times, 0); }}},
     Fault{"door-secondaries-first-only",
           "Of several secondary command buffers only the first is executed.",
           {.secondaries =
@@ -146,8 +146,7 @@ constexpr std::array kFaults = {
           {.rendering = [](Rendering& r) { return r.depth && load_as_clear(*r.depth); }}},
     Fault{"door-resume-clears",
           "A rendering that is resumed begins anew, with its clears.",
-          {.rendering =
-               [](Rendering& r) { return change(r.info.flags, r.info.flags & ~kParts); }}},
+          {.rendering = [](Rendering& r) { return change(r.info.flags, r.info.flags & ~kParts); }}},
     Fault{"door-clear-first-attachment-only",
           "vkCmdClearAttachments clears the first of its attachments to the values of all, and the "
           "others to 0.",

@@ -69,8 +69,7 @@ TEST(Door, ATriangleTakesAllButWhatNeedsMore) {
     const std::set<std::string_view> taken = takes(case_of(file("", kTriangle)));
     for (const DoorRow& row : all_doors()) {
         const bool needs_more = row.door == Door::restart_extra ||
-                                row.door == Door::instance_rate ||
-                                row.door == Door::secondary_each;
+                                row.door == Door::instance_rate || row.door == Door::secondary_each;
         EXPECT_EQ(taken.contains(row.word), !needs_more) << row.word;
     }
 }
