@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "folders.hpp"
 #include "mutants/judge.hpp"
 #include "mutants/matrix.hpp"
 
@@ -111,7 +112,7 @@ int main(int argc, char** argv) {
     const bool legal = words.erase("--legal") > 0;
     const bool with_cases = words.erase("--cases") > 0;
     const bool all = words.erase("--all") > 0;
-    cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+    cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
     for (const cases::Error& error : suite.errors) {
         fmt::print(stderr, "{}\n", cases::to_string(error));
     }

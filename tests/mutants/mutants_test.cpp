@@ -16,6 +16,7 @@
 #include <string>
 
 #include "cases/model/rule.hpp"
+#include "folders.hpp"
 #include "mutants/expected_catches.hpp"
 #include "mutants/judge.hpp"
 #include "mutants/lead.hpp"
@@ -40,12 +41,13 @@ namespace mutants {
 namespace {
 
 const Matrix& recorded() {
-    static const Matrix matrix = read_matrix(EDGECASE_SOURCE_DIR "/rasterizers/strength");
+    static const Matrix matrix = read_matrix(test_support::source_dir() + "/rasterizers/strength");
     return matrix;
 }
 
 const cases::Suite& suite() {
-    static const cases::Suite loaded = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+    static const cases::Suite loaded =
+        cases::load_suite(test_support::source_dir() + "/cases/suite");
     return loaded;
 }
 

@@ -31,6 +31,7 @@
 #include <tuple>
 #include <vector>
 
+#include "folders.hpp"
 #include "mutants/judge.hpp"
 #include "mutants/lead.hpp"
 #include "mutants/matrix.hpp"
@@ -393,7 +394,7 @@ int main(int argc, char** argv) {
         }
     }
     const std::string path(words[1]);
-    const cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+    const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
     return words[0] == "faults" ? record_faults(suite, path.c_str(), plan)
                                 : record_legal(suite, path.c_str(), plan.quick);
 }

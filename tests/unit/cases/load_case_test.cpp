@@ -10,6 +10,7 @@
 #include <set>
 
 #include "cases/load/loader.hpp"
+#include "folders.hpp"
 
 namespace cases {
 
@@ -386,7 +387,7 @@ TEST(LoadCase, ValidWordsWinOverMatrixKeys) {
 }
 
 TEST(LoadSuite, LoadsEverythingThatIsShipped) {
-    const Suite suite = load_suite(std::string(EDGECASE_SOURCE_DIR) + "/cases/suite");
+    const Suite suite = load_suite(test_support::source_dir() + "/cases/suite");
     for (const Error& error : suite.errors) {
         ADD_FAILURE() << to_string(error);
     }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "cases/load/loader.hpp"
+#include "folders.hpp"
 
 namespace cases {
 
@@ -195,7 +196,7 @@ TEST(Selector, SaysWhatIsWrong) {
 }
 
 TEST(Selector, TakesPathsOfTheSuite) {
-    const std::string root = std::string(EDGECASE_SOURCE_DIR) + "/cases/suite";
+    const std::string root = test_support::source_dir() + "/cases/suite";
     const Suite loaded = load_suite(root);
     ASSERT_FALSE(loaded.cases.empty());
     std::istringstream none;

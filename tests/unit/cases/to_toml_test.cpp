@@ -12,6 +12,7 @@
 
 #include "cases/load/loader.hpp"
 #include "cases/wire/case_bytes.hpp"
+#include "folders.hpp"
 
 namespace cases {
 
@@ -58,7 +59,7 @@ std::vector<std::string> rows_of(const Case& c) {
 
 // Every leaf of the suite that is not too large for a file.
 TEST(ToToml, GivesBackEveryLeafOfTheSuite) {
-    const Suite suite = load_suite(std::string(EDGECASE_SOURCE_DIR) + "/cases/suite");
+    const Suite suite = load_suite(test_support::source_dir() + "/cases/suite");
     ASSERT_TRUE(suite.errors.empty());
     size_t written_leaves = 0;
     size_t leaves_in_clip = 0;

@@ -19,6 +19,7 @@
 #include "cases/load/loader.hpp"
 #include "cases/model/sample.hpp"
 #include "diagnosis/hypothesis.hpp"
+#include "folders.hpp"
 #include "run/judge.hpp"
 
 namespace {
@@ -34,7 +35,7 @@ uint64_t samples_of(const cases::Case& c) {
 // Small cases of the suite, one of each file, eight of each family.
 const std::vector<cases::Case>& small_suite() {
     static const std::vector<cases::Case> kCases = [] {
-        const auto suite = cases::load_suite(std::string(EDGECASE_SOURCE_DIR) + "/cases/suite");
+        const auto suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
         std::vector<cases::Case> out;
         std::map<std::string, size_t> of_file;
         std::map<std::string, size_t> of_family;
@@ -196,7 +197,7 @@ report::Run run_of_part(const Spoil& spoil, const std::vector<cases::Case>& more
 
 std::vector<cases::Case> leaves_of(const std::string& file) {
     std::vector<cases::Case> out;
-    const auto suite = cases::load_suite(std::string(EDGECASE_SOURCE_DIR) + "/cases/suite");
+    const auto suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
     std::ranges::copy_if(suite.cases, std::back_inserter(out),
                          [&](const cases::Case& c) { return c.id.starts_with(file); });
     return out;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "folders.hpp"
 #include "fuzz/document/document.hpp"
 
 namespace fuzz {
@@ -22,8 +23,8 @@ struct SuiteDocument {
 // All case files of the suite, by name.
 inline std::vector<SuiteDocument> suite_documents() {
     std::vector<SuiteDocument> files;
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(EDGECASE_SOURCE_DIR "/cases/suite")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(
+             test_support::source_dir() + "/cases/suite")) {
         if (entry.path().extension() == ".toml") {
             std::ostringstream content;
             content << std::ifstream(entry.path()).rdbuf();

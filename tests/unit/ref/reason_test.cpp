@@ -13,6 +13,7 @@
 
 #include "cases/load/loader.hpp"
 #include "cases/model/profile.hpp"
+#include "folders.hpp"
 #include "ref/coverage/exact.hpp"
 #include "ref/coverage/fast/fast.hpp"
 #include "ref/coverage/outline.hpp"
@@ -412,7 +413,7 @@ class LeafReasons {
 
 TEST(Reasons, DecideWhatTheyAreToldFor) {
     std::map<ReasonKind, size_t> seen;
-    const cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+    const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
     for (const cases::Case& c : suite.cases) {
         for (const Profile profile : cases::kProfiles) {
             if (!c.blit) {

@@ -12,6 +12,7 @@
 
 #include "cases/load/loader.hpp"
 #include "cases/model/profile.hpp"
+#include "folders.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/value.hpp"
 
@@ -180,7 +181,7 @@ class LeafValues {
 
 // A vertex whose weight has another one's place.
 TEST(Reasons, NameTheBarycentricOfAnotherVertex) {
-    const cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+    const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
     size_t seen = 0;
     for (const cases::Case& c : suite.cases) {
         if (c.blit || c.draws[0].attributes.empty() ||
@@ -217,7 +218,7 @@ TEST(Reasons, NameTheBarycentricOfAnotherVertex) {
 
 TEST(Reasons, OfValuesDecide) {
     std::map<ReasonKind, size_t> told, taken;
-    const cases::Suite suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+    const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
     for (const cases::Case& c : suite.cases) {
         for (const Profile profile : cases::kProfiles) {
             if (!c.blit && c.target.has_instruments) {

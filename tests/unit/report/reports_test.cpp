@@ -11,6 +11,7 @@
 
 #include "cases/base/printable.hpp"
 #include "cases/base/utf8.hpp"
+#include "folders.hpp"
 #include "report/files/json.hpp"
 #include "report/files/junit.hpp"
 #include "report/page/html.hpp"
@@ -28,7 +29,7 @@ namespace {
 
 // Compares with tests/unit/report/golden/NAME; EDGECASE_APPROVE=1 writes it instead.
 void expect_golden(const std::string& name, const std::string& text) {
-    const fs::path file = fs::path(EDGECASE_SOURCE_DIR) / "tests/unit/report/golden" / name;
+    const fs::path file = fs::path(test_support::source_dir()) / "tests/unit/report/golden" / name;
     if (std::getenv("EDGECASE_APPROVE") != nullptr) {
         std::ofstream(file, std::ios::binary) << text;
     }
@@ -331,9 +332,9 @@ TEST(json, golden) {
 }
 
 TEST(json, every_run_keeps_to_the_schema) {
-    const std::string check =
-        "python3 '" EDGECASE_SOURCE_DIR "/tests/unit/report/check_schema.py' '" EDGECASE_SOURCE_DIR
-        "/docs/schema/results-1.json'";
+    const std::string check = "python3 '" + test_support::source_dir() +
+                              "/tests/unit/report/check_schema.py' '" + test_support::source_dir() +
+                              "/docs/schema/results-1.json'";
     EXPECT_EQ(pass_through(check, to_json(test::sample_run())), 0);
     EXPECT_EQ(pass_through(check, to_json(test::hostile_run())), 0);
     EXPECT_EQ(pass_through(check, to_json({})), 0);
@@ -363,7 +364,8 @@ TEST(junit, golden) {
 }
 
 TEST(junit, every_run_is_well_formed) {
-    const std::string check = "python3 '" EDGECASE_SOURCE_DIR "/tests/unit/report/check_junit.py'";
+    const std::string check =
+        "python3 '" + test_support::source_dir() + "/tests/unit/report/check_junit.py'";
     EXPECT_EQ(pass_through(check, to_junit(test::sample_run())), 0);
     EXPECT_EQ(pass_through(check, to_junit(test::hostile_run())), 0);
     EXPECT_EQ(pass_through(check, to_junit({})), 0);

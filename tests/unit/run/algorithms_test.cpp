@@ -10,6 +10,7 @@
 
 #include "cases/load/loader.hpp"
 #include "diff/verdict.hpp"
+#include "folders.hpp"
 #include "run/worker/backend.hpp"
 
 namespace rasterizers {
@@ -27,7 +28,8 @@ namespace {
 const std::vector<cases::Case>& supported_cases() {
     static const std::vector<cases::Case> kCases = [] {
         std::vector<cases::Case> out;
-        for (cases::Case& c : cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite").cases) {
+        for (cases::Case& c :
+             cases::load_suite(test_support::source_dir() + "/cases/suite").cases) {
             uint64_t triangles = 0;
             for (const cases::Draw& d : c.draws) {
                 triangles += (d.indices ? d.indices->size() : d.positions.size()) / 3;

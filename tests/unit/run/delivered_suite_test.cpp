@@ -10,6 +10,7 @@
 
 #include "cases/load/loader.hpp"
 #include "diff/delivered.hpp"
+#include "folders.hpp"
 #include "run/order.hpp"
 #include "run/worker/backend.hpp"
 
@@ -23,7 +24,7 @@ constexpr uint32_t kParts = 150;  // one leaf in so many, by a hash of its id
 
 std::vector<cases::Case> some_cases() {
     std::vector<cases::Case> out;
-    for (cases::Case& c : cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite").cases) {
+    for (cases::Case& c : cases::load_suite(test_support::source_dir() + "/cases/suite").cases) {
         uint64_t vertices = 0;
         for (const cases::Draw& d : c.draws) {
             vertices += d.indices ? d.indices->size() : d.positions.size();

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "cases/load/loader.hpp"
+#include "folders.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/value.hpp"
 #include "tests/share.hpp"
@@ -38,7 +39,7 @@ struct Leaves {
 const Leaves& leaves() {
     static const Leaves kLeaves = [] {
         Leaves out;
-        const auto suite = cases::load_suite(EDGECASE_SOURCE_DIR "/cases/suite");
+        const auto suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
         const auto share = test_support::share_of("EDGECASE_ORACLE_SHARE", 32, suite.cases.size());
         for (const cases::Case& c : suite.cases) {
             if (c.blit || !share.has(c.id)) {
