@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "capture/blank_capture.hpp"
 #include "cases/model/sample.hpp"
@@ -29,19 +31,36 @@ std::pair<uint32_t, uint32_t> pick_hits(const ref::HitBounds& bounds) {
     return {0, 0};
 }
 
+// A triangle and what it writes at a sample. The values are kept beside it, since the reference
+// takes most of its time for them.
+struct Writer {
+    uint32_t triangle;
+    std::vector<ref::ExpectedValue> values;
+};
+
 // The last triangle that may have written the sample and of whose values the reference knows a
 // nearest one; of one without area it knows bounds only, and need not draw it.
-uint32_t pick_writer(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
-                     ref::ValueReference& values, const cases::SampleId& id) {
-    const auto writer = [&](uint32_t k) { return expectation.writers[sample.writers_begin + k]; };
-    for (uint32_t k = sample.writers_count; k > 0; --k) {
-        for (const ref::ExpectedValue& value : values.expected(writer(k - 1), id)) {
-            if (value.part.empty() && value.quantity == ref::QuantityId::of_frag_coord(2)) {
-                return writer(k - 1);
-            }
+Writer pick_writer(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
+                   ref::ValueReference& reference, const cases::SampleId& id) {
+    const auto writer = [&](uint32_t k) {
+        const uint32_t t = expectation.writers[sample.writers_begin + k];
+        return Writer{t, reference.expected(t, id)};
+    };
+    Writer last = writer(sample.writers_count - 1);
+    const auto has_nearest = [](const Writer& w) {
+        return std::any_of(w.values.begin(), w.values.end(), [](const ref::ExpectedValue& value) {
+            return value.part.empty() && value.quantity == ref::QuantityId::of_frag_coord(2);
+        });
+    };
+    if (has_nearest(last)) {
+        return last;
+    }
+    for (uint32_t k = sample.writers_count - 1; k > 0; --k) {
+        if (Writer earlier = writer(k - 1); has_nearest(earlier)) {
+            return earlier;
         }
     }
-    return writer(sample.writers_count - 1);
+    return last;
 }
 
 capture::Capture blit_by_reference(const cases::Case& c) {
@@ -78,8 +97,8 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         capture.hits[index].y = static_cast<float>(back);
         capture.hits[index].w += static_cast<float>(front + back);
         const cases::SampleId id = cases::sample_at(c.target, index);
-        const uint32_t t = pick_writer(expectation, sample, values, id);
-        const cases::Triangle& triangle = expectation.triangles[t];
+        const Writer writer = pick_writer(expectation, sample, values, id);
+        const cases::Triangle& triangle = expectation.triangles[writer.triangle];
         capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                                   capture::kClearId};
         const bool writes_depth = c.draws[triangle.draw].depth.write;
@@ -87,7 +106,7 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         drawn.frag_coord =
             glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
         drawn.depth = capture.depth[index];
-        for (const ref::ExpectedValue& value : values.expected(t, id)) {
+        for (const ref::ExpectedValue& value : writer.values) {
             if (value.part.empty() && (writes_depth || !value.quantity.is_depth())) {
                 number_of(drawn, value.quantity) = static_cast<float>(value.nearest);
             }
