@@ -94,9 +94,16 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
                             ref::to_text(e.b.y), to_string(e.kind), ref::to_text(e.value),
                             e.value == 0 ? ", the sample is exactly on it" : "");
     }
-    const auto is_fixed = [](const auto& box) { return box && box->is_point(); };
-    if (!std::all_of(t.boxes.begin(), t.boxes.end(), is_fixed)) {
-        text += "        a vertex is not on the subpixel grid: shown is the nearest position\n";
+    if (t.edges.empty()) {
+        text +=
+            "        no edge is shown: a vertex has no place in the picture, since its w is not "
+            "above "
+            "0, it is no number or it lies beyond 2^32 pixels\n";
+    } else if (!std::all_of(t.boxes.begin(), t.boxes.end(),
+                            [](const auto& box) { return box && box->is_point(); })) {
+        text +=
+            "        a device may have a vertex at more than one place: shown are the grid points "
+            "nearest to the exact positions\n";
     }
     if (t.is_clipped) {
         text += "        a vertex lies outside the view volume: the clipped polygon counts too\n";

@@ -89,6 +89,8 @@ class FuzzCommand {
         RunOptions judging = options_.run;
         judging.profile = ledger_.profile;
         judging.suite.suite = ledger_.suite.empty() ? judging.suite.suite : ledger_.suite;
+        judging.no_expect = ledger_.no_expect;
+        judging.expect = ledger_.expect;
         OrStop<ExpectedFailures> expected =
             expected_failures(program_, judging, to_report(first->device));
         if (!expected) {
@@ -138,6 +140,14 @@ class FuzzCommand {
             ledger_.shard = options_.run.shard.index;
             ledger_.shards = options_.run.shard.count;
             ledger_.profile = options_.run.profile;
+        }
+        // A hunt that goes on judges by the same files, unless others are named.
+        if (options_.run.resume.empty() || options_.run.no_expect || !options_.run.expect.empty()) {
+            ledger_.no_expect = options_.run.no_expect;
+            ledger_.expect = options_.run.expect;
+            for (std::string& file : ledger_.expect) {
+                file = fs::absolute(file).lexically_normal().string();
+            }
         }
         for (const std::string& known : options_.known) {
             auto loaded = fuzz::load_ledger(known);

@@ -73,7 +73,8 @@ class Completion {
           expectation_(expectation),
           planes_(planes),
           values_(c, expectation.limits, expectation.profile),
-          selection_(selection_of(planes)) {
+          selection_(selection_of(planes)),
+          components_(cases::attribute_components(c)) {
         values_.judge_only(selection_);
     }
 
@@ -105,11 +106,7 @@ class Completion {
         out_.hits[index] = {static_cast<float>(front), static_cast<float>(back), capture::kHitGuard,
                             capture::kHitGuard + static_cast<float>(front + back)};
         if (!covered) {
-            // Contradictions between the two stay: the comparison tells of them.
-            if (!planes_.draws.empty() && planes_.draws[index] != capture::kClearId) {
-                out_.writers[index] = {planes_.draws[index], planes_.primitives[index], 0,
-                                       capture::kClearId};
-            }
+            keep_contradictions(index);
             return;
         }
         const bool is_unwritten =
@@ -121,6 +118,27 @@ class Completion {
             out_.attributes.at(a)[index] = values.attributes.at(a);
         }
         out_.writers[index] = is_unwritten ? capture::Writer{} : writer_of(index, values);
+    }
+
+    // What planes hold of a sample that others call clear: the comparison tells of it.
+    void keep_contradictions(size_t index) {
+        if (!planes_.draws.empty() && planes_.draws[index] != capture::kClearId) {
+            out_.writers[index] = {planes_.draws[index], planes_.primitives[index], 0,
+                                   capture::kClearId};
+        }
+        if (!planes_.depth.empty()) {
+            out_.depth[index] = planes_.depth[index];
+        }
+        if (!planes_.frag_coord.empty()) {
+            out_.frag_coord[index] = planes_.frag_coord[index];
+        }
+        for (uint32_t a = 0; a < out_.attribute_count; ++a) {
+            // Components that no draw has are not delivered and stay clear.
+            for (uint32_t k = 0; !planes_.attributes.at(a).empty() && k < components_.at(a); ++k) {
+                const auto at = static_cast<glm::vec4::length_type>(k);
+                out_.attributes.at(a)[index][at] = planes_.attributes.at(a)[index][at];
+            }
+        }
     }
 
     // What the planes say of a sample's coverage, the most telling one first.
@@ -241,6 +259,7 @@ class Completion {
     const capture::Delivered& planes_;
     ref::ValueReference values_;
     ref::ValueSelection selection_;
+    std::vector<uint32_t> components_;  // of each attribute
     capture::Capture out_;
 };
 

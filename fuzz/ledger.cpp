@@ -120,6 +120,8 @@ std::string to_json(const Ledger& ledger) {
                        {"suite", ledger.suite},
                        {"cases_checksum", ledger.cases_checksum},
                        {"expectations", ledger.expectations},
+                       {"no_expect", ledger.no_expect},
+                       {"expect", ledger.expect},
                        {"seed", ledger.seed},
                        {"shard", ledger.shard},
                        {"shards", ledger.shards},
@@ -169,6 +171,8 @@ cases::Expected<Ledger> load_ledger(const fs::path& folder) {
         ledger.suite = json.value("suite", "");
         ledger.cases_checksum = json.value("cases_checksum", "");
         ledger.expectations = json.value("expectations", "");
+        ledger.no_expect = json.value("no_expect", false);
+        ledger.expect = json.value("expect", std::vector<std::string>());
         ledger.seed = json.at("seed");
         ledger.shard = json.at("shard");
         ledger.shards = json.at("shards");

@@ -24,6 +24,9 @@ struct Ledger {
     std::string cases_checksum;  // with another one, seed and number mean other cases
     // Of what expectation files said, whose causes are among the entries; empty: of none.
     std::string expectations;
+    // Which files those were, as a run takes them: none at all, these, or (empty) the device's own.
+    bool no_expect = false;
+    std::vector<std::string> expect;
     uint64_t seed = 1;
     uint32_t shard = 1, shards = 1;
     cases::Profile profile = cases::Profile::direct3d;

@@ -59,12 +59,7 @@ std::vector<PlaneSpec> planes_of(const cases::Case& c) {
         add("writer", PlaneKind::id, {"draw", "primitive"}, {"u32", "f32", "tif", "exr"},
             "the triangle that wrote last: number of the draw and of the triangle in it, from 0; "
             "-1 (u32: 4294967295) where nothing was drawn");
-        std::vector<uint32_t> counts(cases::attributes_of(c), 1);
-        for (const cases::Draw& draw : c.draws) {
-            for (size_t a = 0; a < draw.attributes.size(); ++a) {
-                counts[a] = std::max(counts[a], draw.attributes[a].components);
-            }
-        }
+        const std::vector<uint32_t> counts = cases::attribute_components(c);
         for (size_t a = 0; a < counts.size(); ++a) {
             add(fmt::format("attribute{}", a), PlaneKind::value, components(counts[a]), real,
                 "what the last fragment has of this attribute");
@@ -152,6 +147,10 @@ class Reader {
                 }
                 return cases::failure(quoted(file) + " is a folder; a plane is a file");
             }
+            if (fs::exists(file, none) && !fs::is_regular_file(file, none)) {
+                return cases::failure(quoted(file) +
+                                      " is a pipe or a device; write the plane into a file");
+            }
             if (spec == specs.end()) {
                 return cases::failure(unknown(file, specs));
             }
@@ -193,9 +192,8 @@ class Reader {
         std::error_code none;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
             // A folder that has a plane's name is a mistake, others may hold other cases; a link
-            // that leads nowhere is no plane that was left out.
-            if (entry.is_regular_file(none) || (entry.is_symlink(none) && !entry.exists(none)) ||
-                (entry.is_directory(none) && entry.path().has_extension())) {
+            // that leads nowhere or a pipe is no plane that was left out.
+            if (!entry.is_directory(none) || entry.path().has_extension()) {
                 files.push_back(entry.path());
             }
         }

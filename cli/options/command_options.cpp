@@ -218,7 +218,7 @@ void define_fuzz(CLI::App& app, FuzzOptions& o) {
             [&o](const CLI::results_t& results) {
                 return parse_duration(results.back(), o.seconds);
             },
-            "end after this time: 90s, 10m, 2h [no end]")
+            "end after this time, from when expected failures are reduced: 90s, 10m, 2h [no end]")
         ->type_name("TIME")
         ->group("Selection");
     add_value(fuzz, "--print", o.printed, "print the case with this number, draw nothing", "N",

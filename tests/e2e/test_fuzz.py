@@ -370,6 +370,10 @@ class Known(FuzzTest):
         self.fuzz(*start, "--cases=2048", "--no-expect", check=1)
         defects = [c for c in self.ledger()["causes"] if c["symptom"].startswith("extra of scissor.half-open")]
         self.assertTrue(defects)
+        # A hunt that was told to read none reads none when it goes on, unless it is told to.
+        resume = ["fuzz", "--resume", "hunt", "--cases=2056"]
+        self.assertNotIn("known by", self.edgecase(*resume).stdout)
+        self.assertFalse([c for c in self.ledger()["causes"] if c["is_known"]])
         # With them they are not: each is reduced once, from a case that is expected to fail.
         done = self.fuzz(*start, "--cases=2048", out=self.folder / "known")
         ledger = self.ledger("known")

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <bit>
@@ -148,6 +149,14 @@ TEST_F(PlaneFiles, AnEmptyFolderHoldsNothing) {
     ASSERT_TRUE(read);
     EXPECT_TRUE(read->planes.is_empty());
     EXPECT_TRUE(capture::read_planes(folder_ / "nowhere", plain_case(1))->planes.is_empty());
+}
+
+TEST_F(PlaneFiles, APipeIsNoPlaneThatWasLeftOut) {
+    const fs::path pipe = folder_ / "depth.f32";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    write("coverage.u8", std::string("\0\1", 2));
+    EXPECT_EQ(capture::read_planes(folder_, plain_case(1)).error().message,
+              "'" + pipe.string() + "' is a pipe or a device; write the plane into a file");
 }
 
 TEST(ExportCase, NeedsNameWhatIsNotPlain) {

@@ -195,12 +195,23 @@ TEST(Delivered, DepthThatIsNotWrittenTellsNothing) {
     EXPECT_FALSE(diff::compare_delivered(f.c, f.e, take(f.right, kDepth | kCoverage)).ok());
 }
 
-TEST(Delivered, AnythingMayLieWhereNothingWasHit) {
+TEST(Delivered, WhatLiesWhereNothingWasHitContradictsTheHits) {
+    const auto rule_of = [](const Fixture& f, uint32_t planes) {
+        const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(f.right, planes));
+        return v.findings.size() == 1U ? v.findings[0].rule : std::string();
+    };
+    Fixture depth;
+    depth.right.depth[0] = 0.9F;
+    EXPECT_EQ(rule_of(depth, kCoverage | kDepth | kAttribute0), "write.consistent");
+    EXPECT_EQ(rule_of(depth, kWriter | kDepth), "write.consistent");
+    EXPECT_EQ(rule_of(depth, kCoverage | kAttribute0), "");  // what is wrong was not delivered
+    Fixture place;
+    place.right.frag_coord[0].w = 1;
+    EXPECT_EQ(rule_of(place, kFaces | kFragCoord), "write.consistent");
+
     Fixture f;
-    f.right.depth[0] = 0.9F;
     f.right.attributes[0][0] = glm::vec4(0);
-    EXPECT_TRUE(
-        diff::compare_delivered(f.c, f.e, take(f.right, kCoverage | kDepth | kAttribute0)).ok());
+    EXPECT_EQ(rule_of(f, kTotal | kAttribute0), "write.consistent");
     // But alone the values say what was hit.
     const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(f.right, kAttribute0));
     ASSERT_EQ(v.findings.size(), 1U);
