@@ -26,8 +26,9 @@ struct Delivered {
     HitDetail detail = HitDetail::none;
     std::vector<uint32_t> front, back;        // coverage (0 or 1) and total stand in front alone
     std::vector<uint32_t> draws, primitives;  // kClearId where nothing was drawn; both or neither
-    // Samples that nothing hit hold the clear value: kClearValue, Target::depth_clear. Without hits
-    // and writers a sample was hit if any of these does not hold it (of vectors, in x).
+    // The clear values are kClearValue in x and Target::depth_clear. Depth holds its own where
+    // nothing was hit; the others are not looked at there. Without hits and writers a sample was
+    // hit if any of these does not hold it.
     std::vector<glm::vec4> frag_coord;
     std::vector<float> depth;
     std::array<std::vector<glm::vec4>, cases::kMaxAttributes> attributes;

@@ -336,6 +336,10 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
         if (level > verdict.profile) {
             continue;
         }
+        std::string door;
+        if (derivations[k].kind == cases::RelationKind::door) {
+            door = cases::row_of(derivations[k].variation.door).word;
+        }
         for (const Difference& difference : found[k].differences) {
             Finding finding = finding_at(FindingKind::value, c.target,
                                          cases::sample_at(c.target, difference.sample));
@@ -346,6 +350,7 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
             finding.expected = show_bits(difference.plane, difference.expected);
             finding.got = show_bits(difference.plane, difference.got);
             finding.why = why_of(derivations[k], found[k]);
+            finding.door = door;
             verdict.add(std::move(finding), c.target);
         }
         if (const uint64_t more = found[k].different - found[k].differences.size(); more > 0) {
@@ -353,6 +358,7 @@ void add_differences(const cases::Case& c, std::span<const cases::Derivation> de
             untold.kind = FindingKind::value;
             untold.rule = rule->id;
             untold.level = level;
+            untold.door = door;
             verdict.count(untold, more);
             verdict.has_unmarked = true;
         }

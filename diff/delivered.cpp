@@ -73,8 +73,7 @@ class Completion {
           expectation_(expectation),
           planes_(planes),
           values_(c, expectation.limits, expectation.profile),
-          selection_(selection_of(planes)),
-          components_(cases::attribute_components(c)) {
+          selection_(selection_of(planes)) {
         values_.judge_only(selection_);
     }
 
@@ -120,7 +119,8 @@ class Completion {
         out_.writers[index] = is_unwritten ? capture::Writer{} : writer_of(index, values);
     }
 
-    // What planes hold of a sample that others call clear: the comparison tells of it.
+    // What planes hold of a sample that others call clear: the comparison tells of it. A depth is
+    // what is stored; the other values are a fragment's, and there is none.
     void keep_contradictions(size_t index) {
         if (!planes_.draws.empty() && planes_.draws[index] != capture::kClearId) {
             out_.writers[index] = {planes_.draws[index], planes_.primitives[index], 0,
@@ -128,16 +128,6 @@ class Completion {
         }
         if (!planes_.depth.empty()) {
             out_.depth[index] = planes_.depth[index];
-        }
-        if (!planes_.frag_coord.empty()) {
-            out_.frag_coord[index] = planes_.frag_coord[index];
-        }
-        for (uint32_t a = 0; a < out_.attribute_count; ++a) {
-            // Components that no draw has are not delivered and stay clear.
-            for (uint32_t k = 0; !planes_.attributes.at(a).empty() && k < components_.at(a); ++k) {
-                const auto at = static_cast<glm::vec4::length_type>(k);
-                out_.attributes.at(a)[index][at] = planes_.attributes.at(a)[index][at];
-            }
         }
     }
 
@@ -259,7 +249,6 @@ class Completion {
     const capture::Delivered& planes_;
     ref::ValueReference values_;
     ref::ValueSelection selection_;
-    std::vector<uint32_t> components_;  // of each attribute
     capture::Capture out_;
 };
 

@@ -69,12 +69,13 @@ void Verdict::add(Finding finding, const cases::Target& target) {
 void Verdict::count(const Finding& finding, uint64_t count) {
     counts.at(static_cast<size_t>(finding.kind)) += count;
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const FindingGroup& g) {
-        return g.kind == finding.kind && g.rule == finding.rule && g.level == finding.level;
+        return g.kind == finding.kind && g.rule == finding.rule && g.level == finding.level &&
+               g.door == finding.door;
     });
     if (group != groups.end()) {
         group->count += count;
     } else {
-        groups.push_back({finding.kind, finding.rule, finding.level, count, 0});
+        groups.push_back({finding.kind, finding.rule, finding.level, count, 0, finding.door});
     }
 }
 

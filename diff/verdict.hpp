@@ -46,6 +46,7 @@ struct Finding {
     std::string why;
     double ratio = 0;                    // value findings: error in budgets
     std::optional<uint32_t> layer = {};  // of a target with several layers
+    std::string door = {};               // of a picture through a door that differs: its word
     static void fields(auto&& visit, auto&... f) {
         visit("kind", f.kind...);
         visit("rule", f.rule...);
@@ -59,22 +60,26 @@ struct Finding {
         visit("got", f.got...);
         visit("why", f.why...);
         visit("ratio", f.ratio...);
+        visit({"door", cases::kLeftOutIfEmpty}, f.door...);
     }
 };
 
-// The findings of a case that break one rule in one way: what an expected failure is known by.
+// The findings of a case that break one rule in one way, each door by itself: what an expected
+// failure is known by.
 struct FindingGroup {
     FindingKind kind = FindingKind::missing;
     std::string rule;
     cases::Profile level = cases::Profile::direct3d;
-    uint64_t count = 0;  // of all such findings, kept or not
-    uint64_t known = 0;  // how many of them an expectation file speaks of
+    uint64_t count = 0;     // of all such findings, kept or not
+    uint64_t known = 0;     // how many of them an expectation file speaks of
+    std::string door = {};  // the door through which they are seen, and in no other picture
     static void fields(auto&& visit, auto&... g) {
         visit("kind", g.kind...);
         visit("rule", g.rule...);
         visit("level", g.level...);
         visit("count", g.count...);
         visit("known", g.known...);
+        visit({"door", cases::kLeftOutIfEmpty}, g.door...);
     }
     friend bool operator==(const FindingGroup&, const FindingGroup&) = default;
 };

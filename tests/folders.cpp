@@ -4,8 +4,12 @@
 
 namespace test_support {
 
-std::string source_dir() { return EDGECASE_SOURCE_DIR; }
+std::string source_dir() {
+    return EDGECASE_SOURCE_DIR;
+}
 
-std::string binary_dir() { return EDGECASE_BINARY_DIR; }
+std::string binary_dir() {
+    return EDGECASE_BINARY_DIR;
+}
 
 }  // namespace test_support

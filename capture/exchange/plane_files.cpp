@@ -59,7 +59,12 @@ std::vector<PlaneSpec> planes_of(const cases::Case& c) {
         add("writer", PlaneKind::id, {"draw", "primitive"}, {"u32", "f32", "tif", "exr"},
             "the triangle that wrote last: number of the draw and of the triangle in it, from 0; "
             "-1 (u32: 4294967295) where nothing was drawn");
-        const std::vector<uint32_t> counts = cases::attribute_components(c);
+        std::vector<uint32_t> counts(cases::attributes_of(c), 1);
+        for (const cases::Draw& draw : c.draws) {
+            for (size_t a = 0; a < draw.attributes.size(); ++a) {
+                counts[a] = std::max(counts[a], draw.attributes[a].components);
+            }
+        }
         for (size_t a = 0; a < counts.size(); ++a) {
             add(fmt::format("attribute{}", a), PlaneKind::value, components(counts[a]), real,
                 "what the last fragment has of this attribute");

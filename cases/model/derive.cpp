@@ -93,16 +93,6 @@ uint32_t attributes_of(const Case& c) {
     return static_cast<uint32_t>(count);
 }
 
-std::vector<uint32_t> attribute_components(const Case& c) {
-    std::vector<uint32_t> counts(attributes_of(c), 1);
-    for (const Draw& draw : c.draws) {
-        for (size_t a = 0; a < draw.attributes.size(); ++a) {
-            counts[a] = std::max(counts[a], draw.attributes[a].components);
-        }
-    }
-    return counts;
-}
-
 std::vector<Derivation> derivations(const Case& c) {
     std::vector<Derivation> result;
     for (const Relation& relation : all_relations(c)) {

@@ -30,9 +30,6 @@ Case derive(const Case& c, const Derivation& derivation);
 // The largest number of attributes among the draws.
 uint32_t attributes_of(const Case& c);
 
-// Of each of these attributes, how many components its plane holds: the most that a draw has, 1..4.
-std::vector<uint32_t> attribute_components(const Case& c);
-
 // The word of a relation in a case file.
 std::string_view to_string(RelationKind kind);
 

@@ -50,7 +50,8 @@ std::vector<std::string> news_of(const CaseRecord& a, const CaseRecord& b) {
     for (const diff::FindingGroup& g : b.groups) {
         const auto same =
             std::find_if(a.groups.begin(), a.groups.end(), [&](const diff::FindingGroup& other) {
-                return g.kind == other.kind && g.rule == other.rule && g.level == other.level;
+                return g.kind == other.kind && g.rule == other.rule && g.level == other.level &&
+                       g.door == other.door;
             });
         const uint64_t before = same == a.groups.end() ? 0 : same->count;
         if (g.count > before) {

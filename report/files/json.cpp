@@ -41,6 +41,9 @@ Json finding_json(diff::Finding f) {
     for (const char* key : {"x", "y", "layer"}) {
         json.erase(key);
     }
+    if (f.door.empty()) {
+        json.erase("door");
+    }
     return json;
 }
 
@@ -57,6 +60,9 @@ Json groups_json(const CaseRecord& r) {
     for (diff::FindingGroup group : r.groups) {
         cases::make_printable(group);
         json.push_back(encode(group));
+        if (group.door.empty()) {
+            json.back().erase("door");
+        }
     }
     return json;
 }

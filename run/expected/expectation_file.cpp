@@ -364,10 +364,16 @@ cases::ExpectedAll<std::map<std::string, ExpectationLine>> resolve_expectations(
                 }
                 used = true;
                 const auto [at, fresh] = expected.emplace(id, line);
+                // What a door shows may be another bug than what the plain picture does.
+                const bool is_of_door =
+                    is_of_other_doors(line.cause, {}) || is_of_other_doors(at->second.cause, {});
                 if (!fresh) {
                     add_up(at->second.cause, line.cause);
                 }
-                if (!fresh && (at->second.status != line.status || at->second.bug != line.bug)) {
+                const bool is_other_bug = at->second.bug != line.bug;
+                if (!fresh && is_other_bug && is_of_door && at->second.status == line.status) {
+                    at->second.bug += "; " + line.bug;
+                } else if (!fresh && (at->second.status != line.status || is_other_bug)) {
                     errors.push_back({line.where, "'" + line.glob + "' disagrees about '" + id +
                                                       "' with " + at->second.where.file + ":" +
                                                       std::to_string(at->second.where.line)});
@@ -427,6 +433,9 @@ bool has_new_picture(const ExpectationLine& line, const report::CaseRecord& reco
 }
 
 Status counts_as(const ExpectationLine& line, const report::CaseRecord& record) {
+    if (is_of_other_doors(line.cause, record.drawn_doors)) {
+        return record.status;
+    }
     const Status status = judge_expected(record.status, line.status, line.is_past);
     const bool is_news = status == Status::xfail && !is_excused(line, record);
     return is_news || (line.excuses_seen_only && has_new_picture(line, record)) ? record.status
@@ -434,6 +443,9 @@ Status counts_as(const ExpectationLine& line, const report::CaseRecord& record) 
 }
 
 void apply(const ExpectationLine& line, report::CaseRecord& record) {
+    if (is_of_other_doors(line.cause, record.drawn_doors)) {
+        return;
+    }
     record.expected = line.status;
     record.bug = line.bug;
     record.expectation = line.where.file + ":" + std::to_string(line.where.line);

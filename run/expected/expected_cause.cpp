@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cases/model/door.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/selector.hpp"
@@ -26,7 +27,7 @@ namespace {
 constexpr std::string_view kUntold = "-";  // the rule of findings that were counted only
 
 auto key_of(const FindingGroup& group) {
-    return std::tie(group.kind, group.rule, group.level);
+    return std::tie(group.kind, group.rule, group.door, group.level);
 }
 
 const FindingGroup* find_like(const ExpectedCause& cause, const FindingGroup& group) {
@@ -43,7 +44,7 @@ void insert(ExpectedCause& cause, const FindingGroup& group) {
     if (at != cause.groups.end() && key_of(*at) == key_of(group)) {
         at->count = std::max(at->count, group.count);
     } else {
-        cause.groups.insert(at, {group.kind, group.rule, group.level, group.count, 0});
+        cause.groups.insert(at, {group.kind, group.rule, group.level, group.count, 0, group.door});
     }
 }
 
@@ -101,6 +102,27 @@ cases::Expected<void> add_bits(std::vector<std::string>& to, std::string_view wo
     return {};
 }
 
+// What is wrong with the door that a group names, or does not name; empty if nothing is.
+std::string wrong_door(const FindingGroup& group, bool is_named) {
+    const bool is_of_door = group.rule.starts_with("door.");
+    if (is_named && !is_of_door) {
+        return fmt::format("'{}' is no rule of doors, so that no '=DOOR' follows it", group.rule);
+    }
+    if (is_of_door && !is_named) {
+        return fmt::format("'{}' does not say of which door; write '{}=DOOR'", group.rule,
+                           group.rule);
+    }
+    std::vector<std::string> words;
+    for (const cases::DoorRow& row : cases::all_doors()) {
+        words.emplace_back(row.word);
+    }
+    if (is_named && !cases::find_door(group.door)) {
+        return fmt::format("'{}' is no door{}", group.door,
+                           cases::did_you_mean(group.door, words, "; 'edgecase doors' lists them"));
+    }
+    return {};
+}
+
 // "vulkan<=9" of a group.
 cases::Expected<void> add_bound(ExpectedCause& cause, FindingGroup group, std::string_view bound) {
     const size_t sign = bound.find("<=");
@@ -127,6 +149,16 @@ cases::Expected<void> add_bound(ExpectedCause& cause, FindingGroup group, std::s
 
 }  // namespace
 
+bool is_of_other_doors(const ExpectedCause& cause, const std::vector<std::string>& drawn_doors) {
+    const auto is_drawn = [&](const std::string& door) {
+        return std::find(drawn_doors.begin(), drawn_doors.end(), door) != drawn_doors.end();
+    };
+    return !cause.groups.empty() &&
+           std::all_of(cause.groups.begin(), cause.groups.end(), [&](const FindingGroup& group) {
+               return !group.door.empty() && !is_drawn(group.door);
+           });
+}
+
 bool is_cause_word(std::string_view word) {
     return word.find(':') != std::string_view::npos || word.starts_with(kBits) ||
            std::any_of(kTexts.begin(), kTexts.end(),
@@ -152,12 +184,21 @@ cases::Expected<void> add_cause_word(ExpectedCause& cause, std::string_view word
             word.substr(0, colon));
     }
     group.kind = *kind;
-    group.rule = word.substr(colon + 1, at - colon - 1);
+    std::string_view rule = word.substr(colon + 1, at - colon - 1);
+    const size_t equals = rule.find('=');
+    if (equals != std::string_view::npos) {
+        group.door = rule.substr(equals + 1);
+        rule = rule.substr(0, equals);
+    }
+    group.rule = rule;
     if (group.rule == kUntold) {
         group.rule.clear();
     } else if (cases::find_rule(group.rule) == nullptr) {
         return cases::failure("'{}' is no rule; {}", group.rule,
                               cases::rule_hint(group.rule, '\''));
+    }
+    if (std::string wrong = wrong_door(group, equals != std::string_view::npos); !wrong.empty()) {
+        return cases::failure("{}", wrong);
     }
     std::string_view bounds = word.substr(std::min(at + 1, word.size()));
     do {
@@ -174,12 +215,13 @@ std::string to_text(const ExpectedCause& cause) {
     std::string text;
     const FindingGroup* before = nullptr;
     for (const FindingGroup& group : cause.groups) {
-        const bool goes_on =
-            before != nullptr && before->kind == group.kind && before->rule == group.rule;
-        text += goes_on
-                    ? ","
-                    : fmt::format("{}{}:{}@", text.empty() ? "" : " ", diff::to_string(group.kind),
-                                  group.rule.empty() ? kUntold : group.rule);
+        const bool goes_on = before != nullptr && before->kind == group.kind &&
+                             before->rule == group.rule && before->door == group.door;
+        text += goes_on ? ","
+                        : fmt::format("{}{}:{}{}{}@", text.empty() ? "" : " ",
+                                      diff::to_string(group.kind),
+                                      group.rule.empty() ? kUntold : group.rule,
+                                      group.door.empty() ? "" : "=", group.door);
         text += fmt::format("{}<={}", cases::to_string(group.level), group.count);
         before = &group;
     }
@@ -250,7 +292,8 @@ bool is_in_picture(const FindingGroup& group) {
         cases::rule::write_outside,      cases::rule::repeat_same,
         cases::rule::repeat_scissor,     cases::rule::repeat_clears,
         cases::rule::repeat_write_masks, cases::rule::repeat_attachments};
-    return std::find(kBeside.begin(), kBeside.end(), group.rule) == kBeside.end();
+    return group.door.empty() &&
+           std::find(kBeside.begin(), kBeside.end(), group.rule) == kBeside.end();
 }
 
 // A line about a flake speaks of other bits if it names findings or bits, or nothing; and of a
@@ -300,8 +343,9 @@ std::string what_is_new(const ExpectedCause& cause, const report::CaseRecord& re
         }
         const FindingGroup* like = find_like(cause, group);
         if (const uint64_t known = like == nullptr ? 0 : like->count; group.count > known) {
-            say(fmt::format("{} {} of {} [{}] {}", group.count, diff::to_string(group.kind),
+            say(fmt::format("{} {} of {}{} [{}] {}", group.count, diff::to_string(group.kind),
                             group.rule.empty() ? "no told rule" : group.rule,
+                            group.door.empty() ? "" : " by door " + group.door,
                             cases::to_string(group.level),
                             known == 0 ? std::string(group.count == 1 ? "is new" : "are new")
                                        : fmt::format("where {} are known", known)));

@@ -5,6 +5,7 @@
 // rules that are broken, in which way, at which level and how often; or the signal of a crash; or
 // every bit of the picture. One cause is a few words of a line of an expectation file:
 //   extra:scissor.half-open@vulkan<=9   value:interp.sample@practice<=3,direct3d<=40
+//   value:door.state=state-static@vulkan<=36
 //   bits=0123456789abcdef,fedcba9876543210   signal=SIGSEGV   step=submit
 #pragma once
 
@@ -19,9 +20,9 @@
 namespace run {
 
 struct ExpectedCause {
-    // Ordered by kind, rule and level; no two are alike but for `count`, which is the most that is
-    // expected. The rule of findings beyond those that a record keeps is not known: it is empty,
-    // and '-' in a file.
+    // Ordered by kind, rule, door and level; no two are alike but for `count`, which is the most
+    // that is expected. The rule of findings beyond those that a record keeps is not known: it is
+    // empty, and '-' in a file.
     std::vector<diff::FindingGroup> groups;
     std::vector<std::string> bits;  // each CaseRecord::bits that is known, sorted; empty: any
     std::string signal;             // CaseRecord::signal; empty: any
@@ -31,6 +32,10 @@ struct ExpectedCause {
     }
     friend bool operator==(const ExpectedCause&, const ExpectedCause&) = default;
 };
+
+// True if the cause speaks of pictures through doors only, and the case was drawn through none of
+// these: then it says nothing of the case.
+bool is_of_other_doors(const ExpectedCause& cause, const std::vector<std::string>& drawn_doors);
 
 // True for a word that begins as one of a cause does; what else is wrong with it is for
 // add_cause_word to say.

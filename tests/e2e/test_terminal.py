@@ -111,10 +111,11 @@ class Explain(TerminalTest):
         def explained(first):
             (self.folder / "one.toml").write_text(
                 'format = 1\ndescription = "a"\ncatches = "b"\nrules = ["cover.inside"]\ntarget = { size = [8, 8] }\n'
-                f"[[draw]]\nvertices = [{first}, [1, -1, 0, 1], [-1, 1, 0, 1]]\n")
+                f"[[draw]]\nvertices = [{first}, [7, 1, 0, 1], [1, 7, 0, 1]]\n")
             return self.edgecase("explain", self.folder / "one.toml", "--pixel", "1,1", check=0).stdout
         free, placeless = "a device may have a vertex at more than one place", "a vertex has no place in the picture"
-        on_grid, off_grid, behind = explained("[-1, -1, 0, 1]"), explained("[-0.999, -1, 0, 1]"), explained("[-1, -1, 0, -1]")
+        # Half a unit of the grid beside it is rounded to either side.
+        on_grid, off_grid, behind = explained("[1, 1, 0, 1]"), explained("[1.001953125, 1, 0, 1]"), explained("[1, 1, 0, -1]")
         self.assertTrue(free not in on_grid and placeless not in on_grid, on_grid)
         self.assertTrue(free in off_grid and placeless not in off_grid, off_grid)
         self.assertTrue(free not in behind and placeless in behind, behind)

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "run/expected/expectation_file.hpp"
 #include "run/expected/glob_cover.hpp"
 
 namespace run {
@@ -78,6 +79,68 @@ TEST(ExpectedCause, BitsSayNothingOfWhatIsNotInThePicture) {
         EXPECT_EQ(record.groups.back().known, 0U);
         record.groups.pop_back();
     }
+}
+
+TEST(ExpectedCause, ADoorIsItsOwnCause) {
+    report::CaseRecord record = failed(1, 1);
+    const auto add = [&](const char* door, uint64_t count) {
+        record.groups.push_back(
+            {FindingKind::value, "door.state", Profile::vulkan, count, 0, door});
+    };
+    add("state-static", 36);
+    const std::vector<const char*> plain = {"extra:cover.outside@vulkan<=1",
+                                            "value:interp.linear@practice<=1"};
+    EXPECT_EQ(what_is_new(parsed({plain[0], plain[1]}), record),
+              "36 value of door.state by door state-static [vulkan] are new");
+    // Bits are the plain picture's.
+    EXPECT_EQ(what_is_new(parsed({"bits=0123456789abcdef"}), record),
+              "36 value of door.state by door state-static [vulkan] are new");
+    const ExpectedCause known =
+        parsed({plain[0], plain[1], "value:door.state=state-static@vulkan<=36"});
+    EXPECT_EQ(what_is_new(known, record), "");
+    add("state-first", 1);
+    EXPECT_EQ(what_is_new(known, record),
+              "1 value of door.state by door state-first [vulkan] is new");
+    mark_known(known, record);
+    EXPECT_EQ(record.groups[2].known, 36U);
+    EXPECT_EQ(record.groups[3].known, 0U);
+    EXPECT_EQ(to_text(cause_of(record)),
+              "extra:cover.outside@vulkan<=1 value:door.state=state-first@vulkan<=1 "
+              "value:door.state=state-static@vulkan<=36 value:interp.linear@practice<=1");
+}
+
+TEST(ExpectedCause, ADoorThatWasNotDrawnIsNotSpokenOf) {
+    const ExpectedCause door = parsed({"value:door.state=state-static@vulkan<=36"});
+    EXPECT_TRUE(is_of_other_doors(door, {}));
+    EXPECT_TRUE(is_of_other_doors(door, {"state-first"}));
+    EXPECT_FALSE(is_of_other_doors(door, {"state-first", "state-static"}));
+    EXPECT_FALSE(is_of_other_doors(
+        parsed({"extra:cover.outside@vulkan<=1", "value:door.state=state-static@vulkan<=36"}), {}));
+    EXPECT_FALSE(is_of_other_doors({}, {}));
+    ExpectationLine line;
+    line.status = report::Status::fail;
+    line.cause = door;
+    report::CaseRecord record;
+    record.status = report::Status::pass;
+    apply(line, record);
+    EXPECT_EQ(record.status, report::Status::pass);
+    record.drawn_doors = {"state-static"};
+    apply(line, record);
+    EXPECT_EQ(record.status, report::Status::xpass);
+}
+
+TEST(ExpectedCause, WrongDoorsAreRefused) {
+    const auto refused = [](const char* word) {
+        ExpectedCause cause;
+        const auto added = add_cause_word(cause, word);
+        return added ? std::string() : added.error().message;
+    };
+    EXPECT_EQ(refused("value:door.state@vulkan<=1"),
+              "'door.state' does not say of which door; write 'door.state=DOOR'");
+    EXPECT_EQ(refused("value:door.state=state-statik@vulkan<=1"),
+              "'state-statik' is no door; did you mean 'state-static'?");
+    EXPECT_EQ(refused("value:cover.inside=state-static@vulkan<=1"),
+              "'cover.inside' is no rule of doors, so that no '=DOOR' follows it");
 }
 
 TEST(ExpectedCause, AFlakeThatWasADeathIsKnownByItsDeathAlone) {
