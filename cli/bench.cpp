@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -23,6 +22,7 @@
 #include <sstream>
 
 #include "cases/base/counted.hpp"
+#include "cli/bench/clock.hpp"
 #include "cli/bench/judging.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/suite.hpp"
@@ -35,12 +35,6 @@ extern char** environ;
 namespace cli {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());

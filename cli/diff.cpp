@@ -6,7 +6,6 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cases/model/selector.hpp"
+#include "cli/bench/clock.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose.hpp"
 #include "cli/prepare/expectations.hpp"
@@ -37,12 +37,6 @@ using report::Status;
 
 namespace {
 
-using Time = std::chrono::steady_clock;
-
-double seconds_since(Time::time_point begin) {
-    return std::chrono::duration<double>(Time::now() - begin).count();
-}
-
 struct Work {
     const DiffOptions& options;
     ref::Limits limits;
@@ -51,7 +45,7 @@ struct Work {
 // What the folder of one case holds, and what is to be said of it.
 void judge_folder(CaseRecord& record, std::vector<std::string>& skipped, const cases::Case& c,
                   const Work& work) {
-    const auto begin = Time::now();
+    const auto begin = Clock::now();
     const fs::path folder = fs::path(work.options.captures) / capture::folder_of(c.id);
     const auto say = [&](Status status, const std::string& reason) {
         record.status = status;
@@ -299,7 +293,7 @@ int diff_command(const Program& program, const DiffOptions& given) {
         std::fflush(console);
     }
 
-    const Time::time_point begin = Time::now();
+    const Clock::time_point begin = Clock::now();
     Work work{options, {}};
     work.limits.subpixel_bits = static_cast<int>(options.subpixel_bits);
     std::map<std::string, size_t> skipped;

@@ -43,3 +43,10 @@ function(edgecase_precompile target)
                                   <gmpxx.h> <map> <memory> <optional> <set> <sstream> <string> <vector> ${ARGN})
     endif()
 endfunction()
+
+# Files of a target that are compiled as one, so that their headers are read once; only where EDGECASE_UNITY asks for it.
+function(edgecase_unite target size)
+    if(EDGECASE_UNITY)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+    endif()
+endfunction()

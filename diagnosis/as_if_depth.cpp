@@ -45,7 +45,7 @@ void round_all(capture::Capture& capture) {
     }
 }
 
-const Row kRows[] = {
+const Row kDepthRows[] = {
     // depth
     {"less-as-less-or-equal", "LESS lets equal depths pass",
      compare_as<CompareOp::less, CompareOp::less_or_equal>},
@@ -113,7 +113,7 @@ const Row kRows[] = {
 }  // namespace
 
 std::span<const Row> depth_rows() {
-    return kRows;
+    return kDepthRows;
 }
 
 }  // namespace diagnosis::as_if

@@ -56,7 +56,7 @@ void renumber(capture::Capture& capture, uint32_t (*number)(uint32_t)) {
     }
 }
 
-const Row kRows[] = {
+const Row kGeometryRows[] = {
     // viewport and scissor
     {"viewport-mirrored-y", "The picture is upside down",
      [](Case& c) {
@@ -263,7 +263,7 @@ const Row kRows[] = {
 }  // namespace
 
 std::span<const Row> geometry_rows() {
-    return kRows;
+    return kGeometryRows;
 }
 
 }  // namespace diagnosis::as_if

@@ -44,7 +44,7 @@ bool placed_as(Case& c) {
            });
 }
 
-const Row kRows[] = {
+const Row kInputsRows[] = {
     // inputs
     {"attribute-w-one", "The fourth component of attributes is read as 1",
      [](Case& c) {
@@ -134,7 +134,7 @@ const Row kRows[] = {
 }  // namespace
 
 std::span<const Row> input_rows() {
-    return kRows;
+    return kInputsRows;
 }
 
 }  // namespace diagnosis::as_if

@@ -65,7 +65,7 @@ void take_from(capture::Capture& capture, int64_t dx, int64_t dy) {
         capture, capture);
 }
 
-const Row kRows[] = {
+const Row kTargetsRows[] = {
     // colour
     {"blend-off-unless-adding", "Only equations that add are blended",
      [](Case& c) {
@@ -152,7 +152,7 @@ const Row kRows[] = {
 }  // namespace
 
 std::span<const Row> target_rows() {
-    return kRows;
+    return kTargetsRows;
 }
 
 }  // namespace diagnosis::as_if

@@ -43,7 +43,7 @@ bool is_one_of(const std::array<std::string_view, N>& list, std::string_view wor
     return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-double number(const TomlValue& value) {
+double number_of(const TomlValue& value) {
     return value.is(TomlValue::Kind::integer) ? static_cast<double>(value.integer) : value.floating;
 }
 
@@ -57,9 +57,9 @@ void add_depths(const TomlValue& draw, std::set<std::string>& words) {
     const bool is_clip = space != nullptr && space->string == "clip";
     std::set<double> z, w;
     for (const TomlValue& vertex : vertices->array) {
-        const double of_vertex = vertex.array.size() > 3 ? number(vertex.array[3]) : 1;
+        const double of_vertex = vertex.array.size() > 3 ? number_of(vertex.array[3]) : 1;
         w.insert(of_vertex);
-        z.insert((vertex.array.size() > 2 ? number(vertex.array[2]) : 0.5) /
+        z.insert((vertex.array.size() > 2 ? number_of(vertex.array[2]) : 0.5) /
                  (is_clip ? of_vertex : 1));
     }
     if (w.size() > 1) {
@@ -81,8 +81,8 @@ bool is_far(const TomlValue& rectangle) {
     const std::vector<TomlValue>& n = rectangle.array;
     constexpr double kFar = 32767;
     return n.size() == 4 &&
-           (std::fabs(number(n[0])) > kFar || std::fabs(number(n[1])) > kFar ||
-            number(n[0]) + number(n[2]) > kFar || number(n[1]) + number(n[3]) > kFar);
+           (std::fabs(number_of(n[0])) > kFar || std::fabs(number_of(n[1])) > kFar ||
+            number_of(n[0]) + number_of(n[2]) > kFar || number_of(n[1]) + number_of(n[3]) > kFar);
 }
 
 void add_keys(const TomlValue& table, const std::string& path, std::set<std::string>& words) {

@@ -237,7 +237,7 @@ Json planes_json(const cases::Case& c) {
     return planes;
 }
 
-bool is_same(float a, float b) {
+bool is_equal(float a, float b) {
     return std::equal_to<>()(a, b);
 }
 
@@ -269,7 +269,8 @@ class Needs {
                                     d.viewport.min_depth,
                                     d.viewport.max_depth};
         add(!(d.viewport == whole), "viewport");
-        add(!(is_same(d.viewport.min_depth, 0) && is_same(d.viewport.max_depth, 1)), "depth-range");
+        add(!(is_equal(d.viewport.min_depth, 0) && is_equal(d.viewport.max_depth, 1)),
+            "depth-range");
         add(!(d.scissor == cases::Rect{0, 0, t.width, t.height}), "scissor");
         add(d.cull != cases::CullMode::none, "cull");
         add(d.provoking == cases::ProvokingVertex::last, "provoking-last");
@@ -302,7 +303,7 @@ class Needs {
                 continue;
             }
             const float near = d.depth.negative_one_to_one ? -p.w : 0.0F;
-            add(!is_same(p.w, 1), "perspective");
+            add(!is_equal(p.w, 1), "perspective");
             add(p.w <= 0 || p.z < near || p.z > p.w, "clip");
             add(std::fabs(p.x) > p.w || std::fabs(p.y) > p.w, "beyond-viewport");
         }

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <stdexcept>
 #include <string_view>
 
 #include "cases/load/loader.hpp"
 #include "cases/model/derive.hpp"
+#include "cli/bench/clock.hpp"
 #include "diff/verdict.hpp"
 #include "rasterizers/strength/strength.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -20,12 +20,6 @@
 namespace cli {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 constexpr double kLeastSeconds = 0.2;  // a figure is the mean of so long
 

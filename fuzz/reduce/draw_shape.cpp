@@ -12,8 +12,8 @@ namespace fuzz {
 
 using Kind = Document::Kind;
 
-Shape shape_of(const Document& draw) {
-    Shape shape;
+DrawShape shape_of(const Document& draw) {
+    DrawShape shape;
     if (const Document* topology = draw.find("topology")) {
         shape.is_list = topology->string == "triangle-list";
         shape.is_strip = topology->string == "triangle-strip";
@@ -47,12 +47,12 @@ Shape shape_of(const Document& draw) {
     return shape;
 }
 
-size_t triangle_count(const Shape& shape, const Segment& segment) {
+size_t triangle_count(const DrawShape& shape, const Segment& segment) {
     const size_t count = segment.end - segment.begin;
     return shape.is_list ? count / 3 : std::max<size_t>(count, 2) - 2;
 }
 
-size_t triangle_count(const Shape& shape) {
+size_t triangle_count(const DrawShape& shape) {
     size_t count = 0;
     for (const Segment& segment : shape.segments) {
         count += triangle_count(shape, segment);
@@ -62,7 +62,7 @@ size_t triangle_count(const Shape& shape) {
 
 // The order of vertices is that of the Vulkan specification, "Primitive Topologies"; with the last
 // vertex provoking, those of odd triangles of strips and of all of fans are turned to have it last.
-std::vector<size_t> triangle_vertices(const Shape& shape, bool is_last_provoking) {
+std::vector<size_t> triangle_vertices(const DrawShape& shape, bool is_last_provoking) {
     std::vector<size_t> out;
     for (const Segment& segment : shape.segments) {
         for (size_t i = 0; i < triangle_count(shape, segment); ++i) {

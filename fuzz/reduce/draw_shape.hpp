@@ -17,20 +17,20 @@ struct Segment {
     size_t begin = 0, end = 0;  // among the indices, or the vertices if there are none
 };
 
-struct Shape {
+struct DrawShape {
     bool is_list = true, is_strip = false, has_indices = false, has_restart = false;
     size_t vertices = 0;  // 0 if a generator makes them
     std::vector<Segment> segments;
     std::vector<size_t> order;  // the vertex of each element of the segments; SIZE_MAX: restart
 };
-Shape shape_of(const Document& draw);
+DrawShape shape_of(const Document& draw);
 
-size_t triangle_count(const Shape& shape, const Segment& segment);
-size_t triangle_count(const Shape& shape);
+size_t triangle_count(const DrawShape& shape, const Segment& segment);
+size_t triangle_count(const DrawShape& shape);
 
 // The vertices of all triangles, three each, the provoking one in its place: the same triangles as
 // a list without indices.
-std::vector<size_t> triangle_vertices(const Shape& shape, bool is_last_provoking);
+std::vector<size_t> triangle_vertices(const DrawShape& shape, bool is_last_provoking);
 
 // Gives the draw these of its vertices, in this order, with what stands one a vertex: values of
 // attributes, clip and cull distances. Indices stay as they are.

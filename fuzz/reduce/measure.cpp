@@ -123,7 +123,7 @@ Measure measure(const Document& document) {
     if (const Document* draws = document.find("draw")) {
         out[0] = draws->array.size();
         for (const Document& draw : draws->array) {
-            const Shape shape = shape_of(draw);
+            const DrawShape shape = shape_of(draw);
             out[1] += triangle_count(shape);
             out[2] += (shape.has_indices ? 1U : 0U) + (shape.is_list ? 0U : 1U);
             for (const char* key : {"attribute", "clip_distance", "cull_distance"}) {

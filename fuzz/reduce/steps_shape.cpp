@@ -39,7 +39,7 @@ void add_removal(const Document& document, size_t draw, const Range& elements,
 }
 
 // Strips and fans end sooner or begin later: by half, a quarter, ... or one of their triangles.
-void add_ends(const Document& document, size_t draw, const Shape& shape, const Segment& segment,
+void add_ends(const Document& document, size_t draw, const DrawShape& shape, const Segment& segment,
               std::vector<Step>& steps) {
     const size_t triangles = triangle_count(shape, segment);
     // The first vertex of a fan is in all of its triangles.
@@ -53,7 +53,7 @@ void add_ends(const Document& document, size_t draw, const Shape& shape, const S
     }
 }
 
-void add_segments(const Document& document, size_t draw, const Shape& shape,
+void add_segments(const Document& document, size_t draw, const DrawShape& shape,
                   std::vector<Step>& steps) {
     for (const Range& part : parts_of(shape.segments.size())) {
         // With the restart behind them, or before them if they are the last.
@@ -72,7 +72,7 @@ bool drop_unused(Document& document, size_t draw) {
     if (indices == nullptr) {
         return false;
     }
-    const Shape shape = shape_of(*table);
+    const DrawShape shape = shape_of(*table);
     std::set<size_t> used(shape.order.begin(), shape.order.end());
     used.erase(SIZE_MAX);
     if (used.size() >= shape.vertices || used.empty() || *used.rbegin() >= shape.vertices) {
@@ -93,7 +93,7 @@ bool is_last_provoking(const Document& draw) {
     return provoking != nullptr && provoking->string == "last";
 }
 
-bool choose_checked(Document& draw, const Shape& shape, const std::vector<size_t>& chosen) {
+bool choose_checked(Document& draw, const DrawShape& shape, const std::vector<size_t>& chosen) {
     if (chosen.empty() || *std::ranges::max_element(chosen) >= shape.vertices) {
         return false;
     }
@@ -107,7 +107,7 @@ bool to_list(Document& document, size_t draw) {
     if (table == nullptr) {
         return false;
     }
-    const Shape shape = shape_of(*table);
+    const DrawShape shape = shape_of(*table);
     if (!choose_checked(*table, shape, triangle_vertices(shape, is_last_provoking(*table)))) {
         return false;
     }
@@ -120,7 +120,7 @@ bool without_indices(Document& document, size_t draw) {
     if (table == nullptr) {
         return false;
     }
-    const Shape shape = shape_of(*table);
+    const DrawShape shape = shape_of(*table);
     return shape.has_indices && !shape.has_restart && choose_checked(*table, shape, shape.order);
 }
 
@@ -161,7 +161,7 @@ void add_draw_steps(const Document& document, std::vector<Step>& steps) {
 
 void add_triangle_steps(const Document& document, std::vector<Step>& steps) {
     for (size_t draw = 0; draw < draw_count(document); ++draw) {
-        const Shape shape = shape_of(document.find("draw")->array[draw]);
+        const DrawShape shape = shape_of(document.find("draw")->array[draw]);
         if (shape.vertices == 0) {
             continue;
         }
@@ -192,7 +192,7 @@ void add_triangle_steps(const Document& document, std::vector<Step>& steps) {
 
 void add_topology_steps(const Document& document, std::vector<Step>& steps) {
     for (size_t draw = 0; draw < draw_count(document); ++draw) {
-        const Shape shape = shape_of(document.find("draw")->array[draw]);
+        const DrawShape shape = shape_of(document.find("draw")->array[draw]);
         if (shape.vertices == 0) {
             continue;
         }

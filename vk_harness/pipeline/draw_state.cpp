@@ -10,7 +10,7 @@ namespace vk_harness {
 
 namespace {
 
-VkPrimitiveTopology to_vulkan(cases::Topology topology) {
+VkPrimitiveTopology vulkan_of(cases::Topology topology) {
     constexpr std::array kTopologies = {VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
                                         VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
                                         VK_PRIMITIVE_TOPOLOGY_TRIANGLE_FAN};
@@ -18,7 +18,7 @@ VkPrimitiveTopology to_vulkan(cases::Topology topology) {
     return kTopologies.at(static_cast<size_t>(topology));
 }
 
-VkCullModeFlags to_vulkan(cases::CullMode mode) {
+VkCullModeFlags vulkan_of(cases::CullMode mode) {
     constexpr std::array<VkCullModeFlags, 4> kModes = {VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT,
                                                        VK_CULL_MODE_BACK_BIT,
                                                        VK_CULL_MODE_FRONT_AND_BACK};
@@ -26,12 +26,12 @@ VkCullModeFlags to_vulkan(cases::CullMode mode) {
     return kModes.at(static_cast<size_t>(mode));
 }
 
-VkFrontFace to_vulkan(cases::FrontFace face) {
+VkFrontFace vulkan_of(cases::FrontFace face) {
     return face == cases::FrontFace::clockwise ? VK_FRONT_FACE_CLOCKWISE
                                                : VK_FRONT_FACE_COUNTER_CLOCKWISE;
 }
 
-VkBool32 to_vulkan(bool value) {
+VkBool32 vulkan_of(bool value) {
     return value ? VK_TRUE : VK_FALSE;
 }
 
@@ -73,14 +73,14 @@ std::vector<VkRect2D> DrawState::vulkan_scissors() const {
 
 DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_restart) {
     DrawState out;
-    out.cull = to_vulkan(own.cull);
-    out.front_face = to_vulkan(own.front_face);
-    out.topology = to_vulkan(own.topology);
-    out.restart = to_vulkan(has_restart);
-    out.discard = to_vulkan(own.rasterizer_discard);
+    out.cull = vulkan_of(own.cull);
+    out.front_face = vulkan_of(own.front_face);
+    out.topology = vulkan_of(own.topology);
+    out.restart = vulkan_of(has_restart);
+    out.discard = vulkan_of(own.rasterizer_discard);
     out.compare = static_cast<VkCompareOp>(own.depth.compare);
-    out.depth_write = to_vulkan(own.depth.write && !c.variation.masks_depth);
-    out.has_bias = to_vulkan(own.depth.bias.has_value());
+    out.depth_write = vulkan_of(own.depth.write && !c.variation.masks_depth);
+    out.has_bias = vulkan_of(own.depth.bias.has_value());
     const cases::DepthBias bias = own.depth.bias.value_or(cases::DepthBias{});
     out.bias =
         std::bit_cast<std::array<uint32_t, 3>>(std::array{bias.constant, bias.clamp, bias.slope});
@@ -118,8 +118,8 @@ DrawState other_state(const DrawState& state, Leaves leaves) {
     out.restart = VK_TRUE;  // without it the draw's restarts would be indices of no vertex
     out.compare =
         static_cast<VkCompareOp>((static_cast<uint32_t>(state.compare) + 4) % kCompareOps);
-    out.depth_write = to_vulkan(state.depth_write == VK_FALSE);
-    out.has_bias = to_vulkan(state.has_bias == VK_FALSE);
+    out.depth_write = vulkan_of(state.depth_write == VK_FALSE);
+    out.has_bias = vulkan_of(state.has_bias == VK_FALSE);
     // A clamp needs a feature.
     const std::array<float, 3> bias = floats(state.bias);
     out.bias = std::bit_cast<std::array<uint32_t, 3>>(std::array{bias[0] + 64, 0.0F, bias[2] + 1});
@@ -130,7 +130,7 @@ DrawState other_state(const DrawState& state, Leaves leaves) {
         viewport = bits_of(cases::Viewport{3, 5, 2, 2, 0.25F, 0.75F});
     }
     const bool is_off = leaves == Leaves::rasterization_off;
-    out.discard = to_vulkan(is_off);
+    out.discard = vulkan_of(is_off);
     const VkRect2D scissor = {{1, 1}, {is_off ? 1U : 0U, is_off ? 1U : 0U}};
     out.scissors.assign(state.scissors.size(), bits_of(scissor));
     return out;

@@ -8,7 +8,7 @@ namespace software {
 
 namespace {
 
-constexpr FaultInfo kFaults[] = {
+constexpr FaultInfo kGeometryFaults[] = {
     {Fault::provoking_last, "provoking_last",
      "Flat values come from the last vertex of each triangle.", "provoking.first interp.flat"},
     {Fault::strip_parity, "strip_parity", "Odd triangles of a strip keep the order i, i+1, i+2.",
@@ -202,7 +202,7 @@ constexpr FaultInfo kFaults[] = {
 }  // namespace
 
 std::span<const FaultInfo> faults_of_geometry() {
-    return kFaults;
+    return kGeometryFaults;
 }
 
 }  // namespace software

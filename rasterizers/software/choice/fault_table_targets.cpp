@@ -8,7 +8,7 @@ namespace software {
 
 namespace {
 
-constexpr FaultInfo kFaults[] = {
+constexpr FaultInfo kTargetsFaults[] = {
     {Fault::blend_ignored, "blend_ignored", "Colours are written as if blending were off.",
      "blend.equation"},
     {Fault::blend_twice, "blend_twice", "A blended fragment is blended again.", "blend.equation"},
@@ -162,7 +162,7 @@ constexpr FaultInfo kFaults[] = {
 }  // namespace
 
 std::span<const FaultInfo> faults_of_targets() {
-    return kFaults;
+    return kTargetsFaults;
 }
 
 }  // namespace software

@@ -8,7 +8,7 @@ namespace software {
 
 namespace {
 
-constexpr FaultInfo kFaults[] = {
+constexpr FaultInfo kValuesFaults[] = {
     {Fault::samples_exchanged, "samples_exchanged", "Samples 0 and 1 have changed places.",
      "sample.locations cover.inside cover.outside"},
     {Fault::samples_transposed, "samples_transposed",
@@ -194,7 +194,7 @@ constexpr FaultInfo kFaults[] = {
 }  // namespace
 
 std::span<const FaultInfo> faults_of_values() {
-    return kFaults;
+    return kValuesFaults;
 }
 
 }  // namespace software

@@ -15,7 +15,7 @@ float steps_of(uint32_t bits) {
     return static_cast<float>((1U << bits) - 1);
 }
 
-float clamp_to_unit(float v) {
+float to_unit(float v) {
     return v > 0 ? v < 1 ? v : 1.0F : 0.0F;  // NaN: 0
 }
 
@@ -34,7 +34,7 @@ uint32_t to_code(float v, uint32_t bits, const Device& device) {
         const double whole = std::floor(static_cast<double>(v) * static_cast<double>(steps) + 0.5);
         return static_cast<uint32_t>(static_cast<int64_t>(whole)) & ((1U << bits) - 1);
     }
-    v = clamp_to_unit(v);
+    v = to_unit(v);
     if (device.fault == Fault::store_through_8_bits && bits < 8) {
         const auto eight = static_cast<uint32_t>(v * 255.0F + 0.5F);
         return eight >> (8 - bits);
@@ -116,7 +116,7 @@ FormatLayout layout_of(ColorFormat format) {
 uint32_t store_channel(float v, Channel channel, const Device& device) {
     if (channel.number == Number::half || channel.number == Number::binary32) {
         if (device.fault == Fault::float_store_clamped) {
-            v = clamp_to_unit(v);
+            v = to_unit(v);
         }
     }
     switch (channel.number) {
@@ -132,9 +132,9 @@ uint32_t store_channel(float v, Channel channel, const Device& device) {
                 return to_code(v, channel.bits, device);
             }
             if (device.fault == Fault::srgb_gamma) {
-                return to_code(std::pow(clamp_to_unit(v), 1.0F / 2.2F), channel.bits, device);
+                return to_code(std::pow(to_unit(v), 1.0F / 2.2F), channel.bits, device);
             }
-            return to_code(encode_srgb(clamp_to_unit(v)), channel.bits, device);
+            return to_code(encode_srgb(to_unit(v)), channel.bits, device);
         case Number::half:
             return to_half(v, device);
         case Number::binary32:

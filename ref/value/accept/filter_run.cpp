@@ -10,10 +10,10 @@ namespace ref::value {
 
 namespace {
 
-using Row = std::array<double, kRunLength>;
+using Lanes = std::array<double, kRunLength>;
 
 struct EvaluatedRow {
-    Row v, e;
+    Lanes v, e;
 };
 
 // As evaluate(), at n pixels from p to the right.
@@ -30,8 +30,8 @@ void evaluate_row(const FilterPlane& plane, const Point<double>& p, size_t n, Ev
     }
 }
 
-void judge_linear(const FilterPlane& plane, const EvaluatedRow& n, const Row& device, double factor,
-                  std::span<double> ratios) {
+void judge_linear(const FilterPlane& plane, const EvaluatedRow& n, const Lanes& device,
+                  double factor, std::span<double> ratios) {
     const double most = factor * plane.budget;
     for (size_t k = 0; k < ratios.size(); ++k) {
         const double error = std::fabs(device[k] - n.v[k]);
@@ -41,7 +41,7 @@ void judge_linear(const FilterPlane& plane, const EvaluatedRow& n, const Row& de
 }
 
 void judge_perspective(const FilterPlane& plane, const FilterPlane& inv_w, const EvaluatedRow& n,
-                       const EvaluatedRow& d, const Row& device, double factor,
+                       const EvaluatedRow& d, const Lanes& device, double factor,
                        std::span<double> ratios) {
     for (size_t k = 0; k < ratios.size(); ++k) {
         const double n_low = std::max(0.0, std::fabs(n.v[k]) - n.e[k]) * kDown;
@@ -70,7 +70,7 @@ void filter_run(const Filter& filter, std::span<const RunValue> values, const Ru
     std::array<EvaluatedRow, 2> denominators;  // at the centre, at the sample
     std::array<bool, 2> has_denominator{};
     EvaluatedRow numerator;
-    Row device;
+    Lanes device;
     for (const RunValue& value : values) {
         const Quantity& q = *value.quantity;
         const Point<double>& p = q.at_sample ? points.sample : points.centre;

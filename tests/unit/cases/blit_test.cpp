@@ -13,14 +13,14 @@
 namespace cases {
 namespace {
 
-std::string file(const std::string& blit, const std::string& format = "rgba8-unorm",
-                 const std::string& more = "") {
+std::string blit_file(const std::string& blit, const std::string& format = "rgba8-unorm",
+                      const std::string& more = "") {
     return "format = 1\ndescription = \"d\"\nrules = [\"blit.nearest\"]\n[target]\nsize = [8, 6]\n"
            "color = { format = \"" +
            format + "\"" + more + " }\n[blit]\n" + blit + "\n";
 }
 
-std::string error_of(const std::string& text) {
+std::string blit_error(const std::string& text) {
     const ExpectedAll<std::vector<Case>> loaded = load_text(text, "f", "id");
     return loaded ? "no error" : to_string(loaded.error().front());
 }
@@ -29,7 +29,7 @@ std::string error_of(const std::string& text) {
 
 TEST(LoadBlit, ReadsRegionsAndDefaults) {
     const ExpectedAll<std::vector<Case>> loaded =
-        load_text(file("size = [5, 4]\nfrom = [4, 1, 0, 3]\nfilter = \"linear\""), "f", "id");
+        load_text(blit_file("size = [5, 4]\nfrom = [4, 1, 0, 3]\nfilter = \"linear\""), "f", "id");
     ASSERT_TRUE(loaded);
     const Case& c = loaded->front();
     ASSERT_TRUE(c.blit);
@@ -44,30 +44,31 @@ TEST(LoadBlit, ReadsRegionsAndDefaults) {
 
 TEST(LoadBlit, EverySentence) {
     const std::vector<std::pair<std::string, std::string>> table = {
-        {file(""), "f:7:1: error: [blit] has no size; write size = [width, height]"},
-        {file("size = [1]"), "f:8:8: error: size has 1 numbers; write [width, height]"},
-        {file("size = [5, 4]\nfrom = [1, 1, 1, 2]"),
+        {blit_file(""), "f:7:1: error: [blit] has no size; write size = [width, height]"},
+        {blit_file("size = [1]"), "f:8:8: error: size has 1 numbers; write [width, height]"},
+        {blit_file("size = [5, 4]\nfrom = [1, 1, 1, 2]"),
          "f:9:8: error: from is an empty region; move a corner"},
-        {file("size = [5, 4]\nto = [1, 1, 2]"),
+        {blit_file("size = [5, 4]\nto = [1, 1, 2]"),
          "f:9:6: error: to has 3 numbers; write two corners, [x0, y0, x1, y1]"},
-        {file("size = [5, 4]\nfilter = \"linear\"", "r32-uint"),
+        {blit_file("size = [5, 4]\nfilter = \"linear\"", "r32-uint"),
          "f:9:10: error: integers are not filtered; write \"nearest\""},
-        {file("size = [5, 4]\nformat = \"r32-uint\""),
+        {blit_file("size = [5, 4]\nformat = \"r32-uint\""),
          "f:7:1: error: a blit does not convert between r32-uint and rgba8-unorm; integers go to "
          "integers only"},
-        {file("size = [5, 4]", "rgba8-unorm", ", clear = [0.5, 0, 0, 0]"),
+        {blit_file("size = [5, 4]", "rgba8-unorm", ", clear = [0.5, 0, 0, 0]"),
          "f:7:1: error: a blit's target is cleared to 0 or 1, which have exact codes"},
-        {file("size = [5, 4]\nto = [0, 0, 3, 6]\nfrom = [0, 0, 5, 4]\nclip = true"), "no error"},
-        {file("size = [5, 4]\nto = [-1, 0, 2, 6]\nclip = true"),
+        {blit_file("size = [5, 4]\nto = [0, 0, 3, 6]\nfrom = [0, 0, 5, 4]\nclip = true"),
+         "no error"},
+        {blit_file("size = [5, 4]\nto = [-1, 0, 2, 6]\nclip = true"),
          "f:9:6: error: the clipped region would begin or end inside a texel of the source; scale "
          "by a whole number or move the destination"},
-        {file("size = [5, 4]\nto = [-5, 0, 0, 6]\nclip = true"),
+        {blit_file("size = [5, 4]\nto = [-5, 0, 0, 6]\nclip = true"),
          "f:9:6: error: nothing of the destination region lies in the target; move it"},
-        {file("size = [5, 4]\n[[draw]]\nvertices = [[0,0],[8,0],[0,4]]"),
+        {blit_file("size = [5, 4]\n[[draw]]\nvertices = [[0,0],[8,0],[0,4]]"),
          "f:9:1: error: a case with [blit] has no draw; leave it out"},
     };
     for (const auto& [text, expected] : table) {
-        EXPECT_EQ(error_of(text), expected) << text;
+        EXPECT_EQ(blit_error(text), expected) << text;
     }
 }
 

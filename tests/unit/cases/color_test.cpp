@@ -12,12 +12,13 @@
 namespace cases {
 namespace {
 
-const std::string kHead = "format = 1\ndescription = \"d\"\nrules = [\"store.unorm\"]\n[target]\n";
+const std::string kColorHead =
+    "format = 1\ndescription = \"d\"\nrules = [\"store.unorm\"]\n[target]\n";
 
 // A case whose [target.color] is line 6 and whose draw's color is line 10.
 std::string file(const std::string& target_color, const std::string& color,
                  const std::string& target = "size = [8, 8]") {
-    return kHead + target + "\n[target.color]\n" + target_color +
+    return kColorHead + target + "\n[target.color]\n" + target_color +
            "\n[[draw]]\nvertices = [[0,0],[8,0],[0,8]]\n" + color +
            "\n[[draw.attribute]]\nname = \"c\"\nvalues = [[1,2,3,4],[5,6,7,8],[1,0.5,2,3]]\n";
 }
@@ -93,9 +94,10 @@ TEST(Color, MistakesAreNamed) {
          "value is not a whole number from 0 to 255, as the format rgba8-uint needs it");
     says(file("format = \"r32-uint\"", "color = { value = [0,0,0,0], blend = \"alpha\" }"),
          "a target of integers (r32-uint) is not blended; leave blend out");
-    const std::string plain = kHead + "size = [8, 8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8]]\n";
+    const std::string plain =
+        kColorHead + "size = [8, 8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8]]\n";
     says(plain + kValue + "\n", "the target has no colour; write [target.color]");
-    says(kHead +
+    says(kColorHead +
              "size = [8, 8]\nattachments = \"color\"\n[[draw]]\nvertices = "
              "[[0,0],[8,0],[0,8]]\n",
          "attachments leaves nothing to draw to; write [target.color]");

@@ -18,17 +18,17 @@
 namespace cases {
 namespace {
 
-std::string file(const std::string& doors, const std::string& draw) {
+std::string door_file(const std::string& doors, const std::string& draw) {
     return "format = 1\ndescription = \"d\"\nrules = [\"door.index\"]\n" +
            (doors.empty() ? "" : "relations = [{ doors = " + doors + " }]\n") +
            "[target]\nsize = [8, 4]\n[[draw]]\n" + draw;
 }
-const std::string kTriangle = "vertices = [[0,0],[8,0],[0,4]]\n";
+const std::string kDoorTriangle = "vertices = [[0,0],[8,0],[0,4]]\n";
 const std::string kStrip =
     "topology = \"triangle-strip\"\nvertices = [[0,0],[8,0],[0,4],[8,4]]\n"
     "indices = [0, 1, 2, \"restart\", 1, 2, 3]\n";
 
-std::string error_of(const std::string& text) {
+std::string door_error(const std::string& text) {
     const ExpectedAll<std::vector<Case>> loaded = load_text(text, "f", "id");
     return loaded ? "no error" : to_string(loaded.error().front());
 }
@@ -66,7 +66,7 @@ TEST(Door, EveryRowHasAWordASentenceAndARule) {
 }
 
 TEST(Door, ATriangleTakesAllButWhatNeedsMore) {
-    const std::set<std::string_view> taken = takes(case_of(file("", kTriangle)));
+    const std::set<std::string_view> taken = takes(case_of(door_file("", kDoorTriangle)));
     for (const DoorRow& row : all_doors()) {
         const bool needs_more = row.door == Door::restart_extra ||
                                 row.door == Door::instance_rate || row.door == Door::secondary_each;
@@ -75,7 +75,7 @@ TEST(Door, ATriangleTakesAllButWhatNeedsMore) {
 }
 
 TEST(Door, WhatRestartsTakesNoLargestIndex) {
-    const std::set<std::string_view> taken = takes(case_of(file("", kStrip)));
+    const std::set<std::string_view> taken = takes(case_of(door_file("", kStrip)));
     EXPECT_TRUE(taken.contains("index-8"));
     EXPECT_TRUE(taken.contains("restart-extra"));
     EXPECT_FALSE(taken.contains("index-8-largest"));
@@ -84,7 +84,7 @@ TEST(Door, WhatRestartsTakesNoLargestIndex) {
 }
 
 TEST(Door, IndicesHaveToFit) {
-    Case c = case_of(file("", kTriangle));
+    Case c = case_of(door_file("", kDoorTriangle));
     const auto with_vertices = [&c](size_t count) {
         c.draws.front().positions.resize(count, c.draws.front().positions.front());
         return takes(c);
@@ -96,7 +96,7 @@ TEST(Door, IndicesHaveToFit) {
     EXPECT_FALSE(with_vertices(65537).contains("index-16"));
     EXPECT_TRUE(with_vertices(65537).contains("index-32"));
     // With restart the largest value is no index.
-    Case strip = case_of(file("", kStrip));
+    Case strip = case_of(door_file("", kStrip));
     strip.draws.front().positions.resize(256, glm::vec4(0, 0, 0, 1));
     strip.draws.front().indices = {{0, 1, 255}};
     EXPECT_FALSE(takes(strip).contains("index-8"));
@@ -112,7 +112,7 @@ TEST(Door, ABlitTakesNone) {
 }
 
 TEST(Door, ListsAreSplitInTheMiddle) {
-    Case c = case_of(file("", kTriangle));
+    Case c = case_of(door_file("", kDoorTriangle));
     Draw& draw = c.draws.front();
     EXPECT_EQ(split_of(Door::multi_draw, draw), 0U);
     draw.positions.resize(15, draw.positions.front());
@@ -125,7 +125,7 @@ TEST(Door, ListsAreSplitInTheMiddle) {
 }
 
 TEST(Door, RelationsAreReadWrittenAndDerived) {
-    const Case c = case_of(file(R"(["index-16", "vertex-offset"])", kTriangle));
+    const Case c = case_of(door_file(R"(["index-16", "vertex-offset"])", kDoorTriangle));
     ASSERT_EQ(c.relations.size(), 2U);
     EXPECT_EQ(c.relations[1], (Relation{RelationKind::door, {}, Door::vertex_offset}));
     const std::vector<Derivation> derived = derivations(c);
@@ -140,7 +140,7 @@ TEST(Door, RelationsAreReadWrittenAndDerived) {
 }
 
 TEST(Door, ARunAddsDoorsOnce) {
-    Case c = case_of(file(R"(["index-16"])", kTriangle));
+    Case c = case_of(door_file(R"(["index-16"])", kDoorTriangle));
     c.doors = {Door::index_16, Door::index_32};
     ASSERT_EQ(derivations(c).size(), 2U);
     EXPECT_EQ(derivations(c)[1].name, "door index-32");
@@ -151,14 +151,14 @@ TEST(Door, ARunAddsDoorsOnce) {
 }
 
 TEST(Door, EverySentence) {
-    EXPECT_EQ(error_of(file(R"(["index-17"])", kTriangle)),
+    EXPECT_EQ(door_error(door_file(R"(["index-17"])", kDoorTriangle)),
               "f:4:25: error: a door is \"index-17\"; did you mean \"index-16\"?");
-    EXPECT_EQ(error_of(file(R"(["index-16", "index-16"])", kTriangle)),
+    EXPECT_EQ(door_error(door_file(R"(["index-16", "index-16"])", kDoorTriangle)),
               "f:4:14: error: the door index-16 stands twice");
-    EXPECT_EQ(error_of(file(R"(["restart-extra"])", kTriangle)),
+    EXPECT_EQ(door_error(door_file(R"(["restart-extra"])", kDoorTriangle)),
               "f:4:14: error: the door restart-extra does not suit the case: it takes a strip or a "
               "fan; leave it out");
-    EXPECT_EQ(error_of(file("[]", kTriangle)),
+    EXPECT_EQ(door_error(door_file("[]", kDoorTriangle)),
               "f:4:24: error: doors is empty; write one at least, as \"index-16\"");
 }
 

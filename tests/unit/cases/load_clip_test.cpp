@@ -13,13 +13,13 @@ namespace cases {
 
 namespace {
 
-const std::string kHead =
+const std::string kClipHead =
     "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n"
     "[target]\nsize = [8, 8]\n[[draw]]\n";
-const std::string kTriangle = "vertices = [[0,0],[8,0],[0,8]]\n";
+const std::string kClipTriangle = "vertices = [[0,0],[8,0],[0,8]]\n";
 
 Draw draw_of(const std::string& text) {
-    const ExpectedAll<std::vector<Case>> loaded = load_text(kHead + text, "f", "id");
+    const ExpectedAll<std::vector<Case>> loaded = load_text(kClipHead + text, "f", "id");
     if (!loaded) {
         for (const Error& error : loaded.error()) {
             ADD_FAILURE() << to_string(error);
@@ -29,8 +29,8 @@ Draw draw_of(const std::string& text) {
     return loaded->at(0).draws.at(0);
 }
 
-std::string errors_of(const std::string& text) {
-    const ExpectedAll<std::vector<Case>> loaded = load_text(kHead + text, "f", "id");
+std::string clip_errors(const std::string& text) {
+    const ExpectedAll<std::vector<Case>> loaded = load_text(kClipHead + text, "f", "id");
     if (loaded) {
         return "no error";
     }
@@ -42,7 +42,7 @@ std::string errors_of(const std::string& text) {
 }
 
 std::string clip(const std::string& text) {
-    return errors_of(kTriangle + "[[draw.clip_distance]]\n" + text);
+    return clip_errors(kClipTriangle + "[[draw.clip_distance]]\n" + text);
 }
 
 using Vectors = std::vector<glm::vec4>;
@@ -50,14 +50,14 @@ using Vectors = std::vector<glm::vec4>;
 }  // namespace
 
 TEST(LoadClip, Defaults) {
-    const Draw d = draw_of(kTriangle);
+    const Draw d = draw_of(kClipTriangle);
     EXPECT_EQ(d.distances, ClipDistances{});
     EXPECT_EQ(d.provoking, ProvokingVertex::first);
     EXPECT_FALSE(d.depth.negative_one_to_one);
 }
 
 TEST(LoadClip, EveryForm) {
-    const Draw d = draw_of(kTriangle +
+    const Draw d = draw_of(kClipTriangle +
                            "provoking = \"last\"\n"
                            "depth_volume = \"negative-one-to-one\"\n"
                            "[[draw.clip_distance]]\nvalues = [1, -2, \"1/4\"]\n"
@@ -75,20 +75,20 @@ TEST(LoadClip, EveryForm) {
 }
 
 TEST(LoadClip, DistancesMoveWithTheirVertices) {
-    const Draw d = draw_of(kTriangle +
+    const Draw d = draw_of(kClipTriangle +
                            "first = 1\n"
                            "[[draw.clip_distance]]\nvalues = [1, 2, 3]\n"
                            "[[draw.cull_distance]]\nvalues = [4, 5, 6]\n");
-    const Draw plain = draw_of(kTriangle + "first = 1\n");
+    const Draw plain = draw_of(kClipTriangle + "first = 1\n");
     EXPECT_EQ(d.positions, plain.positions);
     EXPECT_EQ(d.distances.clip, (Vectors{{2, 0, 0, 0}, {3, 0, 0, 0}, {1, 0, 0, 0}}));
     EXPECT_EQ(d.distances.cull, (Vectors{{5, 0, 0, 0}, {6, 0, 0, 0}, {4, 0, 0, 0}}));
 }
 
 TEST(LoadClip, Mistakes) {
-    EXPECT_EQ(errors_of(kTriangle + "provoking = \"lst\"\n"),
+    EXPECT_EQ(clip_errors(kClipTriangle + "provoking = \"lst\"\n"),
               "f:8:13: error: provoking is \"lst\"; did you mean \"last\"?");
-    EXPECT_EQ(errors_of(kTriangle + "depth_volume = \"zero\"\n"),
+    EXPECT_EQ(clip_errors(kClipTriangle + "depth_volume = \"zero\"\n"),
               "f:8:16: error: depth_volume is \"zero\"; write \"zero-to-one\" or "
               "\"negative-one-to-one\"");
     EXPECT_EQ(clip(""),
@@ -117,10 +117,10 @@ TEST(LoadClip, Mistakes) {
     EXPECT_EQ(clip("constant = 1\nnegate = 1\n"),
               "f:10:10: error: negate is the number 1; write true or false");
     const std::string one = "[[draw.clip_distance]]\nconstant = 1\n";
-    EXPECT_EQ(errors_of(kTriangle + one + one + one + one + one),
+    EXPECT_EQ(clip_errors(kClipTriangle + one + one + one + one + one),
               "f:8:1: error: a draw has 1 to 4 of clip_distance, not 5");
-    EXPECT_EQ(errors_of("space = \"clip\"\nvertices = [[0,0,0,1],[1,0,0,0],[0,1,0,1]]\n"
-                        "[[draw.cull_distance]]\nplane = \"x\"\n"),
+    EXPECT_EQ(clip_errors("space = \"clip\"\nvertices = [[0,0,0,1],[1,0,0,0],[0,1,0,1]]\n"
+                          "[[draw.cull_distance]]\nplane = \"x\"\n"),
               "f:10:9: error: plane has no x and y at vertex 1, whose w is 0; write half_space");
 }
 

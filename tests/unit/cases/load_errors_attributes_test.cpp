@@ -9,7 +9,7 @@ namespace cases {
 namespace {
 
 // clang-format off
-const Row kRows[] = {
+const Row kAttributesRows[] = {
     {draw(R"~(space = "clip"
 vertices = [[0,0,0,1],[1,0,0,1],["nan",1,0,1]]
 [[draw.attribute]]
@@ -182,7 +182,7 @@ plane = "x")~"),
 }  // namespace
 
 TEST(LoadErrors, OfAttributes) {
-    expect_words(kRows);
+    expect_words(kAttributesRows);
 }
 
 }  // namespace cases

@@ -9,7 +9,7 @@ namespace cases {
 namespace {
 
 // clang-format off
-const Row kRows[] = {
+const Row kDrawsRows[] = {
     {draw(R"~(vertexes = 1)~"),
      R"~(f:7:1: error: [[draw]] has no key "vertexes"; did you mean "vertices"?)~"},
     {draw(R"~(topology = "triangle-list")~"),
@@ -249,7 +249,7 @@ generate = { kind = "mesh", points = 1 })~"),
 }  // namespace
 
 TEST(LoadErrors, OfDraws) {
-    expect_words(kRows);
+    expect_words(kDrawsRows);
 }
 
 }  // namespace cases

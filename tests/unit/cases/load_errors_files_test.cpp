@@ -9,7 +9,7 @@ namespace cases {
 namespace {
 
 // clang-format off
-const Row kRows[] = {
+const Row kFilesRows[] = {
     {whole(R"~(format = 
 )~"),
      R"~(f:1:10: error: this is not TOML: Error while parsing key-value pair: expected value, saw '\n')~"},
@@ -369,7 +369,7 @@ vertices = [[0,0],[8,0],[0,8]]
 }  // namespace
 
 TEST(LoadErrors, OfFiles) {
-    expect_words(kRows);
+    expect_words(kFilesRows);
 }
 
 }  // namespace cases

@@ -9,7 +9,7 @@ namespace cases {
 namespace {
 
 // clang-format off
-const Row kRows[] = {
+const Row kGeneratorsRows[] = {
     {generator(R"~()~"),
      R"~(f:7:12: error: generate has no kind; write "grid", "fan", "strip", "mesh", "triangles" or "surface")~"},
     {generator(R"~(kind = "gird")~"),
@@ -90,7 +90,7 @@ generate = { kind = "surface", shape = "disc", columns = 600000)~"),
 }  // namespace
 
 TEST(LoadErrors, OfGenerators) {
-    expect_words(kRows);
+    expect_words(kGeneratorsRows);
 }
 
 }  // namespace cases

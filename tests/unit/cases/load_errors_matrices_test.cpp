@@ -11,7 +11,7 @@ namespace {
 const std::string kAxes = "i = [0, 1]\nj = [0, 1]\nk = [0, 1]";
 
 // clang-format off
-const Row kRows[] = {
+const Row kMatricesRows[] = {
     {matrix(R"~()~"),
      R"~(f:4:1: error: matrix is not a table of arrays; write [matrix] with key = [value, ...] or leave it out)~"},
     {matrix(R"~(k = 1)~"),
@@ -141,7 +141,7 @@ hits = "")~"),
 }  // namespace
 
 TEST(LoadErrors, OfMatrices) {
-    expect_words(kRows);
+    expect_words(kMatricesRows);
 }
 
 }  // namespace cases

@@ -9,7 +9,7 @@ namespace cases {
 namespace {
 
 // clang-format off
-const Row kRows[] = {
+const Row kTargetsRows[] = {
     {target(R"~(samples = 1)~"),
      R"~(f:4:1: error: [target] has no size; write size = [width, height])~"},
     {target(R"~(size = 8)~"),
@@ -110,7 +110,7 @@ sample = 1)~"),
 }  // namespace
 
 TEST(LoadErrors, OfTargets) {
-    expect_words(kRows);
+    expect_words(kTargetsRows);
 }
 
 }  // namespace cases

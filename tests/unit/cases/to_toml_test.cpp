@@ -18,7 +18,7 @@ namespace cases {
 
 namespace {
 
-const std::string kHead = "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n";
+const std::string kTomlHead = "format = 1\ndescription = \"d\"\nrules = [\"cover.inside\"]\n";
 
 std::optional<Case> load_one(const std::string& toml, const std::string& id) {
     ExpectedAll<std::vector<Case>> loaded = load_text(toml, "f.toml", id);
@@ -48,7 +48,7 @@ std::string value_of(const std::string& text, const std::string& key) {
 
 // The vertices as they are written, of a draw with these in a target of 8 x 8 pixels.
 std::string vertices_of(const std::string& draw) {
-    return value_of(written(kHead + "[target]\nsize = [8, 8]\n[[draw]]\n" + draw), "vertices");
+    return value_of(written(kTomlHead + "[target]\nsize = [8, 8]\n[[draw]]\n" + draw), "vertices");
 }
 
 std::vector<std::string> rows_of(const Case& c) {
@@ -261,7 +261,7 @@ TEST(ToToml, WritesNumbersShortest) {
 
 // No bits are lost, whatever they are: all exponents and the ends of each.
 TEST(ToToml, KeepsEveryBit) {
-    std::optional<Case> c = load_one(kHead +
+    std::optional<Case> c = load_one(kTomlHead +
                                          "[target]\nsize = [8, 8]\n[[draw]]\nspace = \"clip\"\n"
                                          "vertices = [[0,0,0,1],[1,0,0,1],[0,1,0,1]]\n"
                                          "[[draw.attribute]]\nconstant = 1\n",
@@ -288,7 +288,7 @@ TEST(ToToml, KeepsEveryBit) {
 
 TEST(ToToml, SaysWhatCannotBeWritten) {
     const std::optional<Case> plain =
-        load_one(kHead + "[target]\nsize = [8, 8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8]]\n",
+        load_one(kTomlHead + "[target]\nsize = [8, 8]\n[[draw]]\nvertices = [[0,0],[8,0],[0,8]]\n",
                  "family/name");
     ASSERT_TRUE(plain);
     const auto error_of = [](const Case& c) {

@@ -20,10 +20,7 @@ namespace {
 using cases::Profile;
 using ref::value::Ball;
 using ref::value::CandidateVerdict;
-
-double uniform(std::mt19937_64& rng, double low, double high) {
-    return low + (high - low) * static_cast<double>(rng() >> 11U) * 0x1p-53;
-}
+using value_test::uniform;
 
 // A random triangle with four samples, inputs of all decorations, sometimes a probe.
 struct Random {

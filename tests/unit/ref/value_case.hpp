@@ -15,6 +15,10 @@
 
 namespace value_test {
 
+inline double uniform(std::mt19937_64& rng, double low, double high) {
+    return low + (high - low) * static_cast<double>(rng() >> 11U) * 0x1p-53;
+}
+
 // One triangle in one target with the attributes
 //   0 smooth, 4 components: two random, one constant 0.1, one of either sign
 //   1 noperspective, 2 components

@@ -16,6 +16,7 @@ namespace {
 using value_test::Device;
 using value_test::Fault;
 using value_test::Simulated;
+using value_test::uniform;
 
 // Clip coordinates and two smooth attributes, all binary32, as a clipper carries them.
 struct ClipVertex {
@@ -63,10 +64,6 @@ std::vector<ClipVertex> clip32(std::vector<ClipVertex> polygon) {
         polygon = out;
     }
     return polygon;
-}
-
-double uniform(std::mt19937_64& rng, double low, double high) {
-    return low + (high - low) * static_cast<double>(rng() >> 11U) * 0x1p-53;
 }
 
 struct Clipped {

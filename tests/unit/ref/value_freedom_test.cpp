@@ -19,7 +19,7 @@ using value_test::clip_of;
 using value_test::make_case;
 using value_test::rounded;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // The verdict of both ways, which have to agree.
@@ -84,7 +84,7 @@ TEST(ValueFreedom, DepthBeyondTheViewportIsUndefinedAtVulkan) {
     const cases::SampleId id{10, 10, 0};
     const cases::Case c = beyond_the_far_plane();
     ref::FragmentValues v = exact_values(c, id);
-    for (const float depth : {0.0F, 0.5F, 1.0F, kInfinity, kNan}) {
+    for (const float depth : {0.0F, 0.5F, 1.0F, kUnbounded, kNan}) {
         v.depth = depth;
         EXPECT_TRUE(is_ok(c, Profile::vulkan, id, v)) << depth;
         EXPECT_EQ(is_ok(c, Profile::direct3d, id, v), depth >= 1 && depth <= 1) << depth;
@@ -128,7 +128,7 @@ TEST(ValueFreedom, DenominatorsThatMayBeZeroLeaveTheHull) {
             v.attributes[0].x = inside;
             EXPECT_TRUE(is_ok(*asked.c, asked.profile, asked.id, v)) << inside;
         }
-        for (const float wrong : {1e30F, -1e30F, 1e6F, kInfinity, kNan}) {
+        for (const float wrong : {1e30F, -1e30F, 1e6F, kUnbounded, kNan}) {
             v.attributes[0].x = wrong;
             EXPECT_FALSE(is_ok(*asked.c, asked.profile, asked.id, v)) << wrong;
         }
@@ -151,7 +151,7 @@ TEST(ValueFreedom, NothingIsPromisedOfZeroOrDenormalW) {
         add_attribute(c, Interpolation::smooth, 1,
                       {glm::vec4(1.0F), glm::vec4(2.0F), glm::vec4(3.0F)});
         for (const Profile profile : cases::kProfiles) {
-            for (const float value : {kNan, kInfinity, 1e30F, 0.0F}) {
+            for (const float value : {kNan, kUnbounded, 1e30F, 0.0F}) {
                 EXPECT_TRUE(is_ok(c, profile, {32, 10, 0}, spoilt(32.5F, 10.5F, value)))
                     << w << " " << value;
             }
@@ -177,7 +177,7 @@ TEST(ValueFreedom, NothingIsPromisedOfQuotientsBeyondBinary32) {
         EXPECT_EQ(is_ok(c, profile, id, v), profile == Profile::vulkan);
         return ok;
     };
-    for (const float got : {kNan, kInfinity, 0.0F}) {
+    for (const float got : {kNan, kUnbounded, 0.0F}) {
         EXPECT_TRUE(judged(0x1p120F, got, Profile::practice));
         EXPECT_TRUE(judged(-0x1p120F, got, Profile::direct3d));
         EXPECT_TRUE(judged(0x1p120F, got, Profile::vulkan));

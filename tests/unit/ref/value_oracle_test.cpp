@@ -15,10 +15,7 @@
 namespace {
 
 using cases::Profile;
-
-double uniform(std::mt19937_64& rng, double low, double high) {
-    return low + (high - low) * static_cast<double>(rng() >> 11U) * 0x1p-53;
-}
+using value_test::uniform;
 
 // Float at `steps` floats from x.
 float step(float x, int steps) {

@@ -4,21 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include <initializer_list>
+#include "sample_run.hpp"
 
 namespace report {
 
 namespace {
 
-using enum Status;
+using test::run_of;
 
-report::Run run_of(std::initializer_list<Status> statuses) {
-    report::Run run;
-    for (const Status status : statuses) {
-        run.cases.emplace_back().status = status;
-    }
-    return run;
-}
+using enum Status;
 
 TEST(headline, tells_what_is_unexpected_before_all_else) {
     EXPECT_EQ(headline(run_of({pass, fail, fail, crash, xfail})), "2 of 5 cases fail, 1 crashes");

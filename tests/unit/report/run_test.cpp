@@ -4,19 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <initializer_list>
+#include "sample_run.hpp"
 
 namespace report {
 
 namespace {
 
-report::Run run_of(std::initializer_list<Status> statuses) {
-    report::Run run;
-    for (const Status status : statuses) {
-        run.cases.emplace_back().status = status;
-    }
-    return run;
-}
+using test::run_of;
 
 TEST(status, names_are_those_of_the_design) {
     const char* names[] = {"pass", "unsupported", "skip",    "xfail", "xpass", "improved", "flake",

@@ -4,6 +4,7 @@
 // A run with a case of every status, made by hand; and bytes that no report may trip over.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 
 #include "report/record/run.hpp"
@@ -16,6 +17,14 @@ inline const std::string kHostile = std::string("\x1b[31mred\0nul", 12) +
                                     "\xff\xfe \xc0\xaf \xed\xa0\x80 \xe2\x80\xa8 \xef\xbf\xbe " +
                                     "]]> </script><script>alert(1)</script> <!-- --> & \" ' "
                                     "\r\n\t \x7f \xc2\x9b \xf0\x9f\x98\x80";
+
+inline Run run_of(std::initializer_list<Status> statuses) {
+    Run run;
+    for (const Status status : statuses) {
+        run.cases.emplace_back().status = status;
+    }
+    return run;
+}
 
 Run sample_run();
 // As sample_run, every text replaced by hostile bytes (ids stay distinct).

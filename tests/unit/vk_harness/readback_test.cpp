@@ -16,33 +16,33 @@
 namespace vk_harness {
 namespace {
 
-uint32_t bits(float value) {
+uint32_t bits_of(float value) {
     return std::bit_cast<uint32_t>(value);
 }
 
 TEST(DecodeId, IntegersBelow2To24) {
     for (const uint32_t id : {0U, 1U, 2U, 255U, 65535U, (1U << 24) - 1}) {
-        EXPECT_EQ(decode_id(bits(static_cast<float>(id))), id);
+        EXPECT_EQ(decode_id(bits_of(static_cast<float>(id))), id);
     }
 }
 
 TEST(DecodeId, MarkersAndPoison) {
-    EXPECT_EQ(decode_id(bits(-1.0F)), capture::kClearId);
-    EXPECT_EQ(decode_id(bits(-2.0F)), capture::kNoPrimitive);
-    EXPECT_EQ(decode_id(bits(kOtherClearIdAsFloat)), capture::kOtherClearId);
+    EXPECT_EQ(decode_id(bits_of(-1.0F)), capture::kClearId);
+    EXPECT_EQ(decode_id(bits_of(-2.0F)), capture::kNoPrimitive);
+    EXPECT_EQ(decode_id(bits_of(kOtherClearIdAsFloat)), capture::kOtherClearId);
     EXPECT_EQ(decode_id(capture::kPoison), capture::kPoison);
 }
 
 TEST(DecodeId, NothingElseLooksLikeAnId) {
     for (const float value : {0.5F, -0.0F, -4.0F, 0x1p24F, 1e30F, INFINITY, -INFINITY,
                               std::bit_cast<float>(1U), capture::kClearValue}) {
-        EXPECT_EQ(decode_id(bits(value)), kMalformedId) << value;
+        EXPECT_EQ(decode_id(bits_of(value)), kMalformedId) << value;
     }
     EXPECT_TRUE(rc::check("a word is the binary32 of the id that it decodes to", [](uint32_t word) {
         const uint32_t id = decode_id(word);
         RC_ASSERT(id == kMalformedId || id == capture::kClearId || id == capture::kOtherClearId ||
                   id == capture::kNoPrimitive || id == capture::kPoison ||
-                  (id < (1U << 24) && bits(static_cast<float>(id)) == word));
+                  (id < (1U << 24) && bits_of(static_cast<float>(id)) == word));
     }));
 }
 
@@ -59,14 +59,14 @@ TEST(DecodeHits, EveryPairOfCountsAndBothClearValues) {
                 for (uint32_t k = 0; k < back; ++k) {
                     alpha += kBackHit;
                 }
-                const glm::vec4 hits = decode_hits(bits(alpha));
+                const glm::vec4 hits = decode_hits(bits_of(alpha));
                 EXPECT_EQ(hits.x, static_cast<float>(front));
                 EXPECT_EQ(hits.y, static_cast<float>(back));
                 EXPECT_EQ(hits.z, guard);
                 EXPECT_EQ(hits.w, guard + static_cast<float>(front + back));
                 const float none = other ? kOtherNoHits : kNoHits;
-                EXPECT_EQ(decode_hits(bits(none + static_cast<float>(front)),
-                                      bits(none + static_cast<float>(back))),
+                EXPECT_EQ(decode_hits(bits_of(none + static_cast<float>(front)),
+                                      bits_of(none + static_cast<float>(back))),
                           hits);
             }
         }
@@ -75,19 +75,19 @@ TEST(DecodeHits, EveryPairOfCountsAndBothClearValues) {
 
 // What is left where an attachment is not cleared, not blended, or cleared to something else.
 TEST(DecodeHits, NothingElseLooksLikeACount) {
-    EXPECT_EQ(bits(decode_hits(capture::kPoison).x), capture::kPoison);
-    EXPECT_EQ(bits(decode_hits(capture::kPoison).w), capture::kPoison);
+    EXPECT_EQ(bits_of(decode_hits(capture::kPoison).x), capture::kPoison);
+    EXPECT_EQ(bits_of(decode_hits(capture::kPoison).w), capture::kPoison);
     for (const float alpha :
          {0.0F, -0.0F, 1.0F, kBackHit, capture::kHitGuard, capture::kOtherHitGuard, 2 * kNoHits,
           kNoHits - 0.5F, -kNoHits, INFINITY, -INFINITY, NAN, capture::kClearValue}) {
-        const glm::vec4 hits = decode_hits(bits(alpha));
+        const glm::vec4 hits = decode_hits(bits_of(alpha));
         EXPECT_NE(hits.z, capture::kHitGuard) << alpha;
         EXPECT_NE(hits.z, capture::kOtherHitGuard) << alpha;
-        EXPECT_LT(decode_hits(bits(alpha), bits(kNoHits)).z, 0) << alpha;
-        EXPECT_LT(decode_hits(bits(kNoHits), bits(alpha)).z, 0) << alpha;
+        EXPECT_LT(decode_hits(bits_of(alpha), bits_of(kNoHits)).z, 0) << alpha;
+        EXPECT_LT(decode_hits(bits_of(kNoHits), bits_of(alpha)).z, 0) << alpha;
     }
-    EXPECT_LT(decode_hits(bits(kNoHits), bits(kOtherNoHits)).z, 0);
-    EXPECT_EQ(bits(decode_hits(capture::kPoison, bits(kNoHits)).z), capture::kPoison);
+    EXPECT_LT(decode_hits(bits_of(kNoHits), bits_of(kOtherNoHits)).z, 0);
+    EXPECT_EQ(bits_of(decode_hits(capture::kPoison, bits_of(kNoHits)).z), capture::kPoison);
 }
 
 // The same in binary16: from -2048 to 2048 it holds every integer, so these sums are its own.
@@ -100,20 +100,21 @@ TEST(DecodeHits, CountsInHalves) {
                 const auto f = static_cast<float>(front);
                 const auto b = static_cast<float>(back);
                 const glm::vec4 hits(f, b, guard, guard + f + b);
-                EXPECT_EQ(decode_hits(bits(none + f + b * code.back_hit), code), hits);
+                EXPECT_EQ(decode_hits(bits_of(none + f + b * code.back_hit), code), hits);
             }
         }
         for (uint32_t count = 0; count <= code.most; ++count) {
             const auto n = static_cast<float>(count);
-            EXPECT_EQ(decode_hits(bits(none + n), bits(none), code),
+            EXPECT_EQ(decode_hits(bits_of(none + n), bits_of(none), code),
                       glm::vec4(n, 0, guard, guard + n));
         }
         // One more would count as another clear value's, or as none.
-        EXPECT_NE(decode_hits(bits(none + static_cast<float>(code.most) + 1), bits(none), code).z,
-                  guard);
+        EXPECT_NE(
+            decode_hits(bits_of(none + static_cast<float>(code.most) + 1), bits_of(none), code).z,
+            guard);
     }
     for (const float replaced : {1.0F, code.back_hit, 0.0F, -0.5F, -2049.0F, NAN}) {
-        EXPECT_LT(decode_hits(bits(replaced), code).z, 0) << replaced;
+        EXPECT_LT(decode_hits(bits_of(replaced), code).z, 0) << replaced;
     }
 }
 
@@ -242,7 +243,7 @@ TEST(ReadCapture, TakesEveryAttachmentFromItsPlace) {
     EXPECT_EQ(capture.writers[1],
               (capture::Writer{3, capture::kNoPrimitive, 5, capture::kClearId}));
     EXPECT_EQ(capture.frag_coord[0], glm::vec4(9, 10, 11, 12));
-    EXPECT_EQ(bits(capture.frag_coord[1].x), capture::kPoison);
+    EXPECT_EQ(bits_of(capture.frag_coord[1].x), capture::kPoison);
     EXPECT_EQ(capture.attributes[0][1], glm::vec4(17, 18, 19, 20));
     EXPECT_EQ(capture.depth, (std::vector<float>{0.25F, 0.75F}));
     EXPECT_EQ(capture::sample_state(capture, 1), capture::SampleState::not_copied);
@@ -252,24 +253,24 @@ TEST(DecodePackedId, TellsDrawsAndPrimitivesApart) {
     using Ids = std::pair<uint32_t, uint32_t>;
     for (const uint32_t draws : {1U, 2U, 3U, 1000U}) {
         for (const uint32_t draw : {0U, draws / 2, draws - 1}) {
-            EXPECT_EQ(decode_packed_id(bits(static_cast<float>(draw)), draws),
+            EXPECT_EQ(decode_packed_id(bits_of(static_cast<float>(draw)), draws),
                       Ids(draw, capture::kNoPrimitive));
-            EXPECT_EQ(decode_packed_id(bits(static_cast<float>(draws + draw)), draws),
+            EXPECT_EQ(decode_packed_id(bits_of(static_cast<float>(draws + draw)), draws),
                       Ids(kMalformedId, kMalformedId));
             for (const uint32_t primitive : {0U, 1U, 16'000U}) {
                 const uint32_t id = (primitive + 2) * draws + draw;
-                EXPECT_EQ(decode_packed_id(bits(static_cast<float>(id)), draws),
+                EXPECT_EQ(decode_packed_id(bits_of(static_cast<float>(id)), draws),
                           Ids(draw, primitive));
             }
         }
     }
-    EXPECT_EQ(decode_packed_id(bits(kClearIdAsFloat), 3),
+    EXPECT_EQ(decode_packed_id(bits_of(kClearIdAsFloat), 3),
               Ids(capture::kClearId, capture::kClearId));
-    EXPECT_EQ(decode_packed_id(bits(kOtherClearIdAsFloat), 3),
+    EXPECT_EQ(decode_packed_id(bits_of(kOtherClearIdAsFloat), 3),
               Ids(capture::kOtherClearId, capture::kOtherClearId));
     EXPECT_EQ(decode_packed_id(capture::kPoison, 3), Ids(capture::kPoison, capture::kPoison));
     for (const float value : {-2.0F, 6.5F, 0x1p24F}) {
-        EXPECT_EQ(decode_packed_id(bits(value), 3), Ids(kMalformedId, kMalformedId)) << value;
+        EXPECT_EQ(decode_packed_id(bits_of(value), 3), Ids(kMalformedId, kMalformedId)) << value;
     }
 }
 
