@@ -3,6 +3,8 @@
 //
 // The command "doctor": the Vulkan loader, the drivers' manifests and every device, as a worker
 // sees them, and what to install where something is missing.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +13,7 @@
 #include <sstream>
 #include <utility>
 
+#include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/prepare/device_answer.hpp"
@@ -18,6 +21,7 @@
 #include "cli/prepare/suite.hpp"
 #include "report/files/json.hpp"
 #include "run/process/manifest.hpp"
+#include "run/worker/lacking.hpp"
 
 namespace cli {
 
@@ -137,6 +141,7 @@ struct Diagnosis {
     std::string chosen_by;
     std::vector<run::Manifest> manifests;
     std::vector<vk_harness::DeviceInfo> devices;
+    std::vector<std::optional<run::SuiteShare>> shares;  // of the devices, as far as known
     std::vector<std::string> problems;
     std::vector<std::string> advice;
     bool usable = false;  // what the options choose can run the suite
@@ -232,13 +237,81 @@ cases::Expected<void> ask(const Program& program, const DeviceOptions& options, 
     return ask_worker(program, options, Question::chosen, d);
 }
 
+// Asks each usable device what of the suite it can draw. Without a suite nothing is asked.
+void ask_shares(const Program& program, const DeviceOptions& options, Diagnosis& d) {
+    d.shares.resize(d.devices.size());
+    const OrStop<LoadedSuite> suite = load_and_select(program, {});
+    if (!suite) {
+        return;
+    }
+    std::vector<const cases::Case*> asked;
+    for (const size_t k : suite->selected) {
+        asked.push_back(&suite->cases[k]);
+    }
+    run::SignalFd signals;
+    for (size_t k = 0; k < d.devices.size(); ++k) {
+        if (!is_usable(d.devices[k])) {
+            continue;
+        }
+        run::WorkerOptions worker = worker_options(options);
+        worker.vulkan.device.clear();
+        worker.vulkan.pinned_uuid = d.devices[k].uuid;
+        worker.vulkan.pinned_driver = d.devices[k].driver_id;
+        const auto reasons = run::ask_what_is_lacking(
+            worker_command(program), worker,
+            std::chrono::milliseconds(static_cast<int64_t>(options.timeout * 1000)), asked,
+            signals);
+        if (reasons) {
+            d.shares[k] = run::share_of(*reasons);
+        } else {
+            d.problems.push_back(d.devices[k].name + ": " + reasons.error().message);
+        }
+    }
+}
+
+Json share_json(const std::optional<run::SuiteShare>& share) {
+    if (!share) {
+        return nullptr;
+    }
+    Json lacking = Json::array();
+    for (const auto& [reason, count] : share->lacking) {
+        lacking.push_back({{"reason", reason}, {"cases", count}});
+    }
+    return {{"cases", share->cases}, {"drawn", share->drawn}, {"lacking", lacking}};
+}
+
+// "draws 3174 of 3731 cases of the suite (85.1 %)", and what the others lack.
+std::vector<std::string> share_lines(const run::SuiteShare& share) {
+    constexpr size_t kTold = 8;
+    const double percent = share.cases == 0 ? 0
+                                            : 100.0 * static_cast<double>(share.drawn) /
+                                                  static_cast<double>(share.cases);
+    std::vector<std::string> lines = {fmt::format("draws {} of {} of the suite ({:.1f} %){}",
+                                                  share.drawn, cases::counted(share.cases, "case"),
+                                                  percent, share.lacking.empty() ? "" : "; not")};
+    for (size_t k = 0; k < std::min(share.lacking.size(), kTold); ++k) {
+        const auto& [reason, count] = share.lacking[k];
+        lines.push_back(fmt::format("  {}: {}", cases::counted(count, "case"), reason));
+    }
+    if (share.lacking.size() > kTold) {
+        size_t rest = 0;
+        for (size_t k = kTold; k < share.lacking.size(); ++k) {
+            rest += share.lacking[k].second;
+        }
+        lines.push_back(fmt::format("  {} for {} other reasons: --json has all",
+                                    cases::counted(rest, "case"), share.lacking.size() - kTold));
+    }
+    return lines;
+}
+
 Json to_json(const Diagnosis& d) {
     Json manifests = Json::array();
     for (const run::Manifest& m : d.manifests) {
         manifests.push_back({{"file", m.file}, {"library", m.library}, {"problem", m.problem}});
     }
     Json devices = Json::array();
-    for (const vk_harness::DeviceInfo& device : d.devices) {
+    for (size_t k = 0; k < d.devices.size(); ++k) {
+        const vk_harness::DeviceInfo& device = d.devices[k];
         const report::Device r = to_report(device);
         devices.push_back({{"index", device.index},
                            {"name", r.name},
@@ -253,6 +326,7 @@ Json to_json(const Diagnosis& d) {
                            {"max_color_attachments", device.max_color_attachments},
                            {"has_primitive_id", r.has_primitive_id},
                            {"hit_counting", device.hit_counting},
+                           {"suite", share_json(d.shares[k])},
                            {"missing", device.missing}});
     }
     Json parts = Json::array();
@@ -281,7 +355,8 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
         line("  none");
     }
     line("Devices");
-    for (const vk_harness::DeviceInfo& device : d.devices) {
+    for (size_t k = 0; k < d.devices.size(); ++k) {
+        const vk_harness::DeviceInfo& device = d.devices[k];
         const report::Device r = to_report(device);
         line("  " + std::to_string(device.index) + "  " + r.name + " (" + r.type + "), " +
              r.driver_name + " " + r.driver_info + ", Vulkan " + r.api_version);
@@ -292,6 +367,11 @@ void print(const Diagnosis& d, const DeviceOptions& options) {
              ", hits counted in " + device.hit_counting + ", UUID " + r.uuid);
         for (const std::string& missing : device.missing) {
             line("     missing: " + missing);
+        }
+        if (d.shares[k]) {
+            for (const std::string& text : share_lines(*d.shares[k])) {
+                line("     " + text);
+            }
         }
     }
     if (d.devices.empty()) {
@@ -329,6 +409,7 @@ int doctor_command(const Program& program, const DoctorOptions& options) {
     if (const auto asked = ask(program, options.device, d); !asked) {
         return report_stop({report::kExitInternal, {asked.error().message}});
     }
+    ask_shares(program, options.device, d);
     if (!d.devices.empty() && std::none_of(d.devices.begin(), d.devices.end(), is_usable)) {
         d.advice.emplace_back("sudo apt install mesa-vulkan-drivers");
     }

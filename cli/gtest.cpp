@@ -21,6 +21,7 @@
 #include "cli/commands.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
+#include "report/record/levels.hpp"
 #include "report/text/sentences.hpp"
 
 namespace cli {
@@ -127,6 +128,7 @@ int list_tests(const Program& program, const GtestOptions& options, const Filter
 // soon as the one before it has ended: a runner's time limit then blames the right one.
 class Teller {
   public:
+    explicit Teller(cases::Profile fail_level) : fail_level_(fail_level) {}
     void begin(const std::vector<std::string>& ids) {
         ids_ = ids;
         say(fmt::format("[==========] Running {} tests from 1 test suite.\n", ids_.size()));
@@ -165,20 +167,22 @@ class Teller {
             std::fputs((name_of(record.id) + ":\n" + why).c_str(), stderr);
             return;
         }
-        const bool is_judged = record.status == Status::pass || record.status == Status::xfail;
-        const bool is_fine = report::is_expected(record.status);
+        const bool is_fine = !report::makes_fail(record, fail_level_);
+        const bool is_skipped =
+            record.status == Status::unsupported || record.status == Status::skip;
         say(fmt::format("{} {} ({:.0f} ms)\n",
-                        is_judged ? "[       OK ]"
-                        : is_fine ? "[  SKIPPED ]"
-                                  : "[  FAILED  ]",
+                        !is_fine     ? "[  FAILED  ]"
+                        : is_skipped ? "[  SKIPPED ]"
+                                     : "[       OK ]",
                         name_of(record.id), record.seconds * 1000));
-        if (!is_fine) {
+        if (!report::is_expected(record.status)) {
             say(why);
         }
         ++next_;
         say_next();
     }
 
+    cases::Profile fail_level_;
     std::vector<std::string> ids_;
     std::map<std::string, CaseRecord> waiting_;
     size_t next_ = 0;
@@ -212,7 +216,7 @@ int gtest_command(const Program& program, const GtestOptions& options) {
     }
     run.output = folder;
     run.capture = keeps ? run.capture : run::KeepPictures::none;
-    Teller teller;
+    Teller teller(run.fail_at.value_or(run.profile));
     std::set<std::string> selected;
     const auto begin = [&](const std::vector<std::string>& ids) {
         for (const std::string& name : filter.unknown(selected)) {

@@ -19,6 +19,7 @@
 #include "cli/reproducer/reproducer.hpp"
 #include "report/files/ci.hpp"
 #include "report/journal/journal.hpp"
+#include "report/record/levels.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
 #include "run/process/manifest.hpp"
@@ -81,6 +82,7 @@ OrStop<std::monostate> set_debugger(const Program& program, const RunOptions& op
     plan.front().alone = true;
     config.command = std::move(*command);
     config.timeout = std::chrono::hours(24 * 365);
+    config.worker.vulkan.longest_wait_ms = 0;
     config.schedule.lanes = 1;
     config.schedule.repeat = 1;
     config.schedule.retries = 0;
@@ -194,7 +196,7 @@ int run_prepared(const Program& program, Prepared& p, run::LoopConfig config,
     const auto on_record = [&](const CaseRecord& record) {
         print(unexpected.add(record));
         return teller != nullptr ? teller->end(record)
-                                 : !options.fail_fast || report::is_expected(record.status);
+                                 : !options.fail_fast || !report::makes_fail(p.header, record);
     };
     if (teller != nullptr) {
         teller->begin(ids);

@@ -14,6 +14,7 @@
 #include "diff/stray_write.hpp"
 #include "diff/verdict.hpp"
 #include "ref/expectation/expectation.hpp"
+#include "ref/position/viewport_grid.hpp"
 #include "run/evidence.hpp"
 
 namespace run {
@@ -72,6 +73,25 @@ std::string lacking_doors(const cases::Case& c, std::span<const cases::Derivatio
     return is_of_doors ? reason : std::string();
 }
 
+// A device may keep viewports to its own grid: what is wrong with the viewports as they are is
+// right if it is so with all of them kept in one way.
+void try_viewport_grid(const cases::Case& c, const ref::Limits& limits,
+                       const capture::CaptureView& capture, ref::Expectation& expectation,
+                       diff::Verdict& verdict) {
+    if (verdict.ok() || !verdict.error.empty() || c.blit) {
+        return;
+    }
+    for (const cases::Case& kept : ref::on_viewport_grids(c, limits)) {
+        ref::Expectation other = ref::expect(kept, limits, verdict.profile);
+        diff::Verdict found = diff::compare(kept, other, capture);
+        if (found.ok()) {
+            expectation = std::move(other);
+            verdict = std::move(found);
+            return;
+        }
+    }
+}
+
 }  // namespace
 
 CaseRecord make_record(const cases::Case& c) {
@@ -100,10 +120,11 @@ void judge(CaseRecord& record, const cases::Case& c, const capture::CaptureView&
            const WorkerFindings& found, const ref::Limits& limits, cases::Profile profile,
            KeepPictures pictures) {
     try {
-        const ref::Expectation expectation =
+        ref::Expectation expectation =
             c.blit ? ref::Expectation{} : ref::expect(c, limits, profile);
         diff::Verdict verdict = c.blit ? diff::compare_blit(c, profile, capture)
                                        : diff::compare(c, expectation, capture);
+        try_viewport_grid(c, limits, capture, expectation, verdict);
         if (verdict.ok() && !c.blit && !c.target.has_instruments &&
             diff::may_stay_clear(c, expectation)) {
             verdict.error =

@@ -24,7 +24,10 @@ using vk_harness::Rendered;
 namespace {
 
 constexpr uint64_t kMaxJudgingBytes = uint64_t{128} << 20;
-constexpr uint32_t kMaxStartFailures = 3;
+// A graphics processor that hung is reset, and its driver may refuse to start for some seconds. The
+// pauses after the first seven failures in a row are half a minute in all.
+constexpr uint32_t kMaxStartFailures = 8;
+constexpr std::chrono::milliseconds kFirstPause{250};  // twice as long after each
 constexpr int kProgressMs = 200;
 constexpr uint32_t kRepeatsOfDeath = 10;  // of a batch whose worker died once
 
@@ -76,6 +79,13 @@ RunLoop::RunLoop(LoopConfig config, const std::vector<PlannedCase>& cases, repor
 
 RunLoop::End RunLoop::run(std::vector<WorkerClient> workers, const vk_harness::DeviceInfo& device) {
     device_ = device;
+    if (config_.worker.renderer.empty()) {
+        config_.worker.vulkan.pinned_uuid = device.uuid;
+        config_.worker.vulkan.pinned_driver = device.driver_id;
+    }
+    if (config_.gpu_budget) {
+        schedule_.set_batch_bytes(0);  // until it is known how long they take, one case each
+    }
     slots_.resize(std::max(size_t{1}, config_.schedule.lanes));
     for (size_t k = 0; k < std::min(workers.size(), slots_.size()); ++k) {
         slots_[k].client.emplace(std::move(workers[k]));
@@ -182,6 +192,9 @@ void RunLoop::feed(Slot& slot) {
         return;
     }
     if (!slot.client || (slot.batch->fresh && !slot.client->is_fresh())) {
+        if (Clock::now() < next_start_) {
+            return;
+        }
         start_worker(slot);
     }
     if (!slot.client || slot.client->state() != WorkerClient::State::idle ||
@@ -240,9 +253,13 @@ void RunLoop::on_device(Slot& slot, const vk_harness::DeviceInfo& device) {
 
 void RunLoop::on_start_failure(Slot& slot, const std::string& why) {
     slot.client.reset();
+    if (Clock::now() < next_start_) {
+        return;  // it was started with one that has failed already
+    }
     if (++start_failures_ >= kMaxStartFailures) {
         fail("workers cannot be started any more: " + why);
     }
+    next_start_ = Clock::now() + kFirstPause * (1U << (start_failures_ - 1));
 }
 
 CaseRecord RunLoop::fresh_record(size_t k, Status status, const std::string& reason) const {
@@ -351,7 +368,25 @@ void RunLoop::on_judged(size_t k, CaseRecord record) {
     }
 }
 
+// The slowest of the last batches decides: a measurement fades as faster ones follow.
+void RunLoop::keep_gpu_budget(const Slot& slot) {
+    if (!config_.gpu_budget || !slot.batch) {
+        return;
+    }
+    uint64_t bytes = 1;
+    for (const size_t k : slot.batch->cases) {
+        bytes += capture::capture_bytes(cases_[k].data);
+    }
+    constexpr double kFading = 0.9;
+    seconds_per_byte_ = std::max(seconds_since(slot.since) / static_cast<double>(bytes),
+                                 seconds_per_byte_ * kFading);
+    const double budget = std::chrono::duration<double>(*config_.gpu_budget).count();
+    const auto most = static_cast<double>(config_.schedule.batch_bytes);
+    schedule_.set_batch_bytes(static_cast<uint64_t>(std::min(most, budget / seconds_per_byte_)));
+}
+
 void RunLoop::on_batch_done(Slot& slot) {
+    keep_gpu_budget(slot);
     const std::vector<size_t> without_result = slot.without_result();
     if (!without_result.empty()) {
         if (slot.batch->fresh) {  // said it was done, sent nothing

@@ -44,6 +44,9 @@ struct LoopConfig {
     std::string icd_from = "--icd";  // what chose worker.vulkan.icd_file
     std::chrono::milliseconds timeout{30000};
     Schedule::Options schedule;  // its lanes: workers
+    // How long the device may work on one submission; what the batches before took decides how
+    // large the next one is. A case alone may take longer.
+    std::optional<std::chrono::milliseconds> gpu_budget;
     cases::Profile profile = cases::Profile::direct3d;
     bool requires_support = false;  // a case that is not supported counts as failed
     bool keeps_workers = false;     // take_workers() is asked for
@@ -101,6 +104,7 @@ class RunLoop {
     report::CaseRecord fresh_record(size_t k, report::Status status,
                                     const std::string& reason = {}) const;
     bool is_unexpected(size_t k, const report::CaseRecord& record) const;
+    void keep_gpu_budget(const Slot& slot);
     int poll_timeout() const;
     void check(const cases::Expected<void>& written);
     void fail(const std::string& why);
@@ -124,6 +128,8 @@ class RunLoop {
     std::vector<bool> is_finished_;  // [k] has its final record
     bool is_stopped_ = false;        // by on_record_
     uint32_t start_failures_ = 0;    // in a row
+    Clock::time_point next_start_;   // no worker is started before
+    double seconds_per_byte_ = 0;    // of captures, while one batch is drawn; 0: not known yet
     std::future<void> ending_;       // of the workers, waited for at the end of the loop's life
     End end_;
 };

@@ -49,6 +49,8 @@ class Schedule {
     void add(size_t k) { lanes_.front().cases.push_back(k); }
     void add_alone(size_t k) { fresh_.push_back(k); }
 
+    // From now on a batch of several cases has captures of so many bytes at most.
+    void set_batch_bytes(uint64_t bytes) { options_.batch_bytes = bytes; }
     // The next batch of the worker of this lane, or nothing (yet).
     std::optional<Batch> next(size_t lane = 0);
     // True while a case waits for its batch.

@@ -424,6 +424,10 @@ Result<BatchRenderer> BatchRenderer::create(const Options& options) {
         return fail(made.error());
     }
     auto device = std::make_unique<Device>(std::move(*made));
+    if (options.longest_wait_ms > 0) {
+        constexpr uint64_t kNanoseconds = 1'000'000;  // of a millisecond
+        device->set_longest_wait(options.longest_wait_ms * kNanoseconds);
+    }
     auto pipelines = PipelineCache::create(*device);
     if (!pipelines) {
         return fail(pipelines.error());
@@ -450,6 +454,11 @@ Result<Renderer> Renderer::create(const Options& options) {
 
 const DeviceInfo& Renderer::device() const {
     return impl_->body.device().capabilities().info;
+}
+
+std::string Renderer::lacking(const cases::Case& c) const {
+    const std::optional<Rejection> rejection = check_case(impl_->body.device().capabilities(), c);
+    return rejection ? rejection->reason : std::string();
 }
 
 std::vector<Rendered> Renderer::render(std::span<const cases::Case> batch,

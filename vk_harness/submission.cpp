@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "vk_harness/memory/barrier.hpp"
 #include "vk_harness/renderer.hpp"
@@ -135,10 +134,10 @@ Result<void> Submission::run() {
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::submit, result, "vkQueueSubmit"));
     }
-    // A hang is ended from outside: the worker has a time limit.
+    // A hang is ended from outside, where the worker has a time limit; should nobody do so, the
+    // wait ends all the same, later.
     const VkFence fence = fence_.get();
-    result = vk.vkWaitForFences(device_->get(), 1, &fence, VK_TRUE,
-                                std::numeric_limits<uint64_t>::max());
+    result = vk.vkWaitForFences(device_->get(), 1, &fence, VK_TRUE, device_->longest_wait());
     if (result != VK_SUCCESS) {
         return fail(call_failure(Stage::submit, result, "vkWaitForFences"));
     }

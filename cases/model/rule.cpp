@@ -371,10 +371,13 @@ constexpr std::array kRules = {
          "With perspective or, BaryCoordNoPersp, linearly; within the binary32 budget from profile "
          "practice on.",
          "primsrast-barycentric", "", "ref/value/value.hpp"},
-    Rule{rule::barycentric_order, Profile::vulkan, "Barycentric vertex order follows the topology",
-         "The triangle's vertices turned so that the provoking vertex is the first (or the last, "
-         "with the last vertex convention), as the tables for lists, strips and fans say.",
-         "primsrast-barycentric", "", "ref/value/fragment/quantities.cpp"},
+    Rule{
+        rule::barycentric_order, Profile::vulkan, "Barycentric vertex order follows the topology",
+        "The triangle's vertices turned so that the provoking vertex is the first (or the last, "
+        "with the last vertex convention), as the tables for lists, strips and fans say; of strips "
+        "as with the first one where the device says "
+        "triStripVertexOrderIndependentOfProvokingVertex.",
+        "primsrast-barycentric", "", "ref/value/fragment/quantities.cpp"},
     Rule{rule::blit_nearest, Profile::vulkan, "A blit copies the texel whose area holds u",
          "u = (i + 1/2 - d0) (s1 - s0) / (d1 - d0) + s0, likewise v. At 1:1, mirrored and scaled "
          "up by a whole number exactly one texel qualifies; where u is on a border within the "

@@ -100,7 +100,9 @@ constexpr Statement kStatements[] = {
      "The pixel on either side of the border is open.",
      {"clip.viewport"}, ""},
     {30, "a viewport finer than viewportSubPixelBits", Strictness::free, exact,
-     "Positions are widened by what the device may shift the viewport.",
+     "Bounds may be as they are or moved to a neighbour on the grid of 2^-viewportSubPixelBits pixels: at vulkan positions "
+     "are widened by its step; from practice on the whole picture is right with the bounds as they are, or with all of "
+     "them moved in one way.",
      {"clip.viewport", "cover.inside"}, ""},
     {31, "depth clipping on and off", exact, exact,
      "Which planes cut is exact; near a plane that cuts, a sample is open where its depth is at the "
@@ -191,7 +193,8 @@ constexpr Statement kStatements[] = {
      "A denormal or 0 of either sign arrives as it is or as a zero; NaN and infinity need not arrive, but spoil nothing else.",
      {"interp.flat", "number.undefined"}, ""},
     {60, "barycentric built-ins", exact, not_spoken,
-     "The order of the vertices exactly, the values as any other interpolation.",
+     "The order of the vertices exactly (of a strip that of the first vertex convention where the device says "
+     "triStripVertexOrderIndependentOfProvokingVertex), the values as any other interpolation.",
      {"barycentric.order", "barycentric.value"}, ""},
     {61, "fine derivatives", exact, exact,
      "The difference of two neighbours in the pixel's own row or column; either neighbour.",

@@ -141,6 +141,7 @@ void define_run(CLI::App& app, RunOptions& o) {
         ->group("Device");
     add_require_support(run, o, "device");
     add_profile(run, o.profile);
+    add_fail_at(run, o.fail_at);
     add_expectations(run, o);
     run->add_flag("--strict", o.strict,
                   "a known failure with bits that no file of pictures knows is unexpected")
@@ -152,6 +153,10 @@ void define_run(CLI::App& app, RunOptions& o) {
     add_value(run, "--batch", o.batch, "cases in one submission, at most; 1 to 1024 [16]", "N",
               "Isolation")
         ->check(in_range(1U, 1024U));
+    add_value(run, "--gpu-budget", o.gpu_budget,
+              "milliseconds of a submission; batches are made smaller to keep to it [no bound]",
+              "MS", "Isolation")
+        ->check(in_range(1U, 600000U));
     add_value(run, "--retries", o.retries,
               "how often an unexpected failure is drawn again, alone [1]", "N", "Isolation")
         ->check(in_range(0U, 1000U));
@@ -181,6 +186,7 @@ void define_gtest(CLI::App& app, GtestOptions& o) {
     gtest->add_flag("--validation", o.run.device.validation, "with the Khronos validation layer")
         ->group("Device");
     add_profile(gtest, o.run.profile);
+    add_fail_at(gtest, o.run.fail_at);
     add_expect(gtest, o.run, "an expectation file: what ends as it says is OK [none]");
     add_value(gtest, "-o,--output", o.run.output,
               "keep the reports, in a new folder below DIR for each process [not kept]", "DIR",
@@ -301,6 +307,7 @@ void define_images(CLI::App& app, AllOptions& all) {
               "Selection");
     add_value(in, "--name", all.diff.name, "of the renderer, for the reports", "NAME", "Output");
     add_profile(in, o.profile);
+    add_fail_at(in, o.fail_at);
     add_subpixel_bits(in, all.diff.subpixel_bits);
     add_require_support(in, o, "renderer");
     add_expectations(in, o);

@@ -61,8 +61,10 @@ struct RunOptions {
     bool no_expect = false;
     bool strict = false;  // known failures with pictures that nobody has seen are unexpected
     cases::Profile profile = cases::Profile::direct3d;
+    std::optional<cases::Profile> fail_at;  // the strictest level that makes it fail; the profile
     uint32_t jobs = std::min(cases::cores(), 4U);
     uint32_t batch = 16;
+    uint32_t gpu_budget = 0;  // milliseconds; 0: none
     uint32_t retries = 1;
     std::string debugger;
     std::string output;

@@ -114,6 +114,19 @@ OrStop<std::monostate> check_resume(const CLI::App& run, const std::vector<std::
     return std::monostate{};
 }
 
+// Of a level that is stricter than the profile nothing is known, so that no run would fail at it.
+OrStop<std::monostate> check_fail_at(const RunOptions& o, const std::string& command) {
+    if (!o.fail_at || *o.fail_at <= o.profile) {
+        return std::monostate{};
+    }
+    const std::string level(cases::to_string(*o.fail_at)), profile(cases::to_string(o.profile));
+    return tl::unexpected(
+        usage_error("--fail-at " + level + " is stricter than the profile " + profile +
+                        ", at which nothing of that level is judged; write --fail-at " + profile +
+                        " or --profile " + level,
+                    command));
+}
+
 OrStop<std::monostate> check_run(const CLI::App& run, const RunOptions& o,
                                  const std::vector<std::string>& words) {
     if (!o.resume.empty()) {
@@ -312,6 +325,11 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
     OrStop<std::monostate> checked = check_loudness(*command);
     if (checked && first == "run") {
         checked = check_run(*command, all.run, words);
+        checked = checked ? check_fail_at(all.run, first) : checked;
+    } else if (checked && first == "gtest") {
+        checked = check_fail_at(all.gtest.run, first);
+    } else if (checked && first == "diff") {
+        checked = check_fail_at(all.diff.run, first);
     } else if (checked && first == "fuzz") {
         checked = check_fuzz(*command, all.fuzz, words);
     } else if (checked && first == "reduce") {

@@ -12,6 +12,10 @@ const std::map<std::string, cases::Profile> kProfileNames = {
     {"vulkan", cases::Profile::vulkan},
     {"practice", cases::Profile::practice},
     {"direct3d", cases::Profile::direct3d}};
+const std::map<std::string, std::optional<cases::Profile>> kLevelNames = {
+    {"vulkan", cases::Profile::vulkan},
+    {"practice", cases::Profile::practice},
+    {"direct3d", cases::Profile::direct3d}};
 const std::map<std::string, Ci> kCiNames = {
     {"auto", Ci::automatic}, {"github", Ci::github}, {"gitlab", Ci::gitlab}, {"none", Ci::none}};
 
@@ -66,6 +70,12 @@ void add_case(CLI::App* app, SuiteOptions& o) {
 void add_profile(CLI::App* app, cases::Profile& profile) {
     add_choice(app, "--profile", profile, kProfileNames, "what the device is held to")
         ->envname("EDGECASE_PROFILE")
+        ->group("Judging");
+}
+
+void add_fail_at(CLI::App* app, std::optional<cases::Profile>& level) {
+    add_choice(app, "--fail-at", level, kLevelNames,
+               "a case fails the run only if it breaks this level or a looser one [the profile]")
         ->group("Judging");
 }
 

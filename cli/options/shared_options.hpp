@@ -89,6 +89,7 @@ void add_suite(CLI::App* app, SuiteOptions& o);
 // For commands that work on one case.
 void add_case(CLI::App* app, SuiteOptions& o);
 void add_profile(CLI::App* app, cases::Profile& profile);
+void add_fail_at(CLI::App* app, std::optional<cases::Profile>& level);
 void add_subpixel_bits(CLI::App* app, uint32_t& bits);
 void add_device(CLI::App* app, DeviceOptions& o);
 void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color);

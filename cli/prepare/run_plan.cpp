@@ -75,6 +75,11 @@ std::string selection_text(std::vector<std::string> ids) {
     return fmt::format("{}, {}", cases::counted(ids.size(), "case"), cases::hex(hash));
 }
 
+// The level of --fail-at, unless it is the profile anyway.
+std::optional<cases::Profile> own_fail_level(const RunOptions& options) {
+    return options.fail_at == options.profile ? std::nullopt : options.fail_at;
+}
+
 // The options that change what counts as expected, as they would be given.
 std::string settings_of(const RunOptions& options) {
     std::vector<std::string> words;
@@ -86,6 +91,9 @@ std::string settings_of(const RunOptions& options) {
         }
     }
     const RunOptions usual;
+    if (const auto level = own_fail_level(options)) {
+        words.push_back(fmt::format("--fail-at {}", cases::to_string(*level)));
+    }
     if (options.doors != usual.doors) {
         words.push_back("--doors " + options.doors);
     }
@@ -184,6 +192,7 @@ report::Run new_header(const Program& program, const RunOptions& options,
     ::uname(&name);
     header.host = std::string(name.sysname) + " " + name.release + " " + name.machine;
     header.profile = options.profile;
+    header.fail_at = own_fail_level(options);
     header.seed = options.seed;
     std::error_code ignored;
     header.suite_root = fs::absolute(selection.root, ignored).lexically_normal().string();
@@ -220,6 +229,12 @@ void add_suite_and_profile(std::vector<std::string>& words, const RunOptions& op
     add_given(words, "--suite", options.suite.suite);
     if (options.profile != cases::Profile::direct3d) {
         words.insert(words.end(), {"--profile", std::string(cases::to_string(options.profile))});
+    }
+}
+
+void add_fail_at(std::vector<std::string>& words, const RunOptions& options) {
+    if (const auto level = own_fail_level(options)) {
+        words.insert(words.end(), {"--fail-at", std::string(cases::to_string(*level))});
     }
 }
 
@@ -300,6 +315,7 @@ std::string rerun_line(const Program& program, const RunOptions& options, const 
     if (std::abs(options.device.timeout - DeviceOptions().timeout) > 0) {
         words.insert(words.end(), {"--timeout", fmt::format("{}", options.device.timeout)});
     }
+    add_fail_at(words, options);
     if (options.require_support) {
         words.emplace_back("--require-support");
     }
@@ -319,6 +335,7 @@ std::string diff_line(const Program& program, const DiffOptions& options, const 
     add_suite_and_profile(words, options.run);
     add_subpixel_bits(words, options.subpixel_bits);
     add_given(words, "--name", options.name);
+    add_fail_at(words, options.run);
     if (options.run.require_support) {
         words.emplace_back("--require-support");
     }

@@ -50,7 +50,20 @@ PixelRect draw_rect(const cases::Draw& draw, const cases::Target& target, const 
 }
 
 // The draw with the state that the device has in mind.
-cases::Draw effective(const cases::Case& c, uint32_t number, Fault fault) {
+// A bound of a viewport on the device's grid, halves up.
+double on_grid(double bound, int bits) {
+    return std::ldexp(std::floor(std::ldexp(bound, bits) + 0.5), -bits);
+}
+
+void keep_on_grid(float& origin, float& extent, int bits) {
+    const double low = on_grid(double{origin}, bits);
+    const double high = on_grid(double{origin} + double{extent}, bits);
+    origin = static_cast<float>(low);
+    extent = static_cast<float>(high - low);
+}
+
+cases::Draw effective(const cases::Case& c, uint32_t number, const Device& device) {
+    const Fault fault = device.fault;
     cases::Draw draw = c.draws[number];
     if (fault == Fault::state_of_first_draw) {
         const cases::Draw& first = c.draws[0];
@@ -68,6 +81,10 @@ cases::Draw effective(const cases::Case& c, uint32_t number, Fault fault) {
         draw.viewport.width = std::round(draw.viewport.width);
         draw.viewport.height = std::round(draw.viewport.height);
     }
+    if (device.keeps_viewport_grid) {
+        keep_on_grid(draw.viewport.x, draw.viewport.width, device.viewport_bits);
+        keep_on_grid(draw.viewport.y, draw.viewport.height, device.viewport_bits);
+    }
     return draw;
 }
 
@@ -75,7 +92,7 @@ cases::Draw effective(const cases::Case& c, uint32_t number, Fault fault) {
 
 DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& device,
                          capture::Capture& out, Attachments& attachments)
-    : draw_(effective(c, number, device.fault)),
+    : draw_(effective(c, number, device)),
       number_(number),
       device_(device),
       out_(out),
@@ -118,7 +135,9 @@ void DrawCommand::rasterize(const Primitive& primitive) {
                                         primitive.vertex.begin());
                 size_t turn = draw_.provoking == cases::ProvokingVertex::last ? 2 : 3;
                 turn += device_.fault == Fault::barycentric_rotated ? 1 : 0;
-                const size_t number = (k + 3 - provoking + turn) % 3;
+                const bool keeps_order = device_.first_strip_order && turn == 2 &&
+                                         draw_.topology == cases::Topology::triangle_strip;
+                const size_t number = keeps_order ? k : (k + 3 - provoking + turn) % 3;
                 triangle[k].values[a][static_cast<glm::vec4::length_type>(number)] = 1;
             }
             if (draw_.attributes[a].source == cases::Source::vertex) {

@@ -32,15 +32,18 @@ TrianglePlanes::TrianglePlanes(const std::array<WindowVertex, 3>& v, bool positi
     };
     // Where snapping has turned a sliver over, or a vertex that was cut off onto the line of the
     // others, only the other positions have the triangle's area.
-    const bool is_snapped = device.basis == PlaneBasis::snapped;
-    if (!place(is_snapped) && !place(!is_snapped)) {
-        place(true);
-        if (!std::isfinite(inverse_area_)) {
-            inverse_area_ = 0;  // of no area at all: the first vertex's values everywhere
+    const auto set_up_from = [&](bool is_snapped) {
+        if (!place(is_snapped) && !place(!is_snapped)) {
+            place(true);
+            if (!std::isfinite(inverse_area_)) {
+                inverse_area_ = 0;  // of no area at all: the first vertex's values everywhere
+            }
         }
-    }
-
+    };
+    const bool is_snapped = device.basis == PlaneBasis::snapped;
+    set_up_from(device.depth_has_other_basis ? !is_snapped : is_snapped);
     depth_ = make({v[0].z, v[1].z, v[2].z});
+    set_up_from(is_snapped);
     inverse_w_ = make({v[0].inv_w, v[1].inv_w, v[2].inv_w});
     depth_over_w_ = make({v[0].z * v[0].inv_w, v[1].z * v[1].inv_w, v[2].z * v[2].inv_w});
     for (uint32_t k = 0; k < draw.distances.clip_count; ++k) {

@@ -100,7 +100,7 @@ struct DepthTest::Impl {
     Loaded& load(uint32_t t) {
         if (!loaded[t]) {
             loaded[t] = std::make_unique<Loaded>();
-            loaded[t]->primitive = value::make_primitive(c, triangles[t]);
+            loaded[t]->primitive = value::make_primitive(c, triangles[t], limits);
         }
         return *loaded[t];
     }

@@ -9,6 +9,10 @@ struct Limits {
     int subpixel_bits = 8;              // VkPhysicalDeviceLimits::subPixelPrecisionBits, 4..16
     int interpolation_offset_bits = 4;  // subPixelInterpolationOffsetBits, at least 4
     int mipmap_bits = 4;                // mipmapPrecisionBits, at least 4
+    int viewport_bits = 0;              // viewportSubPixelBits, 0..16
+    // triStripVertexOrderIndependentOfProvokingVertex: barycentrics of an odd triangle of a strip
+    // have the vertex order of the first vertex convention with the last one, too.
+    bool first_strip_order = false;
     friend bool operator==(const Limits&, const Limits&) = default;
 };
 

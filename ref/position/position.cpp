@@ -25,20 +25,21 @@
 #include "ref/number/rational.hpp"
 #include "ref/position/position_detail.hpp"
 #include "ref/position/position_filter.hpp"
+#include "ref/position/viewport_grid.hpp"
 
 namespace ref {
 
 namespace {
 
 struct Axis {
-    mpq_class half;              // p/2
-    mpq_class offset;            // o
-    bool is_fractional = false;  // the viewport begins or ends inside a pixel
+    mpq_class half;    // p/2
+    mpq_class offset;  // o
+    float origin = 0, extent = 0;
 };
 
 Axis axis_of(float origin, float extent) {
     const mpq_class half = rational(extent) / 2;
-    return {half, rational(origin) + half, !is_integer(origin) || !is_integer(extent)};
+    return {half, rational(origin) + half, origin, extent};
 }
 
 Axis axis_x(const cases::Viewport& v) {
@@ -76,14 +77,17 @@ mpq_class axis_error(float c, float w, const Axis& axis) {
 
 // What profile vulkan adds to the error of a coordinate before it is snapped: the operations above
 // with about 1 part in 10^5 each (Vulkan, "Floating-Point Computation").
-mpq_class vulkan_slack(const mpq_class& ideal, const Axis& axis, cases::Profile profile) {
+mpq_class vulkan_slack(const mpq_class& ideal, const Axis& axis, const Limits& limits,
+                       cases::Profile profile) {
     if (profile != cases::Profile::vulkan) {
         return 0;
     }
     const mpq_class slack =
         rounding_bound(ideal - axis.offset, axis.offset, ideal, mpq_class(1, 100000));
-    // viewportSubPixelBits may be 0: the viewport may move by less than a pixel
-    return axis.is_fractional ? mpq_class(slack + 1) : slack;
+    // The viewport may move by less than a step of its grid (ref/position/viewport_grid.hpp).
+    return is_on_viewport_grid(axis.origin, axis.extent, limits.viewport_bits)
+               ? slack
+               : mpq_class(slack + power_of_two(-limits.viewport_bits));
 }
 
 FixedRange axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& axis,
@@ -96,7 +100,7 @@ FixedRange axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& 
         const mpq_class v = ideal * scale;
         return {ceil_of(v - reach).get_si() * unit, floor_of(v + reach).get_si() * unit};
     }
-    const mpq_class reach = error + vulkan_slack(ideal, axis, profile);
+    const mpq_class reach = error + vulkan_slack(ideal, axis, limits, profile);
     return {floor_of((ideal - reach) * scale).get_si() * unit,
             ceil_of((ideal + reach) * scale).get_si() * unit};
 }
@@ -106,8 +110,8 @@ FixedRange axis_box(const mpq_class& ideal, const mpq_class& error, const Axis& 
 FixedRange axis_crossing(const mpq_class& ideal, const mpq_class& error, const Axis& axis,
                          const Limits& limits, cases::Profile profile) {
     const mpq_class units = profile == cases::Profile::direct3d ? mpq_class(3, 5) : mpq_class(1);
-    const mpq_class reach =
-        error + units * power_of_two(-limits.subpixel_bits) + vulkan_slack(ideal, axis, profile);
+    const mpq_class reach = error + units * power_of_two(-limits.subpixel_bits) +
+                            vulkan_slack(ideal, axis, limits, profile);
     return {floor_of((ideal - reach) * kFixedOne).get_si(),
             ceil_of((ideal + reach) * kFixedOne).get_si()};
 }

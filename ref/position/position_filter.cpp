@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "ref/position/position.hpp"
+#include "ref/position/viewport_grid.hpp"
 
 namespace ref {
 
@@ -119,9 +120,10 @@ std::optional<FixedRange> filtered_range(float c, float w, float origin, float e
     const bool is_vulkan = profile == cases::Profile::vulkan;
     if (is_vulkan) {
         // vulkan_slack in position.cpp, u = 1e-5: as `error`, with the rounding of u itself.
-        const bool is_fractional = std::floor(origin) < origin || std::floor(extent) < extent;
+        const bool is_moved = !is_on_viewport_grid(origin, extent, limits.viewport_bits);
         const double terms = 4 * std::abs(t) + std::abs(o) + 2 * std::abs(x_f) + 1;
-        const double wide = 1e-5 * terms * (1 + 8e-5) + (is_fractional ? 1 : 0);
+        const double wide =
+            1e-5 * terms * (1 + 8e-5) + (is_moved ? std::ldexp(1.0, -limits.viewport_bits) : 0);
         position.slack += 64 * kRound * (wide + std::abs(t) + std::abs(o) + std::abs(x_f));
         error += wide;
     }

@@ -170,7 +170,7 @@ struct ValueReference::Impl {
             loaded[order.front()].reset();
             order.pop_front();
         }
-        slot->primitive = value::make_primitive(c, triangles[t]);
+        slot->primitive = value::make_primitive(c, triangles[t], limits);
         return *slot;
     }
 
@@ -306,9 +306,26 @@ struct ValueReference::Impl {
 
     // By Balls, and by rationals where these do not tell; `exact_only`: the oracle, by rationals
     // alone.
+    // One candidate explains a fragment, or one explains what depends on the plane of depth
+    // (FragCoord.z and the depth that is stored, which fixed-function hardware computes) and one
+    // all else: no text says that both are set up from the same positions.
     value::CandidateVerdict wide(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                  Profile at, bool exact_only = false) {
-        const std::vector<size_t> only = asked(t, at);
+        const std::vector<size_t> all = asked(t, at);
+        value::CandidateVerdict verdict = wide_of(t, id, device, at, all, exact_only);
+        std::array<std::vector<size_t>, 2> groups;
+        for (const size_t index : all) {
+            groups.at(quantities_of(t)[index].plane == value::kPlaneDepth ? 0 : 1).push_back(index);
+        }
+        if (verdict.ok || at == Profile::vulkan || groups[0].empty() || groups[1].empty()) {
+            return verdict;  // at vulkan each value stands alone anyway
+        }
+        return value::verdict_of_both(wide_of(t, id, device, at, groups[0], exact_only),
+                                      wide_of(t, id, device, at, groups[1], exact_only));
+    }
+
+    value::CandidateVerdict wide_of(uint32_t t, cases::SampleId id, const FragmentValues& device,
+                                    Profile at, const std::vector<size_t>& only, bool exact_only) {
         if (only.empty()) {
             return {true, true, ref::BasisKind::unsnapped, {}, {}, {}};
         }

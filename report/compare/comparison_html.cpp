@@ -111,6 +111,10 @@ Json causes_json(const Comparison& comparison, Json& rules) {
             if (record != nullptr) {
                 failing.cases.push_back(*record);
                 failing.cases.back().status = actual_status(*record);
+                // Whatever an expectation speaks of counts here.
+                for (diff::FindingGroup& group : failing.cases.back().groups) {
+                    group.known = 0;
+                }
                 numbers.push_back(number);
             }
             ++number;
@@ -126,13 +130,12 @@ Json causes_json(const Comparison& comparison, Json& rules) {
                     members.push_back(number_of(*record));
                 }
             }
-            const bool has_level = !cause.rule.empty();
             list.push_back(Json{{"change", to_string(change)},
                                 {"status", to_string(cause.status)},
                                 {"family", cases::printable(cause.family)},
                                 {"rule", cases::printable(cause.rule)},
                                 {"kind", cases::printable(cause.kind)},
-                                {"level", has_level ? cases::to_string(cause.level) : ""},
+                                {"level", cause.level ? cases::to_string(*cause.level) : ""},
                                 {"cases", std::move(members)}});
             if (const cases::Rule* rule = cases::find_rule(cause.rule)) {
                 rules[cause.rule] = Json{{"title", rule->title}, {"anchor", rule->anchor}};

@@ -11,6 +11,7 @@
 #include "cases/base/printable.hpp"
 #include "report/text/causes.hpp"
 #include "report/text/diagnosis_text.hpp"
+#include "report/text/levels_text.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -77,10 +78,13 @@ std::string command_block(const CaseRecord& record) {
     return text;
 }
 
-std::string severity_of(const CaseRecord& record) {
+std::string severity_of(const Run& run, const CaseRecord& record) {
     constexpr std::array kOfFailures = {"critical", "major", "minor"};  // by profile
     if (record.status == Status::fail) {
-        return kOfFailures.at(static_cast<size_t>(record.level));
+        const auto level = level_of(record, Of::news);
+        return !makes_fail(run, record) ? "info"
+               : level                  ? kOfFailures.at(static_cast<size_t>(*level))
+                                        : "major";  // unsupported, or another picture
     }
     return record.status == Status::flake                                     ? "major"
            : record.status > Status::fail && record.status != Status::not_run ? "blocker"
@@ -115,7 +119,11 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
                                       ? ""
                                       : fmt::format("file={},line={},", command_text(file, true),
                                                     std::max(first.line, 1U));
-        text += fmt::format("::error {}title={}::{}\n", place,
+        // All cases of a cause fail alike: at its level, or a looser one.
+        const bool is_error =
+            std::any_of(list[k].cases.begin(), list[k].cases.end(),
+                        [&](const auto* record) { return makes_fail(run, *record); });
+        text += fmt::format("::{} {}title={}::{}\n", is_error ? "error" : "notice", place,
                             command_text(cause_title(list[k]), true), command_text(body, false));
     }
     if (list.size() > told) {
@@ -142,7 +150,16 @@ std::string to_github_summary(const Run& run) {
     if (!run.missing_shards.empty()) {
         text += fmt::format("**{}.**\n\n", cell(missing_shards_sentence(run)));
     }
-    text += "| status | cases |\n| --- | ---: |\n";
+    text += "| level | what was found |\n| --- | --- |\n";
+    const Levels found = levels(run);
+    for (const LevelCount& row : found.rows) {
+        text +=
+            fmt::format("| {} | {} |\n", cases::to_string(row.level), cell(level_text(found, row)));
+    }
+    if (const std::string unjudged = unjudged_text(found); !unjudged.empty()) {
+        text += fmt::format("| none | {} |\n", unjudged);
+    }
+    text += "\n| status | cases |\n| --- | ---: |\n";
     const auto count = totals(run);
     for (size_t k = 0; k < kStatuses; ++k) {
         if (count.at(k) > 0) {
@@ -165,9 +182,9 @@ std::string to_github_summary(const Run& run) {
         "| ---: | --- | --- | --- |\n";
     size_t told = 0;
     for (const Cause& cause : list) {
-        const std::string row = fmt::format(
-            "| {} | {} | {} | {} |\n", told + 1, cell(cause_title(cause)),
-            cause.rule.empty() ? "" : cases::to_string(cause.level), cell(smallest_case(cause).id));
+        const std::string row =
+            fmt::format("| {} | {} | {} | {} |\n", told + 1, cell(cause_title(cause)),
+                        cause_level(cause), cell(smallest_case(cause).id));
         if (text.size() + row.size() > kMaxSummary / 2) {
             break;
         }
@@ -209,11 +226,14 @@ std::string to_gitlab(const Run& run, const fs::path& base) {
         if (is_expected(record.status)) {
             continue;
         }
-        const std::string rule = record.findings.empty() ? std::string(to_string(record.status))
-                                                         : leading_finding(record).rule;
-        const std::string kind = record.findings.empty()
-                                     ? record.signal
-                                     : std::string(diff::to_string(leading_finding(record).kind));
+        std::string rule(to_string(record.status)), kind = record.signal;
+        if (const auto news = leading_news(record)) {
+            rule = news->rule.empty() ? rule : news->rule;
+            kind = diff::to_string(news->kind);
+        } else if (!record.findings.empty()) {
+            rule = leading_finding(record).rule;
+            kind = diff::to_string(leading_finding(record).kind);
+        }
         // GitLab wants a path below the checkout: that of an installed case in its suite.
         std::string path = file_in(base, run, record.file);
         if (path.empty()) {
@@ -225,7 +245,7 @@ std::string to_gitlab(const Run& run, const fs::path& base) {
             {"check_name", cases::printable(rule)},
             {"fingerprint", fingerprint(record.id + '\n' + std::string(to_string(record.status)) +
                                         '\n' + rule + '\n' + kind)},
-            {"severity", severity_of(record)},
+            {"severity", severity_of(run, record)},
             {"location", Json{{"path", cases::printable(path)},
                               {"lines", Json{{"begin", std::max(record.line, 1U)}}}}},
         });

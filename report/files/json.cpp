@@ -12,6 +12,7 @@
 #include "report/journal/picture_codec.hpp"
 #include "report/text/causes.hpp"
 #include "report/text/doors_text.hpp"
+#include "report/text/levels_text.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -73,6 +74,7 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         findings.push_back(finding_json(f));
     }
     const bool wrong = r.finding_total() > 0;
+    const auto level = level_of(r, Of::all), news = level_of(r, Of::news);
     Json box = nullptr;
     if (wrong) {
         box = Json{{"min_x", r.min_x}, {"min_y", r.min_y}, {"max_x", r.max_x}, {"max_y", r.max_y}};
@@ -117,7 +119,8 @@ Json case_json(const CaseRecord& r, cases::Profile profile) {
         {"messages", texts(r.messages)},
         {"seconds", encode_number(r.seconds)},
         {"attempts", r.attempts},
-        {"level", wrong ? Json(cases::to_string(r.level)) : Json(nullptr)},
+        {"level", level ? Json(cases::to_string(*level)) : Json(nullptr)},
+        {"new_level", news ? Json(cases::to_string(*news)) : Json(nullptr)},
         {"counts", counts_json(r)},
         {"groups", groups_json(r)},
         {"finding_total", r.finding_total()},
@@ -157,6 +160,7 @@ Json run_json(const Run& run) {
         {"jobs", run.jobs},
         {"interrupted", run.interrupted},
         {"missing_shards", run.missing_shards},
+        {"fail_at", cases::to_string(fail_level(run))},
         {"exit_code", exit_code(run)},
     };
 }
@@ -173,16 +177,38 @@ Json doors_json(const Run& run) {
     return list;
 }
 
+Json levels_json(const Run& run) {
+    const Levels found = levels(run);
+    Json rows = Json::array();
+    const auto ids = [](const std::vector<const CaseRecord*>& records) {
+        Json list = Json::array();
+        for (const CaseRecord* record : records) {
+            list.push_back(cases::printable(record->id));
+        }
+        return list;
+    };
+    for (const LevelCount& row : found.rows) {
+        rows.push_back(Json{{"level", cases::to_string(row.level)},
+                            {"judged", row.is_judged && found.judged > 0},
+                            {"text", level_text(found, row)},
+                            {"unexpected", row.unexpected.size()},
+                            {"expected", row.expected.size()},
+                            {"unexpected_cases", ids(row.unexpected)},
+                            {"expected_cases", ids(row.expected)}});
+    }
+    return Json{{"judged", found.judged}, {"unjudged", found.unjudged}, {"rows", std::move(rows)}};
+}
+
 Json causes_json(const Run& run) {
     Json list = Json::array();
     for (const Cause& cause : causes(run)) {
-        Json json{
-            {"status", to_string(cause.status)},
-            {"family", cases::printable(cause.family)},
-            {"rule", cases::printable(cause.rule)},
-            {"kind", cases::printable(cause.kind)},
-            {"level", cause.rule.empty() ? Json(nullptr) : Json(cases::to_string(cause.level))},
-            {"cases", Json::array()}};
+        Json json{{"status", to_string(cause.status)},
+                  {"family", cases::printable(cause.family)},
+                  {"rule", cases::printable(cause.rule)},
+                  {"kind", cases::printable(cause.kind)},
+                  {"level", cause.level ? Json(cases::to_string(*cause.level)) : Json(nullptr)},
+                  {"known", cause.is_known},
+                  {"cases", Json::array()}};
         for (const CaseRecord* record : cause.cases) {
             json["cases"].push_back(cases::printable(record->id));
         }
@@ -215,6 +241,7 @@ std::string to_json(const Run& run) {
                                           {"quantity", cases::printable(worst->worst_quantity)},
                                           {"case", cases::printable(worst->id)}}},
         {"doors", doors_json(run)},
+        {"levels", levels_json(run)},
         {"diagnoses", encode(run.diagnoses)},
         {"causes", causes_json(run)},
         {"cases", std::move(list)},

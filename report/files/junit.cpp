@@ -8,6 +8,7 @@
 
 #include "cases/base/printable.hpp"
 #include "report/text/console.hpp"
+#include "report/text/levels_text.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -55,12 +56,14 @@ Name split_id(const std::string& id) {
 }
 
 enum class Element { none, skipped, failure, error };
-Element element_of(Status status) {
+Element element_of(const Run& run, const CaseRecord& record) {
+    const Status status = record.status;
     if (status == Status::pass) {
         return Element::none;
     }
-    // Worst wins: what is expected comes first, then what was judged, then what was not.
-    return is_expected(status)      ? Element::skipped
+    // Worst wins: what does not make the run fail comes first, then what was judged, then what was
+    // not.
+    return !makes_fail(run, record) ? Element::skipped
            : status <= Status::fail ? Element::failure
                                     : Element::error;
 }
@@ -82,13 +85,13 @@ std::string body_of(const CaseRecord& record) {
     return text;
 }
 
-std::string test_case(const CaseRecord& record) {
+std::string test_case(const Run& run, const CaseRecord& record) {
     const Name name = split_id(record.id);
     std::string text = fmt::format(
         "    <testcase classname=\"{}\" name=\"{}\" file=\"{}\" line=\"{}\" time=\"{}\"",
         attribute(name.class_name), attribute(name.name), attribute(record.file), record.line,
         time_of(record.seconds));
-    const Element element = element_of(record.status);
+    const Element element = element_of(run, record);
     if (element == Element::none && record.stderr_text.empty()) {
         return text + "/>\n";
     }
@@ -96,8 +99,10 @@ std::string test_case(const CaseRecord& record) {
     const std::string what = what_happened(record);
     const std::string why = why_it_happened(record);
     if (element == Element::skipped) {
-        const std::string message = record.status == Status::xfail
-                                        ? what
+        const std::string message = record.status == Status::xfail ? what
+                                    : record.status == Status::fail
+                                        ? fmt::format("fails only beyond --fail-at {}: {}; {}",
+                                                      cases::to_string(fail_level(run)), what, why)
                                         : fmt::format("{}: {}", to_string(record.status), why);
         text += fmt::format("      <skipped message=\"{}\"/>\n", attribute(message));
     } else if (element != Element::none) {
@@ -122,7 +127,7 @@ std::string property(std::string_view name, std::string_view value) {
 std::string to_junit(const Run& run) {
     size_t failures = 0, errors = 0, skipped = 0;
     for (const CaseRecord& record : run.cases) {
-        const Element element = element_of(record.status);
+        const Element element = element_of(run, record);
         failures += element == Element::failure ? 1U : 0U;
         errors += element == Element::error ? 1U : 0U;
         skipped += element == Element::skipped ? 1U : 0U;
@@ -141,6 +146,15 @@ std::string to_junit(const Run& run) {
     text += "    <properties>\n";
     text += property("edgecase", run.tool_version);
     text += property("profile", cases::to_string(run.profile));
+    text += property("fail_at", cases::to_string(fail_level(run)));
+    const Levels found = levels(run);
+    for (const LevelCount& row : found.rows) {
+        text +=
+            property(fmt::format("level.{}", cases::to_string(row.level)), level_text(found, row));
+    }
+    if (const std::string unjudged = unjudged_text(found); !unjudged.empty()) {
+        text += property("level.none", unjudged);
+    }
     text += property("seed", fmt::format("{}", run.seed));
     text += property("driver", d.driver_name + " " + d.driver_info);
     text += property("vulkan", d.api_version);
@@ -158,7 +172,7 @@ std::string to_junit(const Run& run) {
             shard, attribute(missing_shards_sentence(run)));
     }
     for (const CaseRecord& record : run.cases) {
-        text += test_case(record);
+        text += test_case(run, record);
     }
     return text + "  </testsuite>\n</testsuites>\n";
 }

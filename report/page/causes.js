@@ -32,7 +32,7 @@ function causeRow(cause, show) {
     el("td", {}, cause.change ? cause.change : statusTag(cause.status)),
     el("td", {}, cause.rule ? [ruleLink(cause.rule), " ", el("span", {class: "kind"}, cause.kind), " in " + cause.family] : null, el("div", {}, causeText(cause)),
       bugsLine("known as ", cause.records.filter(isKnown)), bugsLine("beside what is known as ", cause.records.filter((record) => !isKnown(record)))),
-    el("td", {}, cause.level ? [levelTag(cause.level), el("div", {class: "quiet small"}, data.meanings[cause.level])] : ""),
+    el("td", {}, cause.level ? [levelTag(cause.level), el("div", {class: "quiet small"}, data.meanings[cause.level])] : cause.known ? "all expected" : ""),
     el("td", {class: "right"}, el("button", {type: "button", class: "link", title: "show only these", onclick: () => show(cause.key)}, plural(cause.records.length, "case")),
       findings ? el("div", {class: "quiet small"}, plural(findings, "finding")) : null),
     el("td", {}, link, example.rerun ? [" ", copyButton("copy rerun", "the rerun command of " + example.id, example.rerun, link)] : null));

@@ -11,6 +11,7 @@
 #include "report/page/page_data.hpp"
 #include "report/page/page_parts.hpp"
 #include "report/text/headline.hpp"
+#include "report/text/levels_text.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -68,19 +69,22 @@ std::string title_of(const Run& run) {
                        run.cases.size(), run.device.name.empty() ? "no device" : run.device.name);
 }
 
-// How many cases break a promise of which level; nothing if none does.
-std::string levels(const Run& run) {
-    const auto count = unexpected_by_level(run);
+// What was found at each level; one that unexpected findings break has its colour.
+std::string levels_list(const Run& run) {
+    const Levels found = levels(run);
     std::string text;
-    for (const cases::Profile level : cases::kProfiles) {
-        const size_t n = count.at(static_cast<size_t>(level));
-        if (n > 0) {
-            text +=
-                fmt::format("<li><strong class=\"level level-{0}\">{1} at {0}</strong> {2}</li>\n",
-                            cases::to_string(level), n, meaning(level));
-        }
+    for (const LevelCount& row : found.rows) {
+        const std::string_view level = cases::to_string(row.level);
+        const bool is_broken = !row.unexpected.empty();
+        text += fmt::format("<li><strong{}>{}: {}</strong>{}</li>\n",
+                            is_broken ? fmt::format(" class=\"level level-{}\"", level) : "", level,
+                            cases::markup(level_text(found, row)),
+                            is_broken ? fmt::format(" {}", meaning(row.level)) : "");
     }
-    return text.empty() ? text : "<ul class=\"levels\">\n" + text + "</ul>\n";
+    if (const std::string unjudged = unjudged_text(found); !unjudged.empty()) {
+        text += fmt::format("<li>without a level: {}</li>\n", unjudged);
+    }
+    return "<ul class=\"levels\">\n" + text + "</ul>\n";
 }
 
 // "2026-11-21 05:00 UTC" of "2026-11-21T05:00:00Z"; any other text as it is.
@@ -94,7 +98,7 @@ std::string day_and_time(const std::string& utc) {
 std::string header(const Run& run) {
     const Device& d = run.device;
     std::string text = fmt::format("<h1>{}</h1>\n", cases::markup(headline(run)));
-    text += levels(run);
+    text += levels_list(run);
     text += fmt::format(
         "<dl class=\"key\">\n{}{}", key_fact("device", d.name.empty() ? "no device" : d.name),
         key_fact("driver", d.driver_name + (d.driver_info.empty() ? "" : " ") + d.driver_info));
@@ -111,6 +115,7 @@ std::string header(const Run& run) {
         text += fact("largest accepted error",
                      fmt::format("{}, {}", accepted_text(run, *worst), worst->id));
     }
+    text += fact("fails at", std::string(cases::to_string(fail_level(run))));
     text += fact("seed", fmt::format("{}", run.seed));
     text += fact("host", run.host);
     text += fact("UUID", d.uuid);

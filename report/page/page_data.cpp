@@ -88,13 +88,15 @@ Json causes_json(const Run& run, const std::vector<Cause>& list) {
                 members.push_back(number_of(*record));
             }
         }
-        const bool has_level = !cause.rule.empty();
         json.push_back(Json{{"status", to_string(cause.status)},
                             {"family", cases::printable(cause.family)},
                             {"rule", cases::printable(cause.rule)},
                             {"kind", cases::printable(cause.kind)},
-                            {"level", has_level ? cases::to_string(cause.level) : ""},
+                            {"level", cause.level ? cases::to_string(*cause.level) : ""},
                             {"cases", std::move(members)}});
+        if (!cause.level && cause.is_known) {
+            json.back()["known"] = true;
+        }
         if (const auto number = repeated.by(cause)) {
             json.back()["diagnosis"] = *number;
         }

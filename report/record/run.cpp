@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/record/levels.hpp"
+
 namespace report {
 
 namespace {
@@ -78,11 +80,12 @@ int exit_code(const Run& run) {
         return kExitInternal;  // something was not judged: worse than a wrong sample
     }
     if (std::any_of(run.cases.begin(), run.cases.end(),
-                    [](const CaseRecord& record) { return !is_expected(record.status); })) {
+                    [&](const CaseRecord& record) { return makes_fail(run, record); })) {
         return kExitUnexpected;
     }
-    // A run that judged nothing proves nothing, so it never exits 0.
-    return of(Status::pass) + of(Status::xfail) == 0 ? kExitAllSkipped : kExitOk;
+    // A run that judged nothing proves nothing, so it never exits 0. What fails here does so at
+    // stricter levels than the run was to fail at.
+    return of(Status::pass) + of(Status::xfail) + of(Status::fail) == 0 ? kExitAllSkipped : kExitOk;
 }
 
 }  // namespace report

@@ -238,6 +238,8 @@ struct RunHeader {
     std::string started;  // ISO 8601 UTC
     std::string host;     // operating system and machine
     cases::Profile profile = cases::Profile::direct3d;
+    // The strictest level at which a finding makes the run fail; nothing: the profile.
+    std::optional<cases::Profile> fail_at;
     uint64_t seed = 0;
     std::string suite_root;
     std::string suite_hash;        // of the suite's files, hexadecimal; empty in older journals
@@ -258,6 +260,7 @@ struct RunHeader {
         visit("started", h.started...);
         visit("host", h.host...);
         visit("profile", h.profile...);
+        visit({"fail_at", cases::kLeftOutIfEmpty}, h.fail_at...);
         visit("seed", h.seed...);
         visit("suite_root", h.suite_root...);
         visit({"suite_hash", cases::kOlderLackIt}, h.suite_hash...);
@@ -298,7 +301,8 @@ struct Run : RunHeader, RunEnd {
 Status actual_status(const CaseRecord& record);
 
 std::array<size_t, kStatuses> totals(const Run& run);
-// From the statuses and missing shards alone (0, 1, 6, 7 or 130).
+// From the statuses, the levels of what fails (record/levels.hpp) and missing shards alone (0, 1,
+// 6, 7 or 130).
 int exit_code(const Run& run);
 
 }  // namespace report

@@ -16,6 +16,7 @@
 
 #include "cases/base/printable.hpp"
 #include "cases/model/rule.hpp"
+#include "report/record/levels.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -28,6 +29,9 @@ struct Signature {
 };
 
 Signature signature_of(const CaseRecord& record) {
+    if (const auto news = leading_news(record)) {
+        return {news->rule, std::string(diff::to_string(news->kind))};
+    }
     if (!record.findings.empty()) {
         const diff::Finding& f = leading_finding(record);
         return {f.rule, std::string(diff::to_string(f.kind))};
@@ -39,26 +43,16 @@ Signature signature_of(const CaseRecord& record) {
     return {"", kind};
 }
 
-// Files of one's own mostly lie in one folder, and each is no family: their causes would be as many
-// as they. No family of the suite ends in '/'.
-std::string family_of(const CaseRecord& record) {
-    const std::string id = record.id.substr(0, record.id.find(':'));
-    if (const size_t end = id.find('/'); end != std::string::npos) {
-        return id.substr(0, end);
-    }
-    const std::string folder = std::filesystem::path(record.file).parent_path().filename().string();
-    return folder.empty() || folder == "." || folder == ".." ? id : folder + "/";
-}
-
 // What could not be judged and deaths come first, then failures by profile, then the rest.
 int rank(const Cause& cause) {
     constexpr std::array kOrder = {Status::error,       Status::crash, Status::timeout,
                                    Status::device_lost, Status::fail,  Status::flake,
                                    Status::improved,    Status::xpass};
     const auto place = std::find(kOrder.begin(), kOrder.end(), cause.status) - kOrder.begin();
-    // vulkan, practice, direct3d
+    // vulkan, practice, direct3d, and those of which no level is told
     const bool is_failure = cause.status == Status::fail || cause.status == Status::xfail;
-    return static_cast<int>(4 * place) + (is_failure ? static_cast<int>(cause.level) : 0);
+    const int level = cause.level ? static_cast<int>(*cause.level) : 3;
+    return static_cast<int>(4 * place) + (is_failure ? level : 0);
 }
 
 // How far a rule reaches: the families and cases in which it leads, with the same rank.
@@ -74,8 +68,15 @@ std::ptrdiff_t number_of(std::string_view rule) {
            all.begin();
 }
 
-// The causes of those results of a run that `is_meant` picks by their status.
-std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status)) {
+// The looser one of two, of which one may be missing.
+std::optional<cases::Profile> looser(std::optional<cases::Profile> a,
+                                     std::optional<cases::Profile> b) {
+    return a && b ? std::min(*a, *b) : a ? a : b;
+}
+
+// The causes of those results of a run that `is_meant` picks by their status, with the levels of
+// all their findings, or of those that are new.
+std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status), Of which) {
     std::vector<Cause> list;
     std::map<std::tuple<Status, std::string, std::string, std::string>, size_t> index;
     for (const CaseRecord& record : run.cases) {
@@ -87,10 +88,12 @@ std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status)) {
         const auto [at, fresh] =
             index.emplace(std::tuple(record.status, family, s.rule, s.kind), list.size());
         if (fresh) {
-            list.push_back({record.status, family, s.rule, s.kind, record.level, {}});
+            list.push_back({record.status, family, s.rule, s.kind, {}, false, {}});
         }
         Cause& cause = list[at->second];
-        cause.level = std::min(cause.level, record.level);
+        cause.level = looser(cause.level, level_of(record, which));
+        cause.is_known =
+            (fresh || cause.is_known) && level_of(record, Of::all) && !level_of(record, Of::news);
         cause.cases.push_back(&record);
     }
     std::map<std::pair<int, std::string>, Reach> reaches;
@@ -113,11 +116,30 @@ std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status)) {
 }  // namespace
 
 std::vector<Cause> causes(const Run& run) {
-    return causes_of(run, [](Status status) { return !is_expected(status); });
+    return causes_of(
+        run, [](Status status) { return !is_expected(status); }, Of::news);
 }
 
 std::vector<Cause> known_causes(const Run& run) {
-    return causes_of(run, [](Status status) { return status == Status::xfail; });
+    return causes_of(
+        run, [](Status status) { return status == Status::xfail; }, Of::all);
+}
+
+// Files of one's own mostly lie in one folder, and each is no family: their causes would be as many
+// as they. No family of the suite ends in '/'.
+std::string family_of(const CaseRecord& record) {
+    const std::string id = record.id.substr(0, record.id.find(':'));
+    if (const size_t end = id.find('/'); end != std::string::npos) {
+        return id.substr(0, end);
+    }
+    const std::string folder = std::filesystem::path(record.file).parent_path().filename().string();
+    return folder.empty() || folder == "." || folder == ".." ? id : folder + "/";
+}
+
+std::string cause_level(const Cause& cause) {
+    return cause.level      ? std::string(cases::to_string(*cause.level))
+           : cause.is_known ? "all expected"
+                            : "";
 }
 
 const CaseRecord& smallest_case(const Cause& cause) {

@@ -4,6 +4,7 @@
 // Unexpected results in groups that probably have one cause: 300 failures are rarely 300 faults.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,11 @@ struct Cause {
     std::string family;  // first part of the ids; of ids of one part their files' folder, "mine/"
     std::string rule;    // of the leading finding; empty if there is none
     std::string kind;    // "missing", ...; of a death: "SIGSEGV during submit"
-    cases::Profile level = cases::Profile::direct3d;  // loosest of all
-    std::vector<const CaseRecord*> cases;             // in the order of the run; at least one
+    // Loosest of the findings that are new (of known_causes: of all). Nothing if there is none: the
+    // cases could not be judged, or their findings are all expected.
+    std::optional<cases::Profile> level;
+    bool is_known = false;                 // all their findings are expected, and there are some
+    std::vector<const CaseRecord*> cases;  // in the order of the run; at least one
 };
 
 // All causes of a run's unexpected results, the worst first: what could not be judged and deaths,
@@ -37,5 +41,10 @@ const CaseRecord& smallest_case(const Cause& cause);
 
 // "fail: tie.top-left missing in ties, 12 cases"; printable, one line.
 std::string cause_title(const Cause& cause);
+// "vulkan"; "all expected" of findings; or nothing, if no level can be told.
+std::string cause_level(const Cause& cause);
+
+// The first part of a case's id; of an id of one part the folder of its file, "mine/".
+std::string family_of(const CaseRecord& record);
 
 }  // namespace report

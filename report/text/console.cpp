@@ -16,6 +16,7 @@
 #include "report/text/diagnosis_text.hpp"
 #include "report/text/doors_text.hpp"
 #include "report/text/headline.hpp"
+#include "report/text/levels_text.hpp"
 #include "report/text/sentences.hpp"
 #include "report/text/unexpected.hpp"
 #include "report/text/wrap.hpp"
@@ -186,8 +187,8 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
     }
     for (size_t k = 0; k < told; ++k) {
         const Cause& cause = list[k];
-        const std::string level =
-            cause.rule.empty() ? "" : fmt::format(" [{}]", cases::to_string(cause.level));
+        std::string level = cause_level(cause);
+        level = level.empty() ? "" : fmt::format(" [{}]", level);
         const std::string& rerun = smallest_case(cause).rerun;
         text += fmt::format("  {}{}   rerun: {}\n",
                             painted(cause_title(cause), color_of(cause.status), style), level,
@@ -329,6 +330,7 @@ std::string console_summary(const Run& run, const std::string& report_path,
     if (style.verbose) {
         text += free_text(run);
     }
+    text += levels_line(run) + '\n';
     const std::string exit = exit_words.empty() ? exit_text(run) : exit_words;
     text += report_path.empty()
                 ? exit + '\n'

@@ -10,6 +10,7 @@
 
 #include "cases/base/counted.hpp"
 #include "cases/base/printable.hpp"
+#include "report/record/levels.hpp"
 #include "report/text/sentences.hpp"
 
 namespace report {
@@ -63,15 +64,23 @@ std::string headline(const Run& run) {
     const auto count = totals(run);
     const auto of = [&](Status status) { return count.at(static_cast<size_t>(status)); };
     std::string text;
-    for (const Deed& deed : kDeeds) {
-        const size_t n = of(deed.status);
+    const auto tell = [&](size_t n, std::string_view one, std::string_view several) {
         if (n > 0) {
             text += text.empty()
                         ? fmt::format("{} of {}", n, cases::counted(run.cases.size(), "case"))
                         : fmt::format(", {}", n);
-            text += fmt::format(" {}", n == 1 ? deed.one : deed.several);
+            text += fmt::format(" {}", n == 1 ? one : several);
         }
+    };
+    const auto beyond = static_cast<size_t>(
+        std::count_if(run.cases.begin(), run.cases.end(), [&](const CaseRecord& record) {
+            return record.status == Status::fail && !makes_fail(run, record);
+        }));
+    for (const Deed& deed : kDeeds) {
+        tell(of(deed.status) - (deed.status == Status::fail ? beyond : 0), deed.one, deed.several);
     }
+    const std::string level = fmt::format(" only beyond {}", cases::to_string(fail_level(run)));
+    tell(beyond, "fails" + level, "fail" + level);
     if (!run.missing_shards.empty()) {
         return fmt::format("Not the whole run: {} missing{}{}", missing_shards_text(run),
                            text.empty() ? "" : "; ", text);
@@ -95,16 +104,6 @@ std::string headline(const Run& run) {
     const std::string_view which = judged == run.cases.size() ? "case" : "judged case";
     return judged == 1 ? fmt::format("The one {} passes", which)
                        : fmt::format("All {} pass", cases::counted(judged, which));
-}
-
-std::array<size_t, std::size(cases::kProfiles)> unexpected_by_level(const Run& run) {
-    std::array<size_t, std::size(cases::kProfiles)> count{};
-    for (const CaseRecord& record : run.cases) {
-        if (!is_expected(record.status) && !record.findings.empty()) {
-            ++count.at(static_cast<size_t>(record.level));
-        }
-    }
-    return count;
 }
 
 }  // namespace report

@@ -4,11 +4,8 @@
 // What a run found, in one sentence, and how grave it is.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <string>
 
-#include "cases/model/profile.hpp"
 #include "report/record/run.hpp"
 
 namespace report {
@@ -19,9 +16,5 @@ std::string headline(const Run& run);
 // "3 of 92 known failures are drawn with bits that nobody has seen before: ID, ID, ID"; empty if
 // there are none, or if nothing is known of pictures.
 std::string new_pictures_text(const Run& run);
-
-// How many unexpected cases with findings there are at each level, by cases::Profile: a case is
-// counted at the loosest level that it breaks.
-std::array<size_t, std::size(cases::kProfiles)> unexpected_by_level(const Run& run);
 
 }  // namespace report

@@ -12,6 +12,7 @@
 #include "cases/base/number_text.hpp"
 #include "cases/base/printable.hpp"
 #include "ref/number/plane_budget.hpp"
+#include "report/record/levels.hpp"
 
 namespace report {
 
@@ -40,6 +41,32 @@ std::string counted_findings(diff::FindingKind kind, uint64_t count, bool is_bes
     }
 }
 
+// Whether an expectation speaks of all findings of its group.
+bool is_known(const CaseRecord& record, const diff::Finding& f) {
+    return std::any_of(record.groups.begin(), record.groups.end(), [&](const auto& group) {
+        return group.kind == f.kind && group.rule == f.rule && group.level == f.level &&
+               group.count == group.known;
+    });
+}
+
+// "rule [level: what it means]" of what a case is known by; no level if it could not be judged.
+std::string rule_and_level(const CaseRecord& record) {
+    std::string rule;
+    cases::Profile level = record.level;
+    if (const auto news = leading_news(record)) {
+        rule = news->rule.empty() ? "no told rule" : news->rule;
+        level = news->level;
+    } else if (!record.findings.empty()) {
+        const diff::Finding& leading = leading_finding(record);
+        rule = leading.rule;
+        level = leading.level;
+    }
+    if (rule.empty() || !is_judged(record)) {
+        return rule.empty() ? rule : "   " + one_line(rule);
+    }
+    return fmt::format("   {} [{}: {}]", one_line(rule), cases::to_string(level), meaning(level));
+}
+
 }  // namespace
 
 std::string one_line(std::string_view bytes) {
@@ -50,17 +77,23 @@ std::string one_line(std::string_view bytes) {
 }
 
 const diff::Finding& leading_finding(const CaseRecord& record) {
-    const auto is_known = [&](const diff::Finding& f) {
-        return std::any_of(record.groups.begin(), record.groups.end(), [&](const auto& group) {
-            return group.kind == f.kind && group.rule == f.rule && group.level == f.level &&
-                   group.count == group.known;
-        });
-    };
     return *std::min_element(record.findings.begin(), record.findings.end(),
                              [&](const diff::Finding& a, const diff::Finding& b) {
-                                 return std::pair(is_known(a), a.level) <
-                                        std::pair(is_known(b), b.level);
+                                 return std::pair(is_known(record, a), a.level) <
+                                        std::pair(is_known(record, b), b.level);
                              });
+}
+
+std::optional<diff::FindingGroup> leading_news(const CaseRecord& record) {
+    const auto level = level_of(record, Of::news);
+    if (!level || (!record.findings.empty() && !is_known(record, leading_finding(record)))) {
+        return std::nullopt;
+    }
+    const auto found = std::find_if(record.groups.begin(), record.groups.end(),
+                                    [&](const diff::FindingGroup& group) {
+                                        return group.level == *level && group.known < group.count;
+                                    });
+    return found == record.groups.end() ? std::nullopt : std::optional(*found);
 }
 
 std::string seconds_text(double seconds) {
@@ -174,11 +207,7 @@ std::string what_happened(const CaseRecord& record) {
     if (!counts.empty()) {
         text += (text.empty() ? "" : ", ") + counts;
     }
-    if (!record.findings.empty()) {
-        const diff::Finding& leading = leading_finding(record);
-        text += fmt::format("   {} [{}: {}]", one_line(leading.rule),
-                            cases::to_string(leading.level), meaning(leading.level));
-    }
+    text += rule_and_level(record);
     if (!expected.empty()) {
         text += (text.empty() ? "" : ", ") + expected;
     }
@@ -240,6 +269,15 @@ std::string exit_text(const Run& run) {
         }
         add(Status::not_run, "case was not run", "cases were not run");
         add(Status::error, "case could not be judged", "cases could not be judged");
+    } else if (code == kExitOk) {
+        const auto beyond = static_cast<size_t>(
+            std::count_if(run.cases.begin(), run.cases.end(),
+                          [](const CaseRecord& record) { return !is_expected(record.status); }));
+        if (beyond > 0) {
+            why = fmt::format("all as expected at {}; {} only beyond it",
+                              cases::to_string(fail_level(run)),
+                              beyond == 1 ? "1 case fails" : fmt::format("{} cases fail", beyond));
+        }
     }
     return exit_text(code, why);
 }

@@ -4,6 +4,7 @@
 // What console, JUnit and HTML say in the same words. Everything returned is printable.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ std::string why_it_happened(const CaseRecord& record);
 // is never hidden behind a difference in a tie; what no expectation speaks of comes before what is
 // known. The record has at least one.
 const diff::Finding& leading_finding(const CaseRecord& record);
+// Of an unexpected result whose new findings are beyond those that are kept, so that the leading
+// finding is one that an expectation speaks of: the new ones of the loosest level. Else nothing.
+std::optional<diff::FindingGroup> leading_news(const CaseRecord& record);
 
 // "exit 1: unexpected results"; `why` stands in place of what the code means in general.
 std::string exit_text(int code, const std::string& why = {});

@@ -25,6 +25,7 @@ CaseRecord lean(const CaseRecord& record) {
     out.id = record.id;
     out.file = record.file;
     out.status = record.status;
+    out.actual = record.actual;
     out.level = record.level;
     out.signal = record.signal;
     out.step = record.step;

@@ -20,6 +20,7 @@ class VulkanBackend : public Backend {
   public:
     explicit VulkanBackend(vk_harness::Renderer renderer) : renderer_(std::move(renderer)) {}
     const DeviceInfo& device() const override { return renderer_.device(); }
+    std::string lacking(const cases::Case& c) const override { return renderer_.lacking(c); }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
                                  const std::function<void(std::string_view)>& step,
                                  const vk_harness::PlaneStore& store) override {
@@ -70,17 +71,19 @@ class ReferenceBackend : public Backend {
         }
     }
     const DeviceInfo& device() const override { return device_; }
+    std::string lacking(const cases::Case& c) const override {
+        return c.variation.door != cases::Door::none
+                   ? "what draws here has no Vulkan, and so no doors"
+               : algorithm_ != nullptr ? rasterizers::unsupported_reason(c)
+                                       : std::string();
+    }
     std::vector<Rendered> render(const std::vector<cases::Case>& batch,
                                  const std::function<void(std::string_view)>& step,
                                  const vk_harness::PlaneStore& store) override {
         step("submit");
         std::vector<Rendered> results(batch.size());
         for (size_t k = 0; k < batch.size(); ++k) {
-            if (batch[k].variation.door != cases::Door::none) {
-                results[k].reason = "what draws here has no Vulkan, and so no doors";
-            } else if (algorithm_ != nullptr) {
-                results[k].reason = rasterizers::unsupported_reason(batch[k]);
-            }
+            results[k].reason = lacking(batch[k]);
             if (!results[k].reason.empty()) {
                 results[k].status = Rendered::Status::unsupported;
                 continue;

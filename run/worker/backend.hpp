@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,8 @@ class Backend {
   public:
     virtual ~Backend() = default;
     virtual const vk_harness::DeviceInfo& device() const = 0;
+    // Why a case cannot be drawn, one sentence; empty if it can.
+    virtual std::string lacking(const cases::Case& c) const = 0;
     virtual std::vector<vk_harness::Rendered> render(
         const std::vector<cases::Case>& batch, const std::function<void(std::string_view)>& step,
         const vk_harness::PlaneStore& store) = 0;

@@ -63,6 +63,8 @@ ref::Limits limits_of(const vk_harness::DeviceInfo& device) {
     limits.interpolation_offset_bits =
         std::max(4, static_cast<int>(device.interpolation_offset_bits));
     limits.mipmap_bits = std::max(4, static_cast<int>(device.mipmap_bits));
+    limits.viewport_bits = static_cast<int>(std::min(device.viewport_subpixel_bits, 16U));
+    limits.first_strip_order = device.has_first_strip_order;
     return limits;
 }
 

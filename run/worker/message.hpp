@@ -40,9 +40,13 @@ struct WorkerOptions {
     // No driver if not empty: "reference" draws what the reference expects (tests of the runner),
     // other names are devices of rasterizers/algorithms.
     std::string renderer;
+    // Batches are not drawn: each case is answered with what the device lacks for it (unsupported,
+    // and why), or as an error without a reason where it lacks nothing.
+    bool only_asks = false;
     static void fields(auto&& visit, auto&... o) {
         visit("vulkan", o.vulkan...);
         visit("renderer", o.renderer...);
+        visit("only_asks", o.only_asks...);
     }
 };
 

@@ -208,6 +208,19 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
     send(FrameType::batch_done, {});
 }
 
+void answer_what_is_lacking(const Backend& backend, const RenderRequest& request) {
+    for (size_t k = 0; k < request.cases.size(); ++k) {
+        CaseResult result;
+        result.index = static_cast<uint32_t>(k);
+        result.rendered.reason = backend.lacking(request.cases[k]);
+        if (!result.rendered.reason.empty()) {
+            result.rendered.status = Rendered::Status::unsupported;
+        }
+        send(FrameType::result, encode_result(result));
+    }
+    send(FrameType::batch_done, {});
+}
+
 void answer_list_devices(const WorkerOptions& options) {
     const vk_harness::Result<std::vector<vk_harness::DeviceInfo>> devices =
         vk_harness::list_devices(options.vulkan);
@@ -269,7 +282,11 @@ int run_worker() {
             if (!request) {
                 return report::kExitInternal;
             }
-            render_batch(*backend, *request, *faults, shared);
+            if (options.only_asks) {
+                answer_what_is_lacking(*backend, *request);
+            } else {
+                render_batch(*backend, *request, *faults, shared);
+            }
         } else {
             return report::kExitInternal;
         }

@@ -122,6 +122,29 @@ class Start(ProgramTest):
         self.run_suite("--timeout", "0.5", fault="hang-at-start", check=5)
         self.assert_no_orphans()
 
+    def start_failing(self, failures):
+        """A driver that dies of fam/c3, and of so many starts after that: a device that is being reset."""
+        count, prefix = self.folder / "count", self.folder / "prefix"
+        prefix.write_text(f'n=$(($(cat {count} 2>/dev/null || echo 0) + 1)); echo $n >{count}\n'
+                          f'[ $n -eq 1 ] || [ $n -gt {failures + 1} ] || exit 1\nexec "$@"\n')
+        env = {**self.environment("segv@fam/c3"), "EDGECASE_SELF_PREFIX": f"/bin/sh {prefix}"}
+        return self.edgecase("run", "--renderer=reference", "--jobs", "1", "-o", self.out, env=env)
+
+    def test_a_device_that_is_reset_is_waited_for(self):
+        done = self.start_failing(4)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertEqual({i: s for i, s in self.statuses().items() if s != "pass"}, {"fam/c3": "crash"})
+
+    def test_a_device_that_does_not_come_back_ends_the_run(self):
+        done = self.start_failing(1000)
+        self.assertEqual(done.returncode, 7, done.stdout + done.stderr)
+        self.assertIn("workers cannot be started any more", done.stderr)
+
+    def test_a_budget_of_device_time(self):
+        self.run_suite("--gpu-budget", "1", check=0)
+        self.assertEqual(set(self.statuses().values()), {"pass"})
+        self.assertIn("--gpu-budget", self.run_suite("--gpu-budget", "0", check=2).stderr)
+
     def test_wrong_device(self):
         done = self.run_suite("--require-device", "llvmpipe", check=5)
         self.assertIn("Edgecase reference", done.stderr)

@@ -297,6 +297,20 @@ class Doctor(ProgramTest):
         text = self.edgecase("doctor", "--renderer=reference", env=env).stdout
         self.assertIn(f"for '--validation': {layer}\n", text)
 
+    def test_what_share_of_the_suite_a_device_will_draw(self):
+        text = self.edgecase("doctor", "--renderer=tiles", check=0).stdout
+        self.assertIn("\n     draws 10 of 10 cases of the suite (100.0 %)\n", text)
+        self.write_case("fam/layers", (self.suite / "fam/c1.toml").read_text().replace("[8, 8]", "[8, 8]\nlayers = 2"))
+        text = self.edgecase("doctor", "--renderer=tiles", check=0).stdout
+        self.assertRegex(text, r"\n     draws 10 of 11 cases of the suite \(90.9 %\); not\n       1 case: .*default attachments")
+        # A run agrees, on a driver too.
+        self.edgecase("run", "--renderer=tiles", "-o", self.out, check=0)
+        share = json.loads(self.edgecase("doctor", "--renderer=tiles", "--json", check=0).stdout)["devices"][0]["suite"]
+        self.assertEqual((share["cases"], share["drawn"]), (11, 10))
+        reason = next(c["reason"] for c in self.results()["cases"] if c["status"] == "unsupported")
+        self.assertEqual(share["lacking"], [{"reason": reason, "cases": 1}])
+        self.assertIn("draws 11 of 11 cases of the suite (100.0 %)\n", self.edgecase("doctor", "--device", "llvmpipe", check=0).stdout)
+
     def test_ready_is_about_what_was_chosen(self):
         text = self.edgecase("doctor", "--renderer=tiles", check=0).stdout
         self.assertIn("Edgecase algorithm tiles", text)

@@ -23,8 +23,8 @@ class FirstSight(PageTest):
         for record in records:
             if record["record"] == "end" and record["id"].startswith("late/"):
                 record["level"] = "direct3d"
-                for finding in record["findings"]:
-                    finding["level"] = "direct3d"
+                for part in record["findings"] + record["groups"]:
+                    part["level"] = "direct3d"
         file.write_text("".join(json.dumps(record) + "\n" for record in records), encoding="utf-8")
         cls.edgecase("report", cls.out)
 
@@ -42,7 +42,9 @@ class FirstSight(PageTest):
     def test_the_verdict_is_the_headline(self):
         page = self.open()
         self.assertEqual(page.text("h1"), "4 of 6 cases fail")
-        self.assertEqual(page.text(".levels").splitlines(), ["2 at vulkan not conformant", "2 at direct3d differs from top-left hardware"])
+        self.assertEqual(page.text(".levels").splitlines(), [
+            "vulkan: 2 of 6 cases are wrong (family, samples) not conformant", "practice: nothing",
+            "direct3d: 2 cases differ (late) differs from top-left hardware"])
         size = "parseFloat(getComputedStyle(document.querySelector('%s')).fontSize)"
         self.assertGreater(page.run(size % "h1"), 1.5 * page.run(size % ".run dl.key dd"))
         self.assertIn("Edgecase reference", page.text(".run dl.key"))

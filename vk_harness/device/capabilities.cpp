@@ -183,6 +183,13 @@ void query_optional_features(Capabilities& c) {
     c.doors = query_door_support(c.physical, has_device_extension);
     c.clip = query_clip_support(c.physical, has_device_extension);
     c.barycentrics = barycentric.fragmentShaderBarycentric == VK_TRUE;
+    if (c.barycentrics) {
+        VkPhysicalDeviceFragmentShaderBarycentricPropertiesKHR order =
+            Typed{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_PROPERTIES_KHR};
+        get_properties(c.physical, order);
+        c.info.has_first_strip_order =
+            order.triStripVertexOrderIndependentOfProvokingVertex == VK_TRUE;
+    }
 }
 
 void query_features(Capabilities& c) {

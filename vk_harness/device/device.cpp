@@ -36,6 +36,11 @@ bool names(const std::string& wanted, const DeviceInfo& info) {
 
 }  // namespace
 
+bool is_pinned(const Options& options, const DeviceInfo& info) {
+    return options.pinned_uuid.empty() ||
+           (info.uuid == options.pinned_uuid && info.driver_id == options.pinned_driver);
+}
+
 Result<Capabilities> choose_device(const Instance& instance, const Options& options) {
     auto devices = instance.physical_devices();
     if (!devices) {
@@ -48,6 +53,9 @@ Result<Capabilities> choose_device(const Instance& instance, const Options& opti
         const std::string label = fmt::format("device {} ({})", index, c.info.name);
         if (!names(options.device, c.info)) {
             failure.reasons.push_back(fmt::format("{}: not the device that was asked for", label));
+        } else if (!is_pinned(options, c.info)) {
+            failure.reasons.push_back(
+                fmt::format("{}: not the device that the run began with", label));
         } else if (!c.info.missing.empty()) {
             failure.reasons.push_back(
                 fmt::format("{}: {}", label, fmt::join(c.info.missing, "; ")));
@@ -59,6 +67,10 @@ Result<Capabilities> choose_device(const Instance& instance, const Options& opti
         failure.message =
             "no Vulkan device was found; install a driver (Debian: mesa-vulkan-drivers) or set "
             "VK_DRIVER_FILES";
+    } else if (!options.pinned_uuid.empty()) {
+        failure.message = fmt::format(
+            "the device that the run began with (UUID {}) is not there any more, or cannot be used",
+            options.pinned_uuid);
     } else if (options.device.empty()) {
         failure.message = "no Vulkan device can run the cases";
     } else {
@@ -179,6 +191,7 @@ Device::Device(Device&& other) noexcept
     : set_depth_bias2_(other.set_depth_bias2_),
       device_(std::exchange(other.device_, VK_NULL_HANDLE)),
       queue_(other.queue_),
+      longest_wait_(other.longest_wait_),
       table_(std::move(other.table_)),
       capabilities_(std::move(other.capabilities_)) {}
 

@@ -12,6 +12,9 @@
 
 namespace vk_harness {
 
+// Whether it is the device that a run is pinned to, if it is.
+bool is_pinned(const Options& options, const DeviceInfo& info);
+
 // The device that options.device names ("" = the first usable one), or one reason for every device
 // that was rejected.
 Result<Capabilities> choose_device(const Instance& instance, const Options& options);
@@ -29,6 +32,9 @@ class Device {
     VkQueue queue() const { return queue_; }
     const VolkDeviceTable& vk() const { return *table_; }
     const Capabilities& capabilities() const { return *capabilities_; }
+    // Nanoseconds that a wait for the device lasts at most; UINT64_MAX: without end.
+    uint64_t longest_wait() const { return longest_wait_; }
+    void set_longest_wait(uint64_t nanoseconds) { longest_wait_ = nanoseconds; }
 
     // Null unless the device has depthBiasControl.
     SetDepthBias2 set_depth_bias2() const { return set_depth_bias2_; }
@@ -38,6 +44,7 @@ class Device {
     SetDepthBias2 set_depth_bias2_ = nullptr;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
+    uint64_t longest_wait_ = UINT64_MAX;
     std::unique_ptr<VolkDeviceTable> table_;  // stable addresses: resources keep a pointer
     std::unique_ptr<Capabilities> capabilities_;
 };

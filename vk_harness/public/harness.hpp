@@ -28,6 +28,7 @@ struct DeviceInfo {
              max_target_size = 0;
     uint32_t interpolation_offset_bits = 0, mipmap_bits = 0;  // of interpolateAtOffset, of a LOD
     bool has_primitive_id = false;                            // the feature geometryShader
+    bool has_first_strip_order = false;     // triStripVertexOrderIndependentOfProvokingVertex
     std::string hit_counting = "binary32";  // the numbers in which hits are added up, or binary16
     std::vector<std::string> missing;  // features without which no case can run, one sentence each
     static void fields(auto&& visit, auto&... d) {
@@ -49,6 +50,7 @@ struct DeviceInfo {
         visit("interpolation_offset_bits", d.interpolation_offset_bits...);
         visit("mipmap_bits", d.mipmap_bits...);
         visit("has_primitive_id", d.has_primitive_id...);
+        visit("has_first_strip_order", d.has_first_strip_order...);
         visit("hit_counting", d.hit_counting...);
         visit("missing", d.missing...);
     }
@@ -78,10 +80,19 @@ struct Options {
     std::string icd_file;  // not empty: VK_DRIVER_FILES / VK_ICD_FILENAMES are set to it
     bool validation =
         false;  // the Khronos validation layer; its messages end up in Rendered::messages
+    // The device that a run began with, so that a later worker finds the same among several that
+    // have the name, in whatever order they are enumerated then. Empty: any.
+    std::string pinned_uuid;
+    uint32_t pinned_driver =
+        0;  // its DeviceInfo::driver_id: two drivers of one device share a UUID
+    uint64_t longest_wait_ms = 0;  // for what was submitted; 0: without end
     static void fields(auto&& visit, auto&... o) {
         visit("device", o.device...);
         visit("icd_file", o.icd_file...);
         visit("validation", o.validation...);
+        visit("pinned_uuid", o.pinned_uuid...);
+        visit("pinned_driver", o.pinned_driver...);
+        visit("longest_wait_ms", o.longest_wait_ms...);
     }
 };
 
@@ -117,6 +128,9 @@ class Renderer {
     Renderer(Renderer&&) noexcept;
 
     const DeviceInfo& device() const;
+
+    // Why a case must not be drawn on the device, one sentence; empty if it may be.
+    std::string lacking(const cases::Case& c) const;
 
     // Draws the cases in one submission and reads each back. Results in the order of the cases.
     // `step` is called with the name of each stage before it starts: "pipeline", "record",

@@ -53,6 +53,7 @@ struct Device {
     TieRule ties = TieRule::top_left;
     PlaneForm planes = PlaneForm::origin;
     PlaneBasis basis = PlaneBasis::unsnapped;
+    bool depth_has_other_basis = false;  // than all else; with planes of the form `origin`
     ClipMethod clip = ClipMethod::geometric;
     bool piece_planes = true;  // clipped triangles: planes of each piece, not of the whole triangle
     bool tests_distances = false;  // clip distances at each sample, not by cutting the polygon
@@ -66,6 +67,10 @@ struct Device {
     bool corner_inputs = false;         // with several samples undecorated ones near a corner
     bool facing_unsnapped = false;      // the sign of the area comes from unsnapped positions
     bool odd_quads = false;             // quads of derivatives begin at odd pixels
+    int viewport_bits = 8;              // viewportSubPixelBits
+    bool keeps_viewport_grid = false;   // bounds of viewports are rounded to it, halves up
+    // Barycentrics of strips in the first convention's order, with the last convention, too.
+    bool first_strip_order = false;
     UnormRounding unorm = UnormRounding::nearest;
     BlendMath blend = BlendMath::fixed;
     FixedMultiply multiply = FixedMultiply::shifts;

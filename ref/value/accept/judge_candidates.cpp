@@ -267,6 +267,27 @@ std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
     return out;
 }
 
+CandidateVerdict verdict_of_both(const CandidateVerdict& a, const CandidateVerdict& b) {
+    CandidateVerdict both = a.worst.ratio > b.worst.ratio ? a : b;
+    both.is_known = a.is_known && b.is_known;
+    both.ok = a.ok && b.ok;
+    both.basis = b.basis;
+    std::vector<std::pair<size_t, double>> failing;
+    for (const CandidateVerdict* part : {&a, &b}) {
+        for (size_t k = 0; k < part->failing.size(); ++k) {
+            failing.emplace_back(part->failing[k], part->ratios[k]);
+        }
+    }
+    std::sort(failing.begin(), failing.end());
+    both.failing.clear();
+    both.ratios.clear();
+    for (const auto& [index, ratio] : failing) {
+        both.failing.push_back(index);
+        both.ratios.push_back(ratio);
+    }
+    return both;
+}
+
 template std::vector<AcceptedRange<Ball>> accepted_ranges<Ball>(
     const CandidateSet<Ball>&, const std::vector<Evaluation<Ball>>&, const Asked&);
 template std::vector<AcceptedRange<mpq_class>> accepted_ranges<mpq_class>(

@@ -105,6 +105,10 @@ struct CandidateVerdict {
     std::vector<double> ratios;   // of the failing ones
 };
 
+// The verdict on two groups of quantities, each with a candidate of its own; the basis is that of
+// the second.
+CandidateVerdict verdict_of_both(const CandidateVerdict& a, const CandidateVerdict& b);
+
 template <class T>
 CandidateVerdict judge_candidates(const CandidateSet<T>& set,
                                   const std::vector<Evaluation<T>>& evaluations,

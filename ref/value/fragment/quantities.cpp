@@ -220,8 +220,10 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
     return all;
 }
 
-Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle) {
+Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle,
+                         const Limits& limits) {
     Primitive p;
+    p.first_strip_order = limits.first_strip_order;
     p.draw = &c.draws[triangle.draw];
     p.triangle = triangle;
     p.depth_format = c.target.depth_format;
@@ -243,7 +245,9 @@ Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle) 
 // The barycentric built-ins interpolate unit vectors: vertex k of the order has a 1 in component k.
 // The order is the triangle's, turned so that the provoking vertex is its first, or its last with
 // the last vertex convention (Vulkan specification, "Barycentric Interpolation", the tables for
-// list, strip and fan).
+// list, strip and fan). A strip's triangles are assembled in the order of the first table, odd ones
+// with their second and third vertex swapped, and a device may say that it keeps that order
+// (triStripVertexOrderIndependentOfProvokingVertex).
 Triple<float> barycentric_values(const Primitive& primitive, uint32_t component) {
     const cases::Triangle& t = primitive.triangle;
     uint32_t provoking = 0;
@@ -254,6 +258,10 @@ Triple<float> barycentric_values(const Primitive& primitive, uint32_t component)
         }
     }
     const bool is_last = primitive.draw->provoking == cases::ProvokingVertex::last;
+    if (is_last && primitive.first_strip_order &&
+        primitive.draw->topology == cases::Topology::triangle_strip) {
+        provoking = 2;
+    }
     const uint32_t first = (provoking + (is_last ? 1U : 0U)) % 3;
     Triple<float> out{};
     out[(first + component) % 3] = 1.0F;

@@ -86,11 +86,13 @@ struct Primitive {
     cases::Triangle triangle;
     cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
     std::array<glm::vec4, 3> clip{};
-    bool is_finite = false;       // is_representable() at the profiles beyond vulkan
-    bool is_projectable = false;  // and w > 0
-    bool needs_clipping = false;  // a vertex is outside the clip volume
+    bool is_finite = false;          // is_representable() at the profiles beyond vulkan
+    bool is_projectable = false;     // and w > 0
+    bool needs_clipping = false;     // a vertex is outside the clip volume
+    bool first_strip_order = false;  // Limits
 };
-Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle);
+Primitive make_primitive(const cases::Case& c, const cases::Triangle& triangle,
+                         const Limits& limits = {});
 
 // Vertex values g_i of a plane that come straight from the case (attributes); not for 1/w and z.
 Triple<float> attribute_values(const Primitive& primitive, uint32_t attribute, uint32_t component);

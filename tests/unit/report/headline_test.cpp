@@ -39,15 +39,17 @@ TEST(headline, has_words_for_every_status) {
     }
 }
 
-TEST(headline, counts_a_case_at_its_loosest_level) {
-    report::Run run = run_of({fail, fail, xfail, pass, crash});
+TEST(headline, tells_apart_what_fails_only_beyond_the_level_of_the_run) {
+    report::Run run = run_of({fail, fail, pass});
     for (CaseRecord& record : run.cases) {
-        record.findings.resize(1);
-        record.level = cases::Profile::vulkan;
+        record.counts.at(0) = record.status == fail ? 1 : 0;
+        record.level = cases::Profile::direct3d;
     }
-    run.cases[1].level = cases::Profile::direct3d;
-    run.cases[4].findings.clear();
-    EXPECT_EQ(unexpected_by_level(run), (std::array<size_t, 3>{1, 0, 1}));
+    EXPECT_EQ(headline(run), "2 of 3 cases fail");
+    run.fail_at = cases::Profile::practice;
+    EXPECT_EQ(headline(run), "2 of 3 cases fail only beyond practice");
+    run.cases[0].level = cases::Profile::vulkan;
+    EXPECT_EQ(headline(run), "1 of 3 cases fails, 1 fails only beyond practice");
 }
 
 }  // namespace

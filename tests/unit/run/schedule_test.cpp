@@ -34,6 +34,19 @@ TEST(Schedule, BatchesAreBoundedByCountAndBytes) {
     EXPECT_FALSE(schedule.next());
 }
 
+TEST(Schedule, BatchesBecomeAsSmallAsTheyAreToldToBe) {
+    Schedule::Options options;
+    options.lanes = 1;
+    Schedule schedule({10, 10, 10, 10}, options);
+    for (size_t k = 0; k < 4; ++k) {
+        schedule.add(k);
+    }
+    schedule.set_batch_bytes(0);
+    EXPECT_EQ(schedule.next(0)->cases, std::vector<size_t>{0});
+    schedule.set_batch_bytes(20);
+    EXPECT_EQ(schedule.next(0)->cases, (std::vector<size_t>{1, 2}));
+}
+
 TEST(Schedule, WorkersTakeNeighboursAndHalfOfTheLongestLane) {
     Schedule::Options options;
     options.batch = 2;

@@ -56,6 +56,26 @@ TEST(Devices, AreChosenByIndexNameAndUuid) {
     }
 }
 
+// Later workers get what the first one found, whatever is enumerated first then.
+TEST(Devices, ARunIsPinnedToItsDeviceAndDriver) {
+    const DeviceInfo& used = renderer().device();
+    Options options;
+    EXPECT_TRUE(is_pinned(options, used));
+    options.pinned_uuid = used.uuid;
+    options.pinned_driver = used.driver_id;
+    EXPECT_TRUE(is_pinned(options, used));
+    EXPECT_TRUE(Renderer::create(options));
+    DeviceInfo other = used;
+    other.driver_id += 1;  // another driver of the same device
+    EXPECT_FALSE(is_pinned(options, other));
+    options.pinned_uuid.back() = options.pinned_uuid.back() == '0' ? '1' : '0';
+    const auto chosen = Renderer::create(options);
+    ASSERT_FALSE(chosen);
+    EXPECT_THAT(chosen.error().message,
+                ::testing::HasSubstr("the device that the run began with (UUID " +
+                                     options.pinned_uuid + ") is not there any more"));
+}
+
 TEST(Devices, EveryRejectionHasAReason) {
     Options options;
     options.device = "no such device";

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/text/levels_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cases/base/counted.hpp"
+#include "report/text/causes.hpp"
+#include "report/text/sentences.hpp"
+
+namespace report {
+
+namespace {
+
+constexpr size_t kNamed = 3;  // families
+
+// What cases do that break a level, of one and of several: breaking a stricter one is less.
+constexpr std::array<std::pair<std::string_view, std::string_view>, std::size(cases::kProfiles)>
+    kDeeds = {
+        {{"is wrong", "are wrong"}, {"is suspicious", "are suspicious"}, {"differs", "differ"}}};
+
+// "ties", "ties, clip, depth and 4 more": the families of the cases, those of most cases first.
+std::string families(const std::vector<const CaseRecord*>& of) {
+    std::map<std::string, size_t> count;
+    for (const CaseRecord* record : of) {
+        ++count[one_line(family_of(*record))];
+    }
+    std::vector<std::pair<std::string, size_t>> list(count.begin(), count.end());
+    std::stable_sort(list.begin(), list.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::string text;
+    for (size_t k = 0; k < std::min(list.size(), kNamed); ++k) {
+        text += (k > 0 ? ", " : "") + list[k].first;
+    }
+    return list.size() > kNamed ? text + fmt::format(" and {} more", list.size() - kNamed) : text;
+}
+
+}  // namespace
+
+std::string level_text(const Levels& levels, const LevelCount& row) {
+    if (!row.is_judged || levels.judged == 0) {
+        return "not judged";
+    }
+    const bool is_first = row.level == cases::kProfiles[0];
+    const size_t news = row.unexpected.size(), known = row.expected.size();
+    const auto& [one, several] = kDeeds.at(static_cast<size_t>(row.level));
+    const std::string all = cases::counted(levels.judged, "case");
+    if (news == 0 && known == 0) {
+        return is_first ? "nothing wrong in " + all : "nothing";
+    }
+    if (news == 0) {
+        return fmt::format("nothing new{}, {} {} as expected", is_first ? " in " + all : "",
+                           is_first ? std::to_string(known) : cases::counted(known, "case"),
+                           known == 1 ? one : several);
+    }
+    return fmt::format("{} {} ({}){}",
+                       is_first ? fmt::format("{} of {}", news, all) : cases::counted(news, "case"),
+                       news == 1 ? one : several, families(row.unexpected),
+                       known == 0 ? "" : fmt::format(", {} more as expected", known));
+}
+
+std::string unjudged_text(const Levels& levels) {
+    return levels.unjudged == 0 ? "" : cases::counted(levels.unjudged, "case");
+}
+
+std::string levels_line(const Run& run) {
+    const Levels found = levels(run);
+    std::string text;
+    for (const LevelCount& row : found.rows) {
+        text += fmt::format("{}{}: {}", text.empty() ? "" : " - ", cases::to_string(row.level),
+                            level_text(found, row));
+    }
+    const std::string unjudged = unjudged_text(found);
+    return unjudged.empty() ? text : text + " - without a level: " + unjudged;
+}
+
+}  // namespace report

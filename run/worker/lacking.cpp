@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/worker/lacking.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <variant>
+
+#include "run/worker/worker_client.hpp"
+
+namespace run {
+
+namespace {
+
+// The next events of the worker; none: it was interrupted.
+std::vector<WorkerEvent> await(WorkerClient& client, SignalFd& signals) {
+    constexpr int kPollMs = 200;
+    for (;;) {
+        std::vector<pollfd> fds{{signals.fd(), POLLIN, 0}};
+        client.add_poll(fds);
+        ::poll(fds.data(), fds.size(), kPollMs);
+        if (signals.has_come()) {
+            client.kill();
+            return {};
+        }
+        if (std::vector<WorkerEvent> events = client.advance(); !events.empty()) {
+            return events;
+        }
+    }
+}
+
+}  // namespace
+
+cases::Expected<std::vector<std::string>> ask_what_is_lacking(
+    const Command& command, WorkerOptions options, std::chrono::milliseconds timeout,
+    const std::vector<const cases::Case*>& asked, SignalFd& signals) {
+    options.only_asks = true;
+    cases::Expected<WorkerClient> client = WorkerClient::start(command, options, timeout);
+    if (!client) {
+        return tl::unexpected(client.error());
+    }
+    std::vector<std::string> reasons(asked.size());  // by index
+    for (;;) {
+        const std::vector<WorkerEvent> events = await(*client, signals);
+        if (events.empty()) {
+            return cases::failure("interrupted");
+        }
+        for (const WorkerEvent& event : events) {
+            if (std::get_if<vk_harness::DeviceInfo>(&event) != nullptr) {
+                client->render(1, asked, 0);
+            } else if (const auto* failure = std::get_if<vk_harness::Failure>(&event)) {
+                return cases::failure("{}", failure->message);
+            } else if (const auto* result = std::get_if<CaseResult>(&event);
+                       result != nullptr && result->index < reasons.size()) {
+                reasons[result->index] = result->rendered.reason;
+            } else if (std::get_if<BatchDone>(&event) != nullptr) {
+                return reasons;
+            } else if (const auto* death = std::get_if<Death>(&event)) {
+                return cases::failure("{}", describe(*death));
+            }
+        }
+    }
+}
+
+SuiteShare share_of(const std::vector<std::string>& reasons) {
+    SuiteShare share;
+    share.cases = reasons.size();
+    std::map<std::string, size_t> count;
+    for (const std::string& reason : reasons) {
+        if (reason.empty()) {
+            ++share.drawn;
+        } else {
+            ++count[reason];
+        }
+    }
+    share.lacking.assign(count.begin(), count.end());
+    std::stable_sort(share.lacking.begin(), share.lacking.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    return share;
+}
+
+}  // namespace run
