@@ -26,6 +26,7 @@ int gtest_command(const Program& program, const GtestOptions& options);
 int fuzz_command(const Program& program, const FuzzOptions& options);
 int reduce_command(const Program& program, const ReduceOptions& options);
 int diagnose_command(const Program& program, const DiagnoseOptions& options);
+int probe_command(const Program& program, const ProbeOptions& options);
 int doors_command();
 int list_command(const Program& program, const ListOptions& options);
 int lint_command(const Program& program, const LintOptions& options);

@@ -36,6 +36,7 @@ int edgecase_main(int argc, const char* const* argv) {
         {"fuzz", [&] { return fuzz_command(program, all.fuzz); }},
         {"reduce", [&] { return reduce_command(program, all.reduce); }},
         {"diagnose", [&] { return diagnose_command(program, all.diagnose); }},
+        {"probe", [&] { return probe_command(program, all.probe); }},
         {"list", [&] { return list_command(program, all.list); }},
         {"doors", [] { return doors_command(); }},
         {"lint", [&] { return lint_command(program, all.lint); }},

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The commands that tell what case files say: "list" and "explain".
+// The commands that tell what case files say, and through which doors cases are drawn: "list",
+// "explain" and "doors".
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +11,12 @@
 
 #include "cases/base/counted.hpp"
 #include "cases/load/loader.hpp"
+#include "cases/model/door.hpp"
 #include "cases/model/rule.hpp"
 #include "cases/model/selector.hpp"
 #include "cli/commands.hpp"
 #include "cli/explain_text.hpp"
+#include "cli/options/stop.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
 #include "ref/expectation/expectation.hpp"
@@ -163,6 +166,21 @@ int explain_command(const Program& program, const ExplainOptions& options) {
     const std::string text = explain_text(*c, limits, options.profile,
                                           {options.x, options.y, options.sample, options.layer});
     say(text + (text.ends_with('\n') ? "" : "\n"));
+    return report::kExitOk;
+}
+
+int doors_command() {
+    const report::ConsoleStyle style = console_style(stdout, When::never, false);
+    const auto say_wrapped = [&style](const std::string& text) {
+        say(style.wrap ? report::wrapped(text, style.width) : text);
+    };
+    for (const cases::DoorRow& row : cases::all_doors()) {
+        say(fmt::format("{}\n", row.word));
+        say_wrapped(fmt::format("    {}\n", row.does));
+        say_wrapped(fmt::format("    group: {}; rule: {}; takes {}{}\n", to_string(row.group),
+                                row.rule, row.takes,
+                                row.needs.empty() ? "" : fmt::format("; needs {}", row.needs)));
+    }
     return report::kExitOk;
 }
 

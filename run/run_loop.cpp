@@ -321,6 +321,11 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
                                                         encode_findings(result));
     switch (schedule_.drawn(k, bits)) {
         case Schedule::Drawn::judge: {
+            if (config_.take_drawn) {
+                config_.take_drawn(k, result.view);
+                on_judged(k, fresh_record(k, Status::pass));
+                break;
+            }
             auto record = std::make_shared<CaseRecord>(fresh_record(k, Status::not_run));
             record->messages = rendered.messages;
             record->bits = cases::hex(result.bits);

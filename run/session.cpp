@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "capture/copy.hpp"
+
 namespace run {
 
 Session::Session(LoopConfig config, WorkerClient first, vk_harness::DeviceInfo device,
@@ -37,6 +39,27 @@ Session::Results Session::draw(std::vector<cases::Case> cases,
     results.interrupted = end.interrupted;
     results.failure = end.failure;
     return results;
+}
+
+Session::Pictures Session::pictures(std::vector<cases::Case> cases) {
+    Pictures out;
+    out.pictures.resize(cases.size());
+    config_.take_drawn = [&out](size_t k, const capture::CaptureView& drawn) {
+        out.pictures.at(k).capture = capture::copy_of(drawn);
+    };
+    const Results results = draw(std::move(cases));
+    config_.take_drawn = {};
+    for (size_t k = 0; k < out.pictures.size(); ++k) {
+        const report::CaseRecord& record = results.records[k];
+        if (!out.pictures[k].capture) {
+            out.pictures[k].why_not = record.reason.empty()
+                                          ? "it ended as " + std::string(to_string(record.status))
+                                          : record.reason;
+        }
+    }
+    out.interrupted = results.interrupted;
+    out.failure = results.failure;
+    return out;
 }
 
 }  // namespace run

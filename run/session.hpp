@@ -6,9 +6,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "capture/capture.hpp"
 #include "cases/model/case.hpp"
 #include "report/record/run.hpp"
 #include "run/run_loop.hpp"
@@ -31,6 +33,18 @@ class Session {
     // skipped.
     Results draw(std::vector<cases::Case> cases,
                  const std::function<bool(size_t done)>& on_progress = {});
+
+    // Draws cases without judging them.
+    struct Pictures {
+        struct Picture {
+            std::optional<capture::Capture> capture;
+            std::string why_not;  // one sentence, if there is none
+        };
+        std::vector<Picture> pictures;  // of the cases, in their order
+        bool interrupted = false;
+        std::string failure;
+    };
+    Pictures pictures(std::vector<cases::Case> cases);
 
   private:
     LoopConfig config_;

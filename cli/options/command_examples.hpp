@@ -26,6 +26,10 @@ inline constexpr Examples kExamples[] = {
     {"diagnose",
      "  edgecase diagnose out/mine                what does the device do wrong\n"
      "  edgecase diagnose out/mine --known        what do its expected failures come of\n"},
+    {"probe",
+     "  edgecase probe --json my-driver.json            what does my driver do\n"
+     "  edgecase probe --compare before.json after.json\n"
+     "  edgecase probe --renderer software:ties=top-right\n"},
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
@@ -85,6 +89,7 @@ inline constexpr Group kGroups[] = {
     {"fuzz", "Checking a device"},
     {"reduce", "Checking a device"},
     {"diagnose", "Checking a device"},
+    {"probe", "Checking a device"},
     {"report", "Checking a device"},
     {"compare", "Checking a device"},
     {"expect", "Checking a device"},

@@ -25,6 +25,7 @@ struct AllOptions {
     FuzzOptions fuzz;
     ReduceOptions reduce;
     DiagnoseOptions diagnose;
+    ProbeOptions probe;
     ExpectOptions expect;
     CompareOptions compare;
     std::string shell;  // of completion

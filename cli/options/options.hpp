@@ -103,6 +103,13 @@ struct DiagnoseOptions {
     bool known = false;     // expected failures, too
 };
 
+struct ProbeOptions {
+    DeviceOptions device;               // its renderer may be "software:CHOICES", too
+    std::vector<std::string> compared;  // none, or two: files of an earlier probe, or devices
+    std::string json, html;
+    bool verbose = false;
+};
+
 struct ListOptions {
     SuiteOptions suite;
     bool long_form = false, ids = false, json = false;

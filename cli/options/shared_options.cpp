@@ -85,7 +85,7 @@ void add_subpixel_bits(CLI::App* app, uint32_t& bits) {
         ->check(in_range(4U, 16U));
 }
 
-void add_device(CLI::App* app, DeviceOptions& o) {
+void add_driver(CLI::App* app, DeviceOptions& o) {
     add_value(app, "--device", o.device, "a part of its name, its index or its UUID", "DEVICE",
               "Device")
         ->envname("EDGECASE_DEVICE");
@@ -97,6 +97,10 @@ void add_device(CLI::App* app, DeviceOptions& o) {
               "SECONDS", "Isolation")
         ->envname("EDGECASE_TIMEOUT")
         ->check(in_range(0.01, 86400.0));
+}
+
+void add_device(CLI::App* app, DeviceOptions& o) {
+    add_driver(app, o);
     add_choice(app, "--renderer", o.renderer, renderer_names(),
                "what draws: a driver, or an algorithm of docs/algorithms.md")
         ->group("Device");

@@ -91,6 +91,8 @@ void add_case(CLI::App* app, SuiteOptions& o);
 void add_profile(CLI::App* app, cases::Profile& profile);
 void add_fail_at(CLI::App* app, std::optional<cases::Profile>& level);
 void add_subpixel_bits(CLI::App* app, uint32_t& bits);
+// What add_device adds but for the renderer.
+void add_driver(CLI::App* app, DeviceOptions& o);
 void add_device(CLI::App* app, DeviceOptions& o);
 void add_terminal(CLI::App* app, bool& quiet, bool& verbose, When& color);
 void add_report_files(CLI::App* app, std::string& json, std::string& junit, std::string& html);

@@ -188,6 +188,7 @@ OrStop<std::monostate> check_alternatives(const CLI::App& command) {
     static const std::vector<Alternative> kAlternatives = {
         {"list", "--long", {"--ids", "--json"}},
         {"list", "--ids", {"--json"}},
+        {"probe", "--compare", {"--json", "--html"}},
         {"fuzz", "--print", {"--cases", "--time", "--shard", "--known", "--resume", "--output"}},
     };
     for (const Alternative& a : kAlternatives) {

@@ -3,11 +3,14 @@
 #include "run/worker/backend.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "capture/capture.hpp"
 #include "diff/resolve.hpp"
+#include "rasterizers/software/choice/choice.hpp"
+#include "rasterizers/strength/strength.hpp"
 
 namespace run {
 
@@ -51,10 +54,13 @@ void move_planes(Rendered& rendered, const vk_harness::PlaneStore& store, size_t
         c, c);
 }
 
-// Draws without a driver: with an algorithm, or as the reference expects it.
+// Draws without a driver: with an algorithm, with the software rasterizer, or as the reference
+// expects it.
 class ReferenceBackend : public Backend {
   public:
-    explicit ReferenceBackend(const rasterizers::Device* algorithm) : algorithm_(algorithm) {
+    ReferenceBackend(const rasterizers::Device* algorithm,
+                     const std::optional<software::Device>& software)
+        : algorithm_(algorithm), software_(software) {
         device_.name = "Edgecase reference";
         device_.driver_name = "built in";
         device_.uuid = std::string(32, '0');
@@ -68,6 +74,10 @@ class ReferenceBackend : public Backend {
         device_.has_primitive_id = true;
         if (algorithm_ != nullptr) {
             device_.name = "Edgecase algorithm " + std::string(algorithm_->name);
+        }
+        if (software_) {
+            device_.name = "Edgecase software rasterizer";
+            device_.subpixel_bits = static_cast<uint32_t>(software_->subpixel_bits);
         }
     }
     const DeviceInfo& device() const override { return device_; }
@@ -89,10 +99,14 @@ class ReferenceBackend : public Backend {
                 continue;
             }
             results[k].status = Rendered::Status::drawn;
-            results[k].capture = algorithm_ != nullptr
-                                     ? rasterizers::draw_by_algorithm(batch[k], *algorithm_)
-                                     : rasterizers::draw_by_reference(batch[k]);
-            diff::add_dependent_planes(results[k].capture);
+            if (software_) {
+                results[k].capture = software::captured(batch[k], *software_);
+            } else {
+                results[k].capture = algorithm_ != nullptr
+                                         ? rasterizers::draw_by_algorithm(batch[k], *algorithm_)
+                                         : rasterizers::draw_by_reference(batch[k]);
+                diff::add_dependent_planes(results[k].capture);
+            }
             move_planes(results[k], store, k);
         }
         step("readback");
@@ -101,6 +115,7 @@ class ReferenceBackend : public Backend {
 
   private:
     const rasterizers::Device* algorithm_;
+    std::optional<software::Device> software_;
     DeviceInfo device_;
 };
 
@@ -108,7 +123,17 @@ class ReferenceBackend : public Backend {
 
 vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options) {
     if (!options.renderer.empty()) {
-        return std::make_unique<ReferenceBackend>(rasterizers::find_device(options.renderer));
+        std::optional<software::Device> software;
+        std::string_view words = options.renderer;
+        if (words.starts_with(kSoftware)) {
+            words.remove_prefix(std::min(words.size(), kSoftware.size() + 1));  // and a ':'
+            software.emplace();
+            if (const std::string wrong = software::set_choices(*software, words); !wrong.empty()) {
+                return tl::unexpected(vk_harness::Failure{vk_harness::Stage::device, 0, wrong, {}});
+            }
+        }
+        return std::make_unique<ReferenceBackend>(rasterizers::find_device(options.renderer),
+                                                  software);
     }
     vk_harness::Result<vk_harness::Renderer> renderer =
         vk_harness::Renderer::create(options.vulkan);

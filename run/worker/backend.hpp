@@ -27,6 +27,10 @@ class Backend {
         const vk_harness::PlaneStore& store) = 0;
 };
 
+// The renderer "software" is the software rasterizer; choices of it may follow:
+// "software:ties=top-right,fused=yes".
+inline constexpr std::string_view kSoftware = "software";
+
 vk_harness::Result<std::unique_ptr<Backend>> make_backend(const WorkerOptions& options);
 
 }  // namespace run

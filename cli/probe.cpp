@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command "probe": what a rasterizer does where it may choose.
+#include "probe/probe.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "cli/commands.hpp"
+#include "cli/prepare/device_answer.hpp"
+#include "cli/prepare/loop_config.hpp"
+#include "cli/prepare/outputs.hpp"
+#include "probe/tell/compare.hpp"
+#include "probe/tell/json.hpp"
+#include "probe/tell/page.hpp"
+#include "probe/tell/text.hpp"
+#include "run/session.hpp"
+
+namespace cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::pair<std::string, std::string>> device_lines(
+    const vk_harness::DeviceInfo& device) {
+    return {{"device", device.name},
+            {"driver",
+             device.driver_name + (device.driver_info.empty() ? "" : " ") + device.driver_info},
+            {"promised subpixel bits", std::to_string(device.subpixel_bits)},
+            {"promised bits of viewports", std::to_string(device.viewport_subpixel_bits)},
+            {"promised bits of interpolation offsets",
+             std::to_string(device.interpolation_offset_bits)},
+            {"promised bits of levels of detail", std::to_string(device.mipmap_bits)},
+            {"edgecase", kVersion}};
+}
+
+OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& options,
+                                 run::SignalFd& signals) {
+    RunOptions how;
+    how.device = options.device;
+    how.jobs = 1;
+    how.retries = 0;
+    run::LoopConfig config = loop_config(program, how);
+    OrStop<run::WorkerClient> worker = start_first_worker(config);
+    if (!worker) {
+        return tl::unexpected(worker.error());
+    }
+    OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), signals);
+    if (!first) {
+        return tl::unexpected(first.error());
+    }
+    set_limits(config, first->device);
+    const vk_harness::DeviceInfo device = first->device;
+    run::Session session(config, std::move(first->client), device, signals);
+    bool is_interrupted = false;
+    std::string failure;
+    const probe::Draw draw = [&](std::vector<cases::Case> cases) {
+        std::vector<probe::Drawn> out(cases.size(), {{}, "it was not drawn"});
+        if (is_interrupted || !failure.empty()) {
+            return out;
+        }
+        run::Session::Pictures pictures = session.pictures(std::move(cases));
+        is_interrupted = pictures.interrupted;
+        failure = pictures.failure;
+        for (size_t k = 0; k < out.size(); ++k) {
+            out[k] = {std::move(pictures.pictures[k].capture),
+                      std::move(pictures.pictures[k].why_not)};
+        }
+        return out;
+    };
+    probe::Datasheet sheet =
+        probe::measure(draw, {config.limits, device.max_target_size, device.has_primitive_id},
+                       [&](std::string_view) { return !is_interrupted && failure.empty(); });
+    if (is_interrupted) {
+        return tl::unexpected(
+            stop_with(report::kExitInterrupted, "interrupted; nothing was written"));
+    }
+    if (!failure.empty()) {
+        return tl::unexpected(stop_with(report::kExitInternal, failure));
+    }
+    sheet.device = device_lines(device);
+    return sheet;
+}
+
+// A file of 'probe --json', or else the name of a device.
+OrStop<probe::Datasheet> sheet_of(const Program& program, const ProbeOptions& options,
+                                  const std::string& name, run::SignalFd& signals) {
+    std::error_code none;
+    if (fs::exists(name, none)) {
+        std::ifstream in(name, std::ios::binary);
+        std::ostringstream text;
+        text << in.rdbuf();
+        const cases::Expected<probe::Datasheet> sheet = probe::from_json(text.str());
+        if (!sheet) {
+            return tl::unexpected(
+                stop_with(report::kExitInvalidFile,
+                          fmt::format("'{}' cannot be compared: {}; write one with 'edgecase probe "
+                                      "--json FILE'",
+                                      name, sheet.error().message)));
+        }
+        return *sheet;
+    }
+    if (name.ends_with(".json")) {
+        return tl::unexpected(
+            stop_with(report::kExitInvalidFile,
+                      fmt::format("there is no file '{}'; --compare takes two files of 'edgecase "
+                                  "probe --json', or names of devices",
+                                  name)));
+    }
+    ProbeOptions one = options;
+    one.device.device = name;
+    return measure(program, one, signals);
+}
+
+int compare(const Program& program, const ProbeOptions& options, run::SignalFd& signals) {
+    const OrStop<probe::Datasheet> a = sheet_of(program, options, options.compared[0], signals);
+    if (!a) {
+        return report_stop(a.error());
+    }
+    const OrStop<probe::Datasheet> b = sheet_of(program, options, options.compared[1], signals);
+    if (!b) {
+        return report_stop(b.error());
+    }
+    say(probe::comparison_text(*a, *b));
+    return probe::differences(*a, *b).empty() ? report::kExitOk : report::kExitUnexpected;
+}
+
+}  // namespace
+
+int probe_command(const Program& program, const ProbeOptions& options) {
+    run::SignalFd signals;
+    if (!options.compared.empty()) {
+        return compare(program, options, signals);
+    }
+    const OrStop<probe::Datasheet> sheet = measure(program, options, signals);
+    if (!sheet) {
+        return report_stop(sheet.error());
+    }
+    cases::Errors errors;
+    if (!options.json.empty()) {
+        if (const auto written = write_text(options.json, probe::to_json(*sheet)); !written) {
+            errors.push_back(written.error());
+        }
+    }
+    if (!options.html.empty()) {
+        if (const auto written = write_text(options.html, probe::to_html(*sheet)); !written) {
+            errors.push_back(written.error());
+        }
+    }
+    std::FILE* console = console_beside(options.json, {}, options.html);
+    std::fputs(probe::to_text(*sheet, options.verbose).c_str(), console);
+    std::fflush(console);
+    for (const cases::Error& error : errors) {
+        complain(error.message);
+    }
+    return errors.empty() ? report::kExitOk : report::kExitInternal;
+}
+
+}  // namespace cli

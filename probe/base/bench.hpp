@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What an experiment works with: something that draws cases, what the device promises, and the
+// datasheet that is filled.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
+#include "probe/base/datasheet.hpp"
+#include "ref/position/limits.hpp"
+
+namespace probe {
+
+// What came of one case: a picture, or one sentence that says why there is none.
+struct Drawn {
+    std::optional<capture::Capture> picture;
+    std::string why_not;
+};
+using Draw = std::function<std::vector<Drawn>(std::vector<cases::Case>)>;
+
+// What a device says of itself that the experiments have to know.
+struct Promises {
+    ref::Limits limits;
+    uint32_t max_target_size = 4096;
+    bool has_primitive_id = false;
+};
+
+struct Bench {
+    Draw draw;
+    Promises promises;
+    Datasheet& sheet;
+
+    // Draws one case.
+    Drawn draw_one(cases::Case c) const {
+        std::vector<cases::Case> cases;
+        cases.push_back(std::move(c));
+        std::vector<Drawn> drawn = draw(std::move(cases));
+        return drawn.empty() ? Drawn{{}, "nothing was drawn"} : std::move(drawn.front());
+    }
+    void add(Property property) const { sheet.properties.push_back(std::move(property)); }
+    // Says of a property that the device could not draw what it needs.
+    void add_unknown(Property property, const std::string& why) const {
+        property.why = why;
+        add(std::move(property));
+    }
+};
+
+}  // namespace probe
