@@ -136,6 +136,12 @@ int compare(const Program& program, const ProbeOptions& options, run::SignalFd& 
 
 int probe_command(const Program& program, const ProbeOptions& options) {
     run::SignalFd signals;
+    if (options.compared.size() == 1) {
+        return report_stop(
+            stop_with(report::kExitUsage, "--compare takes two files or devices, and '" +
+                                              options.compared.front() +
+                                              "' is one; see 'edgecase probe --help'"));
+    }
     if (!options.compared.empty()) {
         return compare(program, options, signals);
     }

@@ -17,6 +17,7 @@ struct Experiment {
 };
 constexpr auto kExperiments = std::to_array<Experiment>({
     {"grid", measure_grid},
+    {"viewport", measure_viewport},
     {"ties", measure_ties},
     {"locations", measure_locations},
     {"places", measure_places},

@@ -27,7 +27,8 @@ inline constexpr Examples kExamples[] = {
      "  edgecase diagnose out/mine                what does the device do wrong\n"
      "  edgecase diagnose out/mine --known        what do its expected failures come of\n"},
     {"probe",
-     "  edgecase probe --json my-driver.json            what does my driver do\n"
+     "  edgecase probe --json before.json               what does my driver do\n"
+     "  edgecase probe --json after.json                and the next version of it\n"
      "  edgecase probe --compare before.json after.json\n"
      "  edgecase probe --renderer software:ties=top-right\n"},
     {"list",

@@ -10,6 +10,7 @@
 namespace probe {
 
 void measure_grid(const Bench& bench);       // subpixel bits and rounding
+void measure_viewport(const Bench& bench);   // bounds of viewports
 void measure_ties(const Bench& bench);       // who owns samples on edges
 void measure_locations(const Bench& bench);  // of samples
 void measure_places(const Bench& bench);     // where inputs are evaluated

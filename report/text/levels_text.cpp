@@ -23,7 +23,7 @@ constexpr size_t kNamed = 3;  // families
 
 // What cases do that break a level, of one and of several: breaking a stricter one is less.
 constexpr std::array<std::pair<std::string_view, std::string_view>, std::size(cases::kProfiles)>
-    kDeeds = {
+    kLevelDeeds = {
         {{"is wrong", "are wrong"}, {"is suspicious", "are suspicious"}, {"differs", "differ"}}};
 
 // "ties", "ties, clip, depth and 4 more": the families of the cases, those of most cases first.
@@ -50,7 +50,7 @@ std::string level_text(const Levels& levels, const LevelCount& row) {
     }
     const bool is_first = row.level == cases::kProfiles[0];
     const size_t news = row.unexpected.size(), known = row.expected.size();
-    const auto& [one, several] = kDeeds.at(static_cast<size_t>(row.level));
+    const auto& [one, several] = kLevelDeeds.at(static_cast<size_t>(row.level));
     const std::string all = cases::counted(levels.judged, "case");
     if (news == 0 && known == 0) {
         return is_first ? "nothing wrong in " + all : "nothing";

@@ -11,12 +11,13 @@ namespace {
 
 // Fails to compile when Device has another number of fields: then the table below lacks one.
 [[maybe_unused]] void name_all_fields(const Device& device) {
-    [[maybe_unused]] const auto& [subpixel_bits, rounding, ties, planes, basis, clip, piece_planes,
-                                  tests_distances, tests_depth, fused, reciprocal_w, centroid,
-                                  inputs_follow_samples, corner_inputs, facing_unsnapped, odd_quads,
-                                  unorm, blend, multiply, half_toward_zero, resolve_truncates,
-                                  srgb_resolved_encoded, blit_edge, blit_steps, fault, place_x,
-                                  place_y] = device;
+    [[maybe_unused]] const auto& [subpixel_bits, rounding, ties, planes, basis,
+                                  depth_has_other_basis, clip, piece_planes, tests_distances,
+                                  tests_depth, fused, reciprocal_w, centroid, inputs_follow_samples,
+                                  corner_inputs, facing_unsnapped, odd_quads, viewport_bits,
+                                  keeps_viewport_grid, first_strip_order, unorm, blend, multiply,
+                                  half_toward_zero, resolve_truncates, srgb_resolved_encoded,
+                                  blit_edge, blit_steps, fault, place_x, place_y] = device;
 }
 
 template <auto Field>
@@ -52,6 +53,7 @@ const std::vector<Choice>& all_choices() {
          set_word<&Device::ties>},
         {"planes", {"origin", "vertex", "barycentric"}, set_word<&Device::planes>},
         {"basis", {"unsnapped", "snapped"}, set_word<&Device::basis>},
+        flag<&Device::depth_has_other_basis>("depth-has-other-basis"),
         {"clip", {"geometric", "guard-band"}, set_word<&Device::clip>},
         flag<&Device::piece_planes>("piece-planes"),
         flag<&Device::tests_distances>("tests-distances"),
@@ -63,6 +65,11 @@ const std::vector<Choice>& all_choices() {
         flag<&Device::corner_inputs>("corner-inputs"),
         flag<&Device::facing_unsnapped>("facing-unsnapped"),
         flag<&Device::odd_quads>("odd-quads"),
+        {"viewport-bits",
+         {"0", "1", "2", "3", "4", "5", "6", "7", "8"},
+         [](Device& d, size_t value) { d.viewport_bits = static_cast<int>(value); }},
+        flag<&Device::keeps_viewport_grid>("keeps-viewport-grid"),
+        flag<&Device::first_strip_order>("first-strip-order"),
         {"unorm", {"nearest", "nearest-even", "down"}, set_word<&Device::unorm>},
         {"blend", {"fixed", "binary32"}, set_word<&Device::blend>},
         {"multiply", {"divide", "shifts"}, set_word<&Device::multiply>},

@@ -63,6 +63,25 @@ const std::map<std::string_view, Shown>& shown() {
            {{"ties.rule", "edges above, of vertical ones the left"}}}}},
         {"basis",
          {{"grid", "setup"}, {of_setup("unsnapped positions"), of_setup("snapped positions")}}},
+        {"depth-has-other-basis",
+         {{"grid", "setup"},
+          {{{"setup.smooth", "unsnapped positions"}, {"setup.depth", "unsnapped positions"}},
+           {{"setup.smooth", "unsnapped positions"}, {"setup.depth", "snapped positions"}}}}},
+        {"viewport-bits",
+         {{"grid", "viewport"},
+          {{{"grid.viewport", "on a grid of 0 bits"}},
+           {{"grid.viewport", "on a grid of 1 bits"}},
+           {{"grid.viewport", "on a grid of 2 bits"}},
+           {{"grid.viewport", "on a grid of 3 bits"}},
+           {{"grid.viewport", "on a grid of 4 bits"}},
+           {{"grid.viewport", "on a grid of 5 bits"}},
+           {{"grid.viewport", "on a grid of 6 bits"}},
+           {{"grid.viewport", "on a grid of 7 bits"}},
+           {{"grid.viewport", "on a grid of 8 bits"}}},
+          "keeps-viewport-grid=yes"}},
+        {"keeps-viewport-grid",
+         {{"grid", "viewport"},
+          {{{"grid.viewport", "where they are put"}}, {{"grid.viewport", "on a grid of 8 bits"}}}}},
         {"piece-planes",
          {{"grid", "setup"},
           {{{"setup.clipped", "snapped positions"}},
@@ -152,6 +171,9 @@ const std::map<std::string_view, const char*>& hidden() {
     static const std::map<std::string_view, const char*> kHidden = {
         {"multiply",
          "both ways give the nearest code of every product of two codes (BothMultiplications)"},
+        {"first-strip-order",
+         "it shows in gl_BaryCoordEXT alone, and devices tell it: "
+         "triStripVertexOrderIndependentOfProvokingVertex; a run judges by it"},
     };
     return kHidden;
 }
