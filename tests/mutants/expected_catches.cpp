@@ -145,7 +145,7 @@ std::vector<ExpectedCatch> expected_catches() {
          Profile::practice,
          {"clip/provoking-behind", "facing/behind-the-eye", "field/rerun-12444"}},
         {Fault::degenerate_drawn,
-         Profile::vulkan,
+         Profile::practice,
          {"thin/repeated-vertex", "clip/through-eye-plane", "topology/strip-repeated"}},
         {Fault::small_culled,
          Profile::vulkan,

@@ -67,7 +67,7 @@ struct Device {
     bool corner_inputs = false;         // with several samples undecorated ones near a corner
     bool facing_unsnapped = false;      // the sign of the area comes from unsnapped positions
     bool odd_quads = false;             // quads of derivatives begin at odd pixels
-    int viewport_bits = 8;              // viewportSubPixelBits
+    int viewport_bits = 0;              // viewportSubPixelBits
     bool keeps_viewport_grid = false;   // bounds of viewports are rounded to it, halves up
     // Barycentrics of strips in the first convention's order, with the last convention, too.
     bool first_strip_order = false;

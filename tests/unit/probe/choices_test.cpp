@@ -81,7 +81,7 @@ const std::map<std::string_view, Shown>& shown() {
           "keeps-viewport-grid=yes"}},
         {"keeps-viewport-grid",
          {{"grid", "viewport"},
-          {{{"grid.viewport", "where they are put"}}, {{"grid.viewport", "on a grid of 8 bits"}}}}},
+          {{{"grid.viewport", "where they are put"}}, {{"grid.viewport", "on a grid of 0 bits"}}}}},
         {"piece-planes",
          {{"grid", "setup"},
           {{{"setup.clipped", "snapped positions"}},
