@@ -122,6 +122,10 @@ std::string read(const char* path, uint32_t wanted_width, uint32_t wanted_height
 }  // namespace
 
 uint32_t edgecase_image_io_version() {
+    // The first call after the module is loaded. Pictures here are small, and threads of a library
+    // that is never closed outlive the program's end, where a leak checker may trip over them.
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
     return kImageIoVersion;
 }
 
