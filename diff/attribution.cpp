@@ -162,6 +162,10 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
         }
         return;
     }
+    if (const std::optional<Cause> stencil = causes.of_stencil(total < asked.total_min)) {
+        tell(finding, *stencil);
+        return;
+    }
     if (const std::optional<Cause> depth = causes.of_depth(total < asked.total_min)) {
         tell(finding, *depth);
         return;

@@ -15,6 +15,7 @@
 #include "diff/resolve.hpp"
 #include "diff/sample/contradiction.hpp"
 #include "diff/sample/run_judge.hpp"
+#include "diff/stencil.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {
@@ -42,6 +43,9 @@ class Comparison {
             [this](const ref::ValueMismatch& m) { return last_fragment_.is_told(m, verdict_); });
         if (c.target.color) {
             color_.emplace(c, expectation, capture_, attribution_);
+        }
+        if (ref::stencil::is_needed(c)) {
+            stencil_.emplace(c, expectation, capture_, attribution_);
         }
         verdict_.profile = expectation.profile;
         verdict_.level = expectation.profile;
@@ -82,7 +86,8 @@ class Comparison {
             ++index;
         }
         verdict_.error = judge_dependent_planes(
-            capture_, expectation_.profile, [this](Finding finding) { add(std::move(finding)); });
+            capture_, expectation_.profile, [this](Finding finding) { add(std::move(finding)); },
+            stencil_ ? &*stencil_ : nullptr);
         return std::move(verdict_);
     }
 
@@ -320,6 +325,7 @@ class Comparison {
     bool has_runs_ = false;  // what is plainly right is judged by runs of samples
     RunJudge run_judge_;
     std::optional<ColorComparison> color_;
+    std::optional<StencilComparison> stencil_;
     Verdict verdict_;
 };
 

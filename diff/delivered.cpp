@@ -14,6 +14,7 @@
 #include "diff/last_fragment.hpp"
 #include "diff/pixel_check.hpp"
 #include "ref/color/color.hpp"
+#include "ref/stencil/outcome.hpp"
 
 namespace diff {
 
@@ -48,7 +49,7 @@ cases::Case with_instruments(const cases::Case& c) {
     cases::Case out = c;
     out.target.has_instruments = true;
     out.target.has_depth = true;
-    out.target.has_stencil = false;
+    out.target.has_stencil = ref::stencil::is_needed(c);  // it says what is drawn
     out.target.color.reset();
     out.target.color_resolve = cases::Resolve::none;
     out.target.depth_resolve = cases::Resolve::none;
@@ -62,6 +63,17 @@ cases::Case with_color_only(const cases::Case& c) {
     out.target.has_instruments = false;
     out.target.has_depth = false;
     return out;
+}
+
+// A stencil that a sample may hold, with these hits if they are known.
+uint32_t likely_stencil(const ref::Expectation& expectation, size_t index,
+                        std::optional<std::pair<uint32_t, uint32_t>> hits) {
+    const ref::stencil::Values values = stencils_at(expectation, expectation.samples[index], hits);
+    uint32_t value = 0;
+    while (!values[value]) {
+        ++value;
+    }
+    return value;
 }
 
 // Fills in what was not delivered.
@@ -82,6 +94,12 @@ class Completion {
         const size_t count = out_.sample_count();
         for (size_t index = 0; index < count; ++index) {
             complete(index);
+            if (case_.target.has_stencil) {
+                const glm::vec4& hits = out_.hits[index];
+                out_.stencil.push_back(likely_stencil(
+                    expectation_, index,
+                    std::pair(static_cast<uint32_t>(hits.x), static_cast<uint32_t>(hits.y))));
+            }
         }
         return std::move(out_);
     }
@@ -266,6 +284,9 @@ Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,
     capture.target = plain.target;
     capture.attribute_count = cases::attributes_of(plain);
     capture.color = color;
+    for (size_t k = 0; plain.target.has_stencil && k < expectation.samples.size(); ++k) {
+        capture.stencil.push_back(likely_stencil(expectation, k, std::nullopt));
+    }
     return compare(plain, expectation, capture);
 }
 

@@ -153,8 +153,12 @@ capture::ColorCodes average_codes(std::span<const capture::ColorCodes> samples,
 class Judge {
   public:
     Judge(const capture::CaptureView& capture, Profile profile,
-          const std::function<void(Finding)>& add)
-        : capture_(capture), target_(capture.target), profile_(profile), add_(add) {}
+          const std::function<void(Finding)>& add, StencilComparison* stencil)
+        : capture_(capture),
+          target_(capture.target),
+          profile_(profile),
+          add_(add),
+          stencil_(stencil) {}
 
     std::string run() {
         const size_t pixels = size_t{target_.width} * target_.rows();
@@ -178,7 +182,12 @@ class Judge {
                 if (capture_.stencil[first + s] == capture::kPoison) {
                     return false;
                 }
-                judge_stencil(pixel, s);
+                if (stencil_ == nullptr) {
+                    judge_stencil(pixel, s);
+                } else if (auto finding =
+                               stencil_->judge(first + s, cases::sample_at(target_, first + s))) {
+                    add_(std::move(*finding));
+                }
             }
         }
         if (capture::resolves_color(target_)) {
@@ -268,6 +277,7 @@ class Judge {
     const cases::Target& target_;
     Profile profile_;
     const std::function<void(Finding)>& add_;
+    StencilComparison* stencil_;
 };
 
 }  // namespace
@@ -278,19 +288,20 @@ uint32_t stencil_of(const glm::vec4& hits) {
 }
 
 std::string judge_dependent_planes(const capture::CaptureView& capture, Profile profile,
-                                   const std::function<void(Finding)>& add) {
+                                   const std::function<void(Finding)>& add,
+                                   StencilComparison* stencil) {
     const cases::Target& target = capture.target;
     if (!target.has_stencil && !capture::resolves_color(target) &&
         !capture::resolves_depth(target)) {
         return {};
     }
-    return Judge(capture, profile, add).run();
+    return Judge(capture, profile, add, stencil).run();
 }
 
 void add_dependent_planes(capture::Capture& capture) {
     const cases::Target& target = capture.target;
     const size_t pixels = size_t{target.width} * target.rows();
-    if (target.has_stencil) {
+    if (target.has_stencil && capture.stencil.empty()) {
         capture.stencil.resize(capture.sample_count());
         std::transform(capture.hits.begin(), capture.hits.end(), capture.stencil.begin(),
                        stencil_of);

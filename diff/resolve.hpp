@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Planes that follow from others of the same capture: the stencil from the hit counter, resolved
-// pixels from the samples. They are judged by what the device itself has written elsewhere.
+// Planes that follow from others of the same capture: the stencil from the hit counter, unless
+// draws test it (stencil.hpp), resolved pixels from the samples. They are judged by what the device
+// itself has written elsewhere.
 #pragma once
 
 #include <functional>
 #include <string>
 
+#include "diff/stencil.hpp"
 #include "diff/verdict.hpp"
 
 namespace diff {
@@ -15,14 +17,16 @@ namespace diff {
 // What the hit counter says the stencil is: (front - back) mod 256.
 uint32_t stencil_of(const glm::vec4& hits);
 
-// Judges the stencil (rule stencil.count) and what was resolved (resolve.select, resolve.average at
-// `profile`) and hands each finding to `add`. Returns why there is nothing to judge, or "": planes
-// that were not copied. Samples whose attachments contradict each other are left out.
+// Judges the stencil (rule stencil.count, or by `stencil`, if that is given) and what was resolved
+// (resolve.select, resolve.average at `profile`) and hands each finding to `add`. Returns why there
+// is nothing to judge, or "": planes that were not copied. Samples whose attachments contradict
+// each other are left out.
 std::string judge_dependent_planes(const capture::CaptureView& capture, cases::Profile profile,
-                                   const std::function<void(Finding)>& add);
+                                   const std::function<void(Finding)>& add,
+                                   StencilComparison* stencil = nullptr);
 
 // Fills these planes of a capture from its others, as a device that is right does; averages are
-// rounded to nearest.
+// rounded to nearest. A stencil that is there already is left as it is.
 void add_dependent_planes(capture::Capture& capture);
 
 }  // namespace diff

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,17 @@ struct Writer {
     uint32_t triangle;
     std::vector<ref::ExpectedValue> values;
 };
+
+// The least stencil that goes with these hits.
+uint32_t pick_stencil(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
+                      const std::pair<uint32_t, uint32_t>& hits) {
+    const ref::stencil::Values values = stencils_at(expectation, sample, hits);
+    uint32_t value = 0;
+    while (!values[value]) {
+        ++value;
+    }
+    return value;
+}
 
 // The last triangle that may have written the sample and of whose values the reference knows a
 // nearest one; of one without area it knows bounds only, and need not draw it.
@@ -89,7 +101,13 @@ capture::Capture draw_by_reference(const cases::Case& c) {
     const size_t n = capture.sample_count();
     for (size_t index = 0; index < n; ++index) {
         const ref::SampleExpectation& sample = expectation.samples[index];
-        const auto [front, back] = pick_hits(sample.hits);
+        const std::span<const ref::stencil::Outcome> stencils = expectation.stencils_of(sample);
+        const auto [front, back] = stencils.empty()
+                                       ? pick_hits(sample.hits)
+                                       : std::pair(stencils[0].front, stencils[0].back);
+        if (ref::stencil::is_needed(c)) {
+            capture.stencil.push_back(pick_stencil(expectation, sample, {front, back}));
+        }
         if (front + back == 0 || sample.writers_count == 0) {
             continue;
         }

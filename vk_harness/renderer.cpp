@@ -39,7 +39,7 @@ std::vector<std::pair<Guard*, std::string>> guards_of(const CasePlan& plan) {
         out.emplace_back(plan.blit->guard(), "color");
     }
     for (size_t k = 0; k < plan.images.size(); ++k) {
-        if (plan.attachments[k].role != Role::stencil) {  // goes with depth
+        if (!plan.attachments[k].is_beside_depth) {
             out.emplace_back(plan.images[k]->guard(), attachment_name(plan.attachments, k));
         }
     }

@@ -154,7 +154,7 @@ Json told(const cases::ColorOutput& c) {
 }
 
 Json draw_json(const cases::Draw& d, const std::vector<cases::Triangle>& triangles,
-               bool has_color) {
+               const cases::Target& target) {
     // Number k of these is gl_PrimitiveID k.
     Json assembled = Json::array(), provoking = Json::array();
     for (const cases::Triangle& t : triangles) {
@@ -172,8 +172,11 @@ Json draw_json(const cases::Draw& d, const std::vector<cases::Triangle>& triangl
     out["position_bits"] = std::move(positions.bits);
     out["triangles"] = std::move(assembled);
     out["provoking_vertices"] = std::move(provoking);
-    if (!has_color) {
+    if (!target.color) {
         out["color"] = nullptr;
+    }
+    if (!target.has_stencil) {
+        out["stencil"] = nullptr;
     }
     return out;
 }
@@ -277,6 +280,7 @@ class Needs {
         add(d.rasterizer_discard, "rasterizer-discard");
         add(d.depth.compare != cases::CompareOp::always, "depth-test");
         add(!d.depth.write, "depth-write-mask");
+        add(t.has_stencil && !(d.stencil == cases::StencilState{}), "stencil-test");
         add(d.depth.bias.has_value(), "depth-bias");
         add(d.depth.bias && d.depth.bias->is_controlled(), "depth-bias-control");
         add(d.depth.clamp || d.depth.clip.value_or(true) != true, "depth-clamp");
@@ -350,7 +354,7 @@ std::string export_case(const cases::Case& c) {
     }
     Json draws = Json::array();
     for (size_t k = 0; k < c.draws.size(); ++k) {
-        draws.push_back(draw_json(c.draws[k], triangles[k], c.target.color.has_value()));
+        draws.push_back(draw_json(c.draws[k], triangles[k], c.target));
     }
     Json out = {{"schema", "edgecase-case-1"},
                 {"id", c.id},

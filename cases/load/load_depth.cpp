@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
 #include "cases/load/parts.hpp"
 
 namespace cases {
@@ -18,6 +20,19 @@ DepthBias read_bias(LeafContext& context, const TomlValue& value) {
     context.read(value, "representation", bias.representation);
     context.read(value, "exact", bias.is_exact);
     return bias;
+}
+
+// Masks may have more bits than the attachment, which count for nothing. "The reference value used
+// by stencil comparison must be within the range [0,2^s-1] ..., otherwise the reference value is
+// considered undefined" (Vulkan specification, VkStencilOpState).
+void read_face(LeafContext& context, const TomlValue& table, StencilFace& face) {
+    context.read(table, "compare", face.compare);
+    context.read(table, "fail", face.fail);
+    context.read(table, "depth_fail", face.depth_fail);
+    context.read(table, "pass", face.pass);
+    context.read(table, "compare_mask", face.compare_mask, 0, UINT32_MAX);
+    context.read(table, "write_mask", face.write_mask, 0, UINT32_MAX);
+    context.read(table, "reference", face.reference, 0, kStencilBits);
 }
 
 }  // namespace
@@ -41,6 +56,35 @@ DepthState read_depth_state(LeafContext& context, const TomlValue& value) {
     }
     context.read(value, "clamp", state.clamp);
     context.read(value, "clip", state.clip);
+    return state;
+}
+
+StencilState read_stencil_state(LeafContext& context, const TomlValue& value,
+                                const Target& target) {
+    if (!target.has_stencil) {
+        context.error(value.where, "the target has no stencil; write stencil = true in [target]");
+        return {};
+    }
+    if (!context.table(value, "stencil")) {
+        return {};
+    }
+    context.known_keys(value, "stencil",
+                       {"compare", "fail", "depth_fail", "pass", "compare_mask", "write_mask",
+                        "reference", "front", "back"});
+    StencilState state{{}, {}};
+    read_face(context, value, state.front);
+    state.back = state.front;
+    for (const auto& [key, face] :
+         {std::pair("front", &state.front), std::pair("back", &state.back)}) {
+        const TomlValue* own = value.find(key);
+        if (own == nullptr || !context.table(*own, key)) {
+            continue;
+        }
+        context.known_keys(
+            *own, key,
+            {"compare", "fail", "depth_fail", "pass", "compare_mask", "write_mask", "reference"});
+        read_face(context, *own, *face);
+    }
     return state;
 }
 

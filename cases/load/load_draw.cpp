@@ -40,7 +40,8 @@ class DrawLoader {
                              "provoking",     "depth",       "depth_volume", "clip_distance",
                              "cull_distance", "attribute",   "mirror",       "rotate",
                              "offset",        "winding",     "first",        "order",
-                             "color",         "sample_mask", "shader_mask",  "min_sample_shading"});
+                             "color",         "sample_mask", "shader_mask",  "min_sample_shading",
+                             "stencil"});
         draw_.where = table_.where;
         context_.read(table_, "topology", draw_.topology);
         context_.read(table_, "cull", draw_.cull);
@@ -54,6 +55,9 @@ class DrawLoader {
         read_layer();
         if (const TomlValue* depth = table_.find("depth")) {
             draw_.depth = read_depth_state(context_, *depth);
+        }
+        if (const TomlValue* stencil = table_.find("stencil")) {
+            draw_.stencil = read_stencil_state(context_, *stencil, target_);
         }
         if (!context_.errors().empty() || !read_shape()) {
             return std::move(draw_);

@@ -110,11 +110,13 @@ void read_resolves(LeafContext& context, const TomlValue& table, Target& target)
 
 void read_stencil(LeafContext& context, const TomlValue& table, Target& target) {
     context.read(table, "stencil", target.has_stencil);
-    if (target.has_stencil &&
-        (!target.has_instruments || target.depth_format != DepthFormat::d32_float)) {
+    if (target.has_stencil && target.has_depth && target.depth_format != DepthFormat::d32_float) {
         context.error(table.find("stencil")->where,
-                      "stencil is judged by the hit counter and lies beside d32-float; leave out "
-                      "attachments and depth");
+                      "stencil lies beside d32-float; leave out depth, or stencil");
+    }
+    context.read(table, "stencil_clear", target.stencil_clear, 0, kStencilBits);
+    if (const TomlValue* clear = table.find("stencil_clear"); clear && !target.has_stencil) {
+        context.error(clear->where, "the target has no stencil; write stencil = true");
     }
 }
 
@@ -122,9 +124,10 @@ void read_stencil(LeafContext& context, const TomlValue& table, Target& target) 
 
 Target load_target(LeafContext& context, const TomlValue& table) {
     Target target;
-    context.known_keys(table, "[target]",
-                       {"size", "samples", "layers", "sample_locations", "depth", "depth_clear",
-                        "color", "attachments", "resolve", "depth_resolve", "stencil"});
+    context.known_keys(
+        table, "[target]",
+        {"size", "samples", "layers", "sample_locations", "depth", "depth_clear", "color",
+         "attachments", "resolve", "depth_resolve", "stencil", "stencil_clear"});
     read_depth_target(context, table, target);
     read_samples(context, table, target);
     context.read(table, "layers", target.layers, 1, kMaxLayers);

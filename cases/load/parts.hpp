@@ -29,6 +29,9 @@ void read_depth_target(LeafContext& context, const TomlValue& table, Target& tar
 // Reads the table `depth` of a draw.
 DepthState read_depth_state(LeafContext& context, const TomlValue& value);
 
+// Reads the table `stencil` of a draw: keys of both faces, and those of one in `front` and `back`.
+StencilState read_stencil_state(LeafContext& context, const TomlValue& value, const Target& target);
+
 // One [[draw]] table. `index` of the draw, from 0, stands in notes. Mistakes go to the context; the
 // result is then meaningless.
 Draw load_draw(LeafContext& context, const TomlValue& table, const Target& target, size_t index,

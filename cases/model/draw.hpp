@@ -24,6 +24,7 @@ enum class Interpolation : uint8_t { smooth, noperspective, flat };
 // Auxiliary storage qualifier of a fragment input: where in the pixel it is evaluated.
 enum class Auxiliary : uint8_t { none, centroid, sample };
 enum class ProvokingVertex : uint8_t { first, last };
+// How the depth test and the stencil test compare.
 enum class CompareOp : uint8_t {  // numbered as VkCompareOp
     never,
     less,
@@ -33,6 +34,16 @@ enum class CompareOp : uint8_t {  // numbered as VkCompareOp
     not_equal,
     greater_or_equal,
     always
+};
+enum class StencilOp : uint8_t {  // numbered as VkStencilOp
+    keep,
+    zero,
+    replace,
+    increment_and_clamp,
+    decrement_and_clamp,
+    invert,
+    increment_and_wrap,
+    decrement_and_wrap
 };
 
 // Where an attribute comes from.
@@ -165,6 +176,37 @@ struct DepthState {
     friend bool operator==(const DepthState&, const DepthState&) = default;
 };
 
+inline constexpr uint32_t kStencilBits = 0xff;  // of the attachment
+
+// As VkStencilOpState. Of the masks the lowest eight bits count.
+struct StencilFace {
+    CompareOp compare = CompareOp::always;
+    StencilOp fail = StencilOp::keep, depth_fail = StencilOp::keep, pass = StencilOp::keep;
+    uint32_t compare_mask = kStencilBits, write_mask = kStencilBits;
+    uint32_t reference = 0;  // 0..255: any other is undefined
+    static void fields(auto&& visit, auto&... f) {
+        visit("compare", f.compare...);
+        visit("fail", f.fail...);
+        visit("depth_fail", f.depth_fail...);
+        visit("pass", f.pass...);
+        visit("compare_mask", f.compare_mask...);
+        visit("write_mask", f.write_mask...);
+        visit("reference", f.reference...);
+    }
+    friend bool operator==(const StencilFace&, const StencilFace&) = default;
+};
+
+// The defaults count fragments: front faces add one and back faces subtract one, modulo 256.
+struct StencilState {
+    StencilFace front{.pass = StencilOp::increment_and_wrap};
+    StencilFace back{.pass = StencilOp::decrement_and_wrap};
+    static void fields(auto&& visit, auto&... s) {
+        visit("front", s.front...);
+        visit("back", s.back...);
+    }
+    friend bool operator==(const StencilState&, const StencilState&) = default;
+};
+
 // User clip and cull distances: component k of clip[v] is gl_ClipDistance[k] of vertex v.
 struct ClipDistances {
     uint32_t clip_count = 0, cull_count = 0;      // 0..4 each
@@ -205,6 +247,7 @@ struct Draw {
     ProvokingVertex provoking = ProvokingVertex::first;
     bool rasterizer_discard = false;  // rasterizerDiscardEnable: no fragment comes of it
     DepthState depth;
+    StencilState stencil;  // if the target has a stencil
     ClipDistances distances;
     Multisample multisample;
     ColorOutput color;            // if the target has a colour target
@@ -225,6 +268,7 @@ struct Draw {
         visit("provoking_vertex", d.provoking...);
         visit("rasterizer_discard", d.rasterizer_discard...);
         visit("depth", d.depth...);
+        visit("stencil", d.stencil...);
         visit("multisample", d.multisample...);
         visit("distances", d.distances...);
         visit("color", d.color...);

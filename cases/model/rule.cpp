@@ -359,6 +359,29 @@ constexpr std::array kRules = {
          "Where stencil and depth test pass, front faces add one and back faces subtract one, "
          "modulo 256: (front - back) mod 256 of the hit counter, and 0 where nothing hit.",
          "fragops-stencil", "17.12", "diff/resolve.hpp"},
+    Rule{rule::stencil_compare, Profile::vulkan,
+         "The stencil test compares the reference with the stencil",
+         "A fragment passes if (reference & mask) op (stencil & mask), unsigned; one that fails "
+         "writes no colour and no depth, and the stencil by the operation for failures alone.",
+         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+    Rule{rule::stencil_operation, Profile::vulkan, "A stencil operation is exact on eight bits",
+         "KEEP, ZERO, REPLACE, INVERT, and INCREMENT and DECREMENT that stop at 255 and 0 or go on "
+         "modulo 256, each of the whole stored value, once a fragment, in drawing order.",
+         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+    Rule{rule::stencil_mask, Profile::vulkan,
+         "The masks choose bits of what is compared and stored",
+         "The compare mask is ANDed to both sides of the test and to nothing else; bits outside "
+         "the write mask keep what they were. Of each mask the lowest eight bits count.",
+         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+    Rule{rule::stencil_faces, Profile::vulkan, "Front and back faces have a stencil state each",
+         "Compare operation, operations, masks and reference are those of the face that the "
+         "triangle shows, which is the face that culling and gl_FrontFacing see.",
+         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
+    Rule{rule::stencil_depth_outcome, Profile::vulkan,
+         "The depth test chooses the operation of what passes the stencil test",
+         "What fails the stencil test is not tested for depth; what passes it does depthFailOp or "
+         "passOp as it fails or passes the depth test, and passOp where there is no depth.",
+         "fragops-stencil", "17.12", "ref/stencil/outcome.hpp"},
     Rule{rule::resolve_select, Profile::vulkan, "Resolving by selection takes a sample as it is",
          "SAMPLE_ZERO, MIN and MAX leave one of the pixel's samples, bit for bit.",
          "renderpass-resolve-operations", "", "diff/resolve.hpp"},

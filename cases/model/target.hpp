@@ -37,9 +37,8 @@ struct Target {
     float depth_clear = kDepthClear;  // what the depth attachment is cleared to, 0..1
     // With several samples: average of numbers, sample_zero of integers; any of depth.
     Resolve color_resolve = Resolve::none, depth_resolve = Resolve::none;
-    // An 8-bit stencil beside D32, cleared to 0: front faces add one, back faces subtract one,
-    // modulo 256.
-    bool has_stencil = false;
+    bool has_stencil = false;    // 8 bits, beside D32 if there is depth
+    uint32_t stencil_clear = 0;  // what the stencil is cleared to, 0..255
     // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
     uint32_t rows() const { return height * layers; }
     static void fields(auto&& visit, auto&... t) {
@@ -53,6 +52,7 @@ struct Target {
         visit("depth_clear", t.depth_clear...);
         visit("color", t.color...);
         visit("stencil", t.has_stencil...);
+        visit("stencil_clear", t.stencil_clear...);
         visit("color_resolve", t.color_resolve...);
         visit("depth_resolve", t.depth_resolve...);
         visit({"instruments", kNotExported}, t.has_instruments...);  // how this program looks

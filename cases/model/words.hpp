@@ -50,6 +50,10 @@ inline constexpr WordList<8> kWords<CompareOp> = {
     "never", "less", "equal", "less-or-equal", "greater", "not-equal", "greater-or-equal",
     "always"};
 template <>
+inline constexpr WordList<8> kWords<StencilOp> = {
+    "keep",   "zero",           "replace",       "increment-clamp", "decrement-clamp",
+    "invert", "increment-wrap", "decrement-wrap"};
+template <>
 inline constexpr auto kWords<DepthFormat> = detail::words_in(kDepthFormats);
 template <>
 inline constexpr WordList<3> kWords<DepthBiasRepresentation> = {"format", "force-unorm", "float"};

@@ -247,8 +247,11 @@ constexpr Statement kStatements[] = {
      "Exactly, where every sum is representable.",
      {"blend.equation", "store.float"}, ""},
     {77, "stencil operations", exact, exact,
-     "A stencil that counts up for front and down for back faces holds their difference, modulo 256.",
-     {"stencil.count"}, ""},
+     "A stencil that counts up for front and down for back faces holds their difference, modulo 256; "
+     "any other state leaves exactly what its test, operations and masks say.",
+     {"stencil.count", "stencil.compare", "stencil.operation", "stencil.mask", "stencil.faces",
+      "stencil.depth-outcome"},
+     ""},
     {78, "primitive order", exact, exact,
      "The last one drawn stays, and blending runs in drawing order.",
      {"order.primitive", "blend.equation"}, ""},

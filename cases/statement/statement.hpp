@@ -32,7 +32,7 @@ struct Statement {
     Strictness direct3d;
     std::string_view judged;  // how a device is judged by it, and what it is never judged by
     // Ids of the rules that judge it; unused ones are empty.
-    std::array<std::string_view, 4> rules;
+    std::array<std::string_view, 6> rules;
     // If no rule judges it: why not.
     std::string_view reason;
     // The loosest profile at which breaking it is a finding, where that is not the loosest of its

@@ -142,6 +142,41 @@ std::string mask_text(uint32_t mask) {
     return mask < 10 ? std::to_string(mask) : fmt::format("{:#x}", mask);
 }
 
+TableText face_text(const StencilFace& face) {
+    const StencilFace usual;
+    TableText table;
+    add_word(table, "compare", face.compare, usual.compare);
+    add_word(table, "fail", face.fail, usual.fail);
+    add_word(table, "depth_fail", face.depth_fail, usual.depth_fail);
+    add_word(table, "pass", face.pass, usual.pass);
+    const auto add_bits = [&](const char* key, uint32_t bits, uint32_t otherwise) {
+        if (bits != otherwise) {
+            table.add(key, mask_text(bits));
+        }
+    };
+    add_bits("compare_mask", face.compare_mask, usual.compare_mask);
+    add_bits("write_mask", face.write_mask, usual.write_mask);
+    add_bits("reference", face.reference, usual.reference);
+    if (table.is_empty()) {
+        table.add("pass", string_toml(word_of(usual.pass)));  // a state of its own all the same
+    }
+    return table;
+}
+
+void add_stencil(TableText& table, const StencilState& state) {
+    if (state == StencilState{}) {
+        return;
+    }
+    if (state.front == state.back) {
+        table.add("stencil", face_text(state.front).in_line());
+        return;
+    }
+    TableText faces;
+    faces.add("front", face_text(state.front).in_line());
+    faces.add("back", face_text(state.back).in_line());
+    table.add("stencil", faces.in_line());
+}
+
 void add_multisample(TableText& table, const Multisample& state) {
     if (state.sample_mask != Multisample().sample_mask) {
         table.add("sample_mask", mask_text(state.sample_mask));
@@ -288,6 +323,7 @@ std::string draw_text(const Draw& draw, const Target& target) {
     add_word(table, "provoking", draw.provoking, usual.provoking);
     table.add_flag("rasterizer_discard", draw.rasterizer_discard, usual.rasterizer_discard);
     add_depth(table, draw.depth);
+    add_stencil(table, draw.stencil);
     add_multisample(table, draw.multisample);
     if (target.color) {
         table.add("color", color_output_text(draw));

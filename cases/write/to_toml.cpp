@@ -94,6 +94,7 @@ std::string target_text(const Target& t) {
     add_word("resolve", t.color_resolve, usual.color_resolve);
     add_word("depth_resolve", t.depth_resolve, usual.depth_resolve);
     table.add_flag("stencil", t.has_stencil, usual.has_stencil);
+    add_number("stencil_clear", t.stencil_clear, usual.stencil_clear);
     if (!t.has_instruments) {
         table.add("attachments", string_toml(t.has_depth ? "color+depth" : "color"));
     }

@@ -115,6 +115,27 @@ std::optional<Cause> Causes::of_depth(bool is_missing) const {
                  }};
 }
 
+std::optional<Cause> Causes::of_stencil(bool is_missing) const {
+    const auto& triangles = reasons_.triangles;
+    const auto is_tested = [&](const TriangleExplanation& t) {
+        const cases::StencilState& state = case_.draws[t.triangle.draw].stencil;
+        return state.front.compare != cases::CompareOp::always ||
+               state.back.compare != cases::CompareOp::always;
+    };
+    const auto it =
+        std::find_if(triangles.rbegin(), triangles.rend(), [&](const TriangleExplanation& t) {
+            return t.fate && is_tested(t) &&
+                   (is_missing ? t.fate->always_passes()
+                               : t.fate->fails && !t.fate->passes && !t.fate->fails_depth);
+        });
+    if (it == triangles.rend()) {
+        return std::nullopt;
+    }
+    return Cause{ref::rule_of(ReasonKind::stencil_test, cases::Profile::vulkan), [this, &t = *it] {
+                     return fmt::format("{} {}", name_of(t), explainer_.stencil_sentence(t));
+                 }};
+}
+
 Cause Causes::of_extra() const {
     if (reasons_.of_all) {
         const TriangleExplanation* const t = first_that(

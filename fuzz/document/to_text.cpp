@@ -19,13 +19,13 @@ using Kind = Document::Kind;
 constexpr size_t kColumns = 100;  // of a line, where values allow it
 
 // The order in which docs/cases.md tells the keys of a table; all others follow.
-constexpr std::array<std::string_view, 53> kOrder = {
+constexpr std::array<std::string_view, 54> kOrder = {
     // a file
     "format", "description", "catches", "rules", "links", "leaves", "relations", "matrix", "target",
     "blit",
     // [target], [target.color], [blit]
     "size", "samples", "sample_locations", "layers", "resolve", "depth_resolve", "stencil",
-    "attachments", "clear",
+    "stencil_clear", "attachments", "clear",
     // [[draw]]; what its triangles are stands last
     "name", "source", "probe", "interpolation", "auxiliary", "topology", "space", "viewport",
     "scissor", "viewport_index", "layer", "cull", "front_face", "rasterizer_discard", "provoking",

@@ -17,6 +17,7 @@
 #include "rasterizers/software/planes.hpp"
 #include "rasterizers/software/target/blend_unit.hpp"
 #include "rasterizers/software/target/resolve_unit.hpp"
+#include "rasterizers/software/target/stencil_unit.hpp"
 #include "rasterizers/software/tiles.hpp"
 
 namespace software {

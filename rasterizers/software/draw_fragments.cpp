@@ -165,12 +165,13 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     const size_t tested = fault == Fault::layer_depth_of_first ? index_in(0, i, j, s) : at;
     const bool passes =
         !out_.target.has_depth || passes_depth_test(draw_, z, out_.depth[tested], device_);
-    if ((passes && (draw_.depth.write || fault == Fault::depth_write_ignored)) ||
+    const bool is_left = attachments_.stencil.test(at, number_, front, passes);
+    const bool is_stored = is_left || fault == Fault::stencil_fail_writes_depth;
+    if ((passes && is_stored && (draw_.depth.write || fault == Fault::depth_write_ignored)) ||
         fault == Fault::depth_write_before_test) {
         out_.depth[at] = z;
     }
-    attachments_.stencil.test(at, draw_, front, passes);
-    if (!passes) {
+    if (!passes || !is_left) {
         return;
     }
     out_.hits[at] += front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);

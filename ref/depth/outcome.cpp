@@ -182,7 +182,8 @@ struct DepthTest::Impl {
         const bool is_same_state = da.topology == db.topology && da.viewport == db.viewport &&
                                    da.cull == db.cull && da.front_face == db.front_face &&
                                    da.scissor == db.scissor && da.distances == db.distances &&
-                                   da.multisample == db.multisample && has_equal_modes(da, db);
+                                   da.multisample == db.multisample && da.stencil == db.stencil &&
+                                   has_equal_modes(da, db);
         if (!is_same_state || !load(first).primitive.is_finite) {
             return {};
         }
@@ -379,6 +380,15 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
         }
     }
     return out;
+}
+
+DepthOutcome DepthTest::outcome(std::optional<uint32_t> stored, uint32_t fragment,
+                                const FixedPoint& p, ReasonKind& reason) {
+    return impl_->outcome(stored ? static_cast<int>(*stored) : kClear, fragment, p, reason);
+}
+
+bool DepthTest::is_same(uint32_t first, uint32_t next) {
+    return impl_->relation(first, next).is_same;
 }
 
 std::string DepthTest::range_text(uint32_t triangle, const FixedPoint& p) {

@@ -25,6 +25,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -73,6 +74,13 @@ class DepthTest {
 
     // Resolves the depth test of candidates, which stand in drawing order.
     DepthResolution resolve(const FixedPoint& p, std::span<const DepthCandidate> candidates);
+
+    // The test of a triangle against the depth that another one stored, or, of none, against the
+    // clear value. `reason` becomes how two triangles are related, if that decides.
+    DepthOutcome outcome(std::optional<uint32_t> stored, uint32_t fragment, const FixedPoint& p,
+                         ReasonKind& reason);
+    // Whether a triangle is the same as an earlier one: covered together or not at all.
+    bool is_same(uint32_t first, uint32_t next);
 
     // The range of depths of a triangle at a sample, for people: "0.25 to 0.25000006".
     std::string range_text(uint32_t triangle, const FixedPoint& p);

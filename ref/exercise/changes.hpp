@@ -38,6 +38,20 @@ bool enlarge_bias(cases::Case& c);
 // Every depth is that of the draw's first vertex.
 bool level_depths(cases::Case& c);
 
+// Stencil.
+bool pass_every_stencil(cases::Case& c);
+// What is compared changes sides: less is greater.
+bool turn_stencil_compare(cases::Case& c);
+bool keep_stencils(cases::Case& c);
+// What clamps wraps, and what wraps clamps.
+bool exchange_stencil_clamps(cases::Case& c);
+bool ignore_stencil_masks(cases::Case& c);
+bool exchange_stencil_faces(cases::Case& c);
+// A fragment that fails the depth test does to the stencil what one does that passes it, or that
+// fails the stencil test.
+bool take_depth_fail_as_pass(cases::Case& c);
+bool take_depth_fail_as_fail(cases::Case& c);
+
 // Values.
 bool take_centroids_at_centre(cases::Case& c);
 bool take_centroids_at_samples(cases::Case& c);

@@ -21,12 +21,19 @@ std::span<const uint32_t> depths_of(const Expectation& e, const SampleExpectatio
                                                                  : e.depth_writers_of(sample);
 }
 
+// Whether the stencil may be one that is a finding.
+bool may_break_stencil(const Expectation& right, const Expectation& wrong, size_t index) {
+    const stencil::Values one = stencils_at(right, right.samples[index], std::nullopt);
+    const stencil::Values other = stencils_at(wrong, wrong.samples[index], std::nullopt);
+    return (other & ~one).any();
+}
+
 // Whether something that `wrong` allows at a decided sample is a finding in hits, writer or whose
-// depth is stored.
+// depth is stored, or in the stencil.
 bool may_break(const Expectation& right, const Expectation& wrong, size_t index) {
     const SampleExpectation& one = right.samples[index];
     const SampleExpectation& other = wrong.samples[index];
-    if (!(one.hits == other.hits)) {
+    if (!(one.hits == other.hits) || may_break_stencil(right, wrong, index)) {
         return true;
     }
     return (other.depth_may_be_clear && !one.depth_may_be_clear) ||
@@ -159,6 +166,10 @@ bool Difference::shows(size_t index) {
         return false;
     }
     const cases::SampleId id = cases::sample_at(original_.of().target, index);
+    if (differ_ == Differ::hits && original_.of().target.has_stencil &&
+        may_break_stencil(original_.expected(), *without_, index)) {
+        return true;
+    }
     if (other_shown_) {
         return differ_ == Differ::values
                    ? shows_colors_of(index, id)
@@ -188,7 +199,7 @@ bool shows_otherwise(Original& original, uint32_t draw) {
     plain.draws[draw].color.blend.reset();
     plain.draws[draw].color.write_mask = 0xf;
     for (cases::Case* other : {&discarded, &plain}) {
-        Difference difference(original, std::move(*other), Differ::colors, {});
+        Difference difference(original, std::move(*other), Differ::hits, {});
         for (size_t k = 0; k < original.expected().samples.size(); ++k) {
             if (difference.shows(k)) {
                 return true;

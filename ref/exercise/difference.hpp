@@ -21,9 +21,10 @@
 
 namespace ref {
 
-// By what the two are told apart. Without instruments it is always the colour and the plain depth.
+// By what the two are told apart. Without instruments it is always the colour and the plain depth,
+// and of hits the stencil.
 enum class Differ : uint8_t {
-    hits,    // hits, writers and whose depth is stored
+    hits,    // hits, writers, whose depth is stored, the stencil
     depths,  // these and the depth
     values,  // the values that the rule is about, of the same fragments
     colors,  // the colour target

@@ -157,7 +157,7 @@ Scene::Scene(const cases::Case& the_case, const Limits& the_limits, cases::Profi
                 ? std::make_optional<DepthTest>(c, triangles, limits, profile, false)
                 : std::nullopt),
       narrowing(c, profile, triangles, setups,
-                {fast::is_in_hull, fast::winding, fast::is_inside_whole},
+                {fast::is_in_hull, fast::winding, fast::is_inside_whole, stencil::resolve},
                 depth ? &*depth : nullptr) {}
 
 Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile profile,
@@ -166,10 +166,33 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     return expect(scene, onlooker);
 }
 
+stencil::Values stencils_at(const Expectation& e, const SampleExpectation& s,
+                            std::optional<std::pair<uint32_t, uint32_t>> hits) {
+    stencil::Values out;
+    const std::span<const stencil::Outcome> outcomes = e.stencils_of(s);
+    const auto fits = [&](const stencil::Outcome& o) {
+        return hits && o.front == hits->first && o.back == hits->second;
+    };
+    const bool is_known = std::ranges::any_of(outcomes, fits);
+    for (const stencil::Outcome& o : outcomes) {
+        if (!is_known || fits(o)) {
+            out |= o.values;
+        }
+    }
+    if (s.is_stencil_free) {
+        out.set();
+    } else if (outcomes.empty()) {
+        out.set(e.target.stencil_clear);
+    }
+    return out;
+}
+
 bool is_same(const Expectation& a, const Expectation& b, size_t index) {
     const SampleExpectation& one = a.samples[index];
     const SampleExpectation& other = b.samples[index];
     return one.hits == other.hits && one.depth_may_be_clear == other.depth_may_be_clear &&
+           one.is_stencil_free == other.is_stencil_free &&
+           std::ranges::equal(a.stencils_of(one), b.stencils_of(other)) &&
            std::ranges::equal(a.writers_of(one), b.writers_of(other)) &&
            std::ranges::equal(a.depth_writers_of(one), b.depth_writers_of(other));
 }
@@ -262,9 +285,9 @@ class RowJudge {
     }
 
     uint32_t judge(const Place& at, std::span<const Hit> hits, JudgeReasons* reasons = nullptr) {
-        SampleExpectation sample = scene_.narrowing.judge(position(at), at.s, hits, out_.writers,
-                                                          out_.depth_writers, reasons);
-        add_fragments(out_, scene_.c, hits, sample);
+        SampleExpectation sample = scene_.narrowing.judge(
+            position(at), at.s, hits, {out_.writers, out_.depth_writers, out_.stencils}, reasons);
+        add_fragments(out_, scene_.c, hits, scene_.narrowing.fates(), sample);
         return out_.samples.add(sample);
     }
 

@@ -7,7 +7,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cases/model/case.hpp"
@@ -15,6 +17,7 @@
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/coverage.hpp"
 #include "ref/position/limits.hpp"
+#include "ref/stencil/outcome.hpp"
 
 namespace ref {
 
@@ -44,6 +47,10 @@ struct SampleExpectation {
     // Into Expectation::fragments, if the target has a colour: the triangles that must or may cover
     // the sample, in drawing order.
     uint32_t fragments_begin = 0, fragments_count = 0;
+    // Into Expectation::stencils, if the case needs a stencil test (stencil::is_needed); none: the
+    // clear value, wherever nothing hits.
+    uint32_t stencils_begin = 0, stencils_count = 0;
+    bool is_stencil_free = false;  // nothing is claimed of it
 };
 
 // Is a triangle that must or may cover a sample.
@@ -95,6 +102,7 @@ struct Expectation {
     std::vector<uint32_t> writers;
     std::vector<uint32_t> depth_writers;
     std::vector<PossibleHit> fragments;
+    std::vector<stencil::Outcome> stencils;
     uint64_t must_samples = 0;    // samples that must be hit at least once: the control of the case
     uint64_t either_samples = 0;  // samples where more than one answer is allowed
 
@@ -107,9 +115,17 @@ struct Expectation {
     std::span<const PossibleHit> fragments_of(const SampleExpectation& s) const {
         return std::span(fragments).subspan(s.fragments_begin, s.fragments_count);
     }
+    std::span<const stencil::Outcome> stencils_of(const SampleExpectation& s) const {
+        return std::span(stencils).subspan(s.stencils_begin, s.stencils_count);
+    }
 };
 
-// Whether a sample has the same hits, writers and depths in two expectations of one case.
+// The stencils that a sample of a case with a stencil test may hold: those that go with these hits,
+// front and back; of hits that no course of events has, and of none given, any that it may hold.
+stencil::Values stencils_at(const Expectation& e, const SampleExpectation& s,
+                            std::optional<std::pair<uint32_t, uint32_t>> hits);
+
+// Whether a sample has the same hits, writers, depths and stencils in two expectations of one case.
 bool is_same(const Expectation& a, const Expectation& b, size_t index);
 
 class Onlooker;  // onlooker.hpp

@@ -23,7 +23,8 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
     if (DepthTest::is_needed(c)) {
         depth.emplace(c, out.triangles, limits, profile, true);
     }
-    Narrowing narrowing(c, profile, out.triangles, setups, {is_in_hull, winding, is_inside_whole},
+    Narrowing narrowing(c, profile, out.triangles, setups,
+                        {is_in_hull, winding, is_inside_whole, stencil::exact::resolve},
                         depth ? &*depth : nullptr);
     for (uint32_t row = 0; row < c.target.rows(); ++row) {
         const uint32_t j = row % c.target.height;
@@ -43,8 +44,8 @@ Expectation expect(const cases::Case& c, const Limits& limits, cases::Profile pr
                     }
                 }
                 SampleExpectation sample =
-                    narrowing.judge(p, s, hits, out.writers, out.depth_writers);
-                add_fragments(out, c, hits, sample);
+                    narrowing.judge(p, s, hits, {out.writers, out.depth_writers, out.stencils});
+                add_fragments(out, c, hits, narrowing.fates(), sample);
                 out.must_samples += sample.hits.total_min > 0 ? 1U : 0U;
                 out.either_samples += sample.hits.is_decided() ? 0U : 1U;
                 out.samples.set(index++, 1, 1, out.samples.add(sample));

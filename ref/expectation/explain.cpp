@@ -191,9 +191,35 @@ std::string Explainer::depth_sentence(const TriangleExplanation& t, cases::Sampl
                        scene_.depth->range_text(t.index, p));
 }
 
+std::string Explainer::stencil_sentence(const TriangleExplanation& t) {
+    const TriangleSetup& setup = scene_.setups[t.index];
+    return sentence_of(t.fate.value(), scene_.c.draws[t.triangle.draw].stencil, setup.can_be_front,
+                       setup.can_be_back);
+}
+
 std::string Explainer::sentence(const FixedSet& set) {
     return sentence_of(set, scene_.triangles);
 }
+
+namespace {
+
+// All that a sample may hold.
+stencil::Values stencils_of(const SampleExpectation& judged,
+                            const std::vector<stencil::Outcome>& outcomes,
+                            const cases::Target& target) {
+    stencil::Values out;
+    for (const stencil::Outcome& o : outcomes) {
+        out |= o.values;
+    }
+    if (judged.is_stencil_free) {
+        out.set();
+    } else if (outcomes.empty()) {
+        out.set(target.stencil_clear);
+    }
+    return out;
+}
+
+}  // namespace
 
 SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
     SampleExplanation out;
@@ -245,12 +271,24 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         }
     }
     std::vector<uint32_t> writers, depth_writers;
+    std::vector<stencil::Outcome> stencils;
     JudgeReasons reasons;
-    out.hits =
-        scene_.narrowing.judge(p, sample.sample, hits, writers, depth_writers, &reasons).hits;
+    const SampleExpectation judged = scene_.narrowing.judge(
+        p, sample.sample, hits, {writers, depth_writers, stencils}, &reasons);
+    out.hits = judged.hits;
     for (FixedSet& set : reasons.sets) {
         std::string words = detail == Detail::all ? sentence(set) : std::string();
         out.sets.push_back({std::move(set), std::move(words)});
+    }
+    if (stencil::is_needed(scene_.c)) {
+        out.stencils = stencils_of(judged, stencils, scene_.c.target);
+    }
+    for (size_t m = 0; m < reasons.fates.size(); ++m) {
+        if (explained[m] != kUntold) {
+            TriangleExplanation& t = out.triangles[explained[m]];
+            t.fate = reasons.fates[m];
+            t.stencil_text = detail == Detail::all ? stencil_sentence(t) : std::string();
+        }
     }
     for (size_t m = 0; m < reasons.depth.outcomes.size(); ++m) {
         if (explained[m] == kUntold) {

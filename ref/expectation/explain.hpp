@@ -54,6 +54,9 @@ struct TriangleExplanation {
     std::optional<DepthOutcome> depth;
     ReasonKind depth_reason = ReasonKind::depth_ranges;
     std::string depth_text;  // one sentence
+    // The same, if the case needs a stencil test.
+    std::optional<stencil::Fate> fate;
+    std::string stencil_text;
 
     ReasonKind why() const { return decision.reasons.front().kind; }
     bool has(ReasonKind kind) const;
@@ -74,6 +77,7 @@ struct SampleExplanation {
     HitBounds hits;                              // of the whole case
     std::vector<TriangleExplanation> triangles;  // those within two pixels of the sample
     std::vector<SetExplanation> sets;
+    std::optional<stencil::Values> stencils;  // that the sample may hold, if the case tests them
 };
 
 // How much of an explanation is wanted: all of it, or the reasons alone. Without the words a
@@ -93,9 +97,10 @@ class Explainer {
     SampleExplanation explain(cases::SampleId sample, Detail detail = Detail::all);
 
     // The sentences that explain(sample, Detail::reasons) leaves out, of one of its triangles, of
-    // the same triangle's depth, and of one of its sets.
+    // the same triangle's depth and stencil test, and of one of its sets.
     std::string sentence(const TriangleExplanation& t, cases::SampleId sample);
     std::string depth_sentence(const TriangleExplanation& t, cases::SampleId sample);
+    std::string stencil_sentence(const TriangleExplanation& t);
     std::string sentence(const FixedSet& set);
 
     // Decides triangle t alone at a sample, whose position is p.

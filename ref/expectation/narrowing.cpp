@@ -61,6 +61,7 @@ Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
       predicates_(predicates),
       complements_(complements_of(c, triangles)),
       depth_(depth),
+      has_stencil_test_(stencil::is_needed(c)),
       vertex_numbers_(c) {}
 
 bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
@@ -210,10 +211,14 @@ bool Narrowing::is_anywhere(std::span<const Hit> hits) const {
 }
 
 SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
-                                   std::vector<uint32_t>& writers,
-                                   std::vector<uint32_t>& depth_writers, JudgeReasons* reasons) {
+                                   const JudgedLists& lists, JudgeReasons* reasons) {
     SampleExpectation out;
+    std::vector<uint32_t>& writers = lists.writers;
     sample_ = s;
+    fates_.clear();
+    if (has_stencil_test_ && !hits.empty() && is_anywhere(hits)) {
+        return judge_by_stencil(p, hits, {}, lists, reasons);
+    }
     out.writers_begin = static_cast<uint32_t>(writers.size());
     if (is_anywhere(hits)) {
         uint32_t first = 0;
@@ -232,12 +237,15 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
     for (size_t k = 0; reasons != nullptr && k < sets.size(); ++k) {
         reasons->sets.push_back(told_set(p, hits, sets[k]));
     }
+    if (has_stencil_test_ && !hits.empty()) {
+        return judge_by_stencil(p, hits, sets, lists, reasons);
+    }
     std::vector<Coverage> coverage(hits.size());
     for (size_t m = 0; m < hits.size(); ++m) {
         coverage[m] = hits[m].coverage;
     }
     if (depth_ != nullptr && !hits.empty()) {
-        apply_depth(p, hits, sets, coverage, depth_writers, out, reasons);
+        apply_depth(p, hits, sets, coverage, lists.depth_writers, out, reasons);
     }
     std::vector<bool> is_counted(hits.size(), false);
     uint32_t first = 0;  // nothing before it can have written last

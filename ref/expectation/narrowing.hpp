@@ -33,6 +33,7 @@
 #include "ref/expectation/complement.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/vertex_numbers.hpp"
+#include "ref/stencil/outcome.hpp"
 
 namespace ref {
 
@@ -52,7 +53,15 @@ struct FixedSet {
 // Holds what judge() rests on, for those who tell it.
 struct JudgeReasons {
     std::vector<FixedSet> sets;
-    DepthResolution depth;  // of each hit; empty if the case tests no depth
+    DepthResolution depth;             // of each hit; empty if the case tests no depth
+    std::vector<stencil::Fate> fates;  // of each hit; empty if the case needs no stencil test
+};
+
+// What judge() appends to: of an expectation, or of an explanation.
+struct JudgedLists {
+    std::vector<uint32_t>& writers;        // that may have written last
+    std::vector<uint32_t>& depth_writers;  // whose depth may be stored
+    std::vector<stencil::Outcome>& stencils;
 };
 
 // The arithmetic that narrowing rests on, so that both implementations bring their own.
@@ -64,15 +73,26 @@ struct Predicates {
     int (*winding)(std::span<const FixedPoint>, const FixedPoint&);
     // An outline covers p but for its cuts, whatever positions the device uses.
     bool (*is_inside_whole)(const TriangleSetup&, const Outline&, const FixedPoint&);
+    stencil::Resolve resolve_stencil;
 };
 
-// Keeps the hits of a sample for the colour target, if the case has one.
+// Keeps the hits of a sample for the colour target, if the case has one. `fates`: of each hit, if
+// the case needs a stencil test.
 inline void add_fragments(Expectation& out, const cases::Case& c, std::span<const Hit> hits,
-                          SampleExpectation& sample) {
+                          std::span<const stencil::Fate> fates, SampleExpectation& sample) {
     if (!out.target.color) {
         return;
     }
     sample.fragments_begin = static_cast<uint32_t>(out.fragments.size());
+    for (size_t k = 0; k < fates.size(); ++k) {
+        if (fates[k].passes) {
+            out.fragments.push_back({hits[k].triangle, fates[k].always_passes()});
+        }
+    }
+    sample.fragments_count = static_cast<uint32_t>(out.fragments.size()) - sample.fragments_begin;
+    if (stencil::is_needed(c)) {
+        return;
+    }
     sample.fragments_count = static_cast<uint32_t>(hits.size());
     for (const Hit& hit : hits) {
         // A depth test or a mask may still take it away; the bounds of the sample know how many.
@@ -92,11 +112,11 @@ class Narrowing {
               Predicates predicates, DepthTest* depth);
 
     // Bounds for sample `s` of a pixel, at p, from the triangles that must or may cover it, in
-    // drawing order; appends the triangles that may have written last, and those whose depth may be
-    // stored. Fills `reasons`, unless it is null.
+    // drawing order; appends to `lists` what it says of them. Fills `reasons`, unless it is null.
     SampleExpectation judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
-                            std::vector<uint32_t>& writers, std::vector<uint32_t>& depth_writers,
-                            JudgeReasons* reasons = nullptr);
+                            const JudgedLists& lists, JudgeReasons* reasons = nullptr);
+    // What may have become of each hit of the last judge(), if the case needs a stencil test.
+    std::span<const stencil::Fate> fates() const { return fates_; }
     // Whether judge() says the same wherever the sample lies that these triangles touch.
     bool is_anywhere(std::span<const Hit> hits) const;
 
@@ -129,6 +149,13 @@ class Narrowing {
     void apply_depth(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& sets,
                      std::vector<Coverage>& coverage, std::vector<uint32_t>& depth_writers,
                      SampleExpectation& out, JudgeReasons* reasons);
+    // The same of stencil and depth test together (narrowing_stencil.cpp): all that judge() says.
+    stencil::Question stencil_question(const FixedPoint& p, std::span<const Hit> hits,
+                                       const std::vector<Fixed>& sets,
+                                       std::vector<ReasonKind>& depth_reasons);
+    SampleExpectation judge_by_stencil(const FixedPoint& p, std::span<const Hit> hits,
+                                       const std::vector<Fixed>& sets, const JudgedLists& lists,
+                                       JudgeReasons* reasons);
     struct EdgeOwner {
         uint64_t edge = 0;
         uint32_t triangle = 0;
@@ -161,6 +188,8 @@ class Narrowing {
     uint32_t sample_ = 0;                  // of the pixel, the one at hand
     std::vector<Complement> complements_;  // by triangle, or empty
     DepthTest* depth_;                     // null: every fragment passes and writes
+    bool has_stencil_test_;
+    std::vector<stencil::Fate> fates_;  // of the hits at hand
     VertexNumbers vertex_numbers_;
     std::vector<EdgeOwner> edge_owners_;  // sorted by edge, then triangle; when first asked for
 };

@@ -155,4 +155,26 @@ std::string sentence_of(ReasonKind depth_reason, DepthOutcome outcome, cases::Co
                        fmt::arg("depths", depths));
 }
 
+std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& state,
+                        bool can_be_front, bool can_be_back) {
+    const bool passes = fate.passes || fate.fails_depth;
+    const std::string_view told = passes && !fate.fails   ? "passes"
+                                  : fate.fails && !passes ? "fails"
+                                                          : "may pass or fail";
+    std::string out;
+    for (const bool front : {true, false}) {
+        if (front ? !can_be_front : !can_be_back) {
+            continue;
+        }
+        const cases::StencilFace& face = front ? state.front : state.back;
+        out += out.empty() ? "" : ", or ";
+        out += fmt::format(fmt::runtime(text_of(ReasonKind::stencil_test)),
+                           fmt::arg("outcome", told), fmt::arg("face", front ? "front" : "back"),
+                           fmt::arg("reference", face.reference),
+                           fmt::arg("mask", fmt::format("{:#x}", face.compare_mask)),
+                           fmt::arg("compare", kCompareNames[static_cast<size_t>(face.compare)]));
+    }
+    return out;
+}
+
 }  // namespace ref

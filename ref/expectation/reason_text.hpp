@@ -13,6 +13,7 @@
 #include "ref/depth/outcome.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/reason/reason.hpp"
+#include "ref/stencil/outcome.hpp"
 
 namespace ref {
 
@@ -26,5 +27,9 @@ std::string sentence_of(const FixedSet& set, const std::vector<cases::Triangle>&
 // How a fragment, whose depth is told by `depths`, fares in the depth test.
 std::string sentence_of(ReasonKind depth_reason, DepthOutcome outcome, cases::CompareOp compare,
                         const std::string& depths);
+
+// How a fragment fares in the stencil test of the faces that it may show.
+std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& state,
+                        bool can_be_front, bool can_be_back);
 
 }  // namespace ref

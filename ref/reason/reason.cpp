@@ -128,6 +128,18 @@ constexpr std::array kRows = {
     Row{depth_apart, rule::depth_distinct,
         "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before, biased "
         "apart by whole units of r"},
+    Row{stencil_test, rule::stencil_compare,
+        "{outcome} the stencil test of {face} faces, ({reference} & {mask}) {compare} (stencil & "
+        "{mask})"},
+    Row{stencil_compared, rule::stencil_compare,
+        "it is the stencil of fragments whose stencil test comes out otherwise"},
+    Row{stencil_operated, rule::stencil_operation,
+        "the operations of these fragments, in drawing order, do not leave it"},
+    Row{stencil_masked, rule::stencil_mask, "it is the stencil that is left without the masks"},
+    Row{stencil_faced, rule::stencil_faces,
+        "it is the stencil that is left if front and back faces exchange their state"},
+    Row{stencil_by_depth, rule::stencil_depth_outcome,
+        "it is the stencil that is left if the depth test chooses another operation"},
     Row{value_set_up, {}, "no set-up from snapped or unsnapped vertices explains the fragment"},
     Row{value_hull, rule::interp_hull, "the value lies outside all that the vertices' values span"},
     Row{value_flat, rule::interp_flat, "a flat input has the bits of the provoking vertex"},

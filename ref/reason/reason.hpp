@@ -74,6 +74,14 @@ enum class ReasonKind : uint8_t {
     depth_ranges,  // by the numbers that its depth and the stored one may be
     depth_same,    // the same triangle was drawn before by the same state
     depth_apart,   // the same triangle was drawn before, biased apart
+    // A fragment fails the stencil test, or passes it, or may do either; and what the stencil of a
+    // sample would be otherwise.
+    stencil_test,      // by its reference, its mask and the stencil
+    stencil_compared,  // if the test came out otherwise
+    stencil_operated,  // if an operation did something else
+    stencil_masked,    // without the masks
+    stencil_faced,     // with the state of the other face
+    stencil_by_depth,  // if the depth test chose another operation
     // A fragment must not have a value.
     value_set_up,         // no basis explains the fragment
     value_hull,           // the value is outside all that interpolation can make

@@ -36,14 +36,25 @@ bool flip_depth_clip(PipelineCopy& p) {
     return true;
 }
 
-bool no_stencil_decrement(PipelineCopy& p) {
-    return p.depth.stencilTestEnable == VK_TRUE &&
-           change(p.depth.back.passOp, p.depth.front.passOp);
+// What is set for front faces is set for back faces, too.
+template <class Call>
+bool front_for_back(Call& call) {
+    if (call.faces == VK_STENCIL_FACE_FRONT_BIT) {
+        call.faces = VK_STENCIL_FACE_FRONT_AND_BACK;
+    } else {
+        call.is_dropped = true;
+    }
+    return true;
 }
 
-bool clamp_stencil(PipelineCopy& p) {
-    return p.depth.stencilTestEnable == VK_TRUE &&
-           change(p.depth.back.passOp, VK_STENCIL_OP_DECREMENT_AND_CLAMP);
+// Each operation of a call that is `from`.
+template <VkStencilOp from, VkStencilOp to>
+bool operate(StencilOps& ops) {
+    bool is_altered = false;
+    for (VkStencilOp* op : {&ops.fail, &ops.pass, &ops.depth_fail}) {
+        is_altered = (*op == from && change(*op, to)) || is_altered;
+    }
+    return is_altered;
 }
 
 constexpr std::array kFaults = {
@@ -127,10 +138,11 @@ constexpr std::array kFaults = {
         {.pipeline = [](PipelineCopy& p) { return change(p.depth.stencilTestEnable, VK_FALSE); }}},
     Fault{"stencil-back-as-front",
           "The stencil operation of front faces is used for back faces.",
-          {.pipeline = no_stencil_decrement}},
+          {.stencil_ops = front_for_back<StencilOps>}},
     Fault{"stencil-clamps",
           "The stencil decrement stops at 0 instead of wrapping.",
-          {.pipeline = clamp_stencil}},
+          {.stencil_ops =
+               operate<VK_STENCIL_OP_DECREMENT_AND_WRAP, VK_STENCIL_OP_DECREMENT_AND_CLAMP>}},
 };
 
 }  // namespace

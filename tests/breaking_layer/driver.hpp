@@ -36,6 +36,10 @@ namespace breaking {
     X(CmdSetDepthBiasEnable) \
     X(CmdSetDepthBias) \
     X(CmdSetBlendConstants) \
+    X(CmdSetStencilOp) \
+    X(CmdSetStencilCompareMask) \
+    X(CmdSetStencilWriteMask) \
+    X(CmdSetStencilReference) \
     X(CmdBindPipeline) \
     X(CmdBindDescriptorSets) \
     X(CmdPushConstants) \

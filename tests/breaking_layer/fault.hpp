@@ -106,6 +106,19 @@ struct DepthBias {
     float constant, clamp, slope;
 };
 
+// One call of vkCmdSetStencilOp, or of one of the commands that set a mask or the reference.
+struct StencilOps {
+    VkStencilFaceFlags faces;
+    VkStencilOp fail, pass, depth_fail;
+    VkCompareOp compare;
+    bool is_dropped = false;
+};
+struct StencilValue {
+    VkStencilFaceFlags faces;
+    uint32_t value;
+    bool is_dropped = false;
+};
+
 // One call that sets a dynamic state.
 struct StateCall {
     std::string_view state;     // "viewport", "cull mode", ... (state_commands.cpp)
@@ -154,6 +167,10 @@ struct Hooks {
     bool (*depth_bias_enable)(VkBool32&) = nullptr;
     bool (*depth_bias)(DepthBias&) = nullptr;
     bool (*blend_constants)(std::span<float, 4>) = nullptr;
+    bool (*stencil_ops)(StencilOps&) = nullptr;
+    bool (*stencil_compare_mask)(StencilValue&) = nullptr;
+    bool (*stencil_write_mask)(StencilValue&) = nullptr;
+    bool (*stencil_reference)(StencilValue&) = nullptr;
     bool (*drop_state)(StateCall&) = nullptr;  // whether the call is not done
     bool (*bind)(Reset&) = nullptr;            // of a pipeline with dynamic state
     bool (*secondaries)(std::vector<VkCommandBuffer>&) = nullptr;  // of vkCmdExecuteCommands

@@ -111,6 +111,48 @@ VKAPI_ATTR void VKAPI_CALL set_blend_constants(VkCommandBuffer commands, const f
                 [=] { driver_of_handle(commands).CmdSetBlendConstants(commands, own.data()); });
 }
 
+VKAPI_ATTR void VKAPI_CALL set_stencil_op(VkCommandBuffer commands, VkStencilFaceFlags faces,
+                                          VkStencilOp fail, VkStencilOp pass,
+                                          VkStencilOp depth_fail, VkCompareOp compare) {
+    StencilOps own{faces, fail, pass, depth_fail, compare};
+    alter(hooks().stencil_ops, own);
+    if (own.is_dropped) {
+        return;
+    }
+    set_dynamic(commands, {"stencil operation", faces}, [=] {
+        driver_of_handle(commands).CmdSetStencilOp(commands, own.faces, own.fail, own.pass,
+                                                   own.depth_fail, own.compare);
+    });
+}
+
+// The same of a mask or the reference.
+void set_stencil_value(VkCommandBuffer commands, const char* key, StencilValue own,
+                       bool (*hook)(StencilValue&), PFN_vkCmdSetStencilReference set) {
+    const VkStencilFaceFlags asked = own.faces;
+    alter(hook, own);
+    if (!own.is_dropped) {
+        set_dynamic(commands, {key, asked}, [=] { set(commands, own.faces, own.value); });
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL set_stencil_compare_mask(VkCommandBuffer commands,
+                                                    VkStencilFaceFlags faces, uint32_t mask) {
+    set_stencil_value(commands, "stencil compare mask", {faces, mask}, hooks().stencil_compare_mask,
+                      driver_of_handle(commands).CmdSetStencilCompareMask);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_stencil_write_mask(VkCommandBuffer commands,
+                                                  VkStencilFaceFlags faces, uint32_t mask) {
+    set_stencil_value(commands, "stencil write mask", {faces, mask}, hooks().stencil_write_mask,
+                      driver_of_handle(commands).CmdSetStencilWriteMask);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_stencil_reference(VkCommandBuffer commands, VkStencilFaceFlags faces,
+                                                 uint32_t reference) {
+    set_stencil_value(commands, "stencil reference", {faces, reference}, hooks().stencil_reference,
+                      driver_of_handle(commands).CmdSetStencilReference);
+}
+
 VKAPI_ATTR void VKAPI_CALL bind_pipeline(VkCommandBuffer commands, VkPipelineBindPoint point,
                                          VkPipeline pipeline) {
     Recording& recording = recording_of(commands);
@@ -234,6 +276,10 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(CmdSetDepthBiasEnable, set_depth_bias_enable),
     BREAKING_OWN(CmdSetDepthBias, set_depth_bias),
     BREAKING_OWN(CmdSetBlendConstants, set_blend_constants),
+    BREAKING_OWN(CmdSetStencilOp, set_stencil_op),
+    BREAKING_OWN(CmdSetStencilCompareMask, set_stencil_compare_mask),
+    BREAKING_OWN(CmdSetStencilWriteMask, set_stencil_write_mask),
+    BREAKING_OWN(CmdSetStencilReference, set_stencil_reference),
     BREAKING_OWN(CmdBindPipeline, bind_pipeline),
     BREAKING_OWN(CmdBindDescriptorSets, bind_descriptor_sets),
     BREAKING_OWN(CmdPushConstants, push_constants),

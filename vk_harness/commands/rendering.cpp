@@ -51,10 +51,10 @@ void barrier(const Device& device, VkCommandBuffer commands, const CasePlan& pla
     };
     for (size_t k = 0; k < plan.images.size(); ++k) {
         const Attachment& attachment = plan.attachments[k];
-        if (attachment.role == Role::stencil) {
-            continue;  // goes with depth
+        if (attachment.is_beside_depth) {
+            continue;
         }
-        const bool depth = attachment.is_depth();
+        const bool depth = attachment.is_depth_stencil();
         if (attachment.is_resolved() && after_resolve) {
             add(*plan.images[k], true, depth ? depth_before : color_before, *after_resolve);
             continue;

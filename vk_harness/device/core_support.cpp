@@ -129,6 +129,7 @@ void use_extension_names(VolkDeviceTable& table) {
     use(table.vkCmdEndRendering, table.vkCmdEndRenderingKHR);
     use(table.vkCmdPipelineBarrier2, table.vkCmdPipelineBarrier2KHR);
     use(table.vkCmdSetCullMode, table.vkCmdSetCullModeEXT);
+    use(table.vkCmdSetStencilOp, table.vkCmdSetStencilOpEXT);
     use(table.vkCmdBindVertexBuffers2, table.vkCmdBindVertexBuffers2EXT);
     use(table.vkCmdSetFrontFace, table.vkCmdSetFrontFaceEXT);
     use(table.vkCmdSetPrimitiveTopology, table.vkCmdSetPrimitiveTopologyEXT);

@@ -44,6 +44,31 @@ DrawState::Scissor bits_of(const VkRect2D& rect) {
     return std::bit_cast<DrawState::Scissor>(rect);
 }
 
+DrawState::StencilFace bits_of(const cases::StencilFace& face) {
+    VkStencilOpState out{};
+    out.failOp = static_cast<VkStencilOp>(face.fail);
+    out.passOp = static_cast<VkStencilOp>(face.pass);
+    out.depthFailOp = static_cast<VkStencilOp>(face.depth_fail);
+    out.compareOp = static_cast<VkCompareOp>(face.compare);
+    out.compareMask = face.compare_mask;
+    out.writeMask = face.write_mask;
+    out.reference = face.reference;
+    return std::bit_cast<DrawState::StencilFace>(out);
+}
+
+DrawState::StencilFace other_face(const DrawState::StencilFace& face) {
+    constexpr uint32_t kOps = 8;  // of either enumeration
+    constexpr uint32_t kOther = 3;
+    DrawState::StencilFace out = face;
+    for (size_t k = 0; k < 4; ++k) {
+        out.at(k) = (face.at(k) + kOther) % kOps;
+    }
+    for (size_t k = 4; k < out.size(); ++k) {
+        out.at(k) = face.at(k) ^ cases::kStencilBits;
+    }
+    return out;
+}
+
 template <size_t count>
 std::array<float, count> floats(const std::array<uint32_t, count>& bits) {
     return std::bit_cast<std::array<float, count>>(bits);
@@ -86,6 +111,8 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
         std::bit_cast<std::array<uint32_t, 3>>(std::array{bias.constant, bias.clamp, bias.slope});
     const glm::vec4 blend = own.color.blend ? own.color.blend->constants : glm::vec4(0);
     out.blend_constants = std::bit_cast<std::array<uint32_t, 4>>(blend);
+    out.has_stencil = c.target.has_stencil;
+    out.stencil = {bits_of(own.stencil.front), bits_of(own.stencil.back)};
     out.viewports.assign(viewport_count(c), bits_of(cases::Viewport{0, 0, 1, 1, 0, 1}));
     out.scissors.assign(viewport_count(c), bits_of(VkRect2D{{0, 0}, {1, 1}}));
     const auto put = [&out](const cases::Draw& draw) {
@@ -126,6 +153,9 @@ DrawState other_state(const DrawState& state, Leaves leaves) {
     for (uint32_t& constant : out.blend_constants) {
         constant = std::bit_cast<uint32_t>(std::bit_cast<float>(constant) > 0.5F ? 0.25F : 0.75F);
     }
+    for (DrawState::StencilFace& face : out.stencil) {
+        face = other_face(face);
+    }
     for (DrawState::Viewport& viewport : out.viewports) {
         viewport = bits_of(cases::Viewport{3, 5, 2, 2, 0.25F, 0.75F});
     }
@@ -155,6 +185,16 @@ void set_state(const Device& device, VkCommandBuffer commands, const DrawState& 
     }
     const std::array<float, 4> blend = floats(state.blend_constants);
     vk.vkCmdSetBlendConstants(commands, blend.data());
+    for (size_t k = 0; state.has_stencil && k < state.stencil.size(); ++k) {
+        const auto face = std::bit_cast<VkStencilOpState>(state.stencil.at(k));
+        const VkStencilFaceFlags bit =
+            k == 0 ? VK_STENCIL_FACE_FRONT_BIT : VK_STENCIL_FACE_BACK_BIT;
+        vk.vkCmdSetStencilOp(commands, bit, face.failOp, face.passOp, face.depthFailOp,
+                             face.compareOp);
+        vk.vkCmdSetStencilCompareMask(commands, bit, face.compareMask);
+        vk.vkCmdSetStencilWriteMask(commands, bit, face.writeMask);
+        vk.vkCmdSetStencilReference(commands, bit, face.reference);
+    }
 }
 
 void set_viewports(const Device& device, VkCommandBuffer commands, const DrawState& state) {

@@ -17,8 +17,9 @@ namespace vk_harness {
 
 // Floats are kept as their bits, so that pipelines are told apart by them.
 struct DrawState {
-    using Viewport = std::array<uint32_t, 6>;  // as VkViewport
-    using Scissor = std::array<uint32_t, 4>;   // as VkRect2D
+    using Viewport = std::array<uint32_t, 6>;     // as VkViewport
+    using Scissor = std::array<uint32_t, 4>;      // as VkRect2D
+    using StencilFace = std::array<uint32_t, 7>;  // as VkStencilOpState
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
@@ -28,6 +29,8 @@ struct DrawState {
     VkBool32 has_bias = VK_FALSE;
     std::array<uint32_t, 3> bias{};  // constant, clamp, slope
     std::array<uint32_t, 4> blend_constants{};
+    bool has_stencil = false;
+    std::array<StencilFace, 2> stencil{};  // front, back
     std::vector<Viewport> viewports;
     std::vector<Scissor> scissors;
     std::vector<VkViewport> vulkan_viewports() const;

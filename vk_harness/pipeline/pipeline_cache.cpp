@@ -182,9 +182,9 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
         Typed{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = static_cast<uint32_t>(color.formats.size());
     rendering.pColorAttachmentFormats = color.formats.data();
-    rendering.depthAttachmentFormat = key.has_stencil ? kDepthStencilFormat
-                                      : key.has_depth ? depth_format(key.depth_format)
-                                                      : VK_FORMAT_UNDEFINED;
+    rendering.depthAttachmentFormat = !key.has_depth    ? VK_FORMAT_UNDEFINED
+                                      : key.has_stencil ? kDepthStencilFormat
+                                                        : depth_format(key.depth_format);
     rendering.stencilAttachmentFormat = key.has_stencil ? kDepthStencilFormat : VK_FORMAT_UNDEFINED;
 
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};

@@ -119,21 +119,15 @@ void multisample_state(const PipelineKey& key, MultisampleState& state) {
 VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
     VkPipelineDepthStencilStateCreateInfo depth =
         Typed{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    depth.stencilTestEnable = key.has_stencil ? VK_TRUE : VK_FALSE;
+    if (key.has_stencil && key.fixed) {
+        depth.front = std::bit_cast<VkStencilOpState>(key.fixed->stencil[0]);
+        depth.back = std::bit_cast<VkStencilOpState>(key.fixed->stencil[1]);
+    }
     if (!key.has_depth) {
         return depth;
     }
     depth.depthTestEnable = VK_TRUE;  // without the test there is no depth write
-    if (key.has_stencil) {            // counts front faces up and back faces down
-        depth.stencilTestEnable = VK_TRUE;
-        depth.front.failOp = VK_STENCIL_OP_KEEP;
-        depth.front.depthFailOp = VK_STENCIL_OP_KEEP;
-        depth.front.passOp = VK_STENCIL_OP_INCREMENT_AND_WRAP;
-        depth.front.compareOp = VK_COMPARE_OP_ALWAYS;
-        depth.front.compareMask = 0xff;
-        depth.front.writeMask = 0xff;
-        depth.back = depth.front;
-        depth.back.passOp = VK_STENCIL_OP_DECREMENT_AND_WRAP;
-    }
     if (key.fixed) {
         depth.depthCompareOp = key.fixed->compare;
         depth.depthWriteEnable = key.fixed->depth_write;
@@ -240,6 +234,11 @@ std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
                VK_DYNAMIC_STATE_PRIMITIVE_TOPOLOGY,
                VK_DYNAMIC_STATE_PRIMITIVE_RESTART_ENABLE,
                VK_DYNAMIC_STATE_RASTERIZER_DISCARD_ENABLE};
+    }
+    if (!key.fixed && key.has_stencil) {
+        out.insert(out.end(),
+                   {VK_DYNAMIC_STATE_STENCIL_OP, VK_DYNAMIC_STATE_STENCIL_COMPARE_MASK,
+                    VK_DYNAMIC_STATE_STENCIL_WRITE_MASK, VK_DYNAMIC_STATE_STENCIL_REFERENCE});
     }
     if (key.way.dynamic_stride) {
         out.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);

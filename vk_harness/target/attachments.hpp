@@ -25,7 +25,7 @@ enum class Role : uint8_t {
     attribute_zw,  // the second of a pair
     color,
     depth,
-    stencil,         // the other aspect of the depth attachment's image
+    stencil,         // the other aspect of the depth attachment's image, if there is one
     resolved_color,  // single-sampled: what `color` and `depth` are resolved into
     resolved_depth
 };
@@ -33,12 +33,14 @@ enum class Role : uint8_t {
 struct Attachment {
     Role role = Role::writer_and_hits;
     VkFormat format = kColorFormat;
-    VkClearValue clear{};        // a value that no case can draw, capture/capture.hpp
-    uint32_t texel_bytes = 16;   // of a single-sampled copy
-    uint32_t sample_bytes = 16;  // of a sample in a multisampled copy: whole words
-    uint32_t draws = 1;          // of the case: what packed_id goes by
-    bool halves = false;         // hits, and ids beside them, are binary16
+    VkClearValue clear{};          // a value that no case can draw, capture/capture.hpp
+    uint32_t texel_bytes = 16;     // of a single-sampled copy
+    uint32_t sample_bytes = 16;    // of a sample in a multisampled copy: whole words
+    uint32_t draws = 1;            // of the case: what packed_id goes by
+    bool halves = false;           // hits, and ids beside them, are binary16
+    bool is_beside_depth = false;  // a stencil in the image of the attachment before it
     bool is_depth() const { return role == Role::depth || role == Role::resolved_depth; }
+    bool is_depth_stencil() const { return is_depth() || role == Role::stencil; }
     bool is_resolved() const {
         return role == Role::resolved_color || role == Role::resolved_depth;
     }

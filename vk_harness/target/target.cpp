@@ -46,7 +46,7 @@ Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
     single.sample_locations.clear();
     std::map<const Shelf*, size_t> taken;
     for (const Attachment& attachment : attachments) {
-        if (attachment.role == Role::stencil) {  // follows depth
+        if (attachment.is_beside_depth) {
             out.push_back(out.back());
             continue;
         }
@@ -56,7 +56,7 @@ Result<std::vector<const Image*>> TargetCache::get(const cases::Target& target,
         const size_t nth = taken[&from]++;
         if (nth == from.images.size()) {
             const VkImageCreateFlags flags =
-                attachment.is_depth() && !shape.sample_locations.empty()
+                attachment.is_depth_stencil() && !shape.sample_locations.empty()
                     ? VkImageCreateFlags{VK_IMAGE_CREATE_SAMPLE_LOCATIONS_COMPATIBLE_DEPTH_BIT_EXT}
                     : VkImageCreateFlags{0};
             auto image = Image::create(*device_, attachment.format, {target.width, target.height},

@@ -10,7 +10,8 @@ namespace software {
 std::span<const FaultInfo> all_faults() {
     static const std::vector<FaultInfo> all = [] {
         std::vector<FaultInfo> out;
-        for (const auto part : {faults_of_geometry(), faults_of_values(), faults_of_targets()}) {
+        for (const auto part : {faults_of_geometry(), faults_of_values(), faults_of_targets(),
+                                faults_of_stencils()}) {
             out.insert(out.end(), part.begin(), part.end());
         }
         return out;

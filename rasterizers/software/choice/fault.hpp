@@ -12,7 +12,7 @@
 
 namespace software {
 
-enum class Fault : uint8_t {
+enum class Fault : uint16_t {
     none,
     // input assembly
     provoking_last,
@@ -240,16 +240,6 @@ enum class Fault : uint8_t {
     srgb_not_decoded,
     srgb_alpha_encoded,
     srgb_gamma,
-    // stencil
-    stencil_faces_exchanged,
-    stencil_front_only,
-    stencil_own_facing,
-    stencil_saturates,
-    stencil_seven_bits,
-    stencil_per_pixel,
-    stencil_sample_zero,
-    stencil_before_depth,
-    stencil_never_written,
     // resolves
     resolve_one_sample,
     resolve_sample_lost,
@@ -275,6 +265,42 @@ enum class Fault : uint8_t {
     blit_edge_wraps,
     blit_copies_codes,
     blit_missing_alpha_zero,
+    // stencil
+    stencil_faces_exchanged,
+    stencil_front_only,
+    stencil_own_facing,
+    stencil_saturates,
+    stencil_seven_bits,
+    stencil_per_pixel,
+    stencil_sample_zero,
+    stencil_before_depth,
+    stencil_clear_ignored,
+    stencil_reference_of_front,
+    stencil_masks_of_front,
+    stencil_reference_stale,
+    stencil_operations_stale,
+    stencil_compare_unmasked,
+    stencil_reference_unmasked,
+    stencil_stored_unmasked,
+    stencil_compare_turned,
+    stencil_compare_signed,
+    stencil_less_or_equal,
+    stencil_wrap_stops_at_zero,
+    stencil_replace_masked,
+    stencil_increment_wraps,
+    stencil_decrement_wraps,
+    stencil_invert_negates,
+    stencil_write_unmasked,
+    stencil_zero_unmasked,
+    stencil_operation_masked,
+    stencil_test_stale,
+    stencil_after_depth,
+    stencil_depth_fail_lost,
+    stencil_depth_fail_fails,
+    stencil_fail_lost,
+    stencil_fail_draws,
+    stencil_fail_writes_depth,
+    stencil_never_written,
 };
 
 // One line of the table of faults.
@@ -285,11 +311,12 @@ struct FaultInfo {
     std::string_view rules;   // the rules that this breaks, ids separated by spaces
 };
 std::span<const FaultInfo> all_faults();  // without none
-// Its parts: up to coverage; samples, layers, values and depth; colours, stencil, resolves and
-// blits.
+// Its parts: up to coverage; samples, layers, values and depth; colours, resolves and blits;
+// stencil.
 std::span<const FaultInfo> faults_of_geometry();
 std::span<const FaultInfo> faults_of_values();
 std::span<const FaultInfo> faults_of_targets();
+std::span<const FaultInfo> faults_of_stencils();
 
 const FaultInfo& info_of(Fault fault);  // not none
 std::string_view to_string(Fault fault);

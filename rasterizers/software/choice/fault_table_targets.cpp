@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults of the colour target, the stencil, resolves and blits.
+// Faults of the colour target, resolves and blits.
 #include "rasterizers/software/choice/fault.hpp"
 
 namespace software {
@@ -92,24 +92,6 @@ constexpr FaultInfo kTargetsFaults[] = {
     {Fault::srgb_alpha_encoded, "srgb_alpha_encoded", "Alpha is encoded to sRGB, too.",
      "store.srgb store.unorm blend.equation"},
     {Fault::srgb_gamma, "srgb_gamma", "sRGB is a power of 1/2.2.", "store.srgb"},
-    {Fault::stencil_faces_exchanged, "stencil_faces_exchanged",
-     "The stencil operations of front and back are exchanged.", "stencil.count"},
-    {Fault::stencil_front_only, "stencil_front_only",
-     "The stencil operation of the back is never used.", "stencil.count"},
-    {Fault::stencil_own_facing, "stencil_own_facing",
-     "Clockwise is front for the stencil, whatever frontFace says.", "stencil.count"},
-    {Fault::stencil_saturates, "stencil_saturates",
-     "INCREMENT_AND_WRAP and DECREMENT_AND_WRAP stop at 255 and 0.", "stencil.count"},
-    {Fault::stencil_seven_bits, "stencil_seven_bits",
-     "The stencil's write mask lacks the highest bit.", "stencil.count"},
-    {Fault::stencil_per_pixel, "stencil_per_pixel",
-     "Each covered sample counts for the stencil of the whole pixel.", "stencil.count"},
-    {Fault::stencil_sample_zero, "stencil_sample_zero", "Only the stencil of sample 0 is written.",
-     "stencil.count"},
-    {Fault::stencil_before_depth, "stencil_before_depth",
-     "Fragments that fail the depth test count as ones that pass.", "stencil.count"},
-    {Fault::stencil_never_written, "stencil_never_written", "The stencil is never written.",
-     "stencil.count"},
     {Fault::resolve_one_sample, "resolve_one_sample", "The average of a resolve is sample 0.",
      "resolve.average"},
     {Fault::resolve_sample_lost, "resolve_sample_lost",

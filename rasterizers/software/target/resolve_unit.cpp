@@ -153,53 +153,6 @@ float resolve_depth(std::span<const float> samples, float clear, const cases::Ta
 
 }  // namespace
 
-StencilAttachment::StencilAttachment(const cases::Target& target, const Device& device)
-    : device_(device), samples_(target.samples) {
-    if (target.has_stencil) {
-        values_.assign(size_t{target.width} * target.rows() * target.samples, 0);
-    }
-}
-
-void StencilAttachment::test(size_t index, const cases::Draw& draw, bool front, bool passes) {
-    if (values_.empty() || (!passes && device_.fault != Fault::stencil_before_depth)) {
-        return;
-    }
-    bool up = front;
-    if (device_.fault == Fault::stencil_faces_exchanged) {
-        up = !front;
-    } else if (device_.fault == Fault::stencil_front_only) {
-        up = true;
-    } else if (device_.fault == Fault::stencil_own_facing) {  // front is clockwise, always
-        up = front == (draw.front_face == cases::FrontFace::clockwise);
-    }
-    const auto update = [&](uint32_t& value) {
-        const bool saturates = device_.fault == Fault::stencil_saturates;
-        const uint32_t old = value;
-        uint32_t next = up ? old + 1 : old - 1;
-        if (saturates && (up ? old == 255 : old == 0)) {
-            next = old;
-        }
-        const uint32_t mask = device_.fault == Fault::stencil_seven_bits ? 0x7fU : 0xffU;
-        value = (old & ~mask) | (next & mask);
-    };
-    const size_t first = index - index % samples_;
-    switch (device_.fault) {
-        case Fault::stencil_per_pixel:  // whichever sample is drawn, all of the pixel count
-            for (size_t s = 0; s < samples_; ++s) {
-                update(values_[first + s]);
-            }
-            break;
-        case Fault::stencil_sample_zero:
-            update(values_[first]);
-            break;
-        case Fault::stencil_never_written:
-            break;
-        default:
-            update(values_[index]);
-            break;
-    }
-}
-
 void resolve(capture::Capture& capture, const Device& device) {
     const cases::Target& target = capture.target;
     const size_t pixels = size_t{target.width} * target.height;

@@ -59,8 +59,8 @@ cases::Attribute& attribute(Case& c) {
 std::vector<Change> target_changes() {
     [[maybe_unused]] const auto& [width, height, samples, layers, depth_format, sample_locations,
                                   color, instruments,  // no part of the picture
-                                  has_depth, depth_clear, color_resolve, depth_resolve,
-                                  has_stencil] = cases::Target{};
+                                  has_depth, depth_clear, color_resolve, depth_resolve, has_stencil,
+                                  stencil_clear] = cases::Target{};
     [[maybe_unused]] const auto& [format, clear] = cases::ColorTarget{};
     return {
         {"width", [](Case& c) { ++c.target.width; }},
@@ -81,14 +81,15 @@ std::vector<Change> target_changes() {
         {"color_resolve", [](Case& c) { c.target.color_resolve = cases::Resolve::average; }},
         {"depth_resolve", [](Case& c) { c.target.depth_resolve = cases::Resolve::max; }},
         {"has_stencil", [](Case& c) { c.target.has_stencil = true; }},
+        {"stencil_clear", [](Case& c) { c.target.stencil_clear = 1; }},
     };
 }
 
 std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
                                   viewport, scissor, cull, front_face, provoking, discard, depth,
-                                  distances, multisample, color, layer, viewport_index, where] =
-        cases::Draw{};
+                                  stencil, distances, multisample, color, layer, viewport_index,
+                                  where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
     [[maybe_unused]] const auto& [left, top, columns, rows] = cases::Rect{};
     [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] =
@@ -114,6 +115,11 @@ std::vector<Change> draw_changes() {
         {"front_face", [](Case& c) { draw(c).front_face = cases::FrontFace::clockwise; }},
         {"provoking", [](Case& c) { draw(c).provoking = cases::ProvokingVertex::last; }},
         {"rasterizer_discard", [](Case& c) { draw(c).rasterizer_discard = true; }},
+        {"stencil",
+         [](Case& c) {
+             c.target.has_stencil = true;
+             draw(c).stencil.back.reference = 1;
+         }},
         {"sample_mask", [](Case& c) { draw(c).multisample.sample_mask = 1; }},
         {"shader_mask", [](Case& c) { draw(c).multisample.shader_mask = 1; }},
         {"min_sample_shading", [](Case& c) { draw(c).multisample.min_sample_shading = 1; }},

@@ -103,7 +103,11 @@ sample = 1)~"),
     {target("size = [8, 8]\nstencil = 1"),
      R"~(f:6:11: error: stencil is the number 1; write true or false)~"},
     {target("size = [8, 8]\nstencil = true\ndepth = \"d16-unorm\""),
-     R"~(f:6:11: error: stencil is judged by the hit counter and lies beside d32-float; leave out attachments and depth)~"},
+     R"~(f:6:11: error: stencil lies beside d32-float; leave out depth, or stencil)~"},
+    {target("size = [8, 8]\nstencil_clear = 1"),
+     R"~(f:6:17: error: the target has no stencil; write stencil = true)~"},
+    {target("size = [8, 8]\nstencil = true\nstencil_clear = 256"),
+     R"~(f:7:17: error: stencil_clear is not an integer from 0 to 255)~"},
 };
 // clang-format on
 

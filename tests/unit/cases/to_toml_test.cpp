@@ -160,6 +160,7 @@ sample_locations = [[0, 15], [8, 8]]
 resolve          = "average"
 depth_resolve    = "min"
 stencil          = true
+stencil_clear    = 7
 [target.color]
 format = "rgba16-float"
 clear  = [0, 0.1, "2^-20", 1]
@@ -176,6 +177,7 @@ provoking          = "last"
 rasterizer_discard = true
 depth              = { compare = "less", write = false, bias = { slope = 1.5 }, clip = true }
 depth_volume       = "negative-one-to-one"
+stencil            = { front = { compare = "equal", fail = "zero", depth_fail = "invert", pass = "replace", compare_mask = 0x7f, write_mask = 0xf0, reference = 9 }, back = { pass = "keep" } }
 sample_mask        = 3
 shader_mask        = 0xff
 min_sample_shading = 0.5

@@ -66,6 +66,7 @@ Case sample() {
     c.target.color_resolve = Resolve::average;
     c.target.depth_resolve = Resolve::max;
     c.target.has_stencil = true;
+    c.target.stencil_clear = 77;
     c.draws = {draw, Draw{}};
     c.relations = {{RelationKind::scissor_tiles, {7, 3}}, {RelationKind::more_attributes, {}}};
     c.blit = Blit{ColorFormat::rgb10a2_unorm,

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+#include "diff/stencil.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "ref/exercise/changes.hpp"
+
+namespace diff {
+
+namespace {
+
+using ref::ReasonKind;
+
+struct Change {
+    bool (*change)(cases::Case& c);
+    ReasonKind reason;
+};
+
+// From the particular to the general: a device that exchanges faces has other operations as well.
+constexpr std::array kChanges = {
+    Change{ref::exchange_stencil_faces, ReasonKind::stencil_faced},
+    Change{ref::ignore_stencil_masks, ReasonKind::stencil_masked},
+    Change{ref::take_depth_fail_as_pass, ReasonKind::stencil_by_depth},
+    Change{ref::take_depth_fail_as_fail, ReasonKind::stencil_by_depth},
+    Change{ref::exchange_stencil_clamps, ReasonKind::stencil_operated},
+    Change{ref::turn_stencil_compare, ReasonKind::stencil_compared},
+    Change{ref::pass_every_stencil, ReasonKind::stencil_compared},
+};
+
+constexpr size_t kMostTold = 8;  // values of a set
+
+std::string to_text(const ref::stencil::Values& values) {
+    std::string out;
+    size_t told = 0;
+    for (size_t value = 0; value < values.size(); ++value) {
+        if (values[value] && told++ < kMostTold) {
+            out += fmt::format("{}{}", out.empty() ? "" : ", ", value);
+        }
+    }
+    return told > kMostTold ? fmt::format("{} and {} others", out, told - kMostTold) : out;
+}
+
+}  // namespace
+
+std::optional<std::pair<uint32_t, uint32_t>> StencilComparison::hits_at(size_t index) const {
+    if (!case_.target.has_instruments) {
+        return std::nullopt;
+    }
+    const glm::vec4& hits = capture_.hits[index];
+    return std::pair(static_cast<uint32_t>(hits.x), static_cast<uint32_t>(hits.y));
+}
+
+ReasonKind StencilComparison::reason_of(size_t index, uint32_t value, cases::Profile level) {
+    for (size_t k = 0; k < kChanges.size(); ++k) {
+        const auto [at, is_new] = others_.try_emplace({k, level});
+        std::optional<ref::Expectation>& other = at->second;
+        cases::Case changed = case_;
+        if (is_new && kChanges.at(k).change(changed)) {
+            other = ref::expect(changed, expectation_.limits, level);
+        }
+        if (other && stencils_at(*other, other->samples[index], std::nullopt)[value]) {
+            return kChanges.at(k).reason;
+        }
+    }
+    return ReasonKind::stencil_operated;
+}
+
+std::optional<Finding> StencilComparison::judge(size_t index, cases::SampleId id) {
+    const capture::SampleState state = capture::sample_state(capture_, index);
+    if (state != capture::SampleState::clear && state != capture::SampleState::drawn) {
+        return std::nullopt;
+    }
+    const uint32_t got = capture_.stencil[index];
+    const auto hits = hits_at(index);
+    const auto allowed = [&](const ref::Expectation& e) {
+        return stencils_at(e, e.samples[index], hits);
+    };
+    const auto is_allowed = [&](const ref::Expectation& e) {
+        const ref::stencil::Values values = allowed(e);
+        return got < values.size() && values[got];
+    };
+    if (is_allowed(expectation_)) {
+        return std::nullopt;
+    }
+    Finding finding = finding_at(FindingKind::value, case_.target, id);
+    finding.level = expectation_.profile;
+    for (const cases::Profile profile : cases::kProfiles) {
+        if (profile < expectation_.profile && !is_allowed(attribution_.at(profile))) {
+            finding.level = profile;
+            break;
+        }
+    }
+    finding.quantity = "stencil";
+    finding.expected = to_text(allowed(attribution_.at(finding.level)));
+    finding.got = fmt::format("{}", got);
+    tell(finding, reason_of(index, got, finding.level));
+    return finding;
+}
+
+}  // namespace diff

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The stencil of a case whose draws test it (ref/stencil/outcome.hpp), sample by sample.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "capture/capture.hpp"
+#include "cases/model/case.hpp"
+#include "diff/attribution.hpp"
+#include "diff/verdict.hpp"
+#include "ref/expectation/expectation.hpp"
+
+namespace diff {
+
+class StencilComparison {
+  public:
+    // Keeps references. The case needs a stencil test (ref::stencil::is_needed).
+    StencilComparison(const cases::Case& c, const ref::Expectation& expectation,
+                      const capture::CaptureView& capture, Attribution& attribution)
+        : case_(c), expectation_(expectation), capture_(capture), attribution_(attribution) {}
+
+    // What is wrong with the stencil of a sample; nothing where its planes contradict each other.
+    // Of a sample that is open the stencil must be one that goes with the hits that it shows.
+    std::optional<Finding> judge(size_t index, cases::SampleId id);
+
+  private:
+    // The hits that the device shows at a sample, if it has instruments.
+    std::optional<std::pair<uint32_t, uint32_t>> hits_at(size_t index) const;
+    // The rule that a device must be wrong about to leave this value at a sample: of the changes
+    // that ref/exercise tells wrong devices by, the first that explains it.
+    ref::ReasonKind reason_of(size_t index, uint32_t value, cases::Profile level);
+
+    const cases::Case& case_;
+    const ref::Expectation& expectation_;
+    const capture::CaptureView& capture_;
+    Attribution& attribution_;
+    // What other devices leave, by the number of the change and the profile; where it changes
+    // nothing, nothing.
+    std::map<std::pair<size_t, cases::Profile>, std::optional<ref::Expectation>> others_;
+};
+
+}  // namespace diff
