@@ -78,7 +78,8 @@ bool belongs(LeafContext& context, const TomlValue& table, const char* key, bool
 
 }  // namespace
 
-bool read_source(LeafContext& context, const TomlValue& table, Attribute& attribute) {
+bool read_source(LeafContext& context, const TomlValue& table, const Target& target,
+                 Attribute& attribute) {
     const TomlValue* value = table.find("source");
     if (value == nullptr) {
         return true;
@@ -88,6 +89,12 @@ bool read_source(LeafContext& context, const TomlValue& table, Attribute& attrib
     }
     if (attribute.source == Source::vertex) {
         return true;
+    }
+    if (attribute.source == Source::sample_position && !target.sample_locations.empty()) {
+        context.error(value->where,
+                      "gl_SamplePosition has no value in a target with sample_locations; write "
+                      "source = \"sample-id\", or leave sample_locations out");
+        return false;
     }
     attribute.components = components_of(attribute.source);
     for (const std::string_view key :

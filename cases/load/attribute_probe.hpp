@@ -18,7 +18,10 @@ inline constexpr float kMinProbeOffset = -0.5F, kMaxProbeOffset = 0.4375F;
 inline constexpr int64_t kMaxTextureSide = 4096;
 
 // Reads `source`, and sets its components if they do not come from vertices; false on a mistake.
-bool read_source(LeafContext& context, const TomlValue& table, Attribute& attribute);
+// gl_SamplePosition is one in a target with locations of its own: its value is undefined there
+// (Vulkan, "Built-In Variables", SamplePosition; VK_EXT_sample_locations).
+bool read_source(LeafContext& context, const TomlValue& table, const Target& target,
+                 Attribute& attribute);
 
 // Reads the other keys; interpolation, source and values have been read before. `samples` is the
 // target's number of samples. Returns false after a mistake.

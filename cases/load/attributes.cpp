@@ -38,9 +38,9 @@ class AttributeReader {
             }
         }
         context_.read(table_, "interpolation", attribute_.interpolation);
-        if (!read_source(context_, table_, attribute_) ||
+        if (!read_source(context_, table_, source_.target, attribute_) ||
             (attribute_.source == Source::vertex && !read_vertex_values()) ||
-            !read_probe(context_, table_, source_.samples, attribute_)) {
+            !read_probe(context_, table_, source_.target.samples, attribute_)) {
             return std::nullopt;
         }
         return std::move(attribute_);

@@ -19,7 +19,7 @@ struct AttributeSource {
     const Viewport& viewport;
     Topology topology;
     bool indexed;
-    uint32_t samples;  // of the target
+    const Target& target;
 };
 
 std::vector<Attribute> read_attributes(LeafContext& context, const TomlValue& value,

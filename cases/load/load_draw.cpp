@@ -72,8 +72,7 @@ class DrawLoader {
         const std::optional<std::vector<uint32_t>> order = vertex_order(
             context_, table_, draw_.topology, draw_.indices.has_value(), vertices_.size());
         const AttributeSource source{
-            vertices_,      space_, draw_.viewport, draw_.topology, draw_.indices.has_value(),
-            target_.samples};
+            vertices_, space_, draw_.viewport, draw_.topology, draw_.indices.has_value(), target_};
         if (const TomlValue* value = table_.find("attribute")) {
             draw_.attributes = read_attributes(context_, *value, source);
         }

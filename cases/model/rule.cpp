@@ -71,7 +71,7 @@ constexpr std::array kRules = {
          "A triangle is drawn to the layer it names, and to no other",
          "gl_Layer of its vertices chooses the layer of every attachment; without it the first "
          "layer is drawn to. Coverage, depth test and colours are those of that layer alone.",
-         "interfaces-builtin-variables", "", "ref/expectation/expectation.cpp"},
+         "interfaces-builtin-variables-layer", "15.15", "ref/expectation/expectation.cpp"},
     Rule{rule::clip_depth, Profile::vulkan, "The depth planes clip as the state says",
          "z_m <= z <= w with z_m = 0, or -w with negativeOneToOne; with depth clipping disabled "
          "neither plane cuts, and the borders of the viewport still keep w from being negative.",
@@ -80,7 +80,7 @@ constexpr std::array kRules = {
          "The half-space is c_k(P) >= 0 with the distances of the vertices interpolated in "
          "perspective. Along the plane, within the precision of that arithmetic, both answers are "
          "right.",
-         "vertexpostproc-clipping-shader-outputs", "15.4.1", "ref/coverage/distance_cut.cpp"},
+         "vertexpostproc-clipping", "15.4.1", "ref/coverage/distance_cut.cpp"},
     Rule{rule::clip_complement, Profile::vulkan,
          "A clip distance and its negative share out a triangle",
          "Drawn with d and again with -d, otherwise alike, a triangle that the plane cuts has each "
@@ -97,14 +97,14 @@ constexpr std::array kRules = {
          "other triangles are drawn as ever and nothing is terminated. Denormals and zeros of "
          "either sign are ordinary numbers, but a denormal w, or z before the near plane, may be "
          "taken for zero.",
-         "fundamentals-floating-point", "15.4", "ref/position/position.hpp"},
+         "fundamentals-floating-point", "15.16.1", "ref/position/position.hpp"},
     Rule{rule::scissor_half_open, Profile::vulkan, "The scissor rectangle is half-open",
          "A sample passes iff x is in [offset.x, offset.x + width) and y likewise.",
-         "fragops-scissor", "15.14", "ref/coverage/window.cpp"},
+         "fragops-scissor", "15.7", "ref/coverage/window.cpp"},
     Rule{rule::sample_locations, Profile::vulkan, "Samples lie exactly at their locations",
          "The standard locations, or those that the pipeline asks for, in the order of their "
          "indices; they are points, never areas, and are not snapped.",
-         "primsrast-multisampling", "19.2.4.1", "cases/model/sample.hpp"},
+         "primsrast-multisampling", "19.2.4", "cases/model/sample.hpp"},
     Rule{rule::sample_mask, Profile::vulkan, "The sample mask removes samples",
          "Bit s of pSampleMask, and bit s of what the shader writes to gl_SampleMask, let sample s "
          "be written: coverage is their AND.",
@@ -114,11 +114,12 @@ constexpr std::array kRules = {
          "Without sample shading the covered samples after the sample mask; with it a subset that "
          "holds the sample itself, which is that sample alone where every sample has an invocation "
          "(profile practice).",
-         "interfaces-builtin-variables", "", "ref/value/sample_values.hpp"},
+         "interfaces-builtin-variables-samplemask", "", "ref/value/sample_values.hpp"},
     Rule{rule::sample_id, Profile::vulkan, "gl_SampleID and gl_SamplePosition name the sample",
          "They turn on an invocation a sample; the number is that of a sample, the position its "
-         "location. That it is the sample written is profile practice.",
-         "interfaces-builtin-variables", "", "ref/value/sample_values.hpp"},
+         "location (undefined where the pipeline chooses locations). That it is the sample written "
+         "is profile practice.",
+         "interfaces-builtin-variables-sampleid", "", "ref/value/sample_values.hpp"},
     Rule{rule::sample_shading, Profile::vulkan, "Sample shading runs the shader for enough samples",
          "At least max(ceil(minSampleShading x samples), 1) invocations a fragment; more are "
          "allowed.",
@@ -165,7 +166,7 @@ constexpr std::array kRules = {
     Rule{rule::interp_flat, Profile::vulkan, "flat values arrive bit for bit",
          "Finite normal numbers of the provoking vertex, unchanged; a denormal may be flushed to "
          "zero, zero may lose its sign, NaN and infinity need not arrive.",
-         "vertexpostproc-flatshading", "15.16", "ref/value/value.hpp"},
+         "vertexpostproc-flatshading", "16.4", "ref/value/value.hpp"},
     Rule{rule::fragcoord_xy, Profile::vulkan, "FragCoord.xy is the pixel centre",
          "Exactly (i + 1/2, j + 1/2) without sample shading.",
          "interfaces-builtin-variables-fragcoord", "", "ref/value/sample_values.cpp"},
@@ -179,16 +180,15 @@ constexpr std::array kRules = {
     Rule{rule::store_srgb, Profile::vulkan, "An sRGB target stores one of the two nearest codes",
          "The linear value is encoded by the sRGB transfer function and stored as a neighbouring "
          "code.",
-         "fundamentals-fpfixedconv", "3.2.3.6", "ref/color/component.hpp"},
+         "fundamentals-fpfixedconv", "3.2.3.8", "ref/color/component.hpp"},
     Rule{rule::store_half, Profile::vulkan, "A half holds one of the two neighbours of a value",
          "The rounding direction is not defined; what a half can represent is kept.",
          "fundamentals-fp-conversion", "3.2.2", "ref/color/component.hpp"},
     Rule{rule::store_float, Profile::vulkan, "A binary32 target holds what the shader wrote",
-         "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2",
+         "No conversion takes place.", "interfaces-fragmentoutput", "3.2.2",
          "ref/color/component.hpp"},
     Rule{rule::store_integer, Profile::vulkan, "An integer target holds what the shader wrote",
-         "No conversion takes place.", "fundamentals-fp-conversion", "3.2.2",
-         "ref/color/component.hpp"},
+         "No conversion takes place.", "interfaces-fragmentoutput", "", "ref/color/component.hpp"},
     Rule{rule::blend_equation, Profile::vulkan, "Blending follows its equation",
          "As if in floating point, with a precision no lower than the destination's: every "
          "intermediate may be rounded to a neighbour in the destination's format. Fixed-point "
@@ -196,7 +196,7 @@ constexpr std::array kRules = {
          "framebuffer-blending", "17.5", "ref/color/blend.hpp"},
     Rule{rule::blend_write_mask, Profile::vulkan, "A masked component keeps its value",
          "Components whose bit is not in the write mask are left as they were.",
-         "framebuffer-color-write-mask", "17.5", "ref/color/blend.hpp"},
+         "framebuffer-color-write-mask", "17.15", "ref/color/blend.hpp"},
     Rule{rule::write_consistent, Profile::vulkan, "A fragment writes all its attachments, or none",
          "Different color attachments of one draw receive the same fragments, and additive "
          "blending of exactly representable values is exact.",
@@ -205,11 +205,11 @@ constexpr std::array kRules = {
          "Drawing, clearing, resolving and blitting write to the attachments alone: buffers in the "
          "same memory, directly before and after each of them, keep every word. What lies between "
          "the picture and the end of an attachment's own memory is the driver's.",
-         "resources-association", "", "vk_harness/memory/guard.cpp"},
+         "resources-memory-aliasing", "", "vk_harness/memory/guard.cpp"},
     Rule{rule::depth_linear, Profile::vulkan, "Depth is linear in framebuffer space",
          "z_f is interpolated linearly at the sample; on a D32 target and for FragCoord.z within "
          "the binary32 budget from profile practice on.",
-         "primsrast-polygon-barycentrics", "15.10", "ref/value/value.hpp"},
+         "primsrast-polygon-barycentrics", "15.16", "ref/value/value.hpp"},
     Rule{rule::repeat_same, Profile::vulkan, "The same commands draw the same bits",
          "Same draws, same state, same device: every sample of every attachment has the same bits, "
          "in the same submission and in another. Nothing is left free (shaders have no side "
@@ -218,7 +218,7 @@ constexpr std::array kRules = {
     Rule{rule::repeat_scissor, Profile::vulkan, "Scissors change no fragment",
          "A target drawn tile by tile, each draw repeated under the scissor of each tile, has the "
          "same bits as drawn at once, samples that are left free included (Rule 2, Corollary 1).",
-         "invariance", "15.14", "diff/consistency.cpp"},
+         "invariance", "15.7", "diff/consistency.cpp"},
     Rule{rule::repeat_clears, Profile::vulkan, "Clear values change no fragment",
          "Attachments cleared to other values receive the same fragments with the same bits (Rule "
          "2, Corollary 1).",
@@ -318,7 +318,7 @@ constexpr std::array kRules = {
     Rule{rule::depth_write, Profile::vulkan,
          "Depth is written where the test passes and writes are on",
          "A fragment that fails, or whose draw does not write depth, leaves the older depth.",
-         "fragops-depth-write", "17.12", "ref/depth/outcome.hpp"},
+         "fragops-depth-write", "17.8", "ref/depth/outcome.hpp"},
     Rule{rule::interp_at_offset, Profile::vulkan,
          "interpolateAtOffset evaluates at centre + offset",
          "The offset may be rounded to subPixelInterpolationOffsetBits fraction bits, in either "
@@ -354,7 +354,7 @@ constexpr std::array kRules = {
          "log2 rho with max(m) <= rho <= sqrt(2) sum(m), to mipmapPrecisionBits bits, of the "
          "differences of any row and column of the quad; those within the binary32 budget from "
          "profile practice on.",
-         "textures-lod-and-scale-factor", "7.18", "ref/value/accept/probe.hpp"},
+         "textures-lod-and-scale-factor", "7.18.11", "ref/value/accept/probe.hpp"},
     Rule{rule::stencil_count, Profile::vulkan, "The stencil counts as the fragments do",
          "Where stencil and depth test pass, front faces add one and back faces subtract one, "
          "modulo 256: (front - back) mod 256 of the hit counter, and 0 where nothing hit.",

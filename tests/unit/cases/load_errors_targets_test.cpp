@@ -73,6 +73,14 @@ samples = 2
 sample_locations = [[1, 2], [16, 0]])~"),
      R"~(f:7:30: error: a sample location is not an integer from 0 to 15)~"},
     {target(R"~(size = [8, 8]
+samples = 2
+sample_locations = [[1, 2], [3, 4]]
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+[[draw.attribute]]
+source = "sample-position")~"),
+     R"~(f:11:10: error: gl_SamplePosition has no value in a target with sample_locations; write source = "sample-id", or leave sample_locations out)~"},
+    {target(R"~(size = [8, 8]
 sample_locations = 3)~"),
      R"~(f:6:20: error: sample_locations is the number 3; write an array)~"},
     {target(R"~(size = [8, 8]
