@@ -2,37 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/worker/lacking.hpp"
 
-#include <poll.h>
-
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <variant>
 
 #include "run/worker/worker_client.hpp"
 
 namespace run {
-
-namespace {
-
-// The next events of the worker; none: it was interrupted.
-std::vector<WorkerEvent> await(WorkerClient& client, SignalFd& signals) {
-    constexpr int kPollMs = 200;
-    for (;;) {
-        std::vector<pollfd> fds{{signals.fd(), POLLIN, 0}};
-        client.add_poll(fds);
-        ::poll(fds.data(), fds.size(), kPollMs);
-        if (signals.has_come()) {
-            client.kill();
-            return {};
-        }
-        if (std::vector<WorkerEvent> events = client.advance(); !events.empty()) {
-            return events;
-        }
-    }
-}
-
-}  // namespace
 
 cases::Expected<std::vector<std::string>> ask_what_is_lacking(
     const Command& command, WorkerOptions options, std::chrono::milliseconds timeout,
@@ -44,7 +20,7 @@ cases::Expected<std::vector<std::string>> ask_what_is_lacking(
     }
     std::vector<std::string> reasons(asked.size());  // by index
     for (;;) {
-        const std::vector<WorkerEvent> events = await(*client, signals);
+        const std::vector<WorkerEvent> events = wait_for_events(*client, signals);
         if (events.empty()) {
             return cases::failure("interrupted");
         }

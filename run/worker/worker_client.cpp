@@ -269,7 +269,7 @@ std::vector<WorkerEvent> WorkerClient::advance() {
     return events;
 }
 
-std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals) {
+std::vector<WorkerEvent> wait_for_events(WorkerClient& client, SignalFd& signals) {
     constexpr int kPollMs = 200;
     for (;;) {
         std::vector<pollfd> fds{{signals.fd(), POLLIN, 0}};
@@ -277,12 +277,17 @@ std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signa
         ::poll(fds.data(), fds.size(), kPollMs);
         if (signals.has_come()) {
             client.kill();
-            return std::nullopt;
+            return {};
         }
-        for (WorkerEvent& event : client.advance()) {
-            return std::move(event);
+        if (std::vector<WorkerEvent> events = client.advance(); !events.empty()) {
+            return events;
         }
     }
+}
+
+std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals) {
+    std::vector<WorkerEvent> events = wait_for_events(client, signals);
+    return events.empty() ? std::nullopt : std::optional(std::move(events.front()));
 }
 
 }  // namespace run

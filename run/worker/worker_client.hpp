@@ -97,6 +97,8 @@ class WorkerClient {
     uint32_t batches_ = 0;
 };
 
+// Waits for the next events of a worker. None if a signal came, which ends it.
+std::vector<WorkerEvent> wait_for_events(WorkerClient& client, SignalFd& signals);
 // Waits until a starting worker has said what it is. Nothing if a signal came.
 std::optional<WorkerEvent> wait_for_answer(WorkerClient& client, SignalFd& signals);
 
