@@ -18,7 +18,6 @@
 #include "cli/fuzzing/hunt_text.hpp"
 #include "cli/fuzzing/known_causes.hpp"
 #include "cli/fuzzing/start_cases.hpp"
-#include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/run_plan.hpp"
@@ -74,15 +73,10 @@ class FuzzCommand {
         config.profile = ledger_.profile;
         config.schedule.retries = 0;  // a reduction begins with drawing the case again
         run::SignalFd signals;
-        OrStop<run::WorkerClient> worker = start_first_worker(config);
-        if (!worker) {
-            return report_stop(worker.error());
-        }
-        OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), signals);
+        OrStop<ReadyWorker> first = ready_first_worker(config, signals);
         if (!first) {
             return report_stop(first.error());
         }
-        set_limits(config, first->device);
         if (auto named = name_device(to_report(first->device)); !named) {
             return report_stop(named.error());
         }

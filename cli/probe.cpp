@@ -13,7 +13,6 @@
 #include <sstream>
 
 #include "cli/commands.hpp"
-#include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "probe/tell/compare.hpp"
@@ -48,15 +47,10 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
     how.jobs = 1;
     how.retries = 0;
     run::LoopConfig config = loop_config(program, how);
-    OrStop<run::WorkerClient> worker = start_first_worker(config);
-    if (!worker) {
-        return tl::unexpected(worker.error());
-    }
-    OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), signals);
+    OrStop<ReadyWorker> first = ready_first_worker(config, signals);
     if (!first) {
         return tl::unexpected(first.error());
     }
-    set_limits(config, first->device);
     const vk_harness::DeviceInfo device = first->device;
     run::Session session(config, std::move(first->client), device, signals);
     bool is_interrupted = false;

@@ -15,7 +15,6 @@
 #include "cases/write/to_toml.hpp"
 #include "cli/commands.hpp"
 #include "cli/fuzzing/captures_command.hpp"
-#include "cli/prepare/device_answer.hpp"
 #include "cli/prepare/loop_config.hpp"
 #include "cli/prepare/outputs.hpp"
 #include "cli/prepare/suite.hpp"
@@ -36,15 +35,10 @@ OrStop<run::Session> start_session(const Program& program, const RunOptions& opt
     run::LoopConfig config = loop_config(program, options);
     config.pictures = run::KeepPictures::none;
     config.schedule.retries = 0;
-    OrStop<run::WorkerClient> worker = start_first_worker(config);
-    if (!worker) {
-        return tl::unexpected(worker.error());
-    }
-    OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), signals);
+    OrStop<ReadyWorker> first = ready_first_worker(config, signals);
     if (!first) {
         return tl::unexpected(first.error());
     }
-    set_limits(config, first->device);
     return run::Session(config, std::move(first->client), first->device, signals);
 }
 

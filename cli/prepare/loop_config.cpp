@@ -3,8 +3,8 @@
 #include "cli/prepare/loop_config.hpp"
 
 #include <chrono>
+#include <utility>
 
-#include "cli/prepare/device_answer.hpp"
 #include "run/worker/derived.hpp"
 
 namespace cli {
@@ -33,6 +33,18 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options) {
 
 void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device) {
     config.limits = run::limits_of(device);
+}
+
+OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals) {
+    OrStop<run::WorkerClient> worker = start_first_worker(config);
+    if (!worker) {
+        return tl::unexpected(worker.error());
+    }
+    OrStop<ReadyWorker> first = await_first_worker(std::move(*worker), signals);
+    if (first) {
+        set_limits(config, first->device);
+    }
+    return first;
 }
 
 std::string file_name_of(const std::string& device) {

@@ -6,6 +6,7 @@
 
 #include "cli/options/options.hpp"
 #include "cli/options/program.hpp"
+#include "cli/prepare/device_answer.hpp"
 #include "run/run_loop.hpp"
 
 namespace cli {
@@ -14,6 +15,9 @@ run::LoopConfig loop_config(const Program& program, const RunOptions& options);
 
 // The limits that the device has told, by which it is judged.
 void set_limits(run::LoopConfig& config, const vk_harness::DeviceInfo& device);
+// Starts the first worker and waits until it is ready; the limits are then its device's. Errors: no
+// or wrong device (5), interrupted (130).
+OrStop<ReadyWorker> ready_first_worker(run::LoopConfig& config, run::SignalFd& signals);
 
 // "llvmpipe (LLVM 15.0.6, 256 bits)" -> "llvmpipe-llvm-15.0.6-256-bits", for a folder's name.
 std::string file_name_of(const std::string& device);
