@@ -13,6 +13,7 @@
 #include "capture/capture.hpp"
 #include "cases/model/case.hpp"
 #include "probe/base/datasheet.hpp"
+#include "probe/base/vote.hpp"
 #include "ref/position/limits.hpp"
 
 namespace probe {
@@ -44,10 +45,24 @@ struct Bench {
         return drawn.empty() ? Drawn{{}, "nothing was drawn"} : std::move(drawn.front());
     }
     void add(Property property) const { sheet.properties.push_back(std::move(property)); }
+    // The answer is the vote's.
+    void add(Property property, const Vote& vote) const {
+        vote.settle(property);
+        add(std::move(property));
+    }
     // Says of a property that the device could not draw what it needs.
     void add_unknown(Property property, const std::string& why) const {
         property.why = why;
         add(std::move(property));
+    }
+    // Draws the one case that a property is found by. If that cannot be drawn, the property is
+    // added, and nothing is returned.
+    std::optional<capture::Capture> picture_of(cases::Case c, Property& property) const {
+        Drawn drawn = draw_one(std::move(c));
+        if (!drawn.picture) {
+            add_unknown(std::move(property), drawn.why_not);
+        }
+        return std::move(drawn.picture);
     }
 };
 

@@ -29,6 +29,7 @@ struct Picture {
     PictureKind kind = PictureKind::none;
     std::vector<std::array<double, 2>> points;
     std::vector<uint8_t> marks = {};  // of a star: whether the edge in that direction owns ties
+    std::array<std::string, 2> axes = {};  // what x and y are, with their units
     friend bool operator==(const Picture&, const Picture&) = default;
 };
 
@@ -59,7 +60,7 @@ struct Datasheet {
     std::string_view answer(std::string_view id) const;
 };
 
-// "grid" -> "The grid": the sections of a datasheet in their order.
+// "grid" -> "Subpixel grid": the sections of a datasheet in their order.
 struct Section {
     std::string_view name, title;
 };

@@ -51,11 +51,27 @@ class Scene {
 void add_rectangle(Scene& scene, double left, double top, double right, double bottom,
                    double z = 0.5);
 
+// Whether a sample was hit by any triangle.
+bool is_hit(const capture::Capture& picture, size_t index);
+inline bool is_hit(const capture::Capture& picture, uint32_t x, uint32_t y, uint32_t sample = 0) {
+    const cases::Target& t = picture.target;
+    return is_hit(picture, (size_t{y} * t.width + x) * t.samples + sample);
+}
+
 // Squares of 2 x 2 pixels, each with numbers of its own, in a target of 64 x 64.
 inline constexpr uint32_t kSquaresAcross = 32, kSquares = kSquaresAcross * kSquaresAcross;
 // The index of a pixel of square k.
 constexpr size_t pixel_of_square(size_t k) {
     return (2 * (k / kSquaresAcross)) * size_t{2 * kSquaresAcross} + 2 * (k % kSquaresAcross);
+}
+// Calls visit(k, the index of one of its pixels) for each of `count` squares that was drawn.
+template <class Visit>
+void for_each_square(const capture::Capture& picture, size_t count, Visit visit) {
+    for (size_t k = 0; k < count; ++k) {
+        if (const size_t at = pixel_of_square(k); is_hit(picture, at)) {
+            visit(k, at);
+        }
+    }
 }
 // A scene of squares whose flat attribute 0 has the value of the square; the colour target, if the
 // caller makes one, is written with it.
@@ -69,13 +85,6 @@ int64_t fixed(double pixels);
 // triangle may turn either way; one without area has no inside.
 int side(const ref::FixedPoint& a, const ref::FixedPoint& b, const ref::FixedPoint& c,
          const ref::FixedPoint& p);
-
-// Whether a sample was hit by any triangle.
-bool is_hit(const capture::Capture& picture, size_t index);
-inline bool is_hit(const capture::Capture& picture, uint32_t x, uint32_t y, uint32_t sample = 0) {
-    const cases::Target& t = picture.target;
-    return is_hit(picture, (size_t{y} * t.width + x) * t.samples + sample);
-}
 
 // Numbers that are the same on every machine.
 class Dice {

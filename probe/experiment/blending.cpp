@@ -69,26 +69,20 @@ void measure_unorm(const Bench& bench, ColorFormat format) {
             pairs.push_back(p);
         }
     }
-    const Drawn drawn = bench.draw_one(make_scene(property.id, format, pairs).take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(make_scene(property.id, format, pairs).take(), property);
+    if (!picture) {
         return;
     }
     Vote vote({"floating point, rounded once", "the format's codes, the product to nearest",
                "the format's codes, the product down"});
-    for (size_t k = 0; k < pairs.size(); ++k) {
-        const size_t at = pixel_of_square(k);
-        if (!is_hit(*drawn.picture, at)) {
-            continue;
-        }
-        const double code = drawn.picture->color[at][0];
+    for_each_square(*picture, pairs.size(), [&](size_t k, size_t at) {
+        const double code = picture->color[at][0];
         const std::array<double, 3> codes{std::round(exact(pairs[k])),
                                           std::round(in_codes(pairs[k])),
                                           std::floor(in_codes(pairs[k]))};
         vote.add([&](size_t n) { return std::fabs(codes.at(n) - code) < 0.5; });
-    }
-    vote.settle(property);
-    bench.add(std::move(property));
+    });
+    bench.add(std::move(property), vote);
 }
 
 }  // namespace

@@ -112,6 +112,7 @@ void measure_guard_band(const Bench& bench, const Grid& grid) {
             property.agree += reach->decisive - reach->whole;
         }
         property.picture.kind = PictureKind::curve;
+        property.picture.axes = {"pixels beyond the viewport, log2", "share uncut"};
         property.picture.points.push_back(
             {static_cast<double>(power),
              static_cast<double>(reach->whole) / static_cast<double>(reach->decisive)});

@@ -30,21 +30,16 @@ Scene make_scene(const std::string& id, ColorFormat format, const std::vector<fl
     return scene;
 }
 
-// Calls visit(k, code of red) for each square that was drawn; false: why it was not is in `why`.
+// Calls visit(k, code of red) for each square that was drawn; false: there is no picture, and the
+// property is added.
 template <class Visit>
-bool for_each_code(const Bench& bench, Scene scene, size_t count, std::string& why, Visit visit) {
-    const Drawn drawn = bench.draw_one(scene.take());
-    if (!drawn.picture) {
-        why = drawn.why_not;
-        return false;
+bool for_each_code(const Bench& bench, Scene scene, size_t count, Property& property, Visit visit) {
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (picture) {
+        for_each_square(*picture, count,
+                        [&](size_t k, size_t at) { visit(k, picture->color[at][0]); });
     }
-    for (size_t k = 0; k < count; ++k) {
-        const size_t at = pixel_of_square(k);
-        if (is_hit(*drawn.picture, at)) {
-            visit(k, drawn.picture->color[at][0]);
-        }
-    }
-    return true;
+    return picture.has_value();
 }
 
 // Numbers between two codes, and, every fourth, one whose product with the largest code is half-way
@@ -81,7 +76,7 @@ void measure_unorm(const Bench& bench, ColorFormat format) {
     Vote vote(
         {"nearest, ties up", "nearest, ties to even", "nearest, ties by the exact number", "down"});
     const bool is_drawn = for_each_code(
-        bench, make_scene(property.id, format, numbers), numbers.size(), property.why,
+        bench, make_scene(property.id, format, numbers), numbers.size(), property,
         [&](size_t k, uint32_t code) {
             const float scaled = numbers[k] * static_cast<float>(largest);
             const double exact = static_cast<double>(numbers[k]) * largest;  // fits binary64
@@ -93,9 +88,8 @@ void measure_unorm(const Bench& bench, ColorFormat format) {
                 [&](size_t n) { return std::fabs(codes.at(n) - static_cast<double>(code)) < 0.5; });
         });
     if (is_drawn) {
-        vote.settle(property);
+        bench.add(std::move(property), vote);
     }
-    bench.add(std::move(property));
 }
 
 // The number of a half's bits.
@@ -125,7 +119,7 @@ void measure_half(const Bench& bench) {
     Vote vote({"nearest, ties to even", "nearest, ties away from zero", "toward zero"});
     const bool is_drawn =
         for_each_code(bench, make_scene(property.id, ColorFormat::rgba16_float, numbers),
-                      numbers.size(), property.why, [&](size_t k, uint32_t code) {
+                      numbers.size(), property, [&](size_t k, uint32_t code) {
                           const double low = half_number(below[k]);
                           const double rest = (static_cast<double>(numbers[k]) - low) /
                                               (half_number(below[k] + 1) - low);
@@ -136,9 +130,8 @@ void measure_half(const Bench& bench) {
                           vote.add([&](size_t n) { return codes.at(n) == code; });
                       });
     if (is_drawn) {
-        vote.settle(property);
+        bench.add(std::move(property), vote);
     }
-    bench.add(std::move(property));
 }
 
 void measure_denormals(const Bench& bench, ColorFormat format, double smallest, int fraction_bits) {
@@ -158,14 +151,13 @@ void measure_denormals(const Bench& bench, ColorFormat format, double smallest, 
     numbers.pop_back();
     Vote vote({"kept", "they become zero"});
     const bool is_drawn =
-        for_each_code(bench, make_scene(property.id, format, numbers), numbers.size(), property.why,
+        for_each_code(bench, make_scene(property.id, format, numbers), numbers.size(), property,
                       [&](size_t k, uint32_t code) {
                           vote.add([&](size_t n) { return code == (n == 0 ? kept[k] : 0U); });
                       });
     if (is_drawn) {
-        vote.settle(property);
+        bench.add(std::move(property), vote);
     }
-    bench.add(std::move(property));
 }
 
 // Khronos Data Format Specification, "sRGB transfer functions".
@@ -186,8 +178,8 @@ void measure_srgb(const Bench& bench) {
     double largest = 0;
     double sum = 0;
     const bool is_drawn = for_each_code(
-        bench, make_scene(property.id, ColorFormat::rgba8_srgb, numbers), numbers.size(),
-        property.why, [&](size_t k, uint32_t code) {
+        bench, make_scene(property.id, ColorFormat::rgba8_srgb, numbers), numbers.size(), property,
+        [&](size_t k, uint32_t code) {
             const double exact = 255 * encode_srgb(static_cast<double>(numbers[k]));
             const double error = static_cast<double>(code) - exact;
             sum += error;
@@ -196,9 +188,12 @@ void measure_srgb(const Bench& bench) {
             (std::fabs(error) <= 0.501 ? property.agree : property.contradict) += 1;
             property.picture.points.push_back({static_cast<double>(numbers[k]), error});
         });
-    if (is_drawn && property.agree + property.contradict == 0) {
+    if (!is_drawn) {
+        return;
+    }
+    if (property.agree + property.contradict == 0) {
         property.why = "no fragment was drawn";
-    } else if (is_drawn) {
+    } else {
         property.answer = largest <= 0.501 ? "the nearest code"
                           : largest <= 0.6 ? "within 0.6 of a code"
                           : largest <= 1   ? "within a code"
@@ -212,6 +207,7 @@ void measure_srgb(const Bench& bench) {
             {"largest error", largest, "codes"},
             {"mean error", sum / static_cast<double>(std::max<uint64_t>(all, 1)), "codes"}};
         property.picture.kind = PictureKind::curve;
+        property.picture.axes = {"the number", "error, codes"};
     }
     bench.add(std::move(property));
 }

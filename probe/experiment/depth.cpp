@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 #include "probe/base/scene.hpp"
 #include "probe/base/vote.hpp"
@@ -57,25 +59,36 @@ void measure_rounding(const Bench& bench, const Format& f) {
         depths.push_back(static_cast<float>(
             (step + kRests.at(static_cast<size_t>(dice.whole(0, 5)))) / f.steps));
     }
-    const Drawn drawn = bench.draw_one(make_scene(property.id, f.format, depths).take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture =
+        bench.picture_of(make_scene(property.id, f.format, depths).take(), property);
+    if (!picture) {
         return;
     }
     Vote vote({"nearest", "down", "up"});
-    for (size_t k = 0; k < depths.size(); ++k) {
-        const size_t at = pixel_of_square(k);
-        if (!is_hit(*drawn.picture, at)) {
-            continue;
-        }
-        const double code = std::round(static_cast<double>(drawn.picture->depth[at]) * f.steps);
+    for_each_square(*picture, depths.size(), [&](size_t k, size_t at) {
+        const double code = std::round(static_cast<double>(picture->depth[at]) * f.steps);
         const double scaled = static_cast<double>(depths[k]) * f.steps;
         const std::array<double, 3> codes{std::round(scaled), std::floor(scaled),
                                           std::ceil(scaled)};
         vote.add([&](size_t n) { return std::fabs(codes.at(n) - code) < 0.5; });
+    });
+    bench.add(std::move(property), vote);
+}
+
+// The pictures without and with a bias. Nothing if one of them cannot be drawn: then the property
+// is added.
+std::optional<std::array<capture::Capture, 2>> picture_pair(const Bench& bench, cases::Case plain,
+                                                            cases::Case biased,
+                                                            Property& property) {
+    std::optional<capture::Capture> before = bench.picture_of(std::move(plain), property);
+    if (!before) {
+        return std::nullopt;
     }
-    vote.settle(property);
-    bench.add(std::move(property));
+    std::optional<capture::Capture> after = bench.picture_of(std::move(biased), property);
+    if (!after) {
+        return std::nullopt;
+    }
+    return std::array{std::move(*before), std::move(*after)};
 }
 
 // A candidate for r: 2^power, in D32 times 2^e.
@@ -102,12 +115,11 @@ void measure_unit(const Bench& bench, const Format& f) {
     Scene plain = make_scene(property.id, f.format, depths);
     Scene biased = make_scene(property.id + "-biased", f.format, depths);
     biased.draw().depth.bias = cases::DepthBias{kFactor, 0, 0};
-    const Drawn before = bench.draw_one(plain.take());
-    const Drawn after = bench.draw_one(biased.take());
-    if (!before.picture || !after.picture) {
-        bench.add_unknown(std::move(property), before.picture ? after.why_not : before.why_not);
+    const auto pictures = picture_pair(bench, plain.take(), biased.take(), property);
+    if (!pictures) {
         return;
     }
+    const auto& [before, after] = *pictures;
     std::vector<std::string> names;
     for (int k = -2; k <= 2; ++k) {
         names.push_back(unit_name(f, nominal + k));
@@ -116,11 +128,11 @@ void measure_unit(const Bench& bench, const Format& f) {
     Vote vote(names);
     for (size_t k = 0; k < depths.size(); ++k) {
         const size_t at = pixel_of_square(k);
-        if (!is_hit(*before.picture, at) || !is_hit(*after.picture, at)) {
+        if (!is_hit(before, at) || !is_hit(after, at)) {
             continue;
         }
-        const double moved = static_cast<double>(after.picture->depth[at]) -
-                             static_cast<double>(before.picture->depth[at]);
+        const double moved =
+            static_cast<double>(after.depth[at]) - static_cast<double>(before.depth[at]);
         const int exponent = f.steps > 0 ? 0 : std::ilogb(depths[k]);
         vote.add([&](size_t n) {
             if (n + 1 == names.size()) {
@@ -134,8 +146,7 @@ void measure_unit(const Bench& bench, const Format& f) {
             return std::fabs(moved - expected) <= room;
         });
     }
-    vote.settle(property);
-    bench.add(std::move(property));
+    bench.add(std::move(property), vote);
 }
 
 // One vertex lies far beyond the far plane: its z has another exponent than what clipping leaves,
@@ -159,12 +170,12 @@ void measure_exponent(const Bench& bench) {
         }
         return scene.take();
     };
-    const Drawn before = bench.draw_one(make(property.id, false));
-    const Drawn after = bench.draw_one(make(property.id + "-biased", true));
-    if (!before.picture || !after.picture) {
-        bench.add_unknown(std::move(property), before.picture ? after.why_not : before.why_not);
+    const auto pictures = picture_pair(bench, make(property.id, false),
+                                       make(property.id + "-biased", true), property);
+    if (!pictures) {
         return;
     }
+    const auto& [before, after] = *pictures;
     // What r is times 2^e was found before.
     const std::string unit(bench.sheet.answer("depth.bias_unit.d32"));
     int power = 0;
@@ -175,20 +186,19 @@ void measure_exponent(const Bench& bench) {
     const auto candidates = std::to_array<const char*>(
         {"of the vertices before clipping", "of what clipping leaves", "of the fragment's depth"});
     Vote vote({candidates.begin(), candidates.end()});
-    for (size_t k = 0; k < before.picture->sample_count(); ++k) {
-        if (!is_hit(*before.picture, k) || !is_hit(*after.picture, k)) {
+    for (size_t k = 0; k < before.sample_count(); ++k) {
+        if (!is_hit(before, k) || !is_hit(after, k)) {
             continue;
         }
-        const auto z = static_cast<double>(before.picture->depth[k]);
-        const double moved = z - static_cast<double>(after.picture->depth[k]);
+        const auto z = static_cast<double>(before.depth[k]);
+        const double moved = z - static_cast<double>(after.depth[k]);
         vote.add([&](size_t n) {
             const int exponent = n == 0 ? 1 : n == 1 ? 0 : std::ilogb(z);
             const double one = std::ldexp(4096.0, exponent + power);
             return std::fabs(moved / one - 1) < 0.02;
         });
     }
-    vote.settle(property);
-    bench.add(std::move(property));
+    bench.add(std::move(property), vote);
 }
 
 }  // namespace

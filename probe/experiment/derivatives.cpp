@@ -92,9 +92,8 @@ void settle_differences(const Bench& bench, const Question& q) {
             a.values.emplace_back(static_cast<float>(v), 0, 0, 0);
         }
     }
-    const Drawn drawn = bench.draw_one(scene.take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (!picture) {
         return;
     }
     const std::vector<Way> ways = all_ways();
@@ -107,12 +106,12 @@ void settle_differences(const Bench& bench, const Question& q) {
     Vote vote(names);
     for (uint32_t y = 2; y + 2 < kSide; ++y) {
         for (uint32_t x = 2; x + 2 < kSide; ++x) {
-            if (!is_hit(*drawn.picture, x, y)) {
+            if (!is_hit(*picture, x, y)) {
                 continue;
             }
             for (const bool is_x : {true, false}) {
                 const double got = static_cast<double>(
-                    drawn.picture->attributes.at(is_x ? 0 : 1)[size_t{y} * kSide + x].x);
+                    picture->attributes.at(is_x ? 0 : 1)[size_t{y} * kSide + x].x);
                 vote.add([&](size_t k) {
                     // Values are some 2^-24 off each; the ways differ by 2^-16 or so.
                     return std::fabs(difference(ways[k], is_x, x, y) - got) < 0x1p-20;
@@ -120,8 +119,7 @@ void settle_differences(const Bench& bench, const Question& q) {
             }
         }
     }
-    vote.settle(property);
-    bench.add(std::move(property));
+    bench.add(std::move(property), vote);
 }
 
 void measure_lod(const Bench& bench) {
@@ -152,21 +150,19 @@ void measure_lod(const Bench& bench) {
         }
         exact.push_back(std::log2(static_cast<double>(slope) * kTexture));
     }
-    const Drawn drawn = bench.draw_one(scene.take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (!picture) {
         return;
     }
     double largest = 0;
     double sum = 0;
     for (uint32_t y = 0; y < 64; ++y) {
         for (uint32_t x = 0; x < 64; ++x) {
-            if (!is_hit(*drawn.picture, x, y)) {
+            if (!is_hit(*picture, x, y)) {
                 continue;
             }
-            const double error =
-                static_cast<double>(drawn.picture->attributes[0][size_t{y} * 64 + x].y) -
-                exact[(y / 8) * 8 + x / 8];
+            const double error = static_cast<double>(picture->attributes[0][size_t{y} * 64 + x].y) -
+                                 exact[(y / 8) * 8 + x / 8];
             largest = std::max(largest, std::fabs(error));
             sum += error;
             ++property.agree;

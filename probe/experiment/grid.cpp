@@ -118,6 +118,7 @@ void measure_positive(const Bench& bench, bool is_x) {
             vote.add([&](size_t k) { return predicted(edge, all[k]).has(count); });
             if (set.is_shown) {
                 property.picture.kind = PictureKind::staircase;
+                property.picture.axes = {"where a vertex is put, pixels", "where it lies"};
                 property.picture.points.push_back(
                     {set.fractions[row],
                      0.5 - static_cast<double>(count) * set.drop / double{kLong}});

@@ -68,18 +68,17 @@ void measure_constant(const Bench& bench, const Constant& q) {
                         glm::vec4(static_cast<float>(dice.real(-1, 1)), 0, 0, 0));
     }
     const std::vector<glm::vec4> values = a.values;
-    const Drawn drawn = bench.draw_one(scene.take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (!picture) {
         return;
     }
     uint64_t exact = 0;
     uint64_t all = 0;
     double largest = 0;  // relative
-    for (size_t k = 0; k < drawn.picture->sample_count(); ++k) {
-        if (is_hit(*drawn.picture, k)) {
-            const float value = values[drawn.picture->writers[k].provoking_vertex].x;
-            const float got = drawn.picture->attributes[0][k].x;
+    for (size_t k = 0; k < picture->sample_count(); ++k) {
+        if (is_hit(*picture, k)) {
+            const float value = values[picture->writers[k].provoking_vertex].x;
+            const float got = picture->attributes[0][k].x;
             ++all;
             exact += std::bit_cast<uint32_t>(value) == std::bit_cast<uint32_t>(got) ? 1U : 0U;
             largest = std::max(

@@ -92,12 +92,11 @@ void measure(const Bench& bench, uint32_t samples) {
         }
         scene.add(corners[0], corners[1], corners[2]);
     }
-    const Drawn drawn = bench.draw_one(scene.take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (!picture) {
         return;
     }
-    const std::vector<Vote> votes = ask(*drawn.picture, all, samples);
+    const std::vector<Vote> votes = ask(*picture, all, samples);
     const auto standard = cases::standard_sample_locations(samples);
     bool is_standard = true;
     std::string list;

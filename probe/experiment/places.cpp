@@ -194,13 +194,11 @@ void measure_places(const Bench& bench) {
         if (q.is_shaded) {
             scene.draw().multisample.min_sample_shading = 1.0F;
         }
-        const Drawn drawn = bench.draw_one(scene.take());
-        if (!drawn.picture) {
-            bench.add_unknown(std::move(property), drawn.why_not);
+        const auto picture = bench.picture_of(scene.take(), property);
+        if (!picture) {
             continue;
         }
-        settle(property, *drawn.picture,
-               q.is_frag_coord ? drawn.picture->frag_coord : drawn.picture->attributes[0]);
+        settle(property, *picture, q.is_frag_coord ? picture->frag_coord : picture->attributes[0]);
         bench.add(std::move(property));
     }
 }

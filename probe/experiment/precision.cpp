@@ -147,6 +147,7 @@ void settle(Property& property, Errors errors) {
                         {"mean error", sum / n, "budgets"},
                         {"root of the mean square", std::sqrt(squares / n), "budgets"}};
     property.picture.kind = PictureKind::curve;
+    property.picture.axes = {"share of the fragments, by their error", "error, budgets"};
     for (size_t k = 0; k <= 32; ++k) {
         const size_t at = std::min(all.size() - 1, k * all.size() / 32);
         property.picture.points.push_back({static_cast<double>(k) / 32, all[at]});

@@ -53,9 +53,8 @@ cases::Case make_case(const std::string& id, ColorFormat format, const Codes& co
 void measure(const Bench& bench, Property property, ColorFormat format, const Codes& codes,
              Vote vote, double room,
              double (*predict)(size_t candidate, const std::array<uint32_t, kSamples>&)) {
-    const Drawn drawn = bench.draw_one(make_case(property.id, format, codes));
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(make_case(property.id, format, codes), property);
+    if (!picture) {
         return;
     }
     for (size_t k = 0; k < codes.size(); ++k) {
@@ -64,16 +63,15 @@ void measure(const Bench& bench, Property property, ColorFormat format, const Co
         std::array<uint32_t, kSamples> held{};
         bool is_drawn = true;
         for (uint32_t s = 0; s < kSamples; ++s) {
-            held.at(s) = drawn.picture->color[pixel * kSamples + s][0];
-            is_drawn = is_drawn && is_hit(*drawn.picture, pixel * kSamples + s);
+            held.at(s) = picture->color[pixel * kSamples + s][0];
+            is_drawn = is_drawn && is_hit(*picture, pixel * kSamples + s);
         }
         if (is_drawn) {
-            const double got = drawn.picture->resolved_color[pixel][0];
+            const double got = picture->resolved_color[pixel][0];
             vote.add([&](size_t n) { return std::fabs(predict(n, held) - got) < room; });
         }
     }
-    vote.settle(property);
-    bench.add(std::move(property));
+    bench.add(std::move(property), vote);
 }
 
 double sum_of(const std::array<uint32_t, kSamples>& codes) {

@@ -132,6 +132,20 @@ void vote_by_numbers(Vote& vote, double got, const std::vector<double>& predicte
     }
 }
 
+// Calls visit(index in the planes, number of its triangle, its pixel's centre) for each fragment of
+// one triangle a cell.
+template <class Visit>
+void for_each_fragment(const capture::Capture& picture, Visit visit) {
+    for (size_t k = 0; k < picture.sample_count(); ++k) {
+        if (is_hit(picture, k)) {
+            const size_t x = k % kSide;
+            const size_t y = k / kSide;
+            visit(k, (y / kCell) * kAcross + x / kCell,
+                  Point{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5});
+        }
+    }
+}
+
 void measure_quantities(const Bench& bench, const Grid& grid) {
     Sheet sheet = make_sheet(grid);
     const Drawn drawn = bench.draw_one(sheet.scene.get());
@@ -147,20 +161,13 @@ void measure_quantities(const Bench& bench, const Grid& grid) {
             continue;
         }
         Vote vote({kUnsnapped, kSnapped});
-        for (size_t k = 0; k < drawn.picture->sample_count(); ++k) {
-            if (!is_hit(*drawn.picture, k)) {
-                continue;
-            }
-            const size_t x = k % kSide;
-            const size_t y = k / kSide;
-            const Given& g = sheet.given[(y / kCell) * kAcross + x / kCell];
-            const Point at{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
+        for_each_fragment(*drawn.picture, [&](size_t k, size_t t, const Point& at) {
+            const Given& g = sheet.given[t];
             vote_by_numbers(
                 vote, q.got(*drawn.picture, k),
                 {q.of(g, barycentrics(g.at, at)), q.of(g, barycentrics(snapped(g.at, grid), at))});
-        }
-        vote.settle(property);
-        bench.add(std::move(property));
+        });
+        bench.add(std::move(property), vote);
     }
 }
 
@@ -208,32 +215,23 @@ void measure_clipped(const Bench& bench, const Grid& grid) {
         pieces.push_back({g.at[0], cut(1), cut(2)});
     }
     scene.draw().attributes = {input};
-    const Drawn drawn = bench.draw_one(scene.take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (!picture) {
         return;
     }
     Vote vote({kUnsnapped, kSnapped, kPieces});
-    for (size_t k = 0; k < drawn.picture->sample_count(); ++k) {
-        if (!is_hit(*drawn.picture, k)) {
-            continue;
-        }
-        const size_t x = k % kSide;
-        const size_t y = k / kSide;
-        const size_t t = (y / kCell) * kAcross + x / kCell;
+    for_each_fragment(*picture, [&](size_t k, size_t t, const Point& at) {
         const Given& g = given[t];
-        const Point at{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
         const auto at_cut = [&](size_t n) {
             return g.linear[0] + 0.75 * (g.linear[n] - g.linear[0]);
         };
         const std::array<double, 3> left{g.linear[0], at_cut(1), at_cut(2)};
-        vote_by_numbers(vote, static_cast<double>(drawn.picture->attributes[0][k].x),
+        vote_by_numbers(vote, static_cast<double>(picture->attributes[0][k].x),
                         {linear(barycentrics(g.at, at), g.linear),
                          linear(barycentrics(snapped(g.at, grid), at), g.linear),
                          linear(barycentrics(snapped(pieces[t], grid), at), left)});
-    }
-    vote.settle(property);
-    bench.add(std::move(property));
+    });
+    bench.add(std::move(property), vote);
 }
 
 // Triangles around one pixel's centre P whose snapped corners are P + (-n, 1), P + (n + 1, -1) and
@@ -277,16 +275,15 @@ void measure_facing(const Bench& bench, const Grid& grid) {
         }
         turns.push_back({doubled_area(snapped(p, grid)) > 0, doubled_area(p) > 0});
     }
-    const Drawn drawn = bench.draw_one(scene.take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (!picture) {
         return;
     }
     Vote vote({kSnapped, kUnsnapped});
     for (uint32_t cell = 0; cell < turns.size(); ++cell) {
         const uint32_t x = (cell % kAcross) * kCell + 8;
         const uint32_t y = (cell / kAcross) * kCell + 8;
-        const glm::vec4& hits = drawn.picture->hits[size_t{y} * kSide + x];
+        const glm::vec4& hits = picture->hits[size_t{y} * kSide + x];
         if (hits.x + hits.y > 0) {
             const bool is_clockwise = hits.y > 0;  // front faces are counter-clockwise here
             vote.add([&](size_t k) {
@@ -294,8 +291,7 @@ void measure_facing(const Bench& bench, const Grid& grid) {
             });
         }
     }
-    vote.settle(property);
-    bench.add(std::move(property));
+    bench.add(std::move(property), vote);
 }
 
 }  // namespace

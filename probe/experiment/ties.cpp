@@ -95,9 +95,8 @@ void measure_ties(const Bench& bench) {
             scene.add(b, a, c);
         }
     }
-    const Drawn drawn = bench.draw_one(scene.take());
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(scene.take(), property);
+    if (!picture) {
         return;
     }
     std::vector<std::string> names;
@@ -111,13 +110,13 @@ void measure_ties(const Bench& bench) {
     for (size_t k = 0; k < 2 * all.size(); ++k) {
         const auto [dx, dy] = all[k / 2];
         const auto [left, top] = cell_of(k);
-        if (!is_hit(*drawn.picture, left + static_cast<uint32_t>(16 - dy),
+        if (!is_hit(*picture, left + static_cast<uint32_t>(16 - dy),
                     top + static_cast<uint32_t>(16 + dx))) {
             continue;  // the triangle's inside
         }
         int owned = 0;
         for (int step = 1 - kSteps; step < kSteps; ++step) {
-            const bool hit = is_hit(*drawn.picture, left + static_cast<uint32_t>(16 + step * dx),
+            const bool hit = is_hit(*picture, left + static_cast<uint32_t>(16 + step * dx),
                                     top + static_cast<uint32_t>(16 + step * dy));
             owned += hit ? 1 : 0;
             vote.add([&, dx = dx, dy = dy](size_t n) {
@@ -129,8 +128,7 @@ void measure_ties(const Bench& bench) {
             property.picture.marks.push_back(2 * owned > 2 * kSteps - 1 ? 1U : 0U);
         }
     }
-    vote.settle(property);
-    bench.add(std::move(property));
+    bench.add(std::move(property), vote);
 }
 
 }  // namespace probe

@@ -64,9 +64,8 @@ void measure_viewport(const Bench& bench) {
             c.draws.push_back(scene.draw());
         }
     }
-    const Drawn drawn = bench.draw_one(std::move(c));
-    if (!drawn.picture) {
-        bench.add_unknown(std::move(property), drawn.why_not);
+    const auto picture = bench.picture_of(std::move(c), property);
+    if (!picture) {
         return;
     }
     std::vector<std::string> names{"where they are put"};
@@ -75,7 +74,7 @@ void measure_viewport(const Bench& bench) {
     }
     Vote vote(names);
     for (const auto& [bound, edge] : rows) {
-        const int64_t count = count_row(*drawn.picture, edge.row, false);
+        const int64_t count = count_row(*picture, edge.row, false);
         vote.add([&, bound = bound, &edge = edge](size_t k) {
             const double moved = bound_on(bound, static_cast<int>(k) - 1) - bound;
             return counts_of(edge, grid.y(fixed(edge.across_a + moved)),
@@ -83,8 +82,7 @@ void measure_viewport(const Bench& bench) {
                 .has(count);
         });
     }
-    vote.settle(property);
-    bench.add(std::move(property));
+    bench.add(std::move(property), vote);
 }
 
 }  // namespace probe

@@ -51,6 +51,9 @@ Json property_json(const Property& p) {
         if (!p.picture.marks.empty()) {
             json["picture"]["marks"] = p.picture.marks;
         }
+        if (!p.picture.axes[0].empty()) {
+            json["picture"]["axes"] = p.picture.axes;
+        }
     }
     return json;
 }
@@ -80,6 +83,9 @@ Property property_of(const Json& json) {
         }
         if (picture.contains("marks")) {
             p.picture.marks = picture.at("marks").get<std::vector<uint8_t>>();
+        }
+        if (picture.contains("axes")) {
+            p.picture.axes = picture.at("axes").get<std::array<std::string, 2>>();
         }
     }
     return p;

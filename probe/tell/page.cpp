@@ -19,13 +19,17 @@ constexpr const char* kStyle =
     "h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}"
     "table{border-collapse:collapse;width:100%}"
     "td{border-top:1px solid #8884;padding:.3rem .6rem .3rem 0;vertical-align:top}"
-    "td:first-child{width:24rem}.no{opacity:.65;font-style:italic}"
-    ".more{font-size:.85rem;opacity:.75}svg{max-width:100%;margin:.4rem 0}"
+    "td:first-child{width:40%}.no{opacity:.75;font-style:italic}"
+    ".more{font-size:.85rem;opacity:.8}"
+    "svg{display:block;max-width:100%;height:auto;margin:.4rem 0}"
     "svg text{font:11px system-ui,sans-serif;fill:currentColor}"
     "svg .axis{stroke:currentColor;stroke-opacity:.4;fill:none}"
     "svg .line{stroke:#06c;stroke-width:1.5;fill:none}"
     "svg .own{stroke:#06c;stroke-width:3}svg .other{stroke:#888;stroke-width:1;stroke-dasharray:3 "
-    "3}";
+    "3}"
+    "@media(max-width:40rem){td,td:first-child{display:block;width:auto;padding-right:0}"
+    "td+td{border-top:0;padding-top:0}}"
+    "@media(prefers-color-scheme:dark){svg .line,svg .own{stroke:#5af}}";
 
 std::string escaped(std::string_view text) {
     std::string out;
@@ -43,7 +47,7 @@ std::string escaped(std::string_view text) {
 // the samples on it, or does not.
 std::string star(const Picture& p) {
     std::string out =
-        "<svg width=\"240\" height=\"240\" viewBox=\"-120 -120 240 240\" role=\"img\" "
+        "<svg width=\"300\" height=\"240\" viewBox=\"-150 -120 300 240\" role=\"img\" "
         "aria-label=\"which edges own the samples on them\">";
     for (size_t k = 0; k < p.points.size(); ++k) {
         const auto [x, y] = p.points[k];
@@ -53,7 +57,7 @@ std::string star(const Picture& p) {
                            owns ? "own" : "other", 95 * x / length, 95 * y / length);
     }
     return out +
-           "<text x=\"-118\" y=\"-106\">solid: a triangle that lies there owns its edge</text>"
+           "<text x=\"-148\" y=\"-106\">solid: a triangle that lies there owns its edge</text>"
            "</svg>";
 }
 
@@ -89,23 +93,28 @@ std::string curve(const Picture& p, bool has_steps) {
         last = y;
     }
     std::string out = fmt::format(
-        "<svg width=\"640\" height=\"220\" viewBox=\"-90 -15 640 220\" role=\"img\">"
+        "<svg width=\"620\" height=\"215\" viewBox=\"-80 -10 620 215\" role=\"img\" "
+        "aria-label=\"{} over {}\">"
         "<rect class=\"axis\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\"/>"
         "<path class=\"line\" d=\"{}\"/>",
-        kWidth, kHeight, path);
-    out +=
-        fmt::format("<text x=\"-85\" y=\"10\">{:.4g}</text><text x=\"-85\" y=\"{}\">{:.4g}</text>",
-                    high_y, kHeight, low_y);
+        escaped(p.axes[1]), escaped(p.axes[0]), kWidth, kHeight, path);
+    out += fmt::format(
+        "<g text-anchor=\"end\"><text x=\"-6\" y=\"10\">{:.4g}</text><text x=\"-6\" "
+        "y=\"{}\">{:.4g}</text></g>"
+        "<text transform=\"translate(-62 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        high_y, kHeight, low_y, kHeight / 2, escaped(p.axes[1]));
     out += fmt::format(
         "<text x=\"0\" y=\"{0}\">{1:.4g}</text><text x=\"{2}\" y=\"{0}\" "
-        "text-anchor=\"end\">{3:.4g}</text></svg>",
-        kHeight + 16, low_x, kWidth, high_x);
+        "text-anchor=\"middle\">{3}</text><text x=\"{4}\" y=\"{0}\" "
+        "text-anchor=\"end\">{5:.4g}</text></svg>",
+        kHeight + 16, low_x, kWidth / 2, escaped(p.axes[0]), kWidth, high_x);
     return out;
 }
 
 std::string row(const Property& p) {
-    std::string out = fmt::format("<tr id=\"{}\"><td>{}<div class=\"more\">{}</div></td><td>",
-                                  escaped(p.id), escaped(p.question), escaped(p.experiment));
+    std::string out = fmt::format(
+        "<tr id=\"{0}\"><td>{1}<div class=\"more\"><code>{0}</code>: {2}</div></td><td>",
+        escaped(p.id), escaped(p.question), escaped(p.experiment));
     out += p.is_known() ? fmt::format("<b>{}</b>", escaped(p.answer))
                         : fmt::format("<span class=\"no\">{}</span>", kCannotTell);
     if (const std::string sure = sureness(p); !sure.empty() && p.is_known()) {
@@ -145,8 +154,8 @@ std::string to_html(const Datasheet& sheet) {
     std::string out = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head>\n<body>\n"
-        "<h1>{0}</h1>\n<table>\n{2}</table>\n",
-        escaped(title), kStyle, device);
+        "<h1>{0}</h1>\n<p>{3}</p>\n<table>\n{2}</table>\n",
+        escaped(title), kStyle, device, how_many_are_known(sheet));
     for (const Section& section : kSections) {
         std::string rows;
         for (const Property& p : sheet.properties) {

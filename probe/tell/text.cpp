@@ -22,6 +22,12 @@ std::string figures_text(const Property& p) {
     return out;
 }
 
+std::string how_many_are_known(const Datasheet& sheet) {
+    const auto known = std::count_if(sheet.properties.begin(), sheet.properties.end(),
+                                     [](const Property& p) { return p.is_known(); });
+    return fmt::format("{} of {} properties could be told", known, sheet.properties.size());
+}
+
 std::string to_text(const Datasheet& sheet, bool is_long) {
     std::string out;
     size_t width = 0;
@@ -59,12 +65,8 @@ std::string to_text(const Datasheet& sheet, bool is_long) {
             }
         }
     }
-    const auto known = std::count_if(sheet.properties.begin(), sheet.properties.end(),
-                                     [](const Property& p) { return p.is_known(); });
-    out += fmt::format(
-        "\n{} of {} properties could be told; in parentheses: decisive observations that agree\n",
-        known, sheet.properties.size());
-    return out;
+    return out + "\n" + how_many_are_known(sheet) +
+           "; in parentheses: decisive observations that agree\n";
 }
 
 }  // namespace probe

@@ -14,6 +14,8 @@ namespace probe {
 // it what was measured, or why nothing can be told. `is_long` adds the experiments.
 std::string to_text(const Datasheet& sheet, bool is_long);
 
+// "62 of 73 properties could be told".
+std::string how_many_are_known(const Datasheet& sheet);
 // "513 of 513": the decisive observations that agree with the answer; empty without any.
 std::string sureness(const Property& property);
 // "largest error 0.31 budgets, mean error 0.002 budgets"; empty without any.

@@ -194,8 +194,11 @@ TEST(Page, HasAPictureOfEachKind) {
     EXPECT_THAT(page, HasSubstr("<line class=\"own\""));
     EXPECT_THAT(page, HasSubstr("<path class=\"line\""));
     EXPECT_THAT(to_svg(usual().find("grid.rounding.x")->picture), HasSubstr("<path"));
+    EXPECT_THAT(page, HasSubstr(">error, budgets</text>"));
+    EXPECT_THAT(page, HasSubstr("<p>" + how_many_are_known(usual()) + "</p>"));
     for (const Property& p : usual().properties) {
         EXPECT_THAT(page, HasSubstr("<tr id=\"" + p.id + "\">"));
+        EXPECT_THAT(page, HasSubstr("<code>" + p.id + "</code>"));
     }
     Datasheet odd;
     odd.device = {{"device", "<&\">"}};
