@@ -123,10 +123,13 @@ function copyButton(title, what, text, shown) {
   return button;
 }
 
+// A command line of which no option is cut at its hyphens.
+const commandText = (text) => text.split(" ").flatMap((word, k) => [k ? " " : "", word.startsWith("--") ? el("span", {class: "option"}, word) : word]);
+
 // A command line and a button that copies it. `settings` in front of it are copied and not shown: they stand above.
 function command(label, text, settings = "") {
   if (!text) { return null; }
-  const code = el("code", {}, text.startsWith(settings) ? text.slice(settings.length) : text);
+  const code = el("code", {}, commandText(text.startsWith(settings) ? text.slice(settings.length) : text));
   return el("div", {class: "command"}, el("span", {class: "quiet"}, label), code, copyButton("copy", "the " + label + " command", text, code));
 }
 
