@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import tomllib
 import unittest
@@ -408,7 +407,8 @@ class Known(FuzzTest):
 
 class Reduce(ProgramTest):
     def reduce(self, *words, fault="", check=None):
-        return self.edgecase("reduce", *words, fault=fault, check=check)
+        # A folder for temporary files of its own, in which nothing must stay.
+        return self.edgecase("reduce", *words, check=check, env=self.environment(fault) | {"TMPDIR": str(self.folder)})
 
     def test_a_case_of_the_suite(self):
         """lavapipe's scissor with several samples: a mesh in four draws becomes two triangles."""
@@ -469,7 +469,7 @@ class Reduce(ProgramTest):
         done = self.reduce("fam/c3", "--captures-command", "./renderer.sh %in %out", "--timeout=0.2", "-q", check=0)
         self.assertTrue(done.stdout.startswith("# timeout, reduced from fam/c3.\n"), done.stdout)
         self.assert_no_orphans()
-        self.assertEqual(list(pathlib.Path(tempfile.gettempdir()).glob("edgecase-reduce-*")), [])
+        self.assertEqual(list(self.folder.glob("edgecase-reduce-*")), [])
 
     def test_wrong_commands(self):
         def refused(command, sentence, code=7, *words):
