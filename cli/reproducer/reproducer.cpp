@@ -149,6 +149,9 @@ std::string color_text(const cases::Case& c, cases::Profile profile) {
 std::string_view undrawable_part(const cases::Case& c) {
     constexpr size_t kMaxDraws = 0x7fff;  // the shader packs their number into 16 bits
     const cases::Target& t = c.target;
+    const bool claims_doors =
+        std::any_of(c.relations.begin(), c.relations.end(),
+                    [](const cases::Relation& r) { return r.kind == cases::RelationKind::door; });
     for (const cases::Draw& draw : c.draws) {
         if (const std::string_view missing = missing_of(draw); !missing.empty()) {
             return missing;
@@ -156,6 +159,7 @@ std::string_view undrawable_part(const cases::Case& c) {
     }
     return first_of({
         {c.blit.has_value(), "a blit"},
+        {claims_doors, "doors"},
         {!t.sample_locations.empty(), "sample locations of its own"},
         {t.has_stencil, "a stencil"},
         {t.depth_resolve != cases::Resolve::none || t.color_resolve != cases::Resolve::none,

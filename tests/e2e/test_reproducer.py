@@ -222,6 +222,7 @@ class Refused(Reproducer):
         self.of_suite()
         for case_id, name in {
                 "blit/mirrored:sx=1,sy=1,dx=0,dy=1": "a blit",
+                "door/indirect-after-count": "doors",
                 "stencil/depth-fail:samples=1,compare=less": "a stencil",
                 "resolve/depth:mode=sample-zero,samples=2": "a resolve",
                 "multisample/locations-mesh:seed=1": "sample locations of its own",
