@@ -226,6 +226,17 @@ class FuzzCommand {
         if (expected.cases.empty() || expected.checksum == ledger_.expectations) {
             return std::nullopt;
         }
+        if (!options_.run.quiet) {
+            // It takes minutes where many cases are expected to fail, and --time counts from its
+            // end.
+            say(fmt::format(
+                "first, {} known to fail by {} {} reduced to causes, once for this "
+                "hunt{}; --no-expect leaves it out\n",
+                counted(expected.cases.size(), "case"), counted(expected.files, "expectation file"),
+                expected.cases.size() == 1 ? "is" : "are",
+                options_.seconds > 0 ? ", and --time counts from then on" : ""));
+            std::fflush(stdout);
+        }
         const double begin = status_.seconds();
         KnownCauses known = reduce_known(expected, ledger_.entries, session, [this] {
             status_.show_words("reducing what expectation files explain");

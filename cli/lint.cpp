@@ -40,11 +40,44 @@ namespace {
 // So many cases are told one by one without being asked.
 constexpr size_t kFew = 16;
 
+// So many selected cases are looked at for claims that others of their files have samples for.
+constexpr size_t kMostLookedAt = 1024;
+
 // What was found of one case.
 struct Checked {
     cases::Errors errors;
     ref::Exercise exercise;
+    ref::Exercise with_fewest;  // subpixel bits: of the claims that no sample exercises
 };
+
+std::vector<std::string> without_samples(const ref::Exercise& exercise) {
+    std::vector<std::string> rules;
+    for (const ref::RuleShare& share : exercise.rules) {
+        if (share.samples == 0) {
+            rules.emplace_back(share.rule);
+        }
+    }
+    return rules;
+}
+
+// How much is looked for: whether a file's claims have a sample in some case, whether each case's
+// have, or how many.
+enum class Depth : uint8_t { file, cases, samples };
+
+Checked exercised(const cases::Case& c, ClaimedFile& file, Depth depth) {
+    Checked out;
+    const ref::Count count = depth == Depth::samples ? ref::Count::all : ref::Count::some;
+    const std::vector<std::string> rules = depth == Depth::file ? file.open_rules() : c.rules;
+    out.exercise = ref::exercise(c, ref::Limits{}, rules, count);
+    file.note(out.exercise);
+    const std::vector<std::string> open =
+        depth == Depth::file ? std::vector<std::string>{} : without_samples(out.exercise);
+    if (!open.empty()) {
+        out.with_fewest = ref::exercise(c, ref::Limits{kFewestSubpixelBits}, open, count);
+        file.note(out.with_fewest);
+    }
+    return out;
+}
 
 // Whether each fragment that must be drawn fails a depth test: without the tests some sample must
 // be covered.
@@ -190,19 +223,65 @@ void lint_readable(const Program& program, const LintOptions& options) {
     }
 }
 
-void tell(const cases::Case& c, const ref::Exercise& exercise) {
+std::string at_least(const ref::RuleShare& share) {
+    return fmt::format("{}{}", share.is_least ? "at least " : "", share.samples);
+}
+
+// The claim's share with the fewest subpixel bits, where only with these some sample exercises it.
+const ref::RuleShare* share_with_fewest(std::string_view rule, const Checked& checked) {
+    const auto at = std::ranges::find_if(checked.with_fewest.rules, [&](const ref::RuleShare& s) {
+        return s.rule == rule && s.samples > 0;
+    });
+    return at == checked.with_fewest.rules.end() ? nullptr : &*at;
+}
+
+// What is to be said beside "0 samples": the case may yet do what it claims.
+std::string why_none(std::string_view rule, const Checked& checked, const ClaimedFile& file) {
+    if (const ref::RuleShare* const share = share_with_fewest(rule, checked)) {
+        return fmt::format("; {} with {} subpixel bits", at_least(*share), kFewestSubpixelBits);
+    }
+    if (file.has(rule)) {
+        return "; other cases of its file have some";
+    }
+    return file.is_whole ? "" : "; the rest of its file was not looked at";
+}
+
+void tell(const cases::Case& c, const Checked& checked, const ClaimedFile& file) {
+    const ref::Exercise& exercise = checked.exercise;
     const char* const unit = c.blit ? "texels" : "samples";
     std::string text = c.id + "\n";
     for (const ref::RuleShare& share : exercise.rules) {
         text +=
-            fmt::format("    {}: {}{} of {} {}\n", share.rule, share.is_least ? "at least " : "",
-                        share.samples, exercise.samples, unit);
+            fmt::format("    {}: {} of {} {}{}\n", share.rule, at_least(share), exercise.samples,
+                        unit, share.samples == 0 ? why_none(share.rule, checked, file) : "");
     }
     if (exercise.free_samples > 0) {
         text +=
             fmt::format("    free: {} of {} samples\n", exercise.free_samples, exercise.samples);
     }
     say(text);
+}
+
+// Of files whose cases are not told one by one: the claims for which only some cases have samples.
+void tell_in_short(const LoadedSuite& suite, const std::map<std::string, ClaimedFile>& files,
+                   const std::vector<Checked>& checked) {
+    std::map<std::pair<std::string, std::string>, std::vector<std::string>> cases;
+    for (size_t k = 0; k < checked.size(); ++k) {
+        const cases::Case& c = suite.cases[suite.selected[k]];
+        for (const std::string& rule : without_samples(checked[k].exercise)) {
+            const ClaimedFile& file = files.at(c.where.file);
+            if (file.has(rule) && share_with_fewest(rule, checked[k]) == nullptr) {
+                cases[{c.where.file, rule}].push_back(c.id);
+            }
+        }
+    }
+    for (const auto& [key, ids] : cases) {
+        const auto& [file, rule] = key;
+        say(fmt::format("{}: {} of {} {} no sample for {}: {}{}\n", file, ids.size(),
+                        counted(files.at(file).cases.size(), "case"),
+                        ids.size() == 1 ? "has" : "have", rule, ids.front(),
+                        ids.size() == 1 ? "" : ", ..."));
+    }
 }
 
 }  // namespace
@@ -232,16 +311,17 @@ int lint_command(const Program& program, const LintOptions& options) {
     std::map<std::string, ClaimedFile> files = claimed_files(suite->cases, suite->selected);
     const size_t count = suite->selected.size();
     const bool is_told = !options.quiet && (options.verbose || count <= kFew);
+    const bool is_short = !options.quiet && !options.suite.selectors.empty() && !is_told;
+    const Depth depth = is_told                              ? Depth::samples
+                        : is_short && count <= kMostLookedAt ? Depth::cases
+                                                             : Depth::file;
     std::vector<Checked> checked(count);
     for_each_on_threads(count, [&](size_t k) {
         const cases::Case& c = suite->cases[suite->selected[k]];
         ClaimedFile& file = files.at(c.where.file);
         Checked& out = checked[k];
         try {
-            const std::vector<std::string> rules = is_told ? c.rules : file.open_rules();
-            out.exercise = ref::exercise(c, ref::Limits{}, rules,
-                                         is_told ? ref::Count::all : ref::Count::some);
-            file.note(out.exercise);
+            out = exercised(c, file, depth);
             out.errors = check_case(c, out.exercise);
         } catch (const std::exception& e) {
             out.errors = {{c.where, c.id + ": the reference failed: " + e.what()}};
@@ -253,9 +333,13 @@ int lint_command(const Program& program, const LintOptions& options) {
     };
     for (size_t k = 0; k < count; ++k) {
         if (is_told) {
-            tell(suite->cases[suite->selected[k]], checked[k].exercise);
+            const cases::Case& c = suite->cases[suite->selected[k]];
+            tell(c, checked[k], files.at(c.where.file));
         }
         add(checked[k].errors);
+    }
+    if (depth == Depth::cases) {
+        tell_in_short(*suite, files, checked);
     }
     add(check_claims(suite->cases, files));
     // Expectation files are about the suite, so they are none of a selection's business.

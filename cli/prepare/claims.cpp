@@ -19,9 +19,6 @@ namespace cli {
 
 namespace {
 
-// The fewest subpixel bits that a device may have [Vulkan, "Required Limits"].
-constexpr int kFewestSubpixelBits = 4;
-
 // What a rule asks for beside what its samples are, where a file may seem to have it.
 std::string_view condition_of(const std::string& rule) {
     return rule == cases::rule::depth_repeat
@@ -54,6 +51,11 @@ std::vector<std::string> ClaimedFile::open_rules() const {
         }
     }
     return out;
+}
+
+bool ClaimedFile::has(std::string_view rule) const {
+    const auto at = std::ranges::find(first->rules, rule);
+    return at != first->rules.end() && exercised[static_cast<size_t>(at - first->rules.begin())];
 }
 
 void ClaimedFile::note(const ref::Exercise& found) {

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cases/base/error.hpp"
@@ -28,9 +29,15 @@ struct ClaimedFile {
         : first(&c), exercised(c.rules.size()), draws(c.draws.size()) {}
     // The claims of which no sample is known yet.
     std::vector<std::string> open_rules() const;
+    // Whether a sample is known that exercises the rule, which is claimed.
+    bool has(std::string_view rule) const;
     // Takes down what a case exercises; several threads may do so at once.
     void note(const ref::Exercise& found);
 };
+
+// The fewest subpixel bits that a device may have [Vulkan, "Required Limits"]: with these, more
+// samples are near edges.
+inline constexpr int kFewestSubpixelBits = 4;
 
 // Where the case's file claims the rule; the case's place if that cannot be told. Reads the file.
 cases::SourceLocation rule_place(const cases::Case& c, std::string_view rule);
@@ -40,8 +47,7 @@ std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>&
                                                  const std::vector<size_t>& chosen);
 
 // One error for each open claim of a whole file that no sample exercises with the fewest subpixel
-// bits that a device may have either: with these, more samples are near edges. And one for each
-// draw of which nothing can be seen in any case of a whole file.
+// bits either; and one for each draw of which nothing can be seen in any case of a whole file.
 cases::Errors check_claims(const std::vector<cases::Case>& all,
                            std::map<std::string, ClaimedFile>& files);
 

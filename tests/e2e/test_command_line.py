@@ -376,6 +376,25 @@ class Listing(ProgramTest):
         self.assertIn("error: no sample exercises the rule depth.compare, which takes a sample where the depth test", done.stderr)
         self.assertEqual(self.edgecase("lint", "fam/c3", "-q", check=3).stdout, "")
 
+    def test_lint_tells_why_a_case_has_no_sample(self):
+        """A claim is of a file: other cases may have the samples, or devices with fewer subpixel bits."""
+        text = ('format = 1\ndescription = "A triangle."\nrules = ["cover.inside", "tie.top-left", "snap.nearest"]\n[matrix]\nx = [%s]\n'
+                '[target]\nsize = [8, 8]\n[[draw]]\nvertices = [["x", "1/2+3/64"], [8, "1/2+3/64"], ["x", 8]]\n')
+        own = self.folder / "own.toml"
+        own.write_text(text % '"0", "1/2"')
+        self.assertEqual(self.edgecase("lint", own, check=0).stdout,
+                         "own:x=0\n    cover.inside: 28 of 64 samples\n    tie.top-left: 0 of 64 samples; other cases of its file have some\n"
+                         "    snap.nearest: 0 of 64 samples; 8 with 4 subpixel bits\n"
+                         "own:x=1/2\n    cover.inside: 21 of 64 samples\n    tie.top-left: 7 of 64 samples\n"
+                         "    snap.nearest: 0 of 64 samples; 15 with 4 subpixel bits\n2 cases checked, 0 errors\n")
+        self.assertIn("    tie.top-left: 0 of 64 samples; the rest of its file was not looked at\n", self.edgecase("lint", f"{own}:x=0", check=0).stdout)
+        # Where cases are not told one by one, what only some of them have is.
+        own.write_text(text % ", ".join(f'"{k}/16"' for k in range(24)))
+        self.assertIn("24 cases checked", self.edgecase("lint", own, check=0).stdout)
+        self.assertRegex(self.edgecase("lint", own, check=0).stdout, r"(?m)^\S*own\.toml: \d+ of 24 cases have no sample for tie.top-left: own:x=0/16, \.\.\.$")
+        self.assertNotIn("no sample for snap.nearest", self.edgecase("lint", own, check=0).stdout)
+        self.assertEqual(self.edgecase("lint", own, "-q", check=0).stdout, "")
+
     def test_a_run_of_ones_own_tells_what_it_does_not_test(self):
         text = CASE.format(n=0)
         (self.folder / "mine.toml").write_text(text)

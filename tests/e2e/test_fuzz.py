@@ -378,6 +378,9 @@ class Known(FuzzTest):
         ledger = self.ledger("known")
         jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
         known = [c for c in ledger["causes"] if c["is_known"]]
+        # It is said before it begins, so that nobody takes it for a hunt that --time does not end.
+        self.assertRegex(done.stdout, r"(?s)^fuzzing [^\n]*\nfirst, \d+ cases known to fail by \d+ expectation files? are reduced to "
+                                      r"causes, once for this hunt; --no-expect leaves it out\n.*known by")
         self.assertRegex(done.stdout, rf"known by \d+ expectation files: \d+ cases that fail as expected, by {len(known)} causes, reduced in \d+ s\n")
         self.assertTrue(all(c["bug"] and c["file"].startswith("known/") for c in known))
         self.assertGreater(sum(c["count"] for c in known), 0)
