@@ -308,7 +308,8 @@ int lint_command(const Program& program, const LintOptions& options) {
         }
         return code;
     }
-    std::map<std::string, ClaimedFile> files = claimed_files(suite->cases, suite->selected);
+    std::map<std::string, ClaimedFile> files =
+        claimed_files(suite->cases, suite->selected, suite->parts);
     const size_t count = suite->selected.size();
     const bool is_told = !options.quiet && (options.verbose || count <= kFew);
     const bool is_short = !options.quiet && !options.suite.selectors.empty() && !is_told;

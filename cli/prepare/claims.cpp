@@ -74,7 +74,8 @@ void ClaimedFile::note(const ref::Exercise& found) {
 }
 
 std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>& all,
-                                                 const std::vector<size_t>& chosen) {
+                                                 const std::vector<size_t>& chosen,
+                                                 const std::set<std::string>& parts) {
     std::map<std::string, ClaimedFile> files;
     for (const size_t k : chosen) {
         files.try_emplace(all[k].where.file, all[k]).first->second.cases.push_back(k);
@@ -84,7 +85,7 @@ std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>&
         ++counts[c.where.file];
     }
     for (auto& [name, file] : files) {
-        file.is_whole = file.cases.size() == counts[name];
+        file.is_whole = file.cases.size() == counts[name] && !parts.contains(name);
     }
     return files;
 }

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,9 +43,11 @@ inline constexpr int kFewestSubpixelBits = 4;
 // Where the case's file claims the rule; the case's place if that cannot be told. Reads the file.
 cases::SourceLocation rule_place(const cases::Case& c, std::string_view rule);
 
-// The files of the chosen cases (indices into `all`), by name. `all` stays where it is.
+// The files of the chosen cases (indices into `all`), by name. `all` stays where it is, and has all
+// cases of a file unless that is one of `parts`.
 std::map<std::string, ClaimedFile> claimed_files(const std::vector<cases::Case>& all,
-                                                 const std::vector<size_t>& chosen);
+                                                 const std::vector<size_t>& chosen,
+                                                 const std::set<std::string>& parts);
 
 // One error for each open claim of a whole file that no sample exercises with the fewest subpixel
 // bits either; and one for each draw of which nothing can be seen in any case of a whole file.

@@ -92,11 +92,14 @@ void warn_of_claims(const Selection& selection, const SuiteOptions& suite, cases
             own.push_back(k);
         }
     }
-    std::map<std::string, ClaimedFile> files = claimed_files(selected, own);
+    std::map<std::string, ClaimedFile> files = claimed_files(selected, own, selection.part_files);
     warn_of_profile(files, profile);
     size_t seen = 0, unseen = 0;
     std::vector<ClaimedFile*> looked_at;
     for (auto& [name, file] : files) {
+        if (!file.is_whole) {
+            continue;  // what is left out may exercise it
+        }
         seen += file.cases.size();
         if (seen <= kMostOwnCases) {
             looked_at.push_back(&file);

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -135,6 +136,10 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
                       "--doors needs a Vulkan driver, and --renderer names another; "
                       "leave one of them out"));
     }
+    std::map<std::string, size_t> left_out;  // leaves by file
+    for (const cases::Case& c : suite->cases) {
+        ++left_out[c.where.file];
+    }
     std::vector<std::string> ids;
     std::set<std::string> own;
     std::vector<cases::Case*> chosen;  // of all shards
@@ -150,14 +155,21 @@ OrStop<Selection> select_cases(const Program& program, const RunOptions& options
         }
         chosen.push_back(&c);
     }
-    OrStop<LeftOutDoors> left_out = choose_doors(options.doors, chosen);
-    if (!left_out) {
-        return tl::unexpected(left_out.error());
+    OrStop<LeftOutDoors> doors = choose_doors(options.doors, chosen);
+    if (!doors) {
+        return tl::unexpected(doors.error());
     }
-    selection.left_out_doors = std::move(*left_out);
+    selection.left_out_doors = std::move(*doors);
     for (cases::Case* c : chosen) {
         if (run::shard_of(c->id, options.shard.count) == options.shard.index) {
+            --left_out[c->where.file];
             selection.cases.push_back(std::move(*c));
+        }
+    }
+    selection.part_files = suite->parts;
+    for (const auto& [file, leaves] : left_out) {
+        if (leaves > 0) {
+            selection.part_files.insert(file);
         }
     }
     selection.of_all_shards = selection_text(std::move(ids));

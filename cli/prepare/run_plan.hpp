@@ -26,7 +26,8 @@ struct Selection {
     std::vector<std::string> suite_ids;  // of the suite alone
     bool whole_suite = false;
     LeftOutDoors left_out_doors;
-    std::set<std::string> own_files;  // of the cases that are not the suite's
+    std::set<std::string> own_files;   // of the cases that are not the suite's
+    std::set<std::string> part_files;  // of which some leaves are selected, and others are not
 };
 // Applies selectors, --quick, --failed-in, --shard and --shuffle. An empty selection is a Stop.
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options);

@@ -156,6 +156,7 @@ OrStop<std::vector<std::string>> load_outside_files(const SuiteOptions& options,
             return tl::unexpected(invalid_files(loaded.error()));
         }
         if (!leaf.empty()) {
+            suite.parts.insert(loaded->front().where.file);
             std::erase_if(*loaded, [&ending = leaf](const cases::Case& c) {
                 return c.id.substr(c.id.find(':') + 1) != ending;
             });
@@ -291,7 +292,7 @@ OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& 
     if (!loaded.errors.empty()) {
         return tl::unexpected(invalid_files(loaded.errors));
     }
-    return select_of({*root, std::move(loaded.cases), {}}, options);
+    return select_of({*root, std::move(loaded.cases), {}, 0, {}}, options);
 }
 
 OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& options) {
@@ -305,7 +306,7 @@ OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& op
     };
     if (!selectors.empty() &&
         !is_any([&](const std::string& s) { return !is_outside(s, *root); })) {
-        return select_of({*root, {}, {}}, options);
+        return select_of({*root, {}, {}, 0, {}}, options);
     }
     if (selectors.empty() ||  // what is no name is asked of the cases themselves
         is_any([](const std::string& s) { return s == "-" || s.find('@') != s.npos; }) ||

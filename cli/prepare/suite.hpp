@@ -43,6 +43,7 @@ struct LoadedSuite {
     std::vector<cases::Case> cases;  // the suite's, then those of files outside that selectors name
     std::vector<size_t> selected;    // indices into cases, in suite order
     size_t outside = 0;              // the index of the first case that is not the suite's
+    std::set<std::string> parts;     // files of which a selector names single leaves
     std::vector<std::string> ids() const;        // of all cases
     std::vector<std::string> suite_ids() const;  // of the suite's alone
 };

@@ -409,6 +409,18 @@ class Listing(ProgramTest):
         self.assertIn("warning: mine.toml:4:1: the rule tie.top-left is judged at profile direct3d, and this run is at practice: "
                       "it says nothing of it\n", done.stderr)
 
+    def test_a_part_of_a_file_is_not_blamed_for_its_claims(self):
+        """What is left out may have the samples."""
+        text = CASE.format(n=0).replace('"cover.shared-edge"', '"tie.top-left"').replace("[target]", '[matrix]\nx = [0, "1/2", 1]\n[target]')
+        text = re.sub(r"vertices = .*", 'vertices = [["x", "1/8"], [8, "1/8"], ["x", "31/4"]]', text)
+        (self.folder / "mine.toml").write_text(text)
+        self.assertIn("3 cases checked, 0 errors", self.edgecase("lint", "mine.toml", check=0).stdout)
+        for words in (["mine.toml", "--quick"], ["mine.toml:x=0"], ["mine.toml", "!mine:x=1/2"], ["mine.toml", "--shard", "1/2"], ["mine.toml", "--shard", "2/2"]):
+            self.assertEqual(self.edgecase("run", *words, "--renderer=reference", "-o", "out", check=0).stderr, "", words)
+        self.assertIn("0 of 64 samples; the rest of its file was not looked at", self.edgecase("lint", "mine.toml:x=0", check=0).stdout)
+        (self.folder / "mine.toml").write_text(text.replace('0, "1/2", 1', "0, 1, 2"))
+        self.assertIn("no sample exercises the rule tie.top-left", self.edgecase("run", "mine.toml", "--renderer=reference", "-o", "out", check=0).stderr)
+
     def test_what_only_has_the_key_exercises_no_rule(self):
         """A rule is exercised where a device that is wrong about it would draw something else."""
         for rule, keys in (("scissor.half-open", "scissor = [0, 0, 100, 100]"), ("clip.distance", "[[draw.clip_distance]]\nconstant = 1"),
