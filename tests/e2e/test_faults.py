@@ -3,6 +3,7 @@
 """A broken driver harms only the case that breaks it."""
 import json
 import re
+import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree
@@ -247,6 +248,17 @@ class Output(ProgramTest):
         done = subprocess.run(["bash", "-c", '"$0" man | head -n 1; exit ${PIPESTATUS[0]}', PROGRAM], env=self.environment(), cwd=self.folder,
                               capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual(done.stderr, "")
+
+    def test_closed_standard_streams(self):
+        """A file that took the number of a closed stream would have what is said written into it."""
+        for closed, code in ((">&-", 7), ("2>&-", 0), ("<&- >&-", 7), ("<&- 2>&-", 0), (">&- 2>&-", 7), ("<&- >&- 2>&-", 7)):
+            out = self.folder / "closed"
+            shutil.rmtree(out, ignore_errors=True)
+            done = subprocess.run(["bash", "-c", f'"$@" {closed}', "bash", PROGRAM, "run", "--renderer=reference", "-o", out], cwd=self.folder,
+                                  env=self.environment(), capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, code, closed)
+            self.assertEqual(sorted(p.name for p in out.iterdir()), ["journal.jsonl", "junit.xml", "report.html", "results.json"], closed)
+            self.assertIn("10 cases", self.edgecase("report", out, check=0).stdout)
 
     def test_report_rebuilds(self):
         self.run_suite(fault="segv@fam/c3", check=1)
