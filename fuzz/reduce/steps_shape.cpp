@@ -66,6 +66,18 @@ void add_segments(const Document& document, size_t draw, const DrawShape& shape,
     }
 }
 
+// What a run with one triangle or none may do without: it need not draw to be wrong, as where its
+// restart is taken for a vertex.
+void add_single_indices(const Document& document, size_t draw, const Segment& segment,
+                        std::vector<Step>& steps) {
+    if (segment.end - segment.begin > 3) {
+        return;  // add_ends makes it shorter
+    }
+    for (size_t k = segment.begin; k < segment.end; ++k) {
+        add_removal(document, draw, {k, k + 1}, span_of("index", {k, k + 1}), steps);
+    }
+}
+
 bool drop_unused(Document& document, size_t draw) {
     Document* table = draw_at(document, draw);
     Document* indices = table == nullptr ? nullptr : find(*table, "indices");
@@ -169,6 +181,9 @@ void add_triangle_steps(const Document& document, std::vector<Step>& steps) {
             add_segments(document, draw, shape, steps);
         }
         for (const Segment& segment : shape.segments) {
+            if (shape.has_restart) {
+                add_single_indices(document, draw, segment, steps);
+            }
             if (!shape.is_list) {
                 add_ends(document, draw, shape, segment, steps);
                 continue;

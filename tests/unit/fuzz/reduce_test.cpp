@@ -100,6 +100,26 @@ TEST(Reduce, LeavesWhatIsNeededAndNoMore) {
         << to_text(reduced.document);
 }
 
+// A run that only has to begin for the next one to be wrong is left with one index.
+TEST(Reduce, LeavesNoTriangleBesideARestart) {
+    const Shows shows = shows_with([](const Case& c) {
+        const auto& indices = c.draws[0].indices;
+        return indices && covers(c, 3.5, 4.5) && indices->front() != cases::kRestartIndex &&
+               std::ranges::count(*indices, cases::kRestartIndex) == 1;
+    });
+    const Document document = read(
+        "format = 1\ndescription = \"Two runs.\"\nrules = [\"cover.inside\"]\n[target]\nsize = [8, "
+        "8]\n[[draw]]\ntopology = \"triangle-strip\"\n"
+        "vertices = [[0, 0], [1, 0], [0, 1], [2, 2], [8, 2], [2, 8], [8, 8]]\n"
+        "indices = [0, 1, 2, \"restart\", 3, 4, 5, 6]\n");
+    ASSERT_TRUE(shows({to_text(document)}).front());
+    const Reduced reduced = reduce(document, shows);
+    expect_minimal(reduced, shows);
+    const Case c = load(to_text(reduced.document));
+    EXPECT_EQ(c.draws[0].indices->size(), 5U) << to_text(reduced.document);
+    EXPECT_EQ(cases::assemble(c).size(), 1U);
+}
+
 // A list of 300 triangles in rows.
 Document many_triangles(size_t count) {
     Document document = read(
@@ -259,6 +279,14 @@ TEST(Reduce, EndsAtAMinimumByStepsOfAllKinds) {
         EXPECT_LE(reduced.tried, 400U) << needed;
         EXPECT_LE(reduced.rounds, 20U) << needed;
     }
+    // A mask that is needed, but not this one.
+    checked(read(kCrowded), shows_with([](const Case& candidate) {
+                return std::ranges::any_of(candidate.draws, [](const cases::Draw& draw) {
+                    const uint32_t mask = draw.multisample.sample_mask;
+                    return mask != 0xffffffffU && (mask & 2U) != 0;
+                });
+            }),
+            kinds);
     for (uint32_t seed = 0; seed < 8; ++seed) {
         const Shows shows = [seed](const std::vector<std::string>& texts) {
             std::vector<bool> answers;
