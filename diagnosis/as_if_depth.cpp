@@ -47,8 +47,6 @@ void round_all(capture::Capture& capture) {
 
 const Row kDepthRows[] = {
     // depth
-    {"less-as-less-or-equal", "LESS lets equal depths pass",
-     compare_as<CompareOp::less, CompareOp::less_or_equal>},
     {"less-or-equal-as-less", "LESS_OR_EQUAL rejects equal depths",
      compare_as<CompareOp::less_or_equal, CompareOp::less>},
     {"greater-as-greater-or-equal", "GREATER lets equal depths pass",
@@ -61,14 +59,6 @@ const Row kDepthRows[] = {
      compare_as<CompareOp::equal, CompareOp::less_or_equal>},
     {"never-as-always", "NEVER lets all depths pass",
      compare_as<CompareOp::never, CompareOp::always>},
-    {"compare-mirrored", "Less and greater are exchanged in the depth test",
-     [](Case& c) {
-         return each(c, [](Draw& d) {
-             return exchange(d.depth.compare, CompareOp::less, CompareOp::greater) ||
-                    exchange(d.depth.compare, CompareOp::less_or_equal,
-                             CompareOp::greater_or_equal);
-         });
-     }},
     {"depth-test-off", "There is no depth test, and so no depth is written",
      [](Case& c) {
          return each(c, [](Draw& d) {
@@ -78,8 +68,6 @@ const Row kDepthRows[] = {
      }},
     {"depth-write-off", "Depth is not written",
      [](Case& c) { return each(c, [](Draw& d) { return set(d.depth.write, false); }); }},
-    {"depth-write-on", "Depth is written even where that is off",
-     [](Case& c) { return each(c, [](Draw& d) { return set(d.depth.write, true); }); }},
     {"bias-no-constant", "The constant of the depth bias counts as 0",
      [](Case& c) { return each_bias(c, [](auto& b) { return set(b.constant, 0.0F); }); }},
     {"bias-constant-doubled", "The constant of the depth bias counts twice",

@@ -10,6 +10,7 @@
 
 #include "cases/base/parallel.hpp"
 #include "cases/model/sample.hpp"
+#include "diagnosis/choice.hpp"
 #include "diagnosis/fit.hpp"
 #include "diagnosis/hypothesis.hpp"
 #include "diagnosis/match.hpp"
@@ -25,64 +26,7 @@ namespace {
 using report::CaseRecord;
 using report::Diagnosis;
 
-constexpr uint64_t kMaxCost = 1U << 14U;      // of a subject: samples and vertices
 constexpr uint64_t kMaxSeedCost = 1U << 14U;  // of all seeds: some seconds of one core
-
-uint64_t cost_of(const cases::Case& c) {
-    uint64_t cost = uint64_t{c.target.width} * c.target.rows() * c.target.samples;
-    for (const cases::Draw& d : c.draws) {
-        cost += 8 * (d.indices ? d.indices->size() : d.positions.size());
-    }
-    return cost;
-}
-
-struct Choice {
-    const CaseRecord* record = nullptr;
-    const cases::Case* data = nullptr;
-    uint64_t cost = 0;
-};
-
-// The cheapest case of each family and first rule that it breaks, then the second of each, and so
-// on, at most kMaxSubjects.
-std::vector<Choice> by_turn(
-    const report::Run& run, const CaseOf& case_of,
-    const std::function<bool(const cases::Case&, const CaseRecord&)>& takes) {
-    std::map<std::string, std::vector<Choice>> kinds;
-    for (const CaseRecord& record : run.cases) {
-        const cases::Case* c = nullptr;
-        if ((record.status == report::Status::fail || record.status == report::Status::pass) &&
-            (c = case_of(record.id)) != nullptr && cost_of(*c) <= kMaxCost && takes(*c, record)) {
-            std::string kind = record.id.substr(0, record.id.find('/'));
-            if (!record.groups.empty()) {
-                kind += ' ' + record.groups.front().rule;
-            }
-            kinds[kind].push_back({&record, c, cost_of(*c)});
-        }
-    }
-    std::vector<Choice> out;
-    for (auto& [kind, list] : kinds) {
-        std::sort(list.begin(), list.end(), [](const Choice& a, const Choice& b) {
-            return std::tie(a.cost, a.record->id) < std::tie(b.cost, b.record->id);
-        });
-    }
-    for (size_t turn = 0; out.size() < kMaxSubjects; ++turn) {
-        const size_t before = out.size();
-        std::vector<Choice> of_turn;
-        for (const auto& [kind, list] : kinds) {
-            if (turn < list.size()) {
-                of_turn.push_back(list[turn]);
-            }
-        }
-        std::stable_sort(of_turn.begin(), of_turn.end(),
-                         [](const Choice& a, const Choice& b) { return a.cost < b.cost; });
-        out.insert(out.end(), of_turn.begin(), of_turn.end());
-        if (out.size() == before) {
-            break;
-        }
-    }
-    out.resize(std::min(out.size(), kMaxSubjects));
-    return out;
-}
 
 class Diagnoser {
   public:
@@ -97,17 +41,24 @@ class Diagnoser {
             return record.status == report::Status::fail && !(has_news && record.expected) &&
                    can_match(c, record);
         };
-        for (const Choice& choice : by_turn(run, case_of, is_failed)) {
+        more_failed_ = by_turn(run, case_of, is_failed, family_and_rule, run.cases.size());
+        failed_ = more_failed_.size();
+        more_failed_.resize(std::min(failed_, kMaxSubjects + kMaxMore));
+        const size_t tried = std::min(more_failed_.size(), kMaxSubjects);
+        std::set<std::string> families;
+        for (size_t k = 0; k < tried; ++k) {
+            const Choice& choice = more_failed_[k];
             if (auto subject = make_subject(*choice.data, *choice.record, bits_, profile_)) {
                 subjects_.push_back(std::move(*subject));
+                families.insert(family_of(*choice.record));
             }
         }
+        more_failed_.erase(more_failed_.begin(),
+                           more_failed_.begin() + static_cast<std::ptrdiff_t>(tried));
         if (subjects_.empty()) {
             return;
         }
-        passed_ = by_turn(run, case_of, [](const cases::Case&, const CaseRecord& record) {
-            return record.status == report::Status::pass;
-        });
+        choose_passed(run, case_of, families);
         for (const CaseRecord& record : run.cases) {
             if (record.status == report::Status::pass) {
                 passed_ids_.insert(record.id);
@@ -149,8 +100,29 @@ class Diagnoser {
     }
 
   private:
+    // Some of every family; then, since they are the most likely to contradict what is told, those
+    // of the families that fail.
+    void choose_passed(const report::Run& run, const CaseOf& case_of,
+                       const std::set<std::string>& families) {
+        std::set<const CaseRecord*> chosen;
+        const auto is_new = [&](const cases::Case&, const CaseRecord& record) {
+            return record.status == report::Status::pass && !chosen.contains(&record);
+        };
+        passed_ = by_turn(run, case_of, is_new, family_and_rule, kMaxSubjects);
+        for (const Choice& choice : passed_) {
+            chosen.insert(choice.record);
+        }
+        const std::vector<Choice> nearby = by_turn(
+            run, case_of,
+            [&](const cases::Case& c, const CaseRecord& record) {
+                return is_new(c, record) && families.contains(family_of(record));
+            },
+            file_of, kMaxNearby);
+        passed_.insert(passed_.end(), nearby.begin(), nearby.end());
+    }
+
     // Those with a size that some values fit come first.
-    std::vector<Hypothesis> hypotheses() const {
+    std::vector<Hypothesis> hypotheses() {
         std::vector<Hypothesis> out;
         if (subjects_.empty()) {
             return out;
@@ -166,6 +138,7 @@ class Diagnoser {
                 }
             }
         }
+        fitted_ = out.size();
         const std::vector<Hypothesis> known = known_hypotheses(bits_);
         out.insert(out.end(), known.begin(), known.end());
         return out;
@@ -221,7 +194,7 @@ class Diagnoser {
                 continue;
             }
             try_passed(tally);
-            if (tally.stands()) {
+            if (tally.stands(failed_)) {
                 best.push_back(std::move(tally));
             }
         }
@@ -233,10 +206,32 @@ class Diagnoser {
                 return tally.passed_against > most;
             });
         }
+        leave_out_what_is_fitted(best);
         if (best.size() > kMaxNamed) {
             best.clear();
         }
         return best;
+    }
+
+    // What draws every case as a fitted size does says the same, with less.
+    void leave_out_what_is_fitted(std::vector<Tally>& best) const {
+        if (best.empty() || best.front().hypothesis >= fitted_) {
+            return;
+        }
+        const Hypothesis& fitted = known_[best.front().hypothesis];
+        const auto is_same = [&](const Tally& tally) {
+            for (size_t k = 0; k < subjects_.size(); ++k) {
+                if (tally.answers[k].says == Says::explains) {
+                    const auto a = draw(fitted, *subjects_[k].data);
+                    const auto b = draw(known_[tally.hypothesis], *subjects_[k].data);
+                    if (!a || !b || !software::same_bits(*a, *b)) {
+                        return false;
+                    }
+                }
+            }
+            return true;
+        };
+        best.erase(std::remove_if(best.begin() + 1, best.end(), is_same), best.end());
     }
 
     // Those that, under a condition, explain subject `seed` and most others, all that are alike;
@@ -260,6 +255,9 @@ class Diagnoser {
                 }
             }
             for (Tally& tally : partial_tallies(known_[h], h, subjects_, seed, passed)) {
+                if (is_contradicted(known_[h], *tally.only, more_failed())) {
+                    continue;
+                }
                 if (best.empty() || tally.score() > best.front().score()) {
                     best.clear();
                 }
@@ -272,6 +270,16 @@ class Diagnoser {
             best.clear();
         }
         return best;
+    }
+
+    // Failed cases that are not tried one by one.
+    const std::vector<Subject>& more_failed() {
+        for (const Choice& choice : std::exchange(more_failed_, {})) {
+            if (auto subject = make_subject(*choice.data, *choice.record, bits_, profile_)) {
+                more_subjects_.push_back(std::move(*subject));
+            }
+        }
+        return more_subjects_;
     }
 
     // Small cases that passed; for a known fault, those that are known to catch it come first.
@@ -296,7 +304,7 @@ class Diagnoser {
     // Cases that passed would have failed.
     void try_passed(Tally& tally) {
         for (const cases::Case* c : passed_cases(tally.hypothesis)) {
-            if (!tally.stands()) {
+            if (!tally.stands(failed_)) {
                 return;
             }
             ++tally.passed_tried;
@@ -351,10 +359,14 @@ class Diagnoser {
     int bits_;
     cases::Profile profile_;
     std::vector<Subject> subjects_;
+    size_t failed_ = 0;                   // cases that could be subjects
+    std::vector<Choice> more_failed_;     // until they are asked for
+    std::vector<Subject> more_subjects_;  // then
     std::vector<Choice> passed_;
     std::set<std::string> passed_ids_;
     const CaseOf* case_of_ = nullptr;
     std::vector<Hypothesis> known_;
+    size_t fitted_ = 0;  // so many of them, the first, have a size
     std::vector<std::vector<std::optional<Answer>>> answers_;  // [hypothesis][subject]
     std::vector<Answer> at_seed_;                              // [hypothesis], of the last seed
     std::map<const cases::Case*, std::optional<Subject>> passed_subjects_;

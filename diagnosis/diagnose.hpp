@@ -25,9 +25,11 @@ using CaseOf = std::function<const cases::Case*(const std::string& id)>;
 std::vector<report::Diagnosis> diagnose(const report::Run& run, const CaseOf& case_of);
 
 inline constexpr size_t kMaxSubjects = 64;
-inline constexpr size_t kMaxSeeds = 24;           // failed cases that all errors are tried on
-inline constexpr size_t kMaxFits = 6;             // failed cases whose values sizes are fitted to
-inline constexpr size_t kMaxPartSeeds = 6;        // of these, on which conditions are tried
+inline constexpr size_t kMaxNearby = 256;   // cases that passed, of the families that fail
+inline constexpr size_t kMaxMore = 192;     // failed cases beyond, that may contradict a condition
+inline constexpr size_t kMaxSeeds = 24;     // failed cases that all errors are tried on
+inline constexpr size_t kMaxFits = 6;       // failed cases whose values sizes are fitted to
+inline constexpr size_t kMaxPartSeeds = 6;  // of these, on which conditions are tried
 inline constexpr size_t kMaxPartCandidates = 64;  // errors; of more the case says too little
 inline constexpr size_t kMaxNamed = 4;  // errors that explain the same; of more none is told
 

@@ -70,6 +70,9 @@ std::vector<Hypothesis> known_hypotheses(int subpixel_bits) {
         out.push_back(std::move(h));
     }
     for (const software::FaultInfo& fault : software::all_faults()) {
+        if (fault.fault == Fault::coarse_snapping) {
+            continue;  // a choice of subpixel bits
+        }
         Hypothesis h{std::string(fault.name), without_stop(fault.change)};
         h.device.subpixel_bits = subpixel_bits;
         h.device.fault = fault.fault;

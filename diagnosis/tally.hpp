@@ -36,10 +36,13 @@ struct Tally {
 
     size_t count(Says what) const;
     // A device may have other errors, too, and choices that the software device has not: of the
-    // cases that a hypothesis speaks of a few may end otherwise. It stands while those are an
-    // half of what it explains, and those that passed against it an eighth.
+    // cases that a hypothesis speaks of a few may end otherwise. It stands while those are a half
+    // of what it explains, and those that passed against it an eighth of what it would explain if
+    // all failed cases were subjects.
     bool is_plausible() const { return 2 * count(Says::otherwise) <= count(Says::explains); }
-    bool stands() const { return 8 * passed_against <= count(Says::explains); }
+    bool stands(size_t failed) const {
+        return 8 * passed_against * answers.size() <= count(Says::explains) * failed;
+    }
     std::pair<size_t, int64_t> score() const {
         return {count(Says::explains), -static_cast<int64_t>(count(Says::otherwise))};
     }

@@ -31,8 +31,13 @@ std::string evidence_for(const Diagnosis& diagnosis) {
         text += fmt::format("; {} otherwise",
                             d.against == 1 ? "1 fails" : fmt::format("{} fail", d.against));
     }
-    text += fmt::format("; {} that passed {}", cases::counted(d.passed_tried, "case"),
-                        d.passed_tried == 1 ? "agrees" : "agree");
+    if (d.passed_against > 0) {
+        text += fmt::format("; {} of {} that passed would fail", d.passed_against,
+                            cases::counted(d.passed_tried, "case"));
+    } else {
+        text += fmt::format("; {} that passed {}", cases::counted(d.passed_tried, "case"),
+                            d.passed_tried == 1 ? "agrees" : "agree");
+    }
     return text;
 }
 

@@ -47,6 +47,23 @@ std::vector<std::pair<std::string, int>> repeated_causes(const Run& run) {
 
 }  // namespace
 
+// Cases that passed and would have failed are told, and are not among those that agree.
+TEST(DiagnosisText, WhatSpeaksAgainstItIsTold) {
+    Diagnosis d;
+    d.samples = d.same_samples = 90;
+    d.cases = 20;
+    d.tried = 64;
+    d.passed_tried = 300;
+    EXPECT_EQ(evidence_for(d),
+              "repeats 90 of 90 wrong samples in 20 of 64 failed cases tried; 300 cases that "
+              "passed agree");
+    d.passed_against = 2;
+    d.against = 1;
+    EXPECT_EQ(evidence_for(d),
+              "repeats 90 of 90 wrong samples in 20 of 64 failed cases tried; 1 fails otherwise; "
+              "2 of 300 cases that passed would fail");
+}
+
 TEST(Repeated, ACauseOfWhichEveryTriedCaseIs) {
     report::Run run = run_of({"a/1", "a/2", "a/3", "b/1", "b/2", "c/1", "d/1", "d/2", "d/3"});
     run.diagnoses = {tried({"a/1", "b/1", "d/1"}, {"b/2", "d/2", "d/3"}),
