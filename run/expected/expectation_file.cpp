@@ -73,7 +73,8 @@ class Parser {
     }
 
     cases::ExpectedAll<ExpectationFile> parse(std::string_view text) {
-        size_t begin = 0;
+        constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // of some editors
+        size_t begin = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
         while (begin < text.size()) {
             const size_t end = std::min(text.find('\n', begin), text.size());
             ++line_;

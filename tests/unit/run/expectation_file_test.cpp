@@ -37,6 +37,13 @@ TEST(Expectations, HeadersFitOrSayWhyNot) {
     EXPECT_NE(mismatch_of("device: *  profile: vulkan"), "");
 }
 
+// As case files have it.
+TEST(Expectations, AByteOrderMarkIsNoPartOfTheFirstLine) {
+    const auto file = parse_expectations("\xef\xbb\xbf# edgecase-expectations 2\r\n# device: *\r\n",
+                                         "f", "2026-01-01");
+    EXPECT_TRUE(file) << file.error().front().message;
+}
+
 TEST(Expectations, VersionsCompareAsNumbers) {
     using Relation = VersionBound::Relation;
     EXPECT_TRUE(satisfies({22, 10}, {Relation::at_least, {22, 9}}));
