@@ -262,6 +262,35 @@ bool take_other_w(Case& c) {
     });
 }
 
+bool level_w(Case& c) {
+    return change_draws(c, [](Draw& draw) {
+        const float w = draw.positions.front().w;
+        bool is_changed = false;
+        for (glm::vec4& p : draw.positions) {
+            const glm::vec4 leveled = p * (w / p.w);
+            const bool is_finite = std::isfinite(leveled.x) && std::isfinite(leveled.y) &&
+                                   std::isfinite(leveled.z) && leveled.w > 0;
+            is_changed = (is_finite && set(p, leveled)) || is_changed;
+        }
+        return is_changed;
+    });
+}
+
+bool interpolate_flats(Case& c) {
+    return change_attributes(c, [](Attribute& a) {
+        return a.interpolation == Interpolation::flat &&
+               set(a.interpolation, Interpolation::noperspective);
+    });
+}
+
+bool take_other_vertex(Case& c) {
+    return change_draws(c, [](Draw& draw) {
+        return set(draw.provoking, draw.provoking == ProvokingVertex::first
+                                       ? ProvokingVertex::last
+                                       : ProvokingVertex::first);
+    });
+}
+
 bool level_attributes(Case& c) {
     return change_attributes(c, [](Attribute& a) {
         bool is_changed = false;

@@ -60,6 +60,11 @@ bool ignore_perspective(cases::Case& c);
 bool forget_division(cases::Case& c);
 // Every third vertex has twice its w at the same place of the framebuffer.
 bool take_other_w(cases::Case& c);
+// Every vertex has the w of the draw's first, at its place of the framebuffer.
+bool level_w(cases::Case& c);
+// Flat values are interpolated, or those of the other provoking vertex.
+bool interpolate_flats(cases::Case& c);
+bool take_other_vertex(cases::Case& c);
 // Every attribute has the value of the draw's first vertex.
 bool level_attributes(cases::Case& c);
 

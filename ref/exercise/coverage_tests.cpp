@@ -116,19 +116,19 @@ bool is_kept_away(const View& view, std::string_view rule) {
 }
 
 bool shows_face(const View& view, std::string_view) {
-    return view.of().target.has_instruments && any_writer(view, [&](uint32_t t) {
+    return view.of().target.has_instruments && is_written_by(view, [&](uint32_t t) {
                const TriangleSetup& setup = view.setups[t];
                return setup.can_be_front != setup.can_be_back;
            });
 }
 
 bool is_beside_bad_number(const View& view, std::string_view) {
-    return !view.sample.hits.empty() && view.facts.has_bad_number();
+    return is_surely_hit(view) && view.facts.has_bad_number();
 }
 
 // A triangle with a vertex beyond a border of the viewport.
 bool crosses_border(const View& view, std::string_view) {
-    return any_writer(view, [&](uint32_t t) {
+    return is_written_by(view, [&](uint32_t t) {
         return std::ranges::any_of(view.facts.triangles()[t].vertex, [&](uint32_t v) {
             const glm::vec4& p = view.facts.draw_of(t).positions[v];
             return std::fabs(p.x) > p.w || std::fabs(p.y) > p.w;
@@ -138,7 +138,7 @@ bool crosses_border(const View& view, std::string_view) {
 
 // A triangle with a vertex outside the view volume, or on one of its depth planes.
 bool reaches_volume(const View& view, std::string_view) {
-    return any_writer(view, [&](uint32_t t) {
+    return is_written_by(view, [&](uint32_t t) {
         const cases::Draw& draw = view.facts.draw_of(t);
         return view.setups[t].is_clipped ||
                std::ranges::any_of(view.facts.triangles()[t].vertex, [&](uint32_t v) {

@@ -37,12 +37,12 @@ bool is_depth_kept(const View& view, std::string_view) {
 }
 
 bool is_depth_rounded(const View& view, std::string_view) {
-    return view.of().target.has_instruments && !view.sample.writers.empty() &&
+    return view.of().target.has_instruments && is_surely_hit(view) &&
            view.of().target.depth_format != cases::DepthFormat::d32_float;
 }
 
 bool is_clamped(const View& view, std::string_view) {
-    return view.of().target.has_instruments && any_writer(view, [&](uint32_t t) {
+    return view.of().target.has_instruments && is_written_by(view, [&](uint32_t t) {
                return view.facts.draw_of(t).depth.clamp &&
                       view.facts.is_beyond_range(t, view.sample);
            });

@@ -45,10 +45,10 @@ using cases::ProvokingVertex;
 using cases::RelationKind;
 using cases::Resolve;
 
-constexpr std::string_view kOfValue = "that shows a value of this kind";
+constexpr std::string_view kOfValue = "that must show a value of this kind";
 constexpr std::string_view kLevel =
     "whose value would be another if all vertices had that of the draw's first";
-constexpr std::string_view kOfRelation = "that may be covered, in a case with this relation";
+constexpr std::string_view kOfRelation = "that must be covered, in a case with this relation";
 
 // In the order of the rules (cases/model/rule.cpp).
 constexpr ExerciseRow kRows[] = {
@@ -106,7 +106,7 @@ constexpr ExerciseRow kRows[] = {
      "that would be drawn otherwise without cull distances",
      {by(drop_cull_distances)}},
     {rule::number_undefined,
-     "that may be covered, in a case with a bad number",
+     "that must be covered, in a case with a bad number",
      {at_all(is_beside_bad_number)}},
     {rule::scissor_half_open,
      "that would be drawn otherwise without the scissor",
@@ -119,7 +119,7 @@ constexpr ExerciseRow kRows[] = {
      "reverse",
      {by(write_all_samples), by(reverse_masks)}},
     {rule::sample_mask_in, kOfValue, {at_all(has_value)}},
-    {rule::sample_id, kOfValue, {at_all(has_value)}},
+    {rule::sample_id, "that must show its number, which is not 0", {at_all(has_sample_number)}},
     {rule::sample_shading,
      "of a fragment that is shaded for several samples",
      {at_all(is_sample_shaded)}},
@@ -132,7 +132,9 @@ constexpr ExerciseRow kRows[] = {
      "whose value at the sample would be another at the pixel's centre, or in the place of sample "
      "0",
      {by(move_samples_to_centre, Differ::values), by(move_samples_to_first, Differ::values)}},
-    {rule::fragcoord_sample, kOfValue, {at_all(has_value)}},
+    {rule::fragcoord_sample,
+     "whose value would be another at the pixel's centre, or in the place of sample 0",
+     {by(move_samples_to_centre, Differ::values), by(move_samples_to_first, Differ::values)}},
     {rule::order_primitive,
      "that is written more than once, and shows what was written last",
      {at_all(is_overwritten)}},
@@ -150,10 +152,14 @@ constexpr ExerciseRow kRows[] = {
      "another w at one vertex",
      {by(ignore_perspective, Differ::values), by(forget_division, Differ::values),
       by(take_other_w, Differ::values)}},
-    {rule::interp_hull, "that shows an interpolated input", {at_all(has_interpolated)}},
-    {rule::interp_flat, "that shows a flat value", {at_all(has_value)}},
+    {rule::interp_hull, "that must show an interpolated input", {at_all(has_interpolated)}},
+    {rule::interp_flat,
+     "whose flat value would be another if it were interpolated, or the other provoking vertex's",
+     {by(interpolate_flats, Differ::values), by(take_other_vertex, Differ::values)}},
     {rule::fragcoord_xy, kOfValue, {at_all(has_value)}},
-    {rule::fragcoord_w, kOfValue, {at_all(has_value)}},
+    {rule::fragcoord_w,
+     "whose 1/w would be another if all vertices had the w of the draw's first",
+     {by(level_w, Differ::values)}},
     {rule::store_unorm, "of a target of this kind", {at_all(is_stored_as<ComponentKind::unorm>)}},
     {rule::store_srgb, "of a target of this kind", {at_all(is_stored_as<ComponentKind::srgb>)}},
     {rule::store_half, "of a target of this kind", {at_all(is_stored_as<ComponentKind::half>)}},
@@ -168,8 +174,8 @@ constexpr ExerciseRow kRows[] = {
     {rule::blend_write_mask,
      "whose colour would be another if all components were written",
      {by(write_all_components, Differ::colors)}},
-    {rule::write_consistent, "that a triangle may write", {at_all(is_written)}},
-    {rule::write_outside, "that a triangle may write", {at_all(is_written)}},
+    {rule::write_consistent, "that a triangle must write", {at_all(is_written)}},
+    {rule::write_outside, "that a triangle must write", {at_all(is_written)}},
     {rule::depth_linear, kLevel, {by(level_depths, Differ::values)}},
     {rule::repeat_same, kOfRelation, {at_all(is_repeated<RelationKind::same_twice>)}},
     {rule::repeat_scissor, kOfRelation, {at_all(is_repeated<RelationKind::scissor_tiles>)}},
@@ -218,7 +224,7 @@ constexpr ExerciseRow kRows[] = {
     {rule::derivative_fine, kLevel, {by(level_attributes, Differ::values)}},
     {rule::derivative_coarse, kLevel, {by(level_attributes, Differ::values)}},
     {rule::derivative_plain, kLevel, {by(level_attributes, Differ::values)}},
-    {rule::lod_query, kOfValue, {at_all(has_value)}},
+    {rule::lod_query, kLevel, {by(level_attributes, Differ::values)}},
     {rule::stencil_count, "that may be hit, with a stencil", {at_all(is_counted_by_stencil)}},
     {rule::stencil_compare,
      "that would come out otherwise if every fragment passed the stencil test, or if less were "
@@ -245,7 +251,7 @@ constexpr ExerciseRow kRows[] = {
      "of a pixel that is drawn to and resolved so",
      {at_all(is_resolved<Resolve::average>)}},
     {rule::barycentric_value, kOfValue, {at_all(has_value)}},
-    {rule::barycentric_order, "that shows barycentric coordinates", {at_all(has_barycentric)}},
+    {rule::barycentric_order, "that must show barycentric coordinates", {at_all(has_barycentric)}},
     {rule::blit_nearest, "inside the region of a blit with this filter", {kInside}, is_nearest},
     {rule::blit_linear, "inside the region of a blit with this filter", {kInside}, is_linear},
     {rule::blit_outside, "outside the region of a blit", {kOutside}, is_any},

@@ -16,15 +16,20 @@ namespace ref {
 
 using ExerciseTest = bool (*)(const View& view, std::string_view rule);
 
-// Some triangle that may have written last, and that the attachments show.
+// Whether something must be drawn there: where nothing need be, a device may leave it out.
+inline bool is_surely_hit(const View& view) {
+    return view.sample.bounds.total_min > 0;
+}
+// Some triangle must have written last; any that may have is one for which the test holds, and the
+// attachments show some.
 template <class Test>
-bool any_writer(const View& view, const Test& test) {
-    return std::ranges::any_of(view.sample.writers,
-                               [&](uint32_t t) { return test(t) && view.shows(t); });
+bool is_written_by(const View& view, const Test& test) {
+    return is_surely_hit(view) && std::ranges::all_of(view.sample.writers, test) &&
+           std::ranges::any_of(view.sample.writers, [&](uint32_t t) { return view.shows(t); });
 }
 template <class Test>
-bool any_writing_draw(const View& view, const Test& test) {
-    return any_writer(view, [&](uint32_t t) { return test(view.facts.draw_of(t)); });
+bool is_written_by_draw(const View& view, const Test& test) {
+    return is_written_by(view, [&](uint32_t t) { return test(view.facts.draw_of(t)); });
 }
 
 // What the triangles cover, or not (coverage_tests.cpp).
@@ -51,6 +56,7 @@ bool is_counted_by_stencil(const View& view, std::string_view rule);
 
 // Values and what is stored of them (value_tests.cpp).
 bool has_value(const View& view, std::string_view rule);
+bool has_sample_number(const View& view, std::string_view rule);
 bool has_interpolated(const View& view, std::string_view rule);
 bool has_barycentric(const View& view, std::string_view rule);
 bool is_at_sample(const View& view, std::string_view rule);
@@ -60,34 +66,34 @@ bool is_written(const View& view, std::string_view rule);
 // With instruments, which tell the provoking vertex of what was written last.
 template <cases::ProvokingVertex convention>
 bool is_provoked_by(const View& view, std::string_view) {
-    return view.of().target.has_instruments && any_writing_draw(view, [](const cases::Draw& draw) {
-               return draw.provoking == convention;
-           });
+    return view.of().target.has_instruments &&
+           is_written_by_draw(view,
+                              [](const cases::Draw& draw) { return draw.provoking == convention; });
 }
 
 template <cases::ComponentKind kind>
 bool is_stored_as(const View& view, std::string_view) {
     const std::optional<cases::ColorTarget>& color = view.of().target.color;
     return color && cases::row_of(color->format).kind == kind &&
-           any_writer(view, [](uint32_t) { return true; });
+           is_written_by(view, [](uint32_t) { return true; });
 }
 
 template <auto... modes>
 bool is_resolved(const View& view, std::string_view) {
     const cases::Target& target = view.of().target;
     return ((target.color_resolve == modes || target.depth_resolve == modes) || ...) &&
-           any_writer(view, [](uint32_t) { return true; });
+           is_written_by(view, [](uint32_t) { return true; });
 }
 
 template <cases::RelationKind kind>
 bool is_repeated(const View& view, std::string_view) {
-    return !view.sample.hits.empty() &&
+    return is_surely_hit(view) &&
            std::ranges::any_of(view.of().relations,
                                [](const cases::Relation& r) { return r.kind == kind; });
 }
 
 inline bool goes_through_door(const View& view, std::string_view rule) {
-    return !view.sample.hits.empty() &&
+    return is_surely_hit(view) &&
            std::ranges::any_of(view.of().relations, [rule](const cases::Relation& r) {
                return r.kind == cases::RelationKind::door && cases::row_of(r.door).rule == rule;
            });

@@ -14,7 +14,7 @@ namespace {
 // Some quantity of a writer for which the test holds.
 template <class Test>
 bool any_quantity(const View& view, const Test& test) {
-    return any_writer(view, [&](uint32_t t) {
+    return is_written_by(view, [&](uint32_t t) {
         const uint32_t draw = view.facts.triangles()[t].draw;
         return std::ranges::any_of(view.facts.quantities(draw), [&](const value::Quantity& q) {
             return test(q) && is_shown(view.of(), view.of().draws[draw], q.id);
@@ -28,6 +28,11 @@ bool has_value(const View& view, std::string_view rule) {
     return any_quantity(view, [&](const value::Quantity& q) { return q.rule == rule; });
 }
 
+// A device that says 0 of every sample is right of the first.
+bool has_sample_number(const View& view, std::string_view rule) {
+    return view.sample.id.sample != 0 && has_value(view, rule);
+}
+
 bool has_interpolated(const View& view, std::string_view) {
     return any_quantity(view, [](const value::Quantity& q) {
         return q.id.is_attribute() && (q.kind == Kind::linear || q.kind == Kind::perspective);
@@ -35,7 +40,7 @@ bool has_interpolated(const View& view, std::string_view) {
 }
 
 bool has_barycentric(const View& view, std::string_view) {
-    return any_writing_draw(view, [](const cases::Draw& draw) {
+    return is_written_by_draw(view, [](const cases::Draw& draw) {
         return std::ranges::any_of(draw.attributes, [](const cases::Attribute& a) {
             return a.source == cases::Source::barycentric;
         });
@@ -49,14 +54,15 @@ bool is_at_sample(const View& view, std::string_view) {
 }
 
 bool is_sample_shaded(const View& view, std::string_view) {
-    return view.of().target.has_instruments && any_writing_draw(view, [&](const cases::Draw& draw) {
+    return view.of().target.has_instruments &&
+           is_written_by_draw(view, [&](const cases::Draw& draw) {
                const auto rate = value::shading_rate(draw, view.of().target.samples);
                return rate == value::ShadingRate::some || rate == value::ShadingRate::sample;
            });
 }
 
 bool is_written(const View& view, std::string_view) {
-    return !view.sample.writers.empty();
+    return is_surely_hit(view);
 }
 
 }  // namespace ref

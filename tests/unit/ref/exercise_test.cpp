@@ -73,6 +73,35 @@ TEST(Exercise, ADepthIsClampedByItsPlaneOrItsBias) {
     EXPECT_GT(clamped("1.5", ""), 0U);
 }
 
+// What a device shows that is wrong about the rule is what a right one shows, until the case asks.
+TEST(Exercise, AValueThatIsThereMayDecideNothing) {
+    const auto of = [](const std::string& rule, const std::string& vertices,
+                       const std::string& target, const std::string& draw) {
+        return exercise_of_text("[target]\nsize = [8, 8]\n" + target +
+                                    "[[draw]]\nvertices = " + vertices + "\n" + draw,
+                                {rule})
+            .rules[0]
+            .samples;
+    };
+    const std::string plain = "[[0,0], [8,0], [0,8]]";
+    EXPECT_EQ(of("fragcoord.w", plain, "", ""), 0U);
+    EXPECT_EQ(of("fragcoord.w", "[[0,0,0.5,1], [8,0,0.5,2], [0,8,0.5,4]]", "", ""), 28U);
+    const std::string id = "[[draw.attribute]]\nsource = \"sample-id\"\n";
+    EXPECT_EQ(of("sample.id", plain, "", id), 0U);
+    EXPECT_GT(of("sample.id", plain, "samples = 4\n", id), 0U);
+    const std::string four = "samples = 4\n";
+    const std::string centred = four + "sample_locations = [[8, 8], [8, 8], [8, 8], [8, 8]]\n";
+    EXPECT_EQ(of("fragcoord.sample", plain, centred, "min_sample_shading = 1\n"), 0U);
+    EXPECT_GT(of("fragcoord.sample", plain, four, "min_sample_shading = 1\n"), 0U);
+    // Nothing has to be drawn of a bad triangle; beside a right one its harm would be seen.
+    const std::string bad = "[nan,0,0,1], [8,0,0,1], [0,8,0,1]";
+    const std::string clip = "space = \"clip\"\n";
+    EXPECT_EQ(of("number.undefined", "[" + bad + "]", "", clip), 0U);
+    EXPECT_EQ(
+        of("number.undefined", "[" + bad + ", [-1,-1,0,1], [1,-1,0,1], [-1,1,0,1]]", "", clip),
+        28U);
+}
+
 TEST(Exercise, WhatIsDrawnBehindFailsTheTest) {
     const std::string text =
         "[target]\nsize = [8, 8]\ndepth = \"d32-float\"\n"
@@ -178,8 +207,7 @@ TEST(Exercise, AConstantShowsNoInterpolation) {
     EXPECT_EQ(samples_of("interp.linear", "", constant + "interpolation = \"noperspective\"\n"),
               0U);
     EXPECT_EQ(samples_of("interp.linear", "", plane + "interpolation = \"noperspective\"\n"), 28U);
-    // Any other bits of a flat value are wrong.
-    EXPECT_EQ(samples_of("interp.flat", "", constant + "interpolation = \"flat\"\n"), 28U);
+    EXPECT_EQ(samples_of("interp.flat", "", constant + "interpolation = \"flat\"\n"), 0U);
     EXPECT_EQ(samples_of("interp.flat", "", plane + "interpolation = \"flat\"\n"), 28U);
     EXPECT_EQ(samples_of("interp.perspective", "", constant), 0U);
     EXPECT_EQ(samples_of("interp.perspective", "", plane), 28U);  // another w would change it
