@@ -111,7 +111,7 @@ std::string settings_of(const RunOptions& options) {
 }  // namespace
 
 OrStop<Selection> select_cases(const Program& program, const RunOptions& options) {
-    OrStop<LoadedSuite> suite = load_and_select(program, options.suite);
+    OrStop<LoadedSuite> suite = load_with_ids(program, options.suite);
     if (!suite) {
         return tl::unexpected(suite.error());
     }

@@ -105,9 +105,12 @@ class FileIds {
 };
 
 // Puts all of their contents into the place of selected cases of which the id is known.
-OrStop<std::monostate> load_contents(LoadedSuite& suite) {
+OrStop<LoadedSuite> load_contents(LoadedSuite suite) {
     std::map<std::string, std::vector<cases::Case>> files;
     for (const size_t k : suite.selected) {
+        if (k >= suite.outside) {
+            continue;  // read already
+        }
         cases::Case& c = suite.cases[k];
         const auto [file, fresh] = files.try_emplace(c.where.file);
         if (fresh) {
@@ -126,7 +129,7 @@ OrStop<std::monostate> load_contents(LoadedSuite& suite) {
         c = std::move(*full);
         full->id.clear();
     }
-    return std::monostate{};
+    return suite;
 }
 
 // Loads the case files outside the suite that selectors name, themselves or by their folder, and
@@ -295,31 +298,27 @@ OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& 
     return select_of({*root, std::move(loaded.cases), {}, 0, {}}, options);
 }
 
+OrStop<LoadedSuite> load_with_ids(const Program& program, const SuiteOptions& options) {
+    // What is no name is asked of the cases themselves.
+    const auto is_asked = [](const std::string& s) { return s == "-" || s.find('@') != s.npos; };
+    const std::vector<std::string>& all = options.selectors;
+    if (all.empty() || std::any_of(all.begin(), all.end(), is_asked)) {
+        return load_and_select(program, options);
+    }
+    OrStop<LoadedSuite> suite = load_and_select(program, options, cases::Contents::ids);
+    return suite ? load_contents(std::move(*suite)) : suite;
+}
+
 OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& options) {
     const OrStop<fs::path> root = find_suite_root(program, options.suite);
     if (!root) {
         return tl::unexpected(root.error());
     }
-    const std::vector<std::string>& selectors = options.selectors;
-    const auto is_any = [&](auto&& test) {
-        return std::any_of(selectors.begin(), selectors.end(), test);
-    };
-    if (!selectors.empty() &&
-        !is_any([&](const std::string& s) { return !is_outside(s, *root); })) {
-        return select_of({*root, {}, {}, 0, {}}, options);
-    }
-    if (selectors.empty() ||  // what is no name is asked of the cases themselves
-        is_any([](const std::string& s) { return s == "-" || s.find('@') != s.npos; }) ||
-        is_any([&](const std::string& s) { return is_outside(s, *root); })) {
-        return load_and_select(program, options);
-    }
-    OrStop<LoadedSuite> suite = load_and_select(program, options, cases::Contents::ids);
-    if (suite) {
-        if (auto loaded = load_contents(*suite); !loaded) {
-            return tl::unexpected(loaded.error());
-        }
-    }
-    return suite;
+    const std::vector<std::string>& all = options.selectors;
+    const auto is_own = [&](const std::string& s) { return is_outside(s, *root); };
+    return !all.empty() && std::all_of(all.begin(), all.end(), is_own)
+               ? select_of({*root, {}, {}, 0, {}}, options)
+               : load_with_ids(program, options);
 }
 
 OrStop<cases::Case> load_one_case(const Program& program, const SuiteOptions& options) {

@@ -52,7 +52,10 @@ OrStop<LoadedSuite> load_and_select(const Program& program, const SuiteOptions& 
                                     cases::Contents contents = cases::Contents::all);
 
 // As load_and_select, for commands that look at selected cases only: of the other cases of the
-// suite the ids are read, and none if all selectors name files outside of it.
+// suite the ids are read.
+OrStop<LoadedSuite> load_with_ids(const Program& program, const SuiteOptions& options);
+
+// As load_with_ids, but no id is read if all selectors name files outside of the suite.
 OrStop<LoadedSuite> load_selected(const Program& program, const SuiteOptions& options);
 
 // As load_selected, for commands on a single case.

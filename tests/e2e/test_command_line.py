@@ -615,6 +615,14 @@ class Listing(ProgramTest):
 
 
 class Selection(ProgramTest):
+    def test_what_is_not_selected_is_not_read(self):
+        """Of the other files of the suite a run of some cases reads names and matrices alone."""
+        self.write_case("fam/c4", CASE.format(n=4).replace("[target]", "[target]\nsizes = 3"))
+        self.run_suite("fam/c3", check=0)
+        self.assertEqual(self.statuses(), {"fam/c3": "pass"})
+        for words in ((), ("fam/c3", "fam/c4")):
+            self.assertIn("[target] has no key \"sizes\"", self.run_suite(*words, check=3).stderr)
+
     def order(self, *words):
         self.run_suite(*words, check=0)
         return [c["id"] for c in self.results()["cases"]]
