@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +15,7 @@
 
 #include "capture/checksum.hpp"
 #include "cases/format/color_format.hpp"
+#include "cases/model/derive.hpp"
 #include "report/record/run.hpp"
 #include "run/process/frame.hpp"
 #include "run/process/shared_memory.hpp"
@@ -208,11 +210,36 @@ void render_batch(Backend& backend, const RenderRequest& request, const std::vec
     send(FrameType::batch_done, {});
 }
 
+// What the device lacks for a case. One of doors alone shows nothing on a device that has none of
+// the doors that its file names (lacking_doors in run/judge.cpp says so of a drawn one).
+std::string lacking_of(const Backend& backend, const cases::Case& c) {
+    std::string reason = backend.lacking(c);
+    const bool is_of_doors =
+        std::all_of(c.rules.begin(), c.rules.end(),
+                    [](const std::string& rule) { return rule.starts_with("door."); });
+    if (!reason.empty() || !is_of_doors) {
+        return reason;
+    }
+    for (const cases::Derivation& d : cases::derivations(c)) {
+        const bool is_own = d.kind == cases::RelationKind::door &&
+                            std::any_of(c.relations.begin(), c.relations.end(),
+                                        [&](const auto& r) { return r.door == d.variation.door; });
+        if (is_own) {
+            const std::string closed = backend.lacking(cases::derive(c, d));
+            if (closed.empty()) {
+                return {};
+            }
+            reason = reason.empty() ? closed : reason;
+        }
+    }
+    return reason;
+}
+
 void answer_what_is_lacking(const Backend& backend, const RenderRequest& request) {
     for (size_t k = 0; k < request.cases.size(); ++k) {
         CaseResult result;
         result.index = static_cast<uint32_t>(k);
-        result.rendered.reason = backend.lacking(request.cases[k]);
+        result.rendered.reason = lacking_of(backend, request.cases[k]);
         if (!result.rendered.reason.empty()) {
             result.rendered.status = Rendered::Status::unsupported;
         }

@@ -47,19 +47,20 @@ def environment(device, folder):
     return env
 
 
-def hit_counting(device, folder):
-    """In which numbers the program counts hits on a device of the class, as doctor tells."""
-    done = subprocess.run([PROGRAM, "doctor", "--json"], env=environment(device, folder), capture_output=True, text=True)
-    return next((d["hit_counting"] for d in json.loads(done.stdout)["devices"] if d["name"].startswith("llvmpipe")), "")
+def doctor(device, folder, suite=SOURCE / "cases" / "suite"):
+    """What doctor tells of a device of the class, above all what of the suite it can draw; nothing if it is not usable."""
+    env = environment(device, folder) | {"EDGECASE_SUITE": str(suite)}
+    done = subprocess.run([PROGRAM, "doctor", "--json"], env=env, capture_output=True, text=True)
+    return next((d for d in json.loads(done.stdout)["devices"] if d["name"].startswith("llvmpipe")), None)
 
 
-def run(device, folder, selectors=()):
+def run(device, folder, words=(), suite=SOURCE / "cases" / "suite"):
     """(exit code, results or nothing, what was printed) of a run on a device of the class; of nothing, on lavapipe itself."""
     out = pathlib.Path(folder) / "out"
     results = out / "results.json"
     results.unlink(missing_ok=True)
-    words = [PROGRAM, "run", "--suite", str(SOURCE / "cases" / "suite"), "--device", "llvmpipe", "--no-diagnosis", "-o", str(out),
-             *selectors]
-    done = subprocess.run(words, env=environment(device, folder), capture_output=True, text=True)
+    command = [PROGRAM, "run", "--suite", str(suite), "--device", "llvmpipe", "--no-diagnosis", "-o", str(out),
+               "--html", "/dev/null", *words]
+    done = subprocess.run(command, env=environment(device, folder), capture_output=True, text=True)
     parsed = json.loads(results.read_text(encoding="utf-8")) if results.exists() else None
     return done.returncode, parsed, done.stdout + done.stderr
