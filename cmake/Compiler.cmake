@@ -50,3 +50,8 @@ function(edgecase_unite target size)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
     endif()
 endfunction()
+
+# Tests spend their time in the rooms that they call: their own code is compiled in four fifths of the time.
+function(edgecase_optimise_little target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+endfunction()

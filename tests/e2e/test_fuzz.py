@@ -36,13 +36,13 @@ class FuzzTest(ProgramTest):
 
 class Hunts(FuzzTest):
     def test_causes_are_reduced_and_kept(self):
-        done = self.fuzz("--cases=12288", check=1)
+        done = self.fuzz("--cases=6144", check=1)
         ledger, found = self.ledger(), self.found()
         jsonschema.Draft7Validator(json.loads((SOURCE / "docs/schema/fuzz-1.json").read_text())).validate(ledger)
         self.assertTrue(ledger["is_finished"])
         self.assertEqual(ledger["unjudged_cases"], 0)
-        self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 12289)
-        self.assertGreater(ledger["judged_cases"], 6000)
+        self.assertLess(ledger["judged_cases"] + ledger["unsupported_cases"] + ledger["empty_cases"], 6145)
+        self.assertGreater(ledger["judged_cases"], 3000)
         # lavapipe's scissor that ends beyond 65535 draws nothing (docs/findings/lavapipe-scissor-16-bits.md).
         scissor = [c for c in ledger["causes"] if c["essentials"] == ["draw.scissor", "draw.scissor beyond 32767"]]
         self.assertTrue(scissor, done.stdout)
@@ -66,7 +66,7 @@ class Hunts(FuzzTest):
             for _ in range(3):
                 self.edgecase("run", path, "--no-expect", "-q", "-o", "run", check=1)
         # What is known is no news. (A few causes may be: the first hunt reduced a part of what failed.)
-        done = self.fuzz("--cases=12288", "--known", self.folder / "hunt", out=self.folder / "again")
+        done = self.fuzz("--cases=6144", "--known", self.folder / "hunt", out=self.folder / "again")
         known = {(c["symptom"], *c["essentials"]) for c in ledger["causes"]}
         again = self.ledger("again")["causes"]
         fresh = [c for c in again if not c["is_known"]]
@@ -101,9 +101,10 @@ class Hunts(FuzzTest):
 
     def test_the_same_seed_finds_the_same(self):
         for folder in ("a", "b"):
-            self.fuzz("--cases=1024", fault="flip-pixel@*", out=self.folder / folder, check=1)
+            self.fuzz("--cases=96", fault="flip-pixel@*", out=self.folder / folder, check=1)
+        self.assertGreater(len(self.found("a")), 2)
         self.assertEqual(self.found("a"), self.found("b"))
-        self.fuzz("--cases=1024", "--seed=2", fault="flip-pixel@*", out=self.folder / "c", check=1)
+        self.fuzz("--cases=96", "--seed=2", fault="flip-pixel@*", out=self.folder / "c", check=1)
         self.assertNotEqual(self.found("a"), self.found("c"))
 
     def test_shards_share_out_the_cases(self):

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every reason that is told of a wrong value decides: the value is right once it is taken away. On
-// some samples of every leaf of the suite at every profile.
+// some samples of a share of the leaves of the suite at every profile (EDGECASE_REASON_SHARE,
+// share.hpp; all of it for the night).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "folders.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/value.hpp"
+#include "tests/share.hpp"
 
 namespace ref::test {
 namespace {
@@ -219,10 +221,27 @@ TEST(Reasons, NameTheBarycentricOfAnotherVertex) {
 TEST(Reasons, OfValuesDecide) {
     std::map<ReasonKind, size_t> told, taken;
     const cases::Suite suite = cases::load_suite(test_support::source_dir() + "/cases/suite");
-    for (const cases::Case& c : suite.cases) {
-        for (const Profile profile : cases::kProfiles) {
-            if (!c.blit && c.target.has_instruments) {
-                LeafValues(c, profile).check(told, taken);
+    const auto share = test_support::share_of("EDGECASE_REASON_SHARE", 3, suite.cases.size());
+    const auto is_shown = [&](ReasonKind kind) {
+        return kind == ReasonKind::value_other_weight ||  // the test above
+               (told[kind] > 0 && (kind == ReasonKind::value_exact || taken[kind] > 0));
+    };
+    const auto is_all_shown = [&] {
+        size_t k = static_cast<size_t>(ReasonKind::value_set_up);
+        while (k <= static_cast<size_t>(kLastReason) && is_shown(static_cast<ReasonKind>(k))) {
+            ++k;
+        }
+        return k > static_cast<size_t>(kLastReason);
+    };
+    // Then the other leaves, until a reason that the share does not show is seen, too.
+    for (const bool is_of_share : {true, false}) {
+        for (const cases::Case& c : suite.cases) {
+            for (const Profile profile : cases::kProfiles) {
+                if (!c.blit && c.target.has_instruments &&
+                    share.has(c.id + std::string(to_string(profile))) == is_of_share &&
+                    (is_of_share || !is_all_shown())) {
+                    LeafValues(c, profile).check(told, taken);
+                }
             }
         }
     }
