@@ -19,10 +19,10 @@ limits, formats and extensions, as drivers' sources and reports publish them; th
 where it is from and which are estimates. The layer ends the process when something that the class does not advertise is
 used. Nothing fails under a class that does not fail on lavapipe itself.
 
-`cmake --build --preset release --target devices_page` asks `edgecase doctor` of every class and writes this page; a test
-compares it. *Unsupported* is the share of the suite's cases, *aim* what it shall be at most, *hits* in which numbers
-hits are counted. *Untried* are cases that the class might run and lavapipe cannot: it has 1 and 4 samples a pixel
-alone. Other tests hold what `doctor` says to what runs say, and draw a share of the suite under every class.
+`cmake --build --preset release --target devices_page` asks `edgecase doctor` of every class and writes this page; a
+test compares it. *Unsupported* is the share of the suite's cases, *aim* what it shall be at most, *hits* in which
+numbers hits are counted. *Untried* are cases that the class might run and lavapipe cannot: it has 1 and 4 samples a
+pixel alone. Other tests hold what `doctor` says to what runs say, and draw a share of the suite under every class.
 
 | class | Vulkan | unsupported | aim | untried | hits |
 | --- | --- | --- | --- | --- | --- |
