@@ -102,10 +102,12 @@ SampleState sample_state(const CaptureView& capture, size_t index) {
     if (!guards_hold || writer.spare != kClearId) {
         return SampleState::inconsistent;
     }
-    const bool nothing_written = writer == Writer{} && is_clear(frag_coord) && attributes_clear &&
-                                 (capture.depth.empty() || is_clear_depth(capture.target, depth));
+    const bool nothing_written = writer == Writer{} && is_clear(frag_coord) && attributes_clear;
     if (same_bits(hits.x + hits.y, 0.0F)) {
-        return nothing_written ? SampleState::clear : SampleState::inconsistent;
+        return !nothing_written ? SampleState::inconsistent
+               : capture.depth.empty() || is_clear_depth(capture.target, depth)
+                   ? SampleState::clear
+                   : SampleState::depth_only;
     }
     const bool written = writer.draw != kClearId && writer.primitive != kClearId &&
                          writer.provoking_vertex != kClearId && !is_clear(frag_coord);

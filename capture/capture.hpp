@@ -200,6 +200,7 @@ bool has_all_planes(const CaptureView& c);
 enum class SampleState : uint8_t {
     clear,         // nothing hit it, every attachment holds its clear value
     drawn,         // hits are whole numbers and agree with the guards and the writer
+    depth_only,    // nothing hit it, and it is clear but for its depth
     not_copied,    // poison: read-back failed
     inconsistent,  // anything else: the attachments contradict each other
 };

@@ -36,7 +36,11 @@ class Comparison {
           selection_(selection),
           last_fragment_(c, expectation, capture_, selection_, attribution_, values_),
           has_pixel_rules_(selection.is_all() && c.target.has_instruments && has_pixel_rules(c)),
-          has_runs_(!is_by_sample && !has_pixel_rules_ && selection.is_all()),
+          has_discards_(std::ranges::any_of(
+              c.draws,
+              [](const cases::Draw& draw) { return draw.discard != cases::Discard::none; })),
+          stores_discarded_(cases::stores_discarded(c)),
+          has_runs_(!is_by_sample && !has_pixel_rules_ && selection.is_all() && !stores_discarded_),
           run_judge_(c, expectation, capture_, values_) {
         values_.judge_only(selection);
         values_.tell_only(
@@ -208,7 +212,8 @@ class Comparison {
         const ref::SampleExpectation& expected = expectation_.samples[index];
         const ref::HitBounds& bounds = expected.hits;
         const capture::SampleState state = capture::sample_state(capture_, index);
-        if (state == capture::SampleState::clear && bounds == ref::HitBounds{} && !color_) {
+        if (state == capture::SampleState::clear && bounds == ref::HitBounds{} && !color_ &&
+            !stores_discarded_) {
             ++verdict_.compared_samples;  // marks and hits are zero already
             return;
         }
@@ -227,17 +232,17 @@ class Comparison {
                     "memory's fill pattern",
                     id.sample, cases::pixel_text(case_.target, id));
                 return;
-            case capture::SampleState::inconsistent: {
-                Finding finding = finding_at(FindingKind::value, case_.target, id);
-                tell(finding, ref::ReasonKind::planes_contradict);
-                finding.level = cases::Profile::vulkan;
-                finding.quantity = "attachments";
-                finding.expected = "all attachments written by the same fragments";
-                finding.got = contradiction_text(capture_, index);
-                verdict_.device_hits[index] = 255;
-                add(std::move(finding));
+            case capture::SampleState::inconsistent:
+                add_contradiction(index, id, ref::ReasonKind::planes_contradict);
                 return;
-            }
+            case capture::SampleState::depth_only:
+                if (!stores_discarded_ || expected.depth_count == 0) {
+                    add_contradiction(index, id,
+                                      has_discards_ ? ref::ReasonKind::depth_of_taken
+                                                    : ref::ReasonKind::planes_contradict);
+                    return;
+                }
+                break;
             case capture::SampleState::clear:
             case capture::SampleState::drawn:
                 break;
@@ -256,7 +261,22 @@ class Comparison {
             judge_fragment(index, id);
         } else {
             judge_color(index, id, std::nullopt);
+            if (std::optional<Finding> finding =
+                    stores_discarded_ ? last_fragment_.judge_unhit(index, id) : std::nullopt) {
+                add(std::move(*finding));
+            }
         }
+    }
+
+    void add_contradiction(size_t index, cases::SampleId id, ref::ReasonKind why) {
+        Finding finding = finding_at(FindingKind::value, case_.target, id);
+        tell(finding, why);
+        finding.level = cases::Profile::vulkan;
+        finding.quantity = "attachments";
+        finding.expected = "all attachments written by the same fragments";
+        finding.got = contradiction_text(capture_, index);
+        verdict_.device_hits[index] = 255;
+        add(std::move(finding));
     }
 
     void judge_fragment(size_t index, cases::SampleId id) {
@@ -322,6 +342,8 @@ class Comparison {
     ref::ValueSelection selection_;
     LastFragment last_fragment_;
     bool has_pixel_rules_ = false;
+    bool has_discards_ = false;
+    bool stores_discarded_ = false;
     bool has_runs_ = false;  // what is plainly right is judged by runs of samples
     RunJudge run_judge_;
     std::optional<ColorComparison> color_;

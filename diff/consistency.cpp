@@ -80,6 +80,13 @@ uint32_t clear_word(uint32_t plane, uint32_t word, const cases::Variation& varia
     }
 }
 
+// Whether the planes of a sample do not contradict each other; a depth without a hit is judged
+// elsewhere.
+bool is_whole(capture::SampleState state) {
+    return state == capture::SampleState::clear || state == capture::SampleState::drawn ||
+           state == capture::SampleState::depth_only;
+}
+
 // What the variation makes of a word of the case's own rendering. Binary32 holds hit counts and
 // their guards exactly, so moving a guard moves every count by as much.
 uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, capture::SampleState state,
@@ -88,7 +95,9 @@ uint32_t varied_word(uint32_t plane, uint32_t word, uint32_t base, capture::Samp
         return base;  // whatever the case clears depth to
     }
     if (is_masked(variation, plane) ||
-        (state == capture::SampleState::clear && plane != kColorPlane)) {
+        (state == capture::SampleState::clear && plane != kColorPlane) ||
+        (state == capture::SampleState::depth_only && plane != kColorPlane &&
+         plane != kDepthPlane)) {
         return clear_word(plane, word, variation);
     }
     if (plane == kHitsPlane && word >= 2 && variation.other_clears) {
@@ -160,7 +169,7 @@ class BitComparison {
         }
         for (size_t sample = 0; sample < count; ++sample) {
             const capture::SampleState state = capture::sample_state(base_, sample);
-            if (state == capture::SampleState::clear || state == capture::SampleState::drawn) {
+            if (is_whole(state)) {
                 compare_sample(sample, state);
             } else {
                 --result_.compared;
@@ -274,8 +283,7 @@ template <class T>
 void vary_plane(std::vector<T>& plane, uint32_t id, std::span<const capture::SampleState> states,
                 const cases::Variation& variation) {
     for (size_t sample = 0; sample < plane.size(); ++sample) {
-        if (states[sample] != capture::SampleState::clear &&
-            states[sample] != capture::SampleState::drawn) {
+        if (!is_whole(states[sample])) {
             continue;
         }
         std::array<uint32_t, sizeof(T) / sizeof(uint32_t)> words{};

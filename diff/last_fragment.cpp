@@ -60,6 +60,14 @@ LastFragment::Outcome LastFragment::judge(size_t index, cases::SampleId id) {
     return out;
 }
 
+std::optional<Finding> LastFragment::judge_unhit(size_t index, cases::SampleId id) {
+    const ref::SampleExpectation& expected = expectation_.samples[index];
+    if (!case_.target.has_depth || !selection_.depth || expected.depth_count == 0) {
+        return std::nullopt;
+    }
+    return judge_older_depth(id, expected, values_at(capture_, index));
+}
+
 uint64_t LastFragment::values_of(uint32_t t) const {
     // FragCoord.xy, z, w; depth
     uint64_t count = (selection_.frag_coord ? 3U : 0U) + (selection_.depth ? 1U : 0U);
@@ -114,7 +122,8 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
         finding.ratio = m.ratio;
     }
     finding.got = cases::number_text(device.depth);
-    tell(finding, ref::ReasonKind::depth_unwritten);
+    tell(finding, cases::stores_discarded(case_) ? ref::ReasonKind::depth_of_discarded
+                                                 : ref::ReasonKind::depth_unwritten);
     return finding;
 }
 

@@ -52,6 +52,10 @@ class LastFragment {
     // Judges a sample that was hit as often as it may be; `index` is that of `id`.
     Outcome judge(size_t index, cases::SampleId id);
 
+    // Judges the depth of a sample that nothing hit, if fragments that are discarded may have
+    // stored theirs (cases/model/discard.hpp).
+    std::optional<Finding> judge_unhit(size_t index, cases::SampleId id);
+
     // Whether anybody will read the texts of a wrong value that is judged now, given what has been
     // found before.
     bool is_told(const ref::ValueMismatch& mismatch, const Verdict& so_far) const {

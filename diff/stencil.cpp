@@ -71,7 +71,8 @@ ReasonKind StencilComparison::reason_of(size_t index, uint32_t value, cases::Pro
 
 std::optional<Finding> StencilComparison::judge(size_t index, cases::SampleId id) {
     const capture::SampleState state = capture::sample_state(capture_, index);
-    if (state != capture::SampleState::clear && state != capture::SampleState::drawn) {
+    if (state != capture::SampleState::clear && state != capture::SampleState::drawn &&
+        state != capture::SampleState::depth_only) {
         return std::nullopt;
     }
     const uint32_t got = capture_.stencil[index];

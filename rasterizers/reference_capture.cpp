@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/blank_capture.hpp"
+#include "cases/model/discard.hpp"
 #include "cases/model/sample.hpp"
 #include "diff/consistency.hpp"
 #include "rasterizers/captures.hpp"
@@ -97,6 +98,7 @@ capture::Capture draw_by_reference(const cases::Case& c) {
     const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
     ref::ValueReference values(c, limits, cases::Profile::direct3d);
 
+    const bool stores_discarded = cases::stores_discarded(c);
     capture::Capture capture = capture::blank_capture(c);
     const size_t n = capture.sample_count();
     for (size_t index = 0; index < n; ++index) {
@@ -108,18 +110,33 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         if (ref::stencil::is_needed(c)) {
             capture.stencil.push_back(pick_stencil(expectation, sample, {front, back}));
         }
+        const cases::SampleId id = cases::sample_at(c.target, index);
+        const auto leave_older_depth = [&] {
+            if (sample.depth_count == 0) {
+                return;
+            }
+            const uint32_t last =
+                expectation.depth_writers[sample.depth_begin + sample.depth_count - 1];
+            for (const ref::ExpectedValue& value : values.expected(last, id)) {
+                if (value.quantity.is_depth()) {
+                    capture.depth[index] = static_cast<float>(value.nearest);
+                }
+            }
+        };
         if (front + back == 0 || sample.writers_count == 0) {
+            if (stores_discarded) {
+                leave_older_depth();
+            }
             continue;
         }
         capture.hits[index].x = static_cast<float>(front);
         capture.hits[index].y = static_cast<float>(back);
         capture.hits[index].w += static_cast<float>(front + back);
-        const cases::SampleId id = cases::sample_at(c.target, index);
         const Writer writer = pick_writer(expectation, sample, values, id);
         const cases::Triangle& triangle = expectation.triangles[writer.triangle];
         capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                                   capture::kClearId};
-        const bool writes_depth = c.draws[triangle.draw].depth.write;
+        const bool writes_depth = c.draws[triangle.draw].depth.write && !stores_discarded;
         ref::FragmentValues drawn;
         drawn.frag_coord =
             glm::vec4(static_cast<float>(id.x) + 0.5F, static_cast<float>(id.y) + 0.5F, 0.0F, 1.0F);
@@ -141,14 +158,8 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         for (size_t a = 0; a < c.draws[triangle.draw].attributes.size(); ++a) {
             capture.attributes[a][index] = drawn.attributes[a];
         }
-        if (!writes_depth && sample.depth_count > 0) {
-            const uint32_t last =
-                expectation.depth_writers[sample.depth_begin + sample.depth_count - 1];
-            for (const ref::ExpectedValue& value : values.expected(last, id)) {
-                if (value.quantity.is_depth()) {
-                    capture.depth[index] = static_cast<float>(value.nearest);
-                }
-            }
+        if (!writes_depth) {
+            leave_older_depth();
         }
     }
     add_color_plane(capture, c, expectation);

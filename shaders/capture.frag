@@ -6,7 +6,7 @@
 //
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
 // PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
-// SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), COLOR (0 none, 1 float, 2 uint),
+// SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), DISCARD, COLOR (0 none, 1 float, 2 uint),
 // INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
 // each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
@@ -27,6 +27,7 @@ layout(push_constant) uniform Draw {
     layout(offset = 32) vec2 offsets[4];
     layout(offset = 64) ivec4 sample_numbers;
     layout(offset = 80) uint sample_mask;
+    layout(offset = 84) uint discarded;  // numbered as cases::Discard
 }
 draw;
 
@@ -219,5 +220,20 @@ void main() {
 #endif
 #if MASK_OUT
     gl_SampleMask[0] = int(draw.sample_mask);
+#endif
+#if DISCARD
+    // At the end, so that derivatives see every fragment.
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    bool is_discarded;
+    switch (draw.discarded) {
+        case 1u: is_discarded = pixel.x % 2u == 1u; break;
+        case 2u: is_discarded = pixel.y % 2u == 1u; break;
+        case 3u: is_discarded = (pixel.x + pixel.y) % 2u == 1u; break;
+        case 4u: is_discarded = gl_FrontFacing; break;
+        default: is_discarded = !gl_FrontFacing; break;
+    }
+    if (is_discarded) {
+        discard;
+    }
 #endif
 }

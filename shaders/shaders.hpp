@@ -35,6 +35,7 @@ struct FragmentVariant {
     bool mask_in = false;
     bool sample = false;  // gl_SampleID, gl_SamplePosition: turn sample shading on
     bool mask_out = false;
+    bool discards = false;
     bool split = false;  // instruments as four small outputs instead of two of four numbers
     bool pairs = false;  // split: each attribute as two outputs of two numbers
     ColorKind color = ColorKind::none;
@@ -72,9 +73,10 @@ struct DrawConstants {
     float offsets[kMaxAttributes][2] = {};
     int32_t sample_numbers[kMaxAttributes] = {};
     uint32_t sample_mask = 0xffffffffU;  // gl_SampleMask, if the shader writes it
+    uint32_t discarded = 0;              // numbered as cases::Discard, if the shader discards
 };
 // Below maxPushConstantsSize, which is at least 128.
-static_assert(sizeof(DrawConstants) == 84);
+static_assert(sizeof(DrawConstants) == 88);
 
 // The module of a variant; empty if the build made none of that combination.
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);

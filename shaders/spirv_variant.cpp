@@ -16,6 +16,8 @@ namespace {
 constexpr uint32_t kMagic = 0x07230203;
 constexpr uint32_t kHeaderWords = 5;
 enum Op : uint32_t {
+    kOpEntryPoint = 15,
+    kOpExecutionMode = 16,
     kOpCapability = 17,
     kOpVariable = 59,
     kOpDecorate = 71,
@@ -31,6 +33,7 @@ enum Decoration : uint32_t {
     kLocation = 30,
 };
 enum Capability : uint32_t { kGeometry = 2, kSampleRateShading = 35 };
+constexpr uint32_t kEarlyFragmentTests = 9;  // an execution mode
 constexpr uint32_t kStorageInput = 1;
 constexpr uint32_t kBuiltInPrimitiveId = 7;
 
@@ -210,6 +213,29 @@ tl::expected<std::vector<uint32_t>, std::string> change_inputs(
         for (const uint32_t decoration : edit->decorations) {
             out.insert(out.end(), {first_word(kOpDecorate, 3), edit->id, decoration});
         }
+    }
+    return out;
+}
+
+tl::expected<std::vector<uint32_t>, std::string> with_early_tests(
+    std::span<const uint32_t> module) {
+    auto code = split(module);
+    if (!code) {
+        return Error(code.error());
+    }
+    const auto is = [](uint32_t op) { return [op](const Instruction& i) { return i.op == op; }; };
+    const auto entry = std::find_if(code->begin(), code->end(), is(kOpEntryPoint));
+    const auto mode = std::find_if(code->begin(), code->end(), is(kOpExecutionMode));
+    if (entry == code->end() || mode == code->end()) {
+        return Error("the module has no entry point of a fragment shader");
+    }
+    std::vector<uint32_t> out(module.begin(), module.begin() + kHeaderWords);
+    for (auto i = code->begin(); i != code->end(); ++i) {
+        if (i == mode) {
+            out.insert(out.end(),
+                       {first_word(kOpExecutionMode, 3), entry->words[2], kEarlyFragmentTests});
+        }
+        out.insert(out.end(), i->words.begin(), i->words.end());
     }
     return out;
 }

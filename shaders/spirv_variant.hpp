@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Changes the decorations of a compiled fragment shader's inputs. Interpolation and auxiliary
-// qualifiers are decorations in SPIR-V and nothing else, so one module serves all combinations of
-// them. Source: SPIR-V specification 1.3, sections 2.3 "Physical Layout", 2.4 "Logical Layout",
-// 3.20 "Decoration", 3.21 "BuiltIn", 3.31 "Capability".
+// Changes the decorations of a compiled fragment shader's inputs, and its execution modes.
+// Interpolation and auxiliary qualifiers are decorations in SPIR-V and nothing else, so one module
+// serves all combinations of them. Source: SPIR-V specification 1.3, sections 2.3 "Physical
+// Layout", 2.4 "Logical Layout", 3.20 "Decoration", 3.21 "BuiltIn", 3.31 "Capability".
 #pragma once
 
 #include <compare>
@@ -37,5 +37,9 @@ inline constexpr uint32_t kBuiltInBaryCoord = 5286, kBuiltInBaryCoordNoPersp = 5
 // that is there already or contradicts another.
 tl::expected<std::vector<uint32_t>, std::string> change_inputs(
     std::span<const uint32_t> module, std::span<const InputChange> changes);
+
+// The module of a fragment shader with one entry point, with the execution mode EarlyFragmentTests.
+// Errors: as above, and no entry point or execution mode.
+tl::expected<std::vector<uint32_t>, std::string> with_early_tests(std::span<const uint32_t> module);
 
 }  // namespace shaders

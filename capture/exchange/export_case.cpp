@@ -278,6 +278,8 @@ class Needs {
         add(d.cull != cases::CullMode::none, "cull");
         add(d.provoking == cases::ProvokingVertex::last, "provoking-last");
         add(d.rasterizer_discard, "rasterizer-discard");
+        add(d.discard != cases::Discard::none, "discard");
+        add(d.early_tests, "early-tests");
         add(d.depth.compare != cases::CompareOp::always, "depth-test");
         add(!d.depth.write, "depth-write-mask");
         add(t.has_stencil && !(d.stencil == cases::StencilState{}), "stencil-test");

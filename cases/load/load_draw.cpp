@@ -41,7 +41,7 @@ class DrawLoader {
                              "cull_distance", "attribute",   "mirror",       "rotate",
                              "offset",        "winding",     "first",        "order",
                              "color",         "sample_mask", "shader_mask",  "min_sample_shading",
-                             "stencil"});
+                             "stencil",       "discard",     "early_tests"});
         draw_.where = table_.where;
         context_.read(table_, "topology", draw_.topology);
         context_.read(table_, "cull", draw_.cull);
@@ -49,6 +49,13 @@ class DrawLoader {
         space_ = static_cast<Space>(word("space", kSpace));
         draw_.multisample = load_multisample(context_, table_);
         context_.read(table_, "rasterizer_discard", draw_.rasterizer_discard);
+        context_.read(table_, "discard", draw_.discard);
+        context_.read(table_, "early_tests", draw_.early_tests);
+        if (draw_.early_tests && draw_.multisample.shader_mask) {
+            context_.error(table_.find("early_tests")->where,
+                           "a shader with early tests writes no gl_SampleMask here; leave out "
+                           "early_tests or shader_mask");
+        }
         read_viewport();
         read_scissor();
         context_.read(table_, "viewport_index", draw_.viewport_index, 0, kMaxViewportIndex);

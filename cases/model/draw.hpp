@@ -24,6 +24,9 @@ enum class Interpolation : uint8_t { smooth, noperspective, flat };
 // Auxiliary storage qualifier of a fragment input: where in the pixel it is evaluated.
 enum class Auxiliary : uint8_t { none, centroid, sample };
 enum class ProvokingVertex : uint8_t { first, last };
+// Which of a draw's fragments the fragment shader discards: those in every second column, row or
+// both, pixel (0, 0) not among them, or those of one face.
+enum class Discard : uint8_t { none, odd_columns, odd_rows, checker, front, back };
 // How the depth test and the stencil test compare.
 enum class CompareOp : uint8_t {  // numbered as VkCompareOp
     never,
@@ -246,6 +249,10 @@ struct Draw {
     FrontFace front_face = FrontFace::counter_clockwise;
     ProvokingVertex provoking = ProvokingVertex::first;
     bool rasterizer_discard = false;  // rasterizerDiscardEnable: no fragment comes of it
+    Discard discard = Discard::none;  // by the fragment shader
+    // EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader, and
+    // what it discards has been stored.
+    bool early_tests = false;
     DepthState depth;
     StencilState stencil;  // if the target has a stencil
     ClipDistances distances;
@@ -267,6 +274,8 @@ struct Draw {
         visit("front_face", d.front_face...);
         visit("provoking_vertex", d.provoking...);
         visit("rasterizer_discard", d.rasterizer_discard...);
+        visit("discard", d.discard...);
+        visit("early_tests", d.early_tests...);
         visit("depth", d.depth...);
         visit("stencil", d.stencil...);
         visit("multisample", d.multisample...);

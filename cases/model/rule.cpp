@@ -60,6 +60,17 @@ constexpr std::array kRules = {
          "Its primitives are discarded before rasterization: no sample, no depth, no stencil and "
          "no colour changes, and the draws before and after it are drawn as ever.",
          "primsrast-discard", "", "ref/coverage/setup.cpp"},
+    Rule{
+        rule::discard_fragment, Profile::vulkan,
+        "A fragment that its shader discards leaves no trace",
+        "It changes no colour, no depth and no stencil, unless depth and stencil are tested before "
+        "the shader; its neighbours, and the same pixel's other fragments, are drawn as ever.",
+        "fragops-shader", "", "cases/model/discard.hpp"},
+    Rule{rule::discard_early_tests, Profile::vulkan,
+         "With early tests a discarded fragment has stored its depth and stencil",
+         "EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader "
+         "is executed, so what it discards then takes back its colours alone.",
+         "fragops-early-mode", "", "cases/model/discard.hpp"},
     Rule{rule::clip_volume, Profile::vulkan, "Nothing is drawn outside the clip volume",
          "-w <= x <= w, -w <= y <= w, 0 <= z <= w; what lies behind the eye does not show.",
          "vertexpostproc-clipping", "15.4", "ref/position/clip.hpp"},

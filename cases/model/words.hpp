@@ -40,6 +40,9 @@ inline constexpr WordList<4> kWords<CullMode> = {"none", "front", "back", "front
 template <>
 inline constexpr WordList<2> kWords<FrontFace> = {"counter-clockwise", "clockwise"};
 template <>
+inline constexpr WordList<6> kWords<Discard> = {"none",    "odd-columns", "odd-rows",
+                                                "checker", "front",       "back"};
+template <>
 inline constexpr WordList<3> kWords<Interpolation> = {"smooth", "noperspective", "flat"};
 template <>
 inline constexpr WordList<3> kWords<Auxiliary> = {"none", "centroid", "sample"};
@@ -111,9 +114,10 @@ constexpr bool ends_with(Enum last) {
 }  // namespace detail
 static_assert(detail::ends_with(Topology::triangle_fan) &&
               detail::ends_with(CullMode::front_and_back) &&
-              detail::ends_with(FrontFace::clockwise) && detail::ends_with(Interpolation::flat) &&
-              detail::ends_with(Auxiliary::sample) && detail::ends_with(ProvokingVertex::last) &&
-              detail::ends_with(CompareOp::always) && detail::ends_with(DepthFormat::d16_unorm) &&
+              detail::ends_with(FrontFace::clockwise) && detail::ends_with(Discard::back) &&
+              detail::ends_with(Interpolation::flat) && detail::ends_with(Auxiliary::sample) &&
+              detail::ends_with(ProvokingVertex::last) && detail::ends_with(CompareOp::always) &&
+              detail::ends_with(DepthFormat::d16_unorm) &&
               detail::ends_with(DepthBiasRepresentation::floating) &&
               detail::ends_with(Source::sample_position) && detail::ends_with(Probe::lod) &&
               detail::ends_with(BlendFactor::src_alpha_saturate) &&

@@ -322,6 +322,8 @@ std::string draw_text(const Draw& draw, const Target& target) {
     add_word(table, "front_face", draw.front_face, usual.front_face);
     add_word(table, "provoking", draw.provoking, usual.provoking);
     table.add_flag("rasterizer_discard", draw.rasterizer_discard, usual.rasterizer_discard);
+    add_word(table, "discard", draw.discard, usual.discard);
+    table.add_flag("early_tests", draw.early_tests, usual.early_tests);
     add_depth(table, draw.depth);
     add_stencil(table, draw.stencil);
     add_multisample(table, draw.multisample);

@@ -3,17 +3,20 @@
 #pragma once
 
 #include "cases/model/case.hpp"
+#include "cases/model/discard.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/value.hpp"
 
 namespace diff {
 
-// What of a fragment triangle `t` leaves in a sample: a draw that does not write depth leaves an
-// older fragment's depth.
+// What of the last fragment that shows, of triangle `t`, stays in a sample: a draw that does not
+// write depth leaves an older fragment's depth, and one that is discarded once its depth is stored
+// leaves its own.
 inline ref::FragmentPart part_of(const cases::Case& c, const ref::Expectation& expectation,
                                  uint32_t t) {
-    return c.draws[expectation.triangles[t].draw].depth.write ? ref::FragmentPart::all
-                                                              : ref::FragmentPart::all_but_depth;
+    return c.draws[expectation.triangles[t].draw].depth.write && !cases::stores_discarded(c)
+               ? ref::FragmentPart::all
+               : ref::FragmentPart::all_but_depth;
 }
 
 }  // namespace diff

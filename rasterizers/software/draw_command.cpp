@@ -94,6 +94,7 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
                          capture::Capture& out, Attachments& attachments)
     : draw_(effective(c, number, device)),
       number_(number),
+      first_discard_(c.draws[0].discard),
       device_(device),
       out_(out),
       attachments_(attachments),

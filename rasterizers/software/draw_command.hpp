@@ -61,6 +61,7 @@ class DrawCommand {
     void shade(const Primitive& primitive, const TrianglePlanes& planes, const WindowVertex& first,
                bool front, int64_t i, int64_t j, uint32_t s, uint32_t covered);
     // The same in one layer of the target.
+    bool is_discarded(int64_t i, int64_t j, uint32_t s, bool front) const;
     void shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
                   const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
                   uint32_t covered);
@@ -69,6 +70,7 @@ class DrawCommand {
 
     const cases::Draw draw_;
     uint32_t number_;
+    cases::Discard first_discard_;  // of the first draw
     const Device& device_;
     capture::Capture& out_;
     Attachments& attachments_;

@@ -133,12 +133,47 @@ size_t DrawCommand::index_in(uint32_t layer, int64_t i, int64_t j, uint32_t s) c
     return (row * target.width + static_cast<size_t>(i)) * target.samples + s;
 }
 
+// Whether the fragment shader discards the fragment.
+bool DrawCommand::is_discarded(int64_t i, int64_t j, uint32_t s, bool front) const {
+    const Fault fault = device_.fault;
+    if (fault == Fault::discard_fragment_ignored ||
+        (fault == Fault::discard_sample_zero && s != 0)) {
+        return false;
+    }
+    const bool is_quad = fault == Fault::discard_by_quad;
+    const bool has_odd_x = ((is_quad ? i >> 1 : i) & 1) != 0;
+    const bool has_odd_y = ((is_quad ? j >> 1 : j) & 1) != 0;
+    const bool is_turned = fault == Fault::discard_turned;
+    switch (fault == Fault::discard_of_first_draw ? first_discard_ : draw_.discard) {
+        case cases::Discard::odd_columns:
+            return has_odd_x != is_turned;
+        case cases::Discard::odd_rows:
+            return has_odd_y != is_turned;
+        case cases::Discard::checker:
+            return (has_odd_x != has_odd_y) != is_turned;
+        case cases::Discard::front:
+            return front != is_turned;
+        case cases::Discard::back:
+            return front == is_turned;
+        case cases::Discard::none:
+            break;
+    }
+    return false;
+}
+
 void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
                            const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
                            uint32_t covered) {
     const Fault fault = device_.fault;
     Invocation invocation = invoke(draw_, device_, samples_, i, j, s, covered);
     if (!invocation.is_written) {
+        return;
+    }
+    const bool discarded = is_discarded(i, j, s, front);
+    const bool is_early = fault == Fault::discard_tests_early  ? true
+                          : fault == Fault::discard_tests_late ? false
+                                                               : draw_.early_tests;
+    if (discarded && !is_early) {
         return;
     }
     for (Place* place : {&invocation.centre, &invocation.sample, &invocation.centroid}) {
@@ -171,7 +206,7 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         fault == Fault::depth_write_before_test) {
         out_.depth[at] = z;
     }
-    if (!passes || !is_left) {
+    if (!passes || !is_left || discarded) {
         return;
     }
     out_.hits[at] += front ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/model/discard.hpp"
 #include "ref/coverage/distance_cut.hpp"
 #include "ref/coverage/facing.hpp"
 #include "ref/coverage/outline.hpp"
@@ -131,10 +132,13 @@ void apply_facing(TriangleSetup& t, const AreaSigns& signs, const cases::Draw& d
     t.can_be_back = can_face_back(signs, draw.front_face);
     t.facing = t.can_be_front == t.can_be_back ? Facing::depends
                                                : (t.can_be_front ? Facing::front : Facing::back);
-    const bool culls_front =
-        draw.cull == cases::CullMode::front || draw.cull == cases::CullMode::front_and_back;
-    const bool culls_back =
-        draw.cull == cases::CullMode::back || draw.cull == cases::CullMode::front_and_back;
+    // A face whose fragments are all taken away is as good as culled.
+    const bool culls_front = draw.cull == cases::CullMode::front ||
+                             draw.cull == cases::CullMode::front_and_back ||
+                             takes_away_face(draw, true);
+    const bool culls_back = draw.cull == cases::CullMode::back ||
+                            draw.cull == cases::CullMode::front_and_back ||
+                            takes_away_face(draw, false);
     t.may_be_culled = (culls_front && t.can_be_front) || (culls_back && t.can_be_back);
     t.can_be_front = t.can_be_front && !culls_front;
     t.can_be_back = t.can_be_back && !culls_back;

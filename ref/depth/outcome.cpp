@@ -10,6 +10,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "cases/model/discard.hpp"
 #include "ref/depth/compare.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 
@@ -183,6 +184,7 @@ struct DepthTest::Impl {
                                    da.cull == db.cull && da.front_face == db.front_face &&
                                    da.scissor == db.scissor && da.distances == db.distances &&
                                    da.multisample == db.multisample && da.stencil == db.stencil &&
+                                   da.discard == db.discard && da.early_tests == db.early_tests &&
                                    has_equal_modes(da, db);
         if (!is_same_state || !load(first).primitive.is_finite) {
             return {};
@@ -295,7 +297,8 @@ bool DepthTest::is_needed(const cases::Case& c) {
     // "Depth Test").
     return c.target.has_depth &&
            std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
-               return draw.depth.compare != CompareOp::always || !draw.depth.write;
+               return draw.depth.compare != CompareOp::always || !draw.depth.write ||
+                      stores_discarded(draw);  // the last fragment is not the last that shows
            });
 }
 

@@ -137,6 +137,14 @@ bool draw_what_is_discarded(Case& c) {
     return change_draws(c, [](Draw& draw) { return set(draw.rasterizer_discard, false); });
 }
 
+bool discard_nothing(Case& c) {
+    return change_draws(c, [](Draw& draw) { return set(draw.discard, cases::Discard::none); });
+}
+
+bool test_late(Case& c) {
+    return change_draws(c, [](Draw& draw) { return set(draw.early_tests, false); });
+}
+
 bool draw_to_first_layer(Case& c) {
     return change_draws(c, [](Draw& draw) { return set(draw.layer, 0U); });
 }

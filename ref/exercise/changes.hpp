@@ -28,6 +28,10 @@ bool draw_to_last_layer(cases::Case& c);
 bool move_samples_to_centre(cases::Case& c);
 bool move_samples_to_first(cases::Case& c);
 
+// Fragments that their shader discards.
+bool discard_nothing(cases::Case& c);
+bool test_late(cases::Case& c);
+
 // Depth.
 bool toggle_depth_clip(cases::Case& c);
 bool toggle_volume(cases::Case& c);

@@ -28,6 +28,11 @@ bool may_break_stencil(const Expectation& right, const Expectation& wrong, size_
     return (other & ~one).any();
 }
 
+// Whether the depth may be the clear value: nothing has stored another, or perhaps nothing has.
+bool may_be_clear(const SampleExpectation& sample) {
+    return sample.depth_may_be_clear || (sample.depth_count == 0 && sample.writers_count == 0);
+}
+
 // Whether something that `wrong` allows at a decided sample is a finding in hits, writer or whose
 // depth is stored, or in the stencil.
 bool may_break(const Expectation& right, const Expectation& wrong, size_t index) {
@@ -36,7 +41,7 @@ bool may_break(const Expectation& right, const Expectation& wrong, size_t index)
     if (!(one.hits == other.hits) || may_break_stencil(right, wrong, index)) {
         return true;
     }
-    return (other.depth_may_be_clear && !one.depth_may_be_clear) ||
+    return (may_be_clear(other) && !may_be_clear(one)) ||
            !std::ranges::includes(right.writers_of(one), wrong.writers_of(other)) ||
            !std::ranges::includes(depths_of(right, one), depths_of(wrong, other));
 }

@@ -51,7 +51,8 @@ bool are_complementary(const cases::Draw& a, const cases::Draw& b) {
            a.primitive_restart == b.primitive_restart && a.viewport == b.viewport &&
            a.scissor == b.scissor && a.cull == b.cull && a.front_face == b.front_face &&
            a.provoking == b.provoking && a.depth == b.depth && a.multisample == b.multisample &&
-           a.layer == b.layer && a.viewport_index == b.viewport_index && same_attributes(a, b) &&
+           a.discard == b.discard && a.early_tests == b.early_tests && a.layer == b.layer &&
+           a.viewport_index == b.viewport_index && same_attributes(a, b) &&
            same_bits(a.positions, b.positions, false) && same_bits(da.cull, db.cull, false) &&
            same_bits(da.clip, db.clip, true);
 }

@@ -3,6 +3,7 @@
 #include "ref/expectation/expectation.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -212,6 +213,7 @@ class RowJudge {
         out_.target = target_;
         out_.triangles = scene.triangles;
         out_.samples = SampleExpectations(size_t{target_.width} * target_.rows() * target_.samples);
+        is_thinned_ = takes_away_pixels(scene.c);
         runs_.resize(target_.samples);
         alone_.resize(scene.triangles.size());
     }
@@ -237,12 +239,12 @@ class RowJudge {
         for (uint32_t s = 0; s < target_.samples; ++s) {
             for (const RowRuns::Run& run : runs_[s].split(spans, s)) {
                 const std::span<const Hit> hits = runs_[s].hits_of(run);
-                if (scene_.narrowing.is_anywhere(hits)) {
+                if (!is_thinned_ && scene_.narrowing.is_anywhere(hits)) {
                     keep(index_of(row, run.x0, s), run.x1 - run.x0, number_of(hits));
                     continue;
                 }
                 for (uint32_t x = run.x0; x < run.x1; ++x) {
-                    keep(index_of(row, x, s), 1, judge({x, row, s}, hits));
+                    keep(index_of(row, x, s), 1, number_at({x, row, s}, left_of(hits, x, row)));
                 }
             }
         }
@@ -262,14 +264,13 @@ class RowJudge {
                 }
                 const bool is_touched = next[s] < runs.size() && runs[next[s]].x0 <= x;
                 const std::span<const Hit> hits =
-                    is_touched ? runs_[s].hits_of(runs[next[s]]) : std::span<const Hit>();
+                    is_touched ? left_of(runs_[s].hits_of(runs[next[s]]), x, row)
+                               : std::span<const Hit>();
                 if (hits.empty() && onlooker_ == nullptr) {
                     continue;
                 }
-                JudgeReasons reasons;  // what holds anywhere needs none
-                const uint32_t number = hits.empty() || scene_.narrowing.is_anywhere(hits)
-                                            ? number_of(hits)
-                                            : judge({x, row, s}, hits, &reasons);
+                JudgeReasons reasons;
+                const uint32_t number = number_at({x, row, s}, hits, &reasons);
                 keep(index_of(row, x, s), 1, number);
                 show({x, row, s}, hits, number, reasons);
             }
@@ -282,6 +283,26 @@ class RowJudge {
 
     FixedPoint position(const Place& at) const {
         return sample_position(at.x, at.row % target_.height, at.s, target_);
+    }
+
+    // The hits whose fragments are not taken away by their pixel; until the next call.
+    std::span<const Hit> left_of(std::span<const Hit> hits, uint32_t x, uint32_t row) {
+        if (!is_thinned_) {
+            return hits;
+        }
+        left_.clear();
+        std::ranges::copy_if(hits, std::back_inserter(left_), [&](const Hit& hit) {
+            const cases::Draw& draw = scene_.c.draws[scene_.triangles[hit.triangle].draw];
+            return !takes_away_pixel(draw, x, row % target_.height);
+        });
+        return left_;
+    }
+
+    // The number of what the hits of a sample come to. What holds anywhere needs no reasons.
+    uint32_t number_at(const Place& at, std::span<const Hit> hits,
+                       JudgeReasons* reasons = nullptr) {
+        return hits.empty() || scene_.narrowing.is_anywhere(hits) ? number_of(hits)
+                                                                  : judge(at, hits, reasons);
     }
 
     uint32_t judge(const Place& at, std::span<const Hit> hits, JudgeReasons* reasons = nullptr) {
@@ -340,6 +361,8 @@ class RowJudge {
     const cases::Target& target_;
     SpansByRow spans_;
     Onlooker* onlooker_;
+    bool is_thinned_ = false;      // some fragments are taken away by their pixel
+    std::vector<Hit> left_;        // of left_of()
     std::vector<RowRuns> runs_;    // by sample of the pixel
     std::vector<uint32_t> alone_;  // numbers by triangle: it alone must cover the sample
     std::vector<Hit> last_;        // the last list of number_of() that is another one,

@@ -128,11 +128,21 @@ bool TriangleExplanation::is_tie() const {
 Explainer::Explainer(const cases::Case& c, const Limits& limits, cases::Profile profile)
     : scene_(c, limits, profile, true) {}
 
+bool Explainer::is_taken_away_by_face(uint32_t t) {
+    const cases::Draw& draw = scene_.c.draws[scene_.triangles[t].draw];
+    const bool is_back = draw.discard == cases::Discard::back;
+    return scene_.setups[t].facing == (is_back ? Facing::back : Facing::front) &&
+           takes_away_face(draw, !is_back);
+}
+
 Decision Explainer::decide(uint32_t t, const FixedPoint& p, cases::SampleId sample) {
     const cases::Draw& draw = scene_.c.draws[scene_.triangles[t].draw];
     Decision out = exact::decide(scene_.setups[t], p, true);
     if (!is_in_mask(draw.multisample, sample.sample)) {
         refuse(out, ReasonKind::masked);
+    }
+    if (takes_away_pixel(draw, sample.x, sample.y) || is_taken_away_by_face(t)) {
+        refuse(out, ReasonKind::fragment_discarded);
     }
     if (draw.layer != sample.layer) {
         refuse(out, ReasonKind::other_layer);
@@ -287,7 +297,13 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         if (explained[m] != kUntold) {
             TriangleExplanation& t = out.triangles[explained[m]];
             t.fate = reasons.fates[m];
-            t.stencil_text = detail == Detail::all ? stencil_sentence(t) : std::string();
+            if (t.fate->is_discarded && !t.fate->passes) {
+                refuse(t.decision, ReasonKind::discarded_late);
+                t.sentence = detail == Detail::all ? sentence(t, sample) : std::string();
+            }
+            if (stencil::is_needed(scene_.c)) {
+                t.stencil_text = detail == Detail::all ? stencil_sentence(t) : std::string();
+            }
         }
     }
     for (size_t m = 0; m < reasons.depth.outcomes.size(); ++m) {

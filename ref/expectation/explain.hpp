@@ -105,6 +105,7 @@ class Explainer {
 
     // Decides triangle t alone at a sample, whose position is p.
     Decision decide(uint32_t t, const FixedPoint& p, cases::SampleId sample);
+    bool is_taken_away_by_face(uint32_t t);
 
   private:
     void add_details(TriangleExplanation& e, const FixedPoint& p);

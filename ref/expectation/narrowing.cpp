@@ -49,6 +49,11 @@ void add_set(HitBounds& b, uint32_t front, uint32_t back, uint32_t least, uint32
         static_cast<int32_t>(front_max) - static_cast<int32_t>(beyond(least, front_max));
 }
 
+bool is_taken_away(const cases::Draw& draw, const FixedPoint& p) {
+    return takes_away_pixel(draw, static_cast<uint32_t>(p.x >> kFixedBits),
+                            static_cast<uint32_t>(p.y >> kFixedBits));
+}
+
 }  // namespace
 
 Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
@@ -61,7 +66,8 @@ Narrowing::Narrowing(const cases::Case& c, cases::Profile profile,
       predicates_(predicates),
       complements_(complements_of(c, triangles)),
       depth_(depth),
-      has_stencil_test_(stencil::is_needed(c)),
+      follows_courses_(follows_courses(c)),
+      stores_discarded_(stores_discarded(c)),
       vertex_numbers_(c) {}
 
 bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
@@ -69,7 +75,8 @@ bool Narrowing::add_sides(const FixedPoint& p, const Hit& hit, uint32_t member,
     const TriangleSetup& setup = setups_[hit.triangle];
     const cases::Triangle& triangle = triangles_[hit.triangle];
     if (setup.kind != TriangleSetup::Kind::outlines || setup.orientation == 0 ||
-        setup.may_be_culled || !setup.window.may_write(sample_) || !setup.window.must_touch(p)) {
+        setup.may_be_culled || !setup.window.may_write(sample_) || !setup.window.must_touch(p) ||
+        is_taken_away(case_.draws[triangle.draw], p)) {
         return false;
     }
     const bool is_literal = profile_ == cases::Profile::vulkan;
@@ -207,7 +214,7 @@ bool Narrowing::is_anywhere(std::span<const Hit> hits) const {
                                     [](const Hit& h) { return h.coverage == Coverage::either; });
     // Alone, an open triangle can only be settled by partners that are decided.
     const auto least = profile_ == cases::Profile::direct3d || !complements_.empty() ? 1 : 2;
-    return depth_ == nullptr && open < least;
+    return depth_ == nullptr && open < least && !stores_discarded_;
 }
 
 SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
@@ -216,7 +223,7 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
     std::vector<uint32_t>& writers = lists.writers;
     sample_ = s;
     fates_.clear();
-    if (has_stencil_test_ && !hits.empty() && is_anywhere(hits)) {
+    if (follows_courses_ && !hits.empty() && is_anywhere(hits)) {
         return judge_by_stencil(p, hits, {}, lists, reasons);
     }
     out.writers_begin = static_cast<uint32_t>(writers.size());
@@ -237,7 +244,7 @@ SampleExpectation Narrowing::judge(const FixedPoint& p, uint32_t s, std::span<co
     for (size_t k = 0; reasons != nullptr && k < sets.size(); ++k) {
         reasons->sets.push_back(told_set(p, hits, sets[k]));
     }
-    if (has_stencil_test_ && !hits.empty()) {
+    if (follows_courses_ && !hits.empty()) {
         return judge_by_stencil(p, hits, sets, lists, reasons);
     }
     std::vector<Coverage> coverage(hits.size());

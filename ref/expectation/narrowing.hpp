@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
+#include "cases/model/discard.hpp"
 #include "cases/model/profile.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/setup.hpp"
@@ -54,7 +55,7 @@ struct FixedSet {
 struct JudgeReasons {
     std::vector<FixedSet> sets;
     DepthResolution depth;             // of each hit; empty if the case tests no depth
-    std::vector<stencil::Fate> fates;  // of each hit; empty if the case needs no stencil test
+    std::vector<stencil::Fate> fates;  // of each hit; empty if the case follows no courses
 };
 
 // What judge() appends to: of an expectation, or of an explanation.
@@ -76,8 +77,14 @@ struct Predicates {
     stencil::Resolve resolve_stencil;
 };
 
+// Whether what a sample shows hangs on the whole course of its fragments (ref/stencil/outcome.hpp):
+// the stencil of each fragment chooses, or some store depth or stencil and do not show.
+inline bool follows_courses(const cases::Case& c) {
+    return stencil::is_needed(c) || stores_discarded(c);
+}
+
 // Keeps the hits of a sample for the colour target, if the case has one. `fates`: of each hit, if
-// the case needs a stencil test.
+// the case follows courses.
 inline void add_fragments(Expectation& out, const cases::Case& c, std::span<const Hit> hits,
                           std::span<const stencil::Fate> fates, SampleExpectation& sample) {
     if (!out.target.color) {
@@ -90,7 +97,7 @@ inline void add_fragments(Expectation& out, const cases::Case& c, std::span<cons
         }
     }
     sample.fragments_count = static_cast<uint32_t>(out.fragments.size()) - sample.fragments_begin;
-    if (stencil::is_needed(c)) {
+    if (follows_courses(c)) {
         return;
     }
     sample.fragments_count = static_cast<uint32_t>(hits.size());
@@ -115,7 +122,7 @@ class Narrowing {
     // drawing order; appends to `lists` what it says of them. Fills `reasons`, unless it is null.
     SampleExpectation judge(const FixedPoint& p, uint32_t s, std::span<const Hit> hits,
                             const JudgedLists& lists, JudgeReasons* reasons = nullptr);
-    // What may have become of each hit of the last judge(), if the case needs a stencil test.
+    // What may have become of each hit of the last judge(), if the case follows courses.
     std::span<const stencil::Fate> fates() const { return fates_; }
     // Whether judge() says the same wherever the sample lies that these triangles touch.
     bool is_anywhere(std::span<const Hit> hits) const;
@@ -188,7 +195,8 @@ class Narrowing {
     uint32_t sample_ = 0;                  // of the pixel, the one at hand
     std::vector<Complement> complements_;  // by triangle, or empty
     DepthTest* depth_;                     // null: every fragment passes and writes
-    bool has_stencil_test_;
+    bool follows_courses_;
+    bool stores_discarded_;
     std::vector<stencil::Fate> fates_;  // of the hits at hand
     VertexNumbers vertex_numbers_;
     std::vector<EdgeOwner> edge_owners_;  // sorted by edge, then triangle; when first asked for

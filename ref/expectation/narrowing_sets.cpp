@@ -100,7 +100,7 @@ std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
     for (size_t m = 0; m < hits.size(); ++m) {
         is_open[m] = hits[m].coverage == Coverage::either && !is_paired[m];
     }
-    if (depth_ != nullptr || has_stencil_test_) {
+    if (depth_ != nullptr || follows_courses_) {
         // Sets of one draw alone: meshes drawn one over the other are told apart by depth, or by
         // the stencil.
         std::vector<bool> is_left = is_open;

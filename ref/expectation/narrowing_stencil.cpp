@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a sample may show in a case with a stencil test: the question that ref/stencil answers, and
+// What a sample may show in a case that follows courses: the question that ref/stencil answers, and
 // its answer as bounds and lists.
 #include <algorithm>
 #include <map>
@@ -12,6 +12,8 @@
 namespace ref {
 
 namespace {
+
+constexpr cases::StencilState kKeepStencil{{}, {}};  // where there is none
 
 // The bounds of what the courses of events end in.
 HitBounds bounds_of(const stencil::Resolution& resolution) {
@@ -52,9 +54,10 @@ HitBounds any_of(const std::vector<stencil::Fragment>& fragments) {
 
 // What depth tests came to, where they were reached.
 DepthOutcome depth_of(const stencil::Fate& fate) {
-    return fate.passes == fate.fails_depth ? DepthOutcome::open
-           : fate.passes                   ? DepthOutcome::passes
-                                           : DepthOutcome::fails;
+    const bool passes = fate.passes || fate.is_discarded;
+    return passes == fate.fails_depth ? DepthOutcome::open
+           : passes                   ? DepthOutcome::passes
+                                      : DepthOutcome::fails;
 }
 
 }  // namespace
@@ -68,8 +71,16 @@ stencil::Question Narrowing::stencil_question(const FixedPoint& p, std::span<con
         const uint32_t t = hits[m].triangle;
         const cases::Draw& draw = case_.draws[triangles_[t].draw];
         const TriangleSetup& setup = setups_[t];
-        stencil::Fragment fragment{&draw.stencil, hits[m].coverage == Coverage::must,
-                                   setup.can_be_front, setup.can_be_back, draw.depth.write};
+        stencil::Fragment fragment{case_.target.has_stencil ? &draw.stencil : &kKeepStencil,
+                                   hits[m].coverage == Coverage::must, setup.can_be_front,
+                                   setup.can_be_back, draw.depth.write};
+        if (stores_discarded(draw)) {
+            const bool is_discarded =
+                discards_pixel(draw.discard, static_cast<uint32_t>(p.x >> kFixedBits),
+                               static_cast<uint32_t>(p.y >> kFixedBits));
+            fragment.is_discarded_front = is_discarded || discards_face(draw.discard, true);
+            fragment.is_discarded_back = is_discarded || discards_face(draw.discard, false);
+        }
         for (size_t k = 0; depth_ != nullptr && k < m && fragment.twin < 0; ++k) {
             if (depth_->is_same(hits[k].triangle, t)) {
                 fragment.twin = static_cast<int>(k);
@@ -115,7 +126,7 @@ SampleExpectation Narrowing::judge_by_stencil(const FixedPoint& p, std::span<con
         resolution.is_last.assign(hits.size(), true);
         resolution.is_stored.assign(hits.size(), true);
         resolution.may_be_clear = true;
-        resolution.fates.assign(hits.size(), {true, true, true, true});
+        resolution.fates.assign(hits.size(), {true, true, true, true, true});
         resolution.outcomes.clear();
     } else {
         out.hits = bounds_of(resolution);

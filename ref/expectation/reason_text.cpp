@@ -113,6 +113,10 @@ std::string triangles_text(const std::vector<uint32_t>& members,
     return is_one_draw ? fmt::format("{} of draw {}", text, triangles[members[0]].draw) : text;
 }
 
+// In the order of cases::Discard.
+constexpr std::array<std::string_view, 6> kDiscarded = {
+    "nothing", "odd columns", "odd rows", "pixels whose x + y is odd", "front faces", "back faces"};
+
 }  // namespace
 
 std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases::Case& c,
@@ -134,6 +138,7 @@ std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases
         fmt::arg("viewport", fmt::format("x {} to {}, y {} to {}", left, right, top, bottom)),
         fmt::arg("edge", outside_text(t, reason.which)), fmt::arg("facing", facing_text(t.facing)),
         fmt::arg("number", reason.which), fmt::arg("plane", kPlanes[plane]),
+        fmt::arg("discarded", kDiscarded.at(static_cast<size_t>(draw.discard))),
         fmt::arg("boxes", boxes_text(t)));
 }
 

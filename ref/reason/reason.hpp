@@ -23,19 +23,21 @@ enum class ReasonKind : uint8_t {
     passes_clip_distance,  // it lies inside, and no clip distance is negative
     inside,                // it lies inside wherever the vertices may lie
     // A triangle must not cover the sample.
-    other_layer,    // the draw goes to another layer
-    masked,         // a sample mask of the draw leaves the sample out
-    scissor,        // it lies outside the scissor rectangle or the target
-    viewport,       // it lies outside the viewport
-    discarded,      // the draw has rasterizer discard
-    outside,        // it lies outside an edge, wherever its ends may lie; the edge, 0 to 2
-    outside_hull,   // it lies outside all that the positions of the vertices span
-    no_area,        // it lies on a triangle that has no area once it is snapped
-    top_left_out,   // it lies on an edge that does not own it; the edge's label
-    culled,         // the triangle's face is culled
-    cull_distance,  // a cull distance is negative at all vertices; its number
-    clip_distance,  // a clip distance cuts it off; its number
-    clip_plane,     // a plane of the view volume cuts it off; a ClipPlane
+    other_layer,         // the draw goes to another layer
+    masked,              // a sample mask of the draw leaves the sample out
+    scissor,             // it lies outside the scissor rectangle or the target
+    viewport,            // it lies outside the viewport
+    discarded,           // the draw has rasterizer discard
+    fragment_discarded,  // the fragment shader discards the fragment
+    discarded_late,      // the same, and depth and stencil have been tested and stored before
+    outside,             // it lies outside an edge, wherever its ends may lie; the edge, 0 to 2
+    outside_hull,        // it lies outside all that the positions of the vertices span
+    no_area,             // it lies on a triangle that has no area once it is snapped
+    top_left_out,        // it lies on an edge that does not own it; the edge's label
+    culled,              // the triangle's face is culled
+    cull_distance,       // a cull distance is negative at all vertices; its number
+    clip_distance,       // a clip distance cuts it off; its number
+    clip_plane,          // a plane of the view volume cuts it off; a ClipPlane
     // A triangle may cover the sample.
     undefined,        // a vertex is beyond what the profile promises anything of
     unbounded,        // a vertex of the clipped polygon may be anywhere
@@ -66,6 +68,8 @@ enum class ReasonKind : uint8_t {
     writer_none_first,   // no triangle of the draw has the provoking vertex that wrote it,
     writer_none_last,    // by a draw whose provoking vertex is the first, or the last
     depth_unwritten,     // its depth is none of those that were written before
+    depth_of_discarded,  // the same, where fragments are discarded once theirs is stored
+    depth_of_taken,      // its depth is that of a fragment that leaves no trace
     depth_of_none,       // its depth is none of the fragments' that its colour allows
     color_order,         // its colour is that of another order of blending
     color_none,          // its colour is that of no allowed fragments

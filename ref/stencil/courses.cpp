@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "cases/model/discard.hpp"
 #include "ref/stencil/outcome.hpp"
 
 namespace ref::stencil {
@@ -137,12 +138,16 @@ class Courses {
             now_.insert(next);
         }
         if (depth != DepthOutcome::fails) {
-            fate.passes = true;
+            const bool is_discarded =
+                front ? fragment.is_discarded_front : fragment.is_discarded_back;
+            (is_discarded ? fate.is_discarded : fate.passes) = true;
             next.value = updated(face.pass, face, course.value);
             next.stored = fragment.writes_depth ? static_cast<int>(m) : course.stored;
-            next.last = static_cast<int>(m);
-            next.front += front ? 1 : 0;
-            next.back += front ? 0 : 1;
+            if (!is_discarded) {
+                next.last = static_cast<int>(m);
+                next.front += front ? 1 : 0;
+                next.back += front ? 0 : 1;
+            }
             now_.insert(std::move(next));
         }
     }
@@ -178,7 +183,7 @@ bool is_needed(const cases::Case& c) {
     return c.target.has_stencil &&
            (!c.target.has_instruments || c.target.stencil_clear != 0 ||
             std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
-                return draw.stencil != cases::StencilState{};
+                return draw.stencil != cases::StencilState{} || stores_discarded(draw);
             }));
 }
 

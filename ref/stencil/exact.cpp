@@ -105,7 +105,7 @@ uint32_t written(StencilOp op, const StencilFace& face, uint32_t stored) {
 }
 
 // What one course did with each fragment.
-enum class Deed : uint8_t { absent, failed, failed_depth, passed_front, passed_back };
+enum class Deed : uint8_t { absent, failed, failed_depth, discarded, passed_front, passed_back };
 
 class Walk {
   public:
@@ -166,7 +166,11 @@ class Walk {
                 go_on(Deed::failed_depth, written(face.depth_fail, face, value), stored);
             }
             if (depth == DepthOutcome::passes || depth == DepthOutcome::open) {
-                go_on(front ? Deed::passed_front : Deed::passed_back,
+                const bool is_discarded =
+                    front ? fragment.is_discarded_front : fragment.is_discarded_back;
+                go_on(is_discarded ? Deed::discarded
+                      : front      ? Deed::passed_front
+                                   : Deed::passed_back,
                       written(face.pass, face, value),
                       fragment.writes_depth ? static_cast<int>(m) : stored);
             }
@@ -209,6 +213,7 @@ class Walk {
             fate.fails = fate.fails || deed == Deed::failed;
             fate.fails_depth = fate.fails_depth || deed == Deed::failed_depth;
             fate.passes = fate.passes || is_passed;
+            fate.is_discarded = fate.is_discarded || deed == Deed::discarded;
             outcome.front += deed == Deed::passed_front ? 1 : 0;
             outcome.back += deed == Deed::passed_back ? 1 : 0;
             last = is_passed ? static_cast<int>(m) : last;

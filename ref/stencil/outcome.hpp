@@ -32,6 +32,8 @@ struct Fragment {
     bool is_sure = false;  // it covers the sample
     bool can_be_front = false, can_be_back = false;
     bool writes_depth = false;
+    // What is discarded after it has been tested and stored: it is no hit.
+    bool is_discarded_front = false, is_discarded_back = false;
     int set = -1;   // the set that it belongs to, or -1
     int twin = -1;  // an earlier fragment without which it is not there, nor that one without it
 };
@@ -58,7 +60,11 @@ struct Fate {
     bool fails_depth = false;  // having passed it
     bool passes = false;       // both
     bool is_absent = false;    // it does not cover the sample
-    bool always_passes() const { return passes && !fails && !fails_depth && !is_absent; }
+    // Having passed both, it is discarded by its shader.
+    bool is_discarded = false;
+    bool always_passes() const {
+        return passes && !fails && !fails_depth && !is_absent && !is_discarded;
+    }
     friend bool operator==(const Fate&, const Fate&) = default;
 };
 
@@ -80,8 +86,8 @@ struct Resolution {
 };
 
 // Whether the stencil of a case is more than a count of its hits, by which diff/resolve.hpp judges
-// it: some draw tests it or has operations of its own, it is not cleared to 0, or no hits are
-// counted.
+// it: some draw tests it or has operations of its own, or stores it of fragments that it discards,
+// it is not cleared to 0, or no hits are counted.
 bool is_needed(const cases::Case& c);
 
 // Courses that are followed at most, at a time.

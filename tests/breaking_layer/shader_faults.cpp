@@ -71,6 +71,15 @@ constexpr std::array kFaults = {
           "Cull distances clip.",
           {.shader =
                [](ShaderWords& w) { return w.rename_distances(kCullDistance, kClipDistance); }}},
+    Fault{"fragment-discard-ignored",
+          "What a fragment shader discards is drawn.",
+          {.shader = [](ShaderWords& w) { return w.discard_nothing(); }}},
+    Fault{"early-tests-lost",
+          "Fragment shaders lose their early tests.",
+          {.shader = [](ShaderWords& w) { return w.lose_early_tests(); }}},
+    Fault{"early-tests-added",
+          "Fragment shaders that discard have early tests.",
+          {.shader = [](ShaderWords& w) { return w.test_discards_early(); }}},
 };
 
 }  // namespace

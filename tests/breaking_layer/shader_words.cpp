@@ -15,6 +15,7 @@ namespace {
 constexpr size_t kHeaderWords = 5;
 enum Op : uint32_t {
     kOpEntryPoint = 15,
+    kOpExecutionMode = 16,
     kOpCapability = 17,
     kOpTypeFloat = 22,
     kOpTypeVector = 23,
@@ -27,7 +28,10 @@ enum Op : uint32_t {
     kOpDecorate = 71,
     kOpMemberDecorate = 72,
     kOpFNegate = 127,
+    kOpKill = 252,
+    kOpReturn = 253,
 };
+constexpr uint32_t kEarlyFragmentTests = 9;  // an execution mode
 constexpr uint32_t kVertexModel = 0;
 constexpr uint32_t kFragmentModel = 4;
 constexpr uint32_t kStorageInput = 1;
@@ -219,6 +223,43 @@ bool ShaderWords::rename_distances(BuiltIn from, BuiltIn to) {
         }
     }
     require(to == kClipDistance ? kCapabilityClipDistance : kCapabilityCullDistance);
+    return true;
+}
+
+bool ShaderWords::discard_nothing() {
+    bool is_changed = false;
+    for (const Instruction& i : instructions()) {
+        if (i.op == kOpKill) {
+            words_[i.at] = first_word(kOpReturn, 1);
+            is_changed = true;
+        }
+    }
+    return is_changed;
+}
+
+bool ShaderWords::lose_early_tests() {
+    for (const Instruction& i : instructions()) {
+        if (i.op == kOpExecutionMode && i.words[2] == kEarlyFragmentTests) {
+            const auto first = words_.begin() + static_cast<std::ptrdiff_t>(i.at);
+            words_.erase(first, first + static_cast<std::ptrdiff_t>(i.words.size()));
+            return true;
+        }
+    }
+    return false;
+}
+
+bool ShaderWords::test_discards_early() {
+    const auto code = instructions();
+    const auto is_early = [](const Instruction& i) {
+        return i.op == kOpExecutionMode && i.words[2] == kEarlyFragmentTests;
+    };
+    const auto is = [](uint32_t op) { return [op](const Instruction& i) { return i.op == op; }; };
+    const auto mode = std::find_if(code.begin(), code.end(), is(kOpExecutionMode));
+    if (mode == code.end() || std::any_of(code.begin(), code.end(), is_early) ||
+        std::none_of(code.begin(), code.end(), is(kOpKill))) {
+        return false;
+    }
+    insert(mode->at, {first_word(kOpExecutionMode, 3), mode->words[1], kEarlyFragmentTests});
     return true;
 }
 

@@ -36,6 +36,11 @@ class ShaderWords {
     bool negate_distances(BuiltIn which);
     // Makes one array of distances the other, if the module has that one alone.
     bool rename_distances(BuiltIn from, BuiltIn to);
+    // What a fragment shader discards is drawn.
+    bool discard_nothing();
+    // A fragment shader loses the execution mode EarlyFragmentTests, or one that discards gets it.
+    bool lose_early_tests();
+    bool test_discards_early();
 
   private:
     struct Instruction {

@@ -61,6 +61,7 @@ void push_constants(const Device& device, const PipelineCache& pipelines, VkComm
         constants.sample_numbers[k] = static_cast<int32_t>(draw.attributes[k].probe_sample);
     }
     constants.sample_mask = draw.multisample.shader_mask.value_or(0xffffffffU);
+    constants.discarded = static_cast<uint32_t>(draw.discard);
     device.vk().vkCmdPushConstants(commands, pipelines.layout(), kDrawStages, 0, sizeof constants,
                                    &constants);
 }

@@ -83,13 +83,17 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
 }
 
 Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
-                                                    std::vector<shaders::InputChange> changes) {
-    std::pair key(code.data(), std::move(changes));
+                                                    std::vector<shaders::InputChange> changes,
+                                                    bool early_tests) {
+    std::tuple key(code.data(), std::move(changes), early_tests);
     const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
     }
-    auto changed = shaders::change_inputs(code, key.second);
+    auto changed = shaders::change_inputs(code, std::get<1>(key));
+    if (changed && early_tests) {
+        changed = shaders::with_early_tests(*changed);
+    }
     if (!changed) {
         return fail(Stage::shader, changed.error());
     }
@@ -145,9 +149,9 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     if (!vertex) {
         return fail(vertex.error());
     }
-    auto fragment =
-        shader_module(shaders::capture_fragment(fragment_variant(key)),
-                      input_changes(key, device_->capabilities().info.has_primitive_id));
+    auto fragment = shader_module(shaders::capture_fragment(fragment_variant(key)),
+                                  input_changes(key, device_->capabilities().info.has_primitive_id),
+                                  key.early_tests);
     if (!fragment) {
         return fail(fragment.error());
     }

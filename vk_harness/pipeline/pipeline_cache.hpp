@@ -6,7 +6,7 @@
 
 #include <map>
 #include <span>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "shaders/spirv_variant.hpp"
@@ -32,9 +32,11 @@ class PipelineCache {
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
-    // The module `code`, embedded in the program, with changes to its inputs.
+    // The module `code`, embedded in the program, with changes to its inputs, and with the
+    // execution mode EarlyFragmentTests.
     Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
-                                         std::vector<shaders::InputChange> changes = {});
+                                         std::vector<shaders::InputChange> changes = {},
+                                         bool early_tests = false);
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
 
     const Device* device_;
@@ -43,8 +45,9 @@ class PipelineCache {
     Handle<VkPipelineLayout> layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
-    // By the embedded code's address and the changes.
-    std::map<std::pair<const uint32_t*, std::vector<shaders::InputChange>>, Handle<VkShaderModule>>
+    // By the embedded code's address, the changes and whether tests are early.
+    std::map<std::tuple<const uint32_t*, std::vector<shaders::InputChange>, bool>,
+             Handle<VkShaderModule>>
         modules_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;
     std::map<const uint32_t*, Handle<VkPipeline>> copies_;  // by the embedded code's address

@@ -60,6 +60,8 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.negative_one_to_one = draw.depth.negative_one_to_one;
     key.provoking = draw.provoking;
     key.writes_mask = draw.multisample.shader_mask.has_value();
+    key.discards = draw.discard != cases::Discard::none;
+    key.early_tests = draw.early_tests;
     key.sample_mask = draw.multisample.sample_mask;
     if (draw.multisample.min_sample_shading) {
         key.min_shading_bits = std::bit_cast<uint32_t>(*draw.multisample.min_sample_shading);
@@ -96,6 +98,7 @@ shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
     shaders::FragmentVariant v;
     v.attributes = key.attribute_count;
     v.mask_out = key.writes_mask;
+    v.discards = key.discards;
     v.color = key.color;
     v.instruments = key.instruments;
     v.split = key.layout.split;

@@ -50,6 +50,7 @@ struct PipelineKey {
     cases::ProvokingVertex provoking = cases::ProvokingVertex::first;
     // Multisampling.
     bool writes_mask = false;  // gl_SampleMask
+    bool discards = false, early_tests = false;
     uint32_t sample_mask = 0xffffffffU;
     std::optional<uint32_t> min_shading_bits = {};  // of Multisample::min_sample_shading
     std::vector<std::array<uint8_t, 2>> sample_locations = {};  // 1/16 pixel; empty: standard

@@ -265,6 +265,14 @@ enum class Fault : uint16_t {
     blit_edge_wraps,
     blit_copies_codes,
     blit_missing_alpha_zero,
+    // fragments that the shader discards
+    discard_fragment_ignored,
+    discard_turned,
+    discard_by_quad,
+    discard_sample_zero,
+    discard_of_first_draw,
+    discard_tests_early,
+    discard_tests_late,
     // stencil
     stencil_faces_exchanged,
     stencil_front_only,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults of the stencil.
+// Faults of the stencil, and of fragments that the shader discards before or after it is stored.
 #include "rasterizers/software/choice/fault.hpp"
 
 namespace software {
@@ -100,6 +100,23 @@ constexpr FaultInfo kFaults[] = {
      "stencil.compare depth.compare depth.write write.consistent"},
     {Fault::stencil_never_written, "stencil_never_written", "The stencil is never written.",
      "stencil.count stencil.operation stencil.compare"},
+    {Fault::discard_fragment_ignored, "discard_fragment_ignored",
+     "What the fragment shader discards is drawn.", "discard.fragment discard.early-tests"},
+    {Fault::discard_turned, "discard_turned",
+     "The fragment shader discards the other half of the fragments.",
+     "discard.fragment discard.early-tests"},
+    {Fault::discard_by_quad, "discard_by_quad",
+     "A quad of fragments is discarded as its number is, not as each fragment's.",
+     "discard.fragment discard.early-tests"},
+    {Fault::discard_sample_zero, "discard_sample_zero",
+     "A discarded fragment loses sample 0 alone.", "discard.fragment discard.early-tests"},
+    {Fault::discard_of_first_draw, "discard_of_first_draw",
+     "Every draw discards what the first one does.", "discard.fragment discard.early-tests"},
+    {Fault::discard_tests_early, "discard_tests_early",
+     "Depth and stencil are tested and stored before a shader that discards.",
+     "discard.fragment write.consistent"},
+    {Fault::discard_tests_late, "discard_tests_late",
+     "EarlyFragmentTests is ignored: a discarded fragment stores nothing.", "discard.early-tests"},
 };
 
 }  // namespace

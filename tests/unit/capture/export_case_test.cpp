@@ -87,9 +87,10 @@ std::vector<Change> target_changes() {
 
 std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
-                                  viewport, scissor, cull, front_face, provoking, discard, depth,
-                                  stencil, distances, multisample, color, layer, viewport_index,
-                                  where] = cases::Draw{};
+                                  viewport, scissor, cull, front_face, provoking,
+                                  rasterizer_discard, discard, early_tests, depth, stencil,
+                                  distances, multisample, color, layer, viewport_index, where] =
+        cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
     [[maybe_unused]] const auto& [left, top, columns, rows] = cases::Rect{};
     [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] =
@@ -115,6 +116,8 @@ std::vector<Change> draw_changes() {
         {"front_face", [](Case& c) { draw(c).front_face = cases::FrontFace::clockwise; }},
         {"provoking", [](Case& c) { draw(c).provoking = cases::ProvokingVertex::last; }},
         {"rasterizer_discard", [](Case& c) { draw(c).rasterizer_discard = true; }},
+        {"discard", [](Case& c) { draw(c).discard = cases::Discard::odd_rows; }},
+        {"early_tests", [](Case& c) { draw(c).early_tests = true; }},
         {"stencil",
          [](Case& c) {
              c.target.has_stencil = true;

@@ -128,7 +128,7 @@ size = [8, 8]
 [[draw]]
 vertices = [[0,0],[8,0],[0,8]]
 )~"),
-     R"~(f:3:10: error: no rule is called "discard.test"; there are discard.rasterizer
+     R"~(f:3:10: error: no rule is called "discard.test"; there are discard.rasterizer, discard.fragment, discard.early-tests
 f:3:26: error: no rule is called "tie.topleft"; did you mean "tie.top-left"?
 f:3:41: error: no rule is called "covr.inside"; did you mean "cover.inside"?
 f:3:56: error: no rule is called "wrong"; docs/rules.md lists all)~"},

@@ -138,6 +138,8 @@ sample_mask = 0xffffffff
 provoking = "first"
 depth_volume = "zero-to-one"
 rasterizer_discard = false
+discard = "none"
+early_tests = false
 mirror = "none"
 )"),
               plain);
@@ -175,6 +177,7 @@ cull               = "back"
 front_face         = "clockwise"
 provoking          = "last"
 rasterizer_discard = true
+discard            = "checker"
 depth              = { compare = "less", write = false, bias = { slope = 1.5 }, clip = true }
 depth_volume       = "negative-one-to-one"
 stencil            = { front = { compare = "equal", fail = "zero", depth_fail = "invert", pass = "replace", compare_mask = 0x7f, write_mask = 0xf0, reference = 9 }, back = { pass = "keep" } }

@@ -39,6 +39,8 @@ Case sample() {
     draw.attributes.push_back(weights);
     draw.provoking = ProvokingVertex::last;
     draw.rasterizer_discard = true;
+    draw.discard = cases::Discard::checker;
+    draw.early_tests = true;
     draw.depth.compare = CompareOp::less_or_equal;
     draw.depth.write = false;
     draw.depth.bias = DepthBias{2, -0.25F, 1.5F, DepthBiasRepresentation::force_unorm, true};
@@ -133,6 +135,8 @@ TEST(Wire, RoundTripKeepsEveryBit) {
         }
         EXPECT_EQ(a.provoking, b.provoking);
         EXPECT_EQ(a.rasterizer_discard, b.rasterizer_discard);
+        EXPECT_EQ(a.discard, b.discard);
+        EXPECT_EQ(a.early_tests, b.early_tests);
         EXPECT_EQ(a.depth, b.depth);
         EXPECT_EQ(a.distances, b.distances);
         EXPECT_EQ(a.multisample, b.multisample);

@@ -50,6 +50,7 @@ Count count(const capture::Capture& capture) {
             case capture::SampleState::not_copied:
                 ++result.not_copied;
                 break;
+            case capture::SampleState::depth_only:
             case capture::SampleState::inconsistent:
                 ++result.inconsistent;
                 break;

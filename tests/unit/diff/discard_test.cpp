@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Edgecase authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faults planted in cases whose fragment shader discards.
+#include <gtest/gtest.h>
+
+#include "diff/verdict.hpp"
+#include "rasterizers/captures.hpp"
+#include "tests/unit/diff/perfect_capture.hpp"
+
+namespace diff {
+namespace {
+
+cases::Case discarding(bool early) {
+    cases::Case c = pixel_case(8, 8, {{0, 0}, {8, 0}, {0, 8}});
+    c.draws[0].discard = cases::Discard::odd_columns;
+    c.draws[0].early_tests = early;
+    c.draws[0].depth.compare = cases::CompareOp::not_equal;
+    return c;
+}
+
+Verdict judged(const cases::Case& c, const capture::Capture& capture) {
+    return compare(c, ref::expect(c, {}, cases::Profile::direct3d), capture);
+}
+
+constexpr size_t kKept = 8 + 2;       // pixel (2, 1)
+constexpr size_t kDiscarded = 8 + 1;  // pixel (1, 1)
+
+TEST(DiscardJudge, LateTestsStoreNothing) {
+    const cases::Case c = discarding(false);
+    const capture::Capture right = rasterizers::draw_by_reference(c);
+    EXPECT_TRUE(judged(c, right).ok());
+    EXPECT_EQ(right.hits[kKept].x + right.hits[kKept].y, 1);
+    EXPECT_EQ(right.hits[kDiscarded].x + right.hits[kDiscarded].y, 0);
+    capture::Capture wrong = right;
+    wrong.depth[kDiscarded] = right.depth[kKept];
+    const Verdict verdict = judged(c, wrong);
+    ASSERT_EQ(verdict.findings.size(), 1U);
+    EXPECT_EQ(verdict.findings[0].rule, "discard.fragment");
+    EXPECT_EQ(verdict.findings[0].level, cases::Profile::vulkan);
+}
+
+TEST(DiscardJudge, EarlyTestsStoreDepthWithoutAHit) {
+    const cases::Case c = discarding(true);
+    const capture::Capture right = rasterizers::draw_by_reference(c);
+    const Verdict ok = judged(c, right);
+    EXPECT_TRUE(ok.ok()) << ok.error;
+    EXPECT_EQ(right.hits[kDiscarded].x + right.hits[kDiscarded].y, 0);
+    EXPECT_EQ(right.depth[kDiscarded], right.depth[kKept]);
+    for (const float depth : {c.target.depth_clear, 0.25F}) {
+        capture::Capture wrong = right;
+        wrong.depth[kDiscarded] = depth;
+        const Verdict verdict = judged(c, wrong);
+        ASSERT_EQ(verdict.findings.size(), 1U) << depth;
+        EXPECT_EQ(verdict.findings[0].rule, "discard.early-tests");
+        EXPECT_EQ(verdict.findings[0].quantity, "depth");
+        EXPECT_EQ(verdict.findings[0].level, cases::Profile::vulkan);
+    }
+    // Where nothing is covered a depth is a contradiction, early tests or not.
+    capture::Capture wrong = right;
+    wrong.depth.back() = 0.25F;
+    ASSERT_EQ(judged(c, wrong).findings.size(), 1U);
+}
+
+TEST(DiscardJudge, ADiscardedFragmentThatShowsIsExtra) {
+    const cases::Case c = discarding(false);
+    cases::Case plain = c;
+    plain.draws[0].discard = cases::Discard::none;
+    const Verdict verdict = judged(c, rasterizers::draw_by_reference(plain));
+    ASSERT_FALSE(verdict.findings.empty());
+    EXPECT_EQ(verdict.findings[0].kind, FindingKind::extra);
+    EXPECT_EQ(verdict.findings[0].rule, "discard.fragment");
+}
+
+}  // namespace
+}  // namespace diff
