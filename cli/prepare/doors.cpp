@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <sstream>
+#include <string_view>
 #include <tuple>
 
 #include "capture/checksum.hpp"
@@ -17,31 +20,81 @@ namespace cli {
 
 namespace {
 
-std::vector<std::string> all_words() {
-    std::vector<std::string> words = {"all", "default", "none"};
-    for (const cases::DoorRow& row : cases::all_doors()) {
-        words.emplace_back(row.word);
-    }
-    return words;
+constexpr std::string_view kSets[] = {"all", "default", "none"};
+
+bool is_set(std::string_view word) {
+    return std::find(std::begin(kSets), std::end(kSets), word) != std::end(kSets);
 }
 
-OrStop<std::vector<cases::Door>> named_doors(const std::string& words) {
-    std::vector<cases::Door> doors;
+// What --doors asks for: a set, or doors by their names, and those of a set that are left out.
+struct Wish {
+    std::string set = "none";
+    std::vector<cases::Door> named, without;
+    bool has(cases::Door door) const {
+        return std::find(without.begin(), without.end(), door) == without.end();
+    }
+};
+
+tl::unexpected<Stop> refuse(const std::string& sentence) {
+    return tl::unexpected(stop_with(report::kExitUsage, "--doors: " + sentence));
+}
+
+OrStop<cases::Door> named_door(const std::string& word, bool is_first) {
+    if (const std::optional<cases::Door> door = cases::find_door(word)) {
+        return *door;
+    }
+    if (is_set(word)) {
+        return refuse(fmt::format(
+            "'{}' stands first or not at all, and behind it only '-NAME', a door to leave out",
+            word));
+    }
+    std::vector<std::string> known;
+    if (is_first) {
+        known.assign(std::begin(kSets), std::end(kSets));
+    }
+    for (const cases::DoorRow& row : cases::all_doors()) {
+        known.emplace_back(row.word);
+    }
+    const std::string nearest = cases::nearest_name(word, known);
+    return refuse(fmt::format("there is no door '{}'{}; 'edgecase doors' lists them", word,
+                              nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
+}
+
+// "all,-index-8", "default", "index-8,secondary".
+OrStop<Wish> wish_of(const std::string& words) {
+    Wish wish;
     std::istringstream in(words);
-    for (std::string word; std::getline(in, word, ',');) {
-        const std::optional<cases::Door> door = cases::find_door(word);
-        if (!door) {
-            const std::string nearest = cases::nearest_name(word, all_words());
-            return tl::unexpected(stop_with(
-                report::kExitUsage,
-                fmt::format("--doors: there is no door '{}'{}; 'edgecase doors' lists them", word,
-                            nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest))));
+    bool is_first = true;
+    for (std::string word; std::getline(in, word, ','); is_first = false) {
+        if (is_first && is_set(word)) {
+            wish.set = word;
+            continue;
         }
-        if (std::find(doors.begin(), doors.end(), *door) == doors.end()) {
-            doors.push_back(*door);
+        const bool is_left_out = word.starts_with('-');
+        const OrStop<cases::Door> door = named_door(word.substr(is_left_out ? 1 : 0), is_first);
+        if (!door) {
+            return tl::unexpected(door.error());
+        }
+        const bool is_of_set = wish.set != "none";
+        if (is_left_out && !is_of_set) {
+            return refuse(
+                fmt::format("'{}' leaves a door out of a set, so 'all' or 'default' stands "
+                            "first: all,{}",
+                            word, word));
+        }
+        if (!is_left_out && words.starts_with("none,")) {
+            return refuse("'none' stands alone");
+        }
+        if (!is_left_out && is_of_set) {
+            return refuse(fmt::format(
+                "behind '{}' stand only doors to leave out; did you mean '-{}'?", wish.set, word));
+        }
+        std::vector<cases::Door>& list = is_left_out ? wish.without : wish.named;
+        if (std::find(list.begin(), list.end(), *door) == list.end()) {
+            list.push_back(*door);
         }
     }
-    return doors;
+    return wish;
 }
 
 std::string family_of(const cases::Case& c) {
@@ -53,7 +106,7 @@ bool is_demanding(const cases::Case& c) {
     return c.target.samples > 4 || !c.target.sample_locations.empty() || c.target.layers > 1;
 }
 
-void cover(std::span<cases::Case* const> selected) {
+void cover(std::span<cases::Case* const> selected, const Wish& wish) {
     std::map<std::string, std::vector<cases::Case*>> families;
     for (cases::Case* c : selected) {
         families[family_of(*c)].push_back(c);
@@ -69,7 +122,8 @@ void cover(std::span<cases::Case* const> selected) {
                 return std::tuple(is_demanding(*members[k]), bytes[k], members[k]->doors.size(), k);
             };
             for (size_t k = 0; k < members.size(); ++k) {
-                if (cases::can_take(row.door, *members[k]) && (!best || rank(k) < rank(*best))) {
+                if (wish.has(row.door) && cases::can_take(row.door, *members[k]) &&
+                    (!best || rank(k) < rank(*best))) {
                     best = k;
                 }
             }
@@ -85,24 +139,21 @@ void cover(std::span<cases::Case* const> selected) {
 OrStop<LeftOutDoors> choose_doors(const std::string& words,
                                   std::span<cases::Case* const> selected) {
     LeftOutDoors left_out;
-    if (words.empty() || words == "none") {
+    const OrStop<Wish> wish = wish_of(words);
+    if (!wish) {
+        return tl::unexpected(wish.error());
+    }
+    if (wish->set == "default") {
+        cover(selected, *wish);
         return left_out;
     }
-    if (words == "default") {
-        cover(selected);
-        return left_out;
-    }
-    std::vector<cases::Door> doors;
-    if (words == "all") {
+    std::vector<cases::Door> doors = wish->named;
+    if (wish->set == "all") {
         for (const cases::DoorRow& row : cases::all_doors()) {
-            doors.push_back(row.door);
+            if (wish->has(row.door)) {
+                doors.push_back(row.door);
+            }
         }
-    } else {
-        OrStop<std::vector<cases::Door>> named = named_doors(words);
-        if (!named) {
-            return tl::unexpected(named.error());
-        }
-        doors = std::move(*named);
     }
     for (const cases::Door door : doors) {
         size_t taking = 0;
@@ -114,7 +165,7 @@ OrStop<LeftOutDoors> choose_doors(const std::string& words,
                 left_out[c->id].emplace_back(cases::row_of(door).word);
             }
         }
-        if (taking == 0 && words != "all") {
+        if (taking == 0 && wish->set != "all") {
             return tl::unexpected(stop_with(
                 report::kExitNothingSelected,
                 fmt::format("no selected case can go through the door '{}', which takes {}; select "
@@ -126,7 +177,8 @@ OrStop<LeftOutDoors> choose_doors(const std::string& words,
 }
 
 std::string doors_words(const std::string& words, const std::vector<std::string>& doors) {
-    return words == "all" ? words : fmt::format("{}", fmt::join(doors, ","));
+    return words == "all" || words.starts_with("all,") ? words
+                                                       : fmt::format("{}", fmt::join(doors, ","));
 }
 
 }  // namespace cli

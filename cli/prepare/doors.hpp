@@ -19,9 +19,10 @@ namespace cli {
 using LeftOutDoors = std::map<std::string, std::vector<std::string>>;
 
 // Gives each selected case its doors. `words` is "none", "all", "default" or names separated by
-// commas. "default" covers: each door has one case of each family that has one which can take it,
-// the cheapest, and those with fewer doors first. Errors: an unknown name (2), a name that no case
-// can take (4).
+// commas; behind "all" and "default" may stand "-NAME", which leaves a door out. "default" covers:
+// each door has one case of each family that has one which can take it, the cheapest, and those
+// with fewer doors first. Errors: an unknown name, or words that make no sense together (2), a name
+// that no case can take (4).
 OrStop<LeftOutDoors> choose_doors(const std::string& words, std::span<cases::Case* const> selected);
 
 // The words that give one case the same doors; empty if there are none.

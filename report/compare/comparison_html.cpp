@@ -137,6 +137,9 @@ Json causes_json(const Comparison& comparison, Json& rules) {
                                 {"kind", cases::printable(cause.kind)},
                                 {"level", cause.level ? cases::to_string(*cause.level) : ""},
                                 {"cases", std::move(members)}});
+            if (!cause.door.empty()) {
+                list.back()["door"] = cases::printable(cause.door);
+            }
             if (const cases::Rule* rule = cases::find_rule(cause.rule)) {
                 rules[cause.rule] = Json{{"title", rule->title}, {"anchor", rule->anchor}};
             }

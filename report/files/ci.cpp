@@ -111,18 +111,18 @@ std::string to_github_annotations(const Run& run, const fs::path& base) {
     const size_t told = is_whole ? kMaxAnnotations : kMaxAnnotations - 1;
     for (size_t k = 0; k < std::min(list.size(), told); ++k) {
         const CaseRecord& first = smallest_case(list[k]);
-        const std::string body = fmt::format(
-            "{}   {}\n{}\nrerun: {}{}", first.id, what_happened(first), why_it_happened(first),
-            first.rerun, first.explain.empty() ? "" : "\nexplain: " + first.explain);
+        const std::string others = other_relations_text(first);
+        const std::string body =
+            fmt::format("{}   {}\n{}{}\nrerun: {}{}", first.id, what_happened(first),
+                        why_it_happened(first), others.empty() ? "" : "\nalso: " + others,
+                        first.rerun, first.explain.empty() ? "" : "\nexplain: " + first.explain);
         const std::string file = file_in(base, run, first.file);
         const std::string place = file.empty()
                                       ? ""
                                       : fmt::format("file={},line={},", command_text(file, true),
                                                     std::max(first.line, 1U));
-        // All cases of a cause fail alike: at its level, or a looser one.
         const bool is_error =
-            std::any_of(list[k].cases.begin(), list[k].cases.end(),
-                        [&](const auto* record) { return makes_fail(run, *record); });
+            list[k].status != Status::fail || !list[k].level || *list[k].level <= fail_level(run);
         text += fmt::format("::{} {}title={}::{}\n", is_error ? "error" : "notice", place,
                             command_text(cause_title(list[k]), true), command_text(body, false));
     }
@@ -168,9 +168,13 @@ std::string to_github_summary(const Run& run) {
         }
     }
     text += fmt::format("| all | {} |\n", run.cases.size());
-    for (const Diagnosis& diagnosis : run.diagnoses) {
-        text += fmt::format("\n**Diagnosis: {}.** {}.\n", cell(what_it_does(diagnosis)),
-                            cell(evidence_for(diagnosis)));
+    const Repeated repeated(run);
+    for (size_t k = 0; k < run.diagnoses.size(); ++k) {
+        const Diagnosis& diagnosis = run.diagnoses[k];
+        if (!repeated.is_partial(k)) {
+            text += fmt::format("\n**Diagnosis: {}.** {}.\n", cell(what_it_does(diagnosis)),
+                                cell(evidence_for(diagnosis)));
+        }
     }
     const std::vector<Cause> list = causes(run);
     if (list.empty()) {
@@ -193,6 +197,14 @@ std::string to_github_summary(const Run& run) {
     }
     if (told < list.size()) {
         text += fmt::format("\n+{} more causes, see the report.\n", list.size() - told);
+    }
+    for (size_t k = 0; k < run.diagnoses.size(); ++k) {
+        const Diagnosis& diagnosis = run.diagnoses[k];
+        if (repeated.is_partial(k)) {
+            text += fmt::format("\nSome cases look as if: {}. It {}; it {}.\n",
+                                cell(what_it_does(diagnosis)), cell(limits_of(diagnosis)),
+                                cell(evidence_for(diagnosis)));
+        }
     }
     text += "\n### What shows and repeats them\n";
     for (size_t k = 0; k < std::min(told, kMaxCommands); ++k) {

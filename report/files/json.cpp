@@ -11,6 +11,7 @@
 #include "report/journal/json_object.hpp"
 #include "report/journal/picture_codec.hpp"
 #include "report/text/causes.hpp"
+#include "report/text/diagnosis_text.hpp"
 #include "report/text/doors_text.hpp"
 #include "report/text/levels_text.hpp"
 #include "report/text/sentences.hpp"
@@ -199,6 +200,15 @@ Json levels_json(const Run& run) {
     return Json{{"judged", found.judged}, {"unjudged", found.unjudged}, {"rows", std::move(rows)}};
 }
 
+Json diagnoses_json(const Run& run) {
+    Json list = encode(run.diagnoses);
+    const Repeated repeated(run);
+    for (size_t k = 0; k < run.diagnoses.size(); ++k) {
+        list.at(k)["partial"] = repeated.is_partial(k);
+    }
+    return list;
+}
+
 Json causes_json(const Run& run) {
     Json list = Json::array();
     for (const Cause& cause : causes(run)) {
@@ -206,6 +216,7 @@ Json causes_json(const Run& run) {
                   {"family", cases::printable(cause.family)},
                   {"rule", cases::printable(cause.rule)},
                   {"kind", cases::printable(cause.kind)},
+                  {"door", cases::printable(cause.door)},
                   {"level", cause.level ? Json(cases::to_string(*cause.level)) : Json(nullptr)},
                   {"known", cause.is_known},
                   {"cases", Json::array()}};
@@ -242,7 +253,7 @@ std::string to_json(const Run& run) {
                                           {"case", cases::printable(worst->id)}}},
         {"doors", doors_json(run)},
         {"levels", levels_json(run)},
-        {"diagnoses", encode(run.diagnoses)},
+        {"diagnoses", diagnoses_json(run)},
         {"causes", causes_json(run)},
         {"cases", std::move(list)},
     };

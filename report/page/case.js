@@ -44,7 +44,7 @@ function makeCasePage(record, neighbours, onChange) {
 
 // The diagnosis that explains the case: it was tried on this one, or on others of its cause.
 function diagnosisLine(record) {
-  const cause = causeOf.get(record), isTried = record.diagnosis !== undefined, number = isTried ? record.diagnosis : cause && cause.diagnosis;
+  const cause = causeOf(record), isTried = record.diagnosis !== undefined, number = isTried ? record.diagnosis : cause && cause.diagnosis;
   const diagnosis = (data.diagnoses || [])[number];
   return diagnosis ? el("div", {class: "diagnosis"}, el("p", {class: "what"}, diagnosis.what + "."),
     el("p", {class: "quiet small"}, isTried ? "The diagnosis repeats what is wrong here." : "The diagnosis repeats what is wrong in the cases of the same cause that it was tried on; this one was not.")) : null;

@@ -6,17 +6,22 @@
 const SHOWN_CAUSES = 8;
 const SHOWN_BUGS = 3;  // of a cause
 
-const openCause = (cause) => ({...cause, key: [cause.change, cause.status, cause.family, cause.rule, cause.kind].filter((part) => part !== undefined).join("|"),
+const openCause = (cause) => ({...cause, key: [cause.change, cause.status, cause.family, cause.rule, cause.kind, cause.level, cause.door].filter((part) => part !== undefined).join("|"),
   records: cause.cases.map((k) => data.cases[k])});
 const causes = data.causes.map(openCause);
 const knownCauses = (data.known_causes || []).map(openCause);  // of expected failures
-const causeOf = new Map([...causes, ...knownCauses].flatMap((cause) => cause.records.map((record) => [record, cause])));
+// A case that breaks several relations between drawings stands in several causes, the worst first.
+const causesOf = new Map(data.cases.map((record) => [record, []]));
+for (const cause of [...causes, ...knownCauses]) { cause.records.forEach((record) => causesOf.get(record).push(cause)); }
+const causeOf = (record) => causesOf.get(record)[0] || null;
+const isOfCause = (record, key) => causesOf.get(record).some((cause) => cause.key === key);
+const ruleAndDoor = (cause) => cause.rule + (cause.door ? "=" + cause.door : "");
 
 function causeText(cause) {
   const rule = data.rules[cause.rule], record = cause.records[0];
   return rule ? rule.title : cause.rule || cause.kind || record.reason || record.what || word(cause.status);
 }
-const causeTitle = (cause) => (cause.rule ? cause.rule + " \u00b7 " + cause.kind : word(cause.status) + " \u00b7 " + causeText(cause)) + " \u00b7 " + cause.family;
+const causeTitle = (cause) => (cause.rule ? ruleAndDoor(cause) + " \u00b7 " + cause.kind : word(cause.status) + " \u00b7 " + causeText(cause)) + " \u00b7 " + cause.family;
 
 // Whether a result is what its expectation speaks of; one that fails although it has one is news beside it.
 const isKnown = (record) => ["xfail", "xpass", "improved"].includes(record.status) || Boolean(record.expired);
@@ -30,7 +35,7 @@ function causeRow(cause, show) {
   const link = el("a", {href: "#case=" + encodeURIComponent(example.id), class: "id"}, idText(example.id));
   return el("tr", {"data-cause": cause.key},
     el("td", {}, cause.change ? cause.change : statusTag(cause.status)),
-    el("td", {}, cause.rule ? [ruleLink(cause.rule), " ", el("span", {class: "kind"}, cause.kind), " in " + cause.family] : null, el("div", {}, causeText(cause)),
+    el("td", {}, cause.rule ? [ruleLink(cause.rule), cause.door ? "=" + cause.door : "", " ", el("span", {class: "kind"}, cause.kind), " in " + cause.family] : null, el("div", {}, causeText(cause)),
       bugsLine("known as ", cause.records.filter(isKnown)), bugsLine("beside what is known as ", cause.records.filter((record) => !isKnown(record)))),
     el("td", {}, cause.level ? [levelTag(cause.level), el("div", {class: "quiet small"}, data.meanings[cause.level])] : cause.known ? "all expected" : ""),
     el("td", {class: "right"}, el("button", {type: "button", class: "link", title: "show only these", onclick: () => show(cause.key)}, plural(cause.records.length, "case")),
@@ -43,19 +48,19 @@ function causesTable(rows) {
 }
 
 // What the device does wrong, as far as it was found out, with the cases that show it best. The causes that it repeats are
-// folded under it.
-function diagnosesSection(show) {
-  const list = data.diagnoses || [];
+// folded under it. What explains a few cases only has none, and stands after the causes.
+function diagnosesSection(show, isPartial) {
+  const list = (data.diagnoses || []).map((diagnosis, number) => [diagnosis, number]).filter(([diagnosis]) => Boolean(diagnosis.limits) === isPartial);
   if (list.length === 0) { return null; }
-  const entries = list.map((diagnosis, number) => {
+  const entries = list.map(([diagnosis, number]) => {
     const shown = diagnosis.cases.map((k) => data.cases[k].id);
     const folded = causes.filter((cause) => cause.diagnosis === number), cases = folded.reduce((sum, cause) => sum + cause.records.length, 0);
-    return el("div", {class: "diagnosis"}, el("p", {class: "what"}, diagnosis.what + "."), el("p", {class: "quiet small"}, diagnosis.evidence + "."),
+    return el("div", {class: "diagnosis"}, el("p", {class: "what"}, diagnosis.what + "."), el("p", {class: "quiet small"}, (diagnosis.limits ? diagnosis.limits + "; " : "") + diagnosis.evidence + "."),
       el("p", {class: "small"}, "Seen in ", shown.flatMap((id, k) => [k ? ", " : "", el("a", {href: "#case=" + encodeURIComponent(id), class: "id"}, idText(id))])),
       folded.length ? el("details", {class: "folded"}, el("summary", {class: "small"}, plural(folded.length, "cause") + (folded.length === 1 ? " says" : " say") + " the same, in " + plural(cases, "case")),
         causesTable(folded.map((cause) => causeRow(cause, show)))) : null);
   });
-  return el("section", {id: "diagnoses"}, el("h2", {}, "Diagnosis"), entries);
+  return el("section", {id: isPartial ? "partial-diagnoses" : "diagnoses"}, el("h2", {}, isPartial ? "Some cases look as if" : "Diagnosis"), entries);
 }
 
 // `show(key)` is called to list the cases of one cause alone.

@@ -120,7 +120,7 @@ function showList() {
   painters.clear();
   const words = byId("filter").value.toLowerCase().split(/\s+/).filter(Boolean);
   const text = (entry) => (entry.id + " " + entry.detail + " " + entry.results.map((r) => r ? r.status + " " + r.what + " " + r.why : "").join(" ")).toLowerCase();
-  const shown = data.cases.filter((entry) => !hidden.has(entry.change) && words.every((w) => text(entry).includes(w)) && (!onlyCause || (causeOf.get(entry) || {}).key === onlyCause));
+  const shown = data.cases.filter((entry) => !hidden.has(entry.change) && words.every((w) => text(entry).includes(w)) && (!onlyCause || isOfCause(entry, onlyCause)));
   byId("clear").hidden = !words.length && !onlyCause;
   for (const row of document.querySelectorAll(".causes tr[data-cause]")) { row.setAttribute("aria-selected", String(row.dataset.cause === onlyCause)); }
   byId("shown").textContent = shown.length + " of " + data.cases.length + " cases that are not the same" + (shown.length > MOST_ROWS ? ", the first " + MOST_ROWS + " here" : "");

@@ -5,7 +5,7 @@
 const SHOWN_ROWS = 60;  // of a group, before it is asked for more
 const listing = {words: "", group: "family", sort: "status", cause: "", off: new Set(), opened: new Map(), more: new Map()};
 
-const entries = data.cases.map((record) => ({record, family: familyOf(record.id, record.file), cause: causeOf.get(record) || null, rank: STATUSES.indexOf(record.status),
+const entries = data.cases.map((record) => ({record, family: familyOf(record.id, record.file), cause: causeOf(record), rank: STATUSES.indexOf(record.status),
   wrong: record.finding_total || 0, worst: record.worst ? numberOf(record.worst[0]) : -1, seconds: numberOf(record.seconds),
   rules: new Set([...(record.rules || []), ...(record.lead ? [string(record.lead[1])] : [])]),
   text: [record.id, string(record.description), (record.rules || []).join(" "), record.what, word(record.status), record.lead ? string(record.lead[1]) : ""].join("\n").toLowerCase()}));
@@ -80,7 +80,7 @@ function groupBody(name, members, total, anySearch) {
 }
 
 function isListed(entry, words) {
-  return !listing.off.has(entry.record.status) && (!listing.cause || (entry.cause && entry.cause.key === listing.cause)) && words.every((w) => entry.text.includes(w));
+  return !listing.off.has(entry.record.status) && (!listing.cause || isOfCause(entry.record, listing.cause)) && words.every((w) => entry.text.includes(w));
 }
 // The cases as listed, first to last: what "next" and "previous" walk through.
 function listedCases() {
@@ -119,7 +119,7 @@ function buildOverview() {
     changed();
   }}, el("span", {class: "tally"}, String(data.totals[status])), statusTag(status))));
   const show = (key) => { listing.cause = listing.cause === key ? "" : key; changed(); };
-  add(byId("causes-slot"), diagnosesSection(show), causesSection(show), knownCausesSection(show));
+  add(byId("causes-slot"), diagnosesSection(show, false), causesSection(show), diagnosesSection(show, true), knownCausesSection(show));
   if (data.without_pictures) {
     byId("causes-slot").append(el("p", {class: "note"}, "To keep this page small, the pictures of " + plural(data.without_pictures, "case") + " stand in ",
       el("a", {href: partName(data.part + 1)}, partName(data.part + 1)), ". Every cause has one here."));

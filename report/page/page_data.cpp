@@ -94,6 +94,9 @@ Json causes_json(const Run& run, const std::vector<Cause>& list) {
                             {"kind", cases::printable(cause.kind)},
                             {"level", cause.level ? cases::to_string(*cause.level) : ""},
                             {"cases", std::move(members)}});
+        if (!cause.door.empty()) {
+            json.back()["door"] = cases::printable(cause.door);
+        }
         if (!cause.level && cause.is_known) {
             json.back()["known"] = true;
         }
@@ -108,6 +111,7 @@ Json causes_json(const Run& run, const std::vector<Cause>& list) {
 // it.
 Json diagnoses_json(const Run& run) {
     Json json = Json::array();
+    const Repeated repeated(run);
     for (const Diagnosis& d : run.diagnoses) {
         Json members = Json::array();
         for (const std::string& id : d.examples) {
@@ -120,6 +124,9 @@ Json diagnoses_json(const Run& run) {
         json.push_back(Json{{"what", cases::printable(what_it_does(d))},
                             {"evidence", evidence_for(d)},
                             {"cases", std::move(members)}});
+        if (repeated.is_partial(json.size() - 1)) {
+            json.back()["limits"] = limits_of(d);
+        }
     }
     return json;
 }

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -25,22 +27,30 @@ namespace {
 
 // What a case is grouped by, besides its status and family.
 struct Signature {
-    std::string rule, kind;
+    std::string rule, kind, door;
+    std::optional<cases::Profile> level;
+    friend auto operator<=>(const Signature&, const Signature&) = default;
 };
 
-Signature signature_of(const CaseRecord& record) {
+Signature signature_of(const diff::FindingGroup& group) {
+    return {group.rule, std::string(diff::to_string(group.kind)), group.door, group.level};
+}
+
+// Of what leads; its level is that of the case.
+Signature signature_of(const CaseRecord& record, Of which) {
+    const std::optional<cases::Profile> level = level_of(record, which);
     if (const auto news = leading_news(record)) {
-        return {news->rule, std::string(diff::to_string(news->kind))};
+        return {news->rule, std::string(diff::to_string(news->kind)), news->door, level};
     }
     if (!record.findings.empty()) {
         const diff::Finding& f = leading_finding(record);
-        return {f.rule, std::string(diff::to_string(f.kind))};
+        return {f.rule, std::string(diff::to_string(f.kind)), f.door, level};
     }
     std::string kind = record.signal;
     if (!record.step.empty()) {
         kind += (kind.empty() ? "during " : " during ") + record.step;
     }
-    return {"", kind};
+    return {"", kind, "", level};
 }
 
 // What could not be judged and deaths come first, then failures by profile, then the rest.
@@ -68,33 +78,30 @@ std::ptrdiff_t number_of(std::string_view rule) {
            all.begin();
 }
 
-// The looser one of two, of which one may be missing.
-std::optional<cases::Profile> looser(std::optional<cases::Profile> a,
-                                     std::optional<cases::Profile> b) {
-    return a && b ? std::min(*a, *b) : a ? a : b;
-}
-
-// The causes of those results of a run that `is_meant` picks by their status, with the levels of
-// all their findings, or of those that are new.
+// The causes of those results of a run that `is_meant` picks by their status, by all their findings
+// or by those that are new.
 std::vector<Cause> causes_of(const Run& run, bool (*is_meant)(Status), Of which) {
     std::vector<Cause> list;
-    std::map<std::tuple<Status, std::string, std::string, std::string>, size_t> index;
+    std::map<std::tuple<Status, std::string, Signature, bool>, size_t> index;
     for (const CaseRecord& record : run.cases) {
         if (!is_meant(record.status)) {
             continue;
         }
-        const Signature s = signature_of(record);
         const std::string family = family_of(record);
-        const auto [at, fresh] =
-            index.emplace(std::tuple(record.status, family, s.rule, s.kind), list.size());
-        if (fresh) {
-            list.push_back({record.status, family, s.rule, s.kind, {}, false, {}});
+        const bool is_known = level_of(record, Of::all) && !level_of(record, Of::news);
+        const auto add = [&](const Signature& s) {
+            const auto [at, fresh] =
+                index.emplace(std::tuple(record.status, family, s, is_known), list.size());
+            if (fresh) {
+                list.push_back(
+                    {record.status, family, s.rule, s.kind, s.door, s.level, is_known, {}});
+            }
+            list[at->second].cases.push_back(&record);
+        };
+        add(signature_of(record, which));
+        for (const diff::FindingGroup& group : other_relations(record, which)) {
+            add(signature_of(group));
         }
-        Cause& cause = list[at->second];
-        cause.level = looser(cause.level, level_of(record, which));
-        cause.is_known =
-            (fresh || cause.is_known) && level_of(record, Of::all) && !level_of(record, Of::news);
-        cause.cases.push_back(&record);
     }
     std::map<std::pair<int, std::string>, Reach> reaches;
     std::set<std::tuple<int, std::string, std::string>> families;
@@ -155,8 +162,8 @@ std::string cause_title(const Cause& cause) {
     std::string text(to_string(cause.status));
     std::replace(text.begin(), text.end(), '_', ' ');
     if (!cause.rule.empty() || !cause.kind.empty()) {
-        text +=
-            ": " + cause.rule + (cause.rule.empty() || cause.kind.empty() ? "" : " ") + cause.kind;
+        text += ": " + rule_and_door(cause.rule, cause.door) +
+                (cause.rule.empty() || cause.kind.empty() ? "" : " ") + cause.kind;
     }
     text += fmt::format(" in {}, {} {}", cause.family, cause.cases.size(),
                         cause.cases.size() == 1 ? "case" : "cases");

@@ -12,15 +12,18 @@
 
 namespace report {
 
-// Cases of one family with the same status and the same leading rule and kind of finding (deaths:
-// the same signal or step).
+// Cases of one family with the same status that break one rule in one way at one level, by one door
+// if it is a door's (deaths: with the same signal or step). A case stands in the cause of its
+// leading finding, and in one for every other relation between drawings that it breaks: a door that
+// is broken does not hide another.
 struct Cause {
     Status status = Status::fail;
     std::string family;  // first part of the ids; of ids of one part their files' folder, "mine/"
     std::string rule;    // of the leading finding; empty if there is none
     std::string kind;    // "missing", ...; of a death: "SIGSEGV during submit"
-    // Loosest of the findings that are new (of known_causes: of all). Nothing if there is none: the
-    // cases could not be judged, or their findings are all expected.
+    std::string door;    // of a door's rule: which one (cases/model/door.hpp); else empty
+    // Of what leads: the loosest of the findings that are new (of known_causes: of all). Nothing if
+    // there is none: the cases could not be judged, or their findings are all expected.
     std::optional<cases::Profile> level;
     bool is_known = false;                 // all their findings are expected, and there are some
     std::vector<const CaseRecord*> cases;  // in the order of the run; at least one
@@ -39,7 +42,8 @@ std::vector<Cause> known_causes(const Run& run);
 // The case that shows the cause with the fewest samples, and among those with the fewest findings.
 const CaseRecord& smallest_case(const Cause& cause);
 
-// "fail: tie.top-left missing in ties, 12 cases"; printable, one line.
+// "fail: tie.top-left missing in ties, 12 cases", "fail: door.state=state-static value in ...";
+// printable, one line.
 std::string cause_title(const Cause& cause);
 // "vulkan"; "all expected" of findings; or nothing, if no level can be told.
 std::string cause_level(const Cause& cause);

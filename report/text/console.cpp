@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <set>
 #include <vector>
 
 #include "cases/base/counted.hpp"
@@ -161,11 +162,11 @@ std::string_view shared_settings(const std::vector<Cause>& list, size_t count) {
 std::vector<Cause> told_causes(const Run& run, const ConsoleStyle& style) {
     std::vector<Cause> list = causes(run);
     std::erase_if(list, [](const Cause& cause) { return cause.status == Status::not_run; });
-    size_t results = 0;
+    std::set<const CaseRecord*> results;
     for (const Cause& cause : list) {
-        results += cause.cases.size();
+        results.insert(cause.cases.begin(), cause.cases.end());
     }
-    return results <= kHandful && !style.verbose ? std::vector<Cause>() : list;
+    return results.size() <= kHandful && !style.verbose ? std::vector<Cause>() : list;
 }
 
 // A line each with its smallest case, but for those that a diagnosis repeats. Settings that all
@@ -200,13 +201,17 @@ std::string causes_text(const Run& run, const ConsoleStyle& style) {
     return text;
 }
 
-// What the device does wrong, two lines each, and one about the causes that say the same.
+// What the device does wrong, two lines each, and one about the causes that say the same; but for
+// those that explain a part of it only.
 std::string diagnoses_text(const Run& run, const ConsoleStyle& style) {
     const std::vector<Cause> list = told_causes(run, style);
     const Repeated repeated(run);
     std::string text;
     for (size_t k = 0; k < run.diagnoses.size(); ++k) {
         const Diagnosis& d = run.diagnoses[k];
+        if (repeated.is_partial(k)) {
+            continue;
+        }
         text += fmt::format("diagnosis: {}\n{}{}\n", painted(what_it_does(d), "1", style), kIndent,
                             evidence_for(d));
         const auto folded = std::count_if(
@@ -215,6 +220,20 @@ std::string diagnoses_text(const Run& run, const ConsoleStyle& style) {
             text += fmt::format("{}{} of {} {} the same{}\n", kIndent, folded,
                                 cases::counted(list.size(), "cause"), folded == 1 ? "says" : "say",
                                 style.verbose ? "" : "; -v lists them");
+        }
+    }
+    return text;
+}
+
+// Those that explain a part of the failures only: after the causes, which they take nothing from.
+std::string partial_diagnoses_text(const Run& run) {
+    const Repeated repeated(run);
+    std::string text;
+    for (size_t k = 0; k < run.diagnoses.size(); ++k) {
+        if (repeated.is_partial(k)) {
+            const Diagnosis& d = run.diagnoses[k];
+            text += fmt::format("some cases look as if: {}\n{}{}; {}\n", what_it_does(d), kIndent,
+                                limits_of(d), evidence_for(d));
         }
     }
     return text;
@@ -277,6 +296,9 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
         "{} {}   {}\n", painted(upper(to_string(record.status)), color_of(record.status), style),
         cases::printable(record.id), what_happened(record));
     text += fmt::format("{}{}\n", kIndent, why_it_happened(record));
+    if (const std::string others = other_relations_text(record); !others.empty()) {
+        text += fmt::format("{}also: {}\n", kIndent, others);
+    }
     text += fmt::format("{}rerun: {}\n", kIndent, cases::printable(record.rerun));
     if (record.status == Status::crash || record.status == Status::timeout) {
         text += death_text(record);
@@ -296,11 +318,9 @@ std::string console_case(const CaseRecord& record, const ConsoleStyle& style) {
     return style.wrap ? wrapped(text, style.width) : text;
 }
 
-std::string console_summary(const Run& run, const std::string& report_path,
-                            const ConsoleStyle& style, const std::string& exit_words) {
+std::string console_totals(const Run& run, const ConsoleStyle& style) {
     const auto count = totals(run);
-    std::string text = diagnoses_text(run, style) + causes_text(run, style);
-    text += fmt::format("{} {}", run.cases.size(), run.cases.size() == 1 ? "case" : "cases");
+    std::string text = cases::counted(run.cases.size(), "case");
     for (size_t k = 0; k < kStatuses; ++k) {
         if (count.at(k) > 0) {
             const auto status = static_cast<Status>(k);
@@ -314,6 +334,18 @@ std::string console_summary(const Run& run, const std::string& report_path,
     // Always seconds, so that one run's time is seen beside another's.
     const std::string time = fmt::format("{:.{}f} s", run.seconds, run.seconds < 1 ? 2 : 1);
     text += fmt::format("   {}   seed {}\n", is_cut ? "cut off" : time, run.seed);
+    return style.wrap ? wrapped(text, style.width) : text;
+}
+
+std::string console_summary(const Run& run, const std::string& report_path,
+                            const ConsoleStyle& style, const std::string& exit_words) {
+    std::string text =
+        diagnoses_text(run, style) + causes_text(run, style) + partial_diagnoses_text(run);
+    if (!style.totals_are_told) {
+        ConsoleStyle unwrapped = style;
+        unwrapped.wrap = false;
+        text += console_totals(run, unwrapped);
+    }
     if (const size_t judged = judged_cases(run); judged > 0 && 2 * judged < run.cases.size()) {
         text += fmt::format("only {} of {} cases {} judged\n", judged, run.cases.size(),
                             judged == 1 ? "was" : "were");

@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "cases/base/counted.hpp"
+#include "report/text/sentences.hpp"
 
 namespace report {
 
@@ -41,37 +42,70 @@ std::string evidence_for(const Diagnosis& diagnosis) {
     return text;
 }
 
+std::string limits_of(const Diagnosis& diagnosis) {
+    return fmt::format("explains {} of {} only", diagnosis.cases,
+                       cases::counted(diagnosis.tried, "failed case") + " tried");
+}
+
 Repeated::Repeated(const Run& run) {
-    for (size_t k = 0; k < run.diagnoses.size(); ++k) {
-        for (const std::string& id : run.diagnoses[k].explained) {
-            diagnosis_of_.emplace(id, k);
+    std::set<std::string> tried, explained;
+    for (const Diagnosis& diagnosis : run.diagnoses) {
+        tried.insert(diagnosis.explained.begin(), diagnosis.explained.end());
+        tried.insert(diagnosis.unexplained.begin(), diagnosis.unexplained.end());
+        explained.insert(diagnosis.explained.begin(), diagnosis.explained.end());
+        explained_.emplace_back(diagnosis.explained.begin(), diagnosis.explained.end());
+    }
+    tried_ = std::move(tried);
+    const bool explain_most = 2 * explained.size() >= tried_.size();
+    std::set<size_t> with_a_cause;
+    for (const auto& list : {causes(run), known_causes(run)}) {
+        for (const Cause& cause : list) {
+            if (const auto number = whole(cause)) {
+                with_a_cause.insert(*number);
+            }
         }
-        others_.insert(run.diagnoses[k].unexplained.begin(), run.diagnoses[k].unexplained.end());
     }
-    for (const auto& [id, number] : diagnosis_of_) {
-        others_.erase(id);
+    for (size_t k = 0; k < explained_.size(); ++k) {
+        const bool explains_most = 2 * explained_[k].size() >= tried_.size();
+        is_partial_.push_back(!explains_most && !(explain_most && with_a_cause.contains(k)));
     }
+}
+
+bool Repeated::is_partial(size_t number) const {
+    return is_partial_.at(number);
 }
 
 std::optional<size_t> Repeated::by(const std::string& id) const {
-    const auto found = diagnosis_of_.find(id);
-    return found == diagnosis_of_.end() ? std::nullopt : std::optional(found->second);
+    for (size_t k = 0; k < explained_.size(); ++k) {
+        if (explained_[k].contains(id)) {
+            return k;
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<size_t> Repeated::by(const Cause& cause) const {
-    std::map<size_t, size_t> counts;  // of cases, by diagnosis
-    for (const CaseRecord* record : cause.cases) {
-        if (others_.contains(record->id)) {
-            return std::nullopt;
+    const std::optional<size_t> number = whole(cause);
+    return number && !is_partial(*number) ? number : std::nullopt;
+}
+
+std::optional<size_t> Repeated::whole(const Cause& cause) const {
+    // What is drawn is one picture of a case, so it says nothing of relations between several.
+    if (is_relation(cause.rule)) {
+        return std::nullopt;
+    }
+    for (size_t k = 0; k < explained_.size(); ++k) {
+        bool was_tried = false, explains_all = true;
+        for (const CaseRecord* record : cause.cases) {
+            was_tried = was_tried || tried_.contains(record->id);
+            explains_all = explains_all &&
+                           (!tried_.contains(record->id) || explained_[k].contains(record->id));
         }
-        if (const auto number = by(record->id)) {
-            ++counts[*number];
+        if (was_tried && explains_all) {
+            return k;
         }
     }
-    const auto most =
-        std::max_element(counts.begin(), counts.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    return most == counts.end() ? std::nullopt : std::optional(most->first);
+    return std::nullopt;
 }
 
 }  // namespace report

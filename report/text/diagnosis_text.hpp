@@ -5,10 +5,10 @@
 // they repeat.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "report/record/diagnosis.hpp"
 #include "report/record/run.hpp"
@@ -23,19 +23,27 @@ std::string what_it_does(const Diagnosis& diagnosis);
 // cases that were tried; 40 cases that passed agree".
 std::string evidence_for(const Diagnosis& diagnosis);
 
+// What a partial one does not: "explains 4 of 64 failed cases tried only".
+std::string limits_of(const Diagnosis& diagnosis);
+
 // Which cases and causes say the same as a diagnosis of the run.
 class Repeated {
   public:
     explicit Repeated(const Run& run);
     // The number of the diagnosis that repeats this case, where it was tried.
     std::optional<size_t> by(const std::string& id) const;
-    // The number of the one that repeats the most of the cause's cases, if every case that was
-    // tried is repeated by some, and at least one was tried.
+    // The number of the first one that alone repeats every case of the cause that was tried, if at
+    // least one was. A partial one has no causes, and relations between drawings are of none.
     std::optional<size_t> by(const Cause& cause) const;
+    // Whether a diagnosis says too little to stand at the head: it explains less than half of the
+    // failed cases tried, and either all diagnoses together do so, or it alone explains no cause.
+    bool is_partial(size_t number) const;
 
   private:
-    std::map<std::string, size_t> diagnosis_of_;
-    std::set<std::string> others_;  // what was tried, and no diagnosis repeats
+    std::optional<size_t> whole(const Cause& cause) const;
+    std::vector<std::set<std::string>> explained_;  // by diagnosis
+    std::set<std::string> tried_;                   // failed cases
+    std::vector<bool> is_partial_;                  // by diagnosis
 };
 
 }  // namespace report

@@ -63,12 +63,14 @@ std::string new_pictures_text(const Run& run) {
 std::string headline(const Run& run) {
     const auto count = totals(run);
     const auto of = [&](Status status) { return count.at(static_cast<size_t>(status)); };
+    // Of what the levels are of, as far as it was judged: the page tells both numbers together.
+    const size_t asked = run.cases.size() - of(Status::unsupported) - of(Status::skip);
+    const bool is_judged = asked < run.cases.size() && levels(run).judged == asked;
+    const std::string all = cases::counted(asked, is_judged ? "judged case" : "case");
     std::string text;
     const auto tell = [&](size_t n, std::string_view one, std::string_view several) {
         if (n > 0) {
-            text += text.empty()
-                        ? fmt::format("{} of {}", n, cases::counted(run.cases.size(), "case"))
-                        : fmt::format(", {}", n);
+            text += text.empty() ? fmt::format("{} of {}", n, all) : fmt::format(", {}", n);
             text += fmt::format(" {}", n == 1 ? one : several);
         }
     };

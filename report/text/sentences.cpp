@@ -45,7 +45,7 @@ std::string counted_findings(diff::FindingKind kind, uint64_t count, bool is_bes
 bool is_known(const CaseRecord& record, const diff::Finding& f) {
     return std::any_of(record.groups.begin(), record.groups.end(), [&](const auto& group) {
         return group.kind == f.kind && group.rule == f.rule && group.level == f.level &&
-               group.count == group.known;
+               group.door == f.door && group.count == group.known;
     });
 }
 
@@ -54,11 +54,11 @@ std::string rule_and_level(const CaseRecord& record) {
     std::string rule;
     cases::Profile level = record.level;
     if (const auto news = leading_news(record)) {
-        rule = news->rule.empty() ? "no told rule" : news->rule;
+        rule = news->rule.empty() ? "no told rule" : rule_and_door(news->rule, news->door);
         level = news->level;
     } else if (!record.findings.empty()) {
         const diff::Finding& leading = leading_finding(record);
-        rule = leading.rule;
+        rule = rule_and_door(leading.rule, leading.door);
         level = leading.level;
     }
     if (rule.empty() || !is_judged(record)) {
@@ -94,6 +94,46 @@ std::optional<diff::FindingGroup> leading_news(const CaseRecord& record) {
                                         return group.level == *level && group.known < group.count;
                                     });
     return found == record.groups.end() ? std::nullopt : std::optional(*found);
+}
+
+bool is_relation(std::string_view rule) {
+    return rule.starts_with("door.") || rule.starts_with("repeat.");
+}
+
+std::vector<diff::FindingGroup> other_relations(const CaseRecord& record, Of which) {
+    const bool has_news = !is_expected(record.status);
+    if (!is_judged(record) || (which == Of::news && !has_news)) {
+        return {};
+    }
+    std::optional<diff::FindingGroup> leading = leading_news(record);
+    if (!leading && !record.findings.empty()) {
+        const diff::Finding& f = leading_finding(record);
+        leading = {f.kind, f.rule, f.level, 0, 0, f.door};
+    }
+    std::vector<diff::FindingGroup> list;
+    for (const diff::FindingGroup& group : record.groups) {
+        const bool leads = leading && leading->kind == group.kind && leading->rule == group.rule &&
+                           leading->level == group.level && leading->door == group.door;
+        if (is_relation(group.rule) && !leads && (which == Of::all || group.known < group.count)) {
+            list.push_back(group);
+        }
+    }
+    return list;
+}
+
+std::string other_relations_text(const CaseRecord& record) {
+    std::string text;
+    for (const diff::FindingGroup& group :
+         other_relations(record, is_expected(record.status) ? Of::all : Of::news)) {
+        text += fmt::format("{}{} [{}], {}", text.empty() ? "" : "; ",
+                            rule_and_door(group.rule, group.door), cases::to_string(group.level),
+                            counted_findings(group.kind, group.count, false));
+    }
+    return text;
+}
+
+std::string rule_and_door(const std::string& rule, const std::string& door) {
+    return one_line(door.empty() ? rule : rule + "=" + door);
 }
 
 std::string seconds_text(double seconds) {

@@ -6,8 +6,10 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "report/record/levels.hpp"
 #include "report/record/run.hpp"
 
 namespace report {
@@ -46,6 +48,17 @@ const diff::Finding& leading_finding(const CaseRecord& record);
 // Of an unexpected result whose new findings are beyond those that are kept, so that the leading
 // finding is one that an expectation speaks of: the new ones of the loosest level. Else nothing.
 std::optional<diff::FindingGroup> leading_news(const CaseRecord& record);
+
+// Whether a rule holds between drawings of one case: door.*, repeat.*.
+bool is_relation(std::string_view rule);
+// The relations between drawings that a case breaks beside its leading
+// finding: of a result that is expected none are new.
+std::vector<diff::FindingGroup> other_relations(const CaseRecord& record, Of which);
+// The same in words, of an unexpected result the new ones: "door.state=state-first [vulkan], 36
+// wrong values; repeat.same [vulkan], 2 wrong values"; empty without any.
+std::string other_relations_text(const CaseRecord& record);
+// "door.state=state-first", as expectation files write it; the rule alone if it is of no door.
+std::string rule_and_door(const std::string& rule, const std::string& door);
 
 // "exit 1: unexpected results"; `why` stands in place of what the code means in general.
 std::string exit_text(int code, const std::string& why = {});

@@ -3,6 +3,8 @@
 #include "report/text/unexpected.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "report/text/causes.hpp"
@@ -76,8 +78,11 @@ std::string UnexpectedResults::worst() const {
         run.cases.push_back(kept.first);
     }
     std::string text;
+    std::set<std::string> told;  // a case may stand in several causes
     const auto tell = [&](const CaseRecord& record) {
-        text += kept_.at(place_.at(record.id)).second;
+        if (told.insert(record.id).second) {
+            text += kept_.at(place_.at(record.id)).second;
+        }
     };
     const std::vector<Cause> list = causes(run);
     if (kept_.size() <= kHandful) {

@@ -109,7 +109,9 @@ int main(int argc, char** argv) {
             "compared after what the door adds to it; where a command has several draws, "
             "gl_PrimitiveID may begin again with each of them. `edgecase run --doors all` draws "
             "every case through every door that it can take, `--doors default` each door with "
-            "the cheapest case of each family, and `relations = [{ doors = [...] }]` in a file "
+            "the cheapest case of each family, both without a door that is named behind them "
+            "(`--doors all,-indirect-after-count`), and `relations = [{ doors = [...] }]` in a "
+            "file "
             "its own. The run tells how many pictures went through doors, which doors drew "
             "none, and why."));
     print_doors();

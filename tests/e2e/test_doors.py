@@ -47,6 +47,25 @@ class Doors(ProgramTest):
         self.assertTrue(case["findings"][0]["quantity"].endswith(", door index-16"))
         self.assertIn(" --doors index-16", case["rerun"])
 
+    def test_a_broken_door_does_not_hide_another(self):
+        done, results = self.run_doors("--doors", "index-16,index-32", "--retries", "0", "-v", check=1, fault="flip-derived@a/one")
+        told = {(cause["rule"], cause["door"], len(cause["cases"])) for cause in results["causes"]}
+        self.assertEqual(told, {("door.index", "index-16", 1), ("door.index", "index-32", 1)})
+        self.assertRegex(done.stdout, r"FAIL a/one   .*   door\.index=index-16 \[vulkan: not conformant\]")
+        self.assertRegex(done.stdout, r"also: door\.index=index-32 \[vulkan\], \d+ wrong value")
+        for door in ("index-16", "index-32"):
+            self.assertIn(f"fail: door.index={door} value in a, 1 case [vulkan]", done.stdout)
+        # One that is known can be left out of all.
+        done, results = self.run_doors("--doors", "all,-index-16", "--retries", "0", check=1, fault="flip-derived@a/one")
+        doors = {d["door"] for d in results["doors"]}
+        self.assertNotIn("index-16", doors)
+        self.assertIn("index-32", doors)
+        self.assertIn(" --doors all,-index-16", next(c for c in results["cases"] if c["id"] == "a/one")["rerun"])
+        _, results = self.run_doors("--doors", "default,-index-16", "--retries", "0", check=1)
+        doors = {d["door"] for d in results["doors"] if d["pictures"] > 0}
+        self.assertNotIn("index-16", doors)
+        self.assertIn("index-32", doors)
+
     def test_default_draws_each_door_with_each_family(self):
         _, results = self.run_doors("--doors", "default", "!a/strip", "--retries", "0", check=1)
         for door in results["doors"]:
@@ -58,6 +77,15 @@ class Doors(ProgramTest):
     def test_wrong_words(self):
         done, _ = self.run_doors("--doors", "index-17", check=2)
         self.assertIn("--doors: there is no door 'index-17', did you mean 'index-16'?; 'edgecase doors' lists them", done.stderr)
+        for words, told in (
+                ("all,foo", "there is no door 'foo'; 'edgecase doors'"),
+                ("all,index-33", "there is no door 'index-33', did you mean 'index-32'?"),
+                ("all,index-32", "behind 'all' stand only doors to leave out; did you mean '-index-32'?"),
+                ("none,all", "'all' stands first or not at all, and behind it only '-NAME'"),
+                ("none,index-8", "'none' stands alone"),
+                ("index-8,-index-16", "'-index-16' leaves a door out of a set, so 'all' or 'default' stands first: all,-index-16")):
+            done, _ = self.run_doors("--doors", words, check=2)
+            self.assertIn("--doors: " + told, done.stderr)
         done, _ = self.run_doors("--doors", "restart-extra", "b/*", check=4)
         self.assertIn("no selected case can go through the door 'restart-extra', which takes a strip or a fan", done.stderr)
         done = self.edgecase("run", "--suite", "own", "--renderer", "reference", "--doors", "all", "-o", "out", check=2)

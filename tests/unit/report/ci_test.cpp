@@ -11,9 +11,11 @@
 #include <sstream>
 
 #include "cases/base/utf8.hpp"
+#include "report/files/json.hpp"
 #include "report/files/junit.hpp"
 #include "report/journal/merge.hpp"
 #include "report/text/causes.hpp"
+#include "report/text/console.hpp"
 #include "report/text/headline.hpp"
 #include "report/text/sentences.hpp"
 #include "sample_run.hpp"
@@ -68,6 +70,88 @@ CaseRecord failed(const std::string& id, const std::string& rule, cases::Profile
     finding.level = level;
     record.findings = {finding};
     return record;
+}
+
+// A case that breaks these doors, the first of which leads; `known` of their findings are expected.
+CaseRecord by_doors(const std::string& id, const std::vector<std::string>& doors,
+                    uint64_t known_of_first) {
+    CaseRecord record = failed(id, "door.state", cases::Profile::vulkan);
+    record.findings.clear();
+    for (const std::string& door : doors) {
+        diff::Finding finding;
+        finding.kind = diff::FindingKind::value;
+        finding.rule = "door.state";
+        finding.level = cases::Profile::vulkan;
+        finding.door = door;
+        record.findings.push_back(finding);
+        record.groups.push_back({finding.kind, finding.rule, finding.level, 4, 0, door});
+        record.counts.at(static_cast<size_t>(finding.kind)) += 4;
+    }
+    record.groups.front().known = known_of_first;
+    return record;
+}
+
+// Titles of the causes with their levels.
+std::vector<std::string> titles(const std::vector<Cause>& list) {
+    std::vector<std::string> out;
+    for (const Cause& cause : list) {
+        out.push_back(cause_title(cause) + " " + cause_level(cause));
+    }
+    return out;
+}
+
+TEST(causes, of_a_broken_door_do_not_hide_another) {
+    report::Run run;
+    run.cases = {by_doors("ties/a", {"state-first", "state-static"}, 0),
+                 by_doors("ties/b", {"state-first"}, 0)};
+    EXPECT_EQ(titles(causes(run)), (std::vector<std::string>{
+                                       "fail: door.state=state-first value in ties, 2 cases vulkan",
+                                       "fail: door.state=state-static value in ties, 1 case vulkan",
+                                   }));
+    EXPECT_NE(to_json(run).find("\"door\": \"state-static\""), std::string::npos);
+    EXPECT_NE(to_github_summary(run).find("door.state=state-static"), std::string::npos);
+    // What is told of the case tells both, once.
+    const std::string told = console_case(run.cases[0], {});
+    EXPECT_NE(told.find("door.state=state-first [vulkan: not conformant]"), std::string::npos);
+    EXPECT_NE(told.find("also: door.state=state-static [vulkan], 4 wrong values\n"),
+              std::string::npos);
+    EXPECT_EQ(console_case(run.cases[1], {}).find("also:"), std::string::npos);
+    // Known of one door says nothing of another, though rule, kind and level are the same.
+    run.cases = {by_doors("ties/a", {"state-first", "state-static"}, 4)};
+    EXPECT_EQ(titles(causes(run)), (std::vector<std::string>{
+                                       "fail: door.state=state-static value in ties, 1 case vulkan",
+                                   }));
+    EXPECT_NE(what_happened(run.cases[0]).find("door.state=state-static ["), std::string::npos);
+    // Of what is known, each has a cause, too.
+    run.cases[0].status = Status::xfail;
+    run.cases[0].groups[1].known = 4;
+    EXPECT_TRUE(causes(run).empty());
+    EXPECT_EQ(titles(known_causes(run)),
+              (std::vector<std::string>{
+                  "xfail: door.state=state-first value in ties, 1 case vulkan",
+                  "xfail: door.state=state-static value in ties, 1 case vulkan",
+              }));
+}
+
+TEST(causes, of_a_wrong_picture_do_not_hide_a_relation) {
+    report::Run run;
+    CaseRecord record = by_doors("ties/a", {"state-first"}, 0);
+    record.groups.push_back({diff::FindingKind::value, "repeat.same", cases::Profile::vulkan, 1});
+    diff::Finding missing;
+    missing.rule = "cover.inside";
+    missing.level = cases::Profile::vulkan;
+    record.findings.insert(record.findings.begin(), missing);
+    // A second rule of the picture itself follows from the first as a rule, and has no line.
+    record.groups.push_back({diff::FindingKind::extra, "cover.outside", cases::Profile::vulkan, 1});
+    run.cases = {record};
+    EXPECT_EQ(titles(causes(run)), (std::vector<std::string>{
+                                       "fail: cover.inside missing in ties, 1 case vulkan",
+                                       "fail: repeat.same value in ties, 1 case vulkan",
+                                       "fail: door.state=state-first value in ties, 1 case vulkan",
+                                   }));
+    // Neither says more than the level of its own.
+    run.cases[0].groups[1].level = cases::Profile::practice;
+    EXPECT_EQ(titles(causes(run)).back(), "fail: repeat.same value in ties, 1 case practice");
 }
 
 TEST(causes, begin_with_the_rule_that_is_broken_everywhere) {

@@ -10,6 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "report/files/ci.hpp"
+#include "report/files/json.hpp"
+#include "report/page/html.hpp"
+#include "report/text/console.hpp"
+
 namespace report {
 
 namespace {
@@ -68,18 +73,64 @@ TEST(Repeated, ACauseOfWhichEveryTriedCaseIs) {
     report::Run run = run_of({"a/1", "a/2", "a/3", "b/1", "b/2", "c/1", "d/1", "d/2", "d/3"});
     run.diagnoses = {tried({"a/1", "b/1", "d/1"}, {"b/2", "d/2", "d/3"}),
                      tried({"d/2", "d/3"}, {"a/1", "b/1", "b/2", "d/1"})};
-    // Of b one is not repeated by any, of c none was tried; d has two errors, the second more
-    // often.
-    EXPECT_EQ(repeated_causes(run),
-              (std::vector<std::pair<std::string, int>>{{"a", 0}, {"b", -1}, {"c", -1}, {"d", 1}}));
+    // Of b one is not repeated by any, of c none was tried; d has two errors, so neither alone is
+    // the cause.
+    EXPECT_EQ(repeated_causes(run), (std::vector<std::pair<std::string, int>>{
+                                        {"a", 0}, {"b", -1}, {"c", -1}, {"d", -1}}));
     const Repeated repeated(run);
     EXPECT_EQ(repeated.by("a/1"), 0U);
     EXPECT_EQ(repeated.by("a/2"), std::nullopt);
     EXPECT_EQ(repeated.by("d/2"), 1U);
     EXPECT_EQ(repeated.by("b/2"), std::nullopt);
+    // The first explains half of what was tried, the second less, and no cause.
+    EXPECT_FALSE(repeated.is_partial(0));
+    EXPECT_TRUE(repeated.is_partial(1));
+    // Relations between drawings are of none, whatever the picture is like.
+    diff::Finding finding;
+    finding.rule = "repeat.same";
+    run.cases[0].findings = {finding};
+    run.cases[1].findings = run.cases[2].findings = run.cases[0].findings;
+    EXPECT_EQ(repeated_causes(run)[0], (std::pair<std::string, int>{"a", -1}));
     run.diagnoses.clear();
     EXPECT_EQ(repeated_causes(run), (std::vector<std::pair<std::string, int>>{
                                         {"a", -1}, {"b", -1}, {"c", -1}, {"d", -1}}));
+}
+
+TEST(Repeated, WhatExplainsAFewCasesTakesNoCauseAway) {
+    // The only tried case of a is explained, but 7 of 9 are not: that says nothing of the device.
+    report::Run run = run_of({"a/1", "b/1", "b/2", "b/3", "b/4", "b/5", "b/6", "b/7", "c/1"});
+    run.diagnoses = {tried({"a/1"}, {"b/1", "b/2", "b/3", "b/4", "b/5", "b/6", "b/7", "c/1"}),
+                     tried({"c/1"}, {"a/1", "b/1", "b/2", "b/3", "b/4", "b/5", "b/6", "b/7"})};
+    run.diagnoses[0].what = {"First"};
+    run.diagnoses[0].cases = 1;
+    run.diagnoses[0].tried = 9;
+    run.diagnoses[1].what = {"Second"};
+    EXPECT_EQ(repeated_causes(run),
+              (std::vector<std::pair<std::string, int>>{{"a", -1}, {"b", -1}, {"c", -1}}));
+    EXPECT_TRUE(Repeated(run).is_partial(0));
+    // It is told after the causes, in other words, everywhere.
+    const std::string told = console_summary(run, "", {});
+    EXPECT_EQ(told.find("diagnosis: "), std::string::npos);
+    EXPECT_GT(
+        told.find("some cases look as if: First\n      explains 1 of 9 failed cases tried only; "),
+        told.find("causes, the worst first"));
+    EXPECT_NE(told.find("some cases look as if: First"), std::string::npos);
+    const std::string summary = to_github_summary(run);
+    EXPECT_EQ(summary.find("**Diagnosis"), std::string::npos);
+    EXPECT_GT(summary.find("Some cases look as if: First. It explains 1 of 9 failed"),
+              summary.find("### Causes"));
+    EXPECT_NE(to_json(run).find("\"partial\": true"), std::string::npos);
+    EXPECT_NE(to_html(run).find("\"limits\":\"explains 1 of 9 failed cases tried only\""),
+              std::string::npos);
+    // Several errors that together explain most, each of them all of a cause, are at the head.
+    run.diagnoses[0] = tried({"b/1", "b/2", "b/3"}, {"a/1", "b/4", "b/5", "b/6", "b/7", "c/1"});
+    EXPECT_TRUE(Repeated(run).is_partial(0));
+    EXPECT_TRUE(Repeated(run).is_partial(1));
+    run.diagnoses[0] = tried({"b/1", "b/2", "b/3", "b/4", "b/5", "b/6", "b/7"}, {"a/1", "c/1"});
+    EXPECT_FALSE(Repeated(run).is_partial(0));
+    EXPECT_FALSE(Repeated(run).is_partial(1));
+    EXPECT_EQ(repeated_causes(run),
+              (std::vector<std::pair<std::string, int>>{{"a", -1}, {"b", 0}, {"c", 1}}));
 }
 
 }  // namespace report

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "report/text/levels_text.hpp"
 #include "sample_run.hpp"
 
 namespace report {
@@ -19,6 +20,16 @@ TEST(headline, tells_what_is_unexpected_before_all_else) {
     EXPECT_EQ(headline(run_of({flake})), "1 of 1 case differs from run to run");
     EXPECT_EQ(headline(run_of({xpass, not_run, not_run})),
               "2 of 3 cases were not run, 1 passes unexpectedly");
+}
+
+// What was not asked of the device is no case of which so many fail: the levels leave it out, too.
+TEST(headline, counts_of_what_was_judged) {
+    report::Run run = run_of({fail, pass, pass, unsupported, skip});
+    EXPECT_EQ(headline(run), "1 of 3 judged cases fails");
+    run.cases[0].counts.at(0) = 1;
+    EXPECT_TRUE(levels_line(run).find("of 3 cases") != std::string::npos) << levels_line(run);
+    // A crash is no judgement.
+    EXPECT_EQ(headline(run_of({fail, crash, unsupported})), "1 of 2 cases fails, 1 crashes");
 }
 
 TEST(headline, never_says_that_what_was_not_judged_passes) {

@@ -68,11 +68,12 @@ TEST(levels, of_a_cause_are_those_of_what_is_new_in_it) {
     EXPECT_EQ(causes(run)[0].level, Profile::direct3d);
     EXPECT_EQ(causes(run)[0].rule, "tie.top-left");
     EXPECT_FALSE(causes(run)[0].is_known);
-    // The gravest of its cases' news leads.
+    // Another level is another cause, the gravest first.
     run.cases.push_back(a_case("ties/b", Status::fail, {{Profile::vulkan}}));
     run.cases.back().findings[0].rule = run.cases.back().groups[0].rule = "tie.top-left";
-    ASSERT_EQ(causes(run).size(), 1U);
+    ASSERT_EQ(causes(run).size(), 2U);
     EXPECT_EQ(causes(run)[0].level, Profile::vulkan);
+    EXPECT_EQ(causes(run)[1].level, Profile::direct3d);
 }
 
 TEST(levels, every_report_tells_the_level_of_what_is_new) {
