@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "cases/base/checksum.hpp"
 #include "cases/base/printable.hpp"
@@ -22,13 +23,27 @@ namespace cli {
 
 namespace {
 
-std::vector<report::Diagnosis> diagnoses_of(const report::Run& run, const EachCase& each_case) {
+constexpr double kSecondsAtEnd = 1, kShareAtEnd = 0.1;  // the larger of both, of the run's time
+constexpr double kSecondsOfCommand = 30;
+
+diagnosis::Bound bound_of(double seconds) {
+    diagnosis::Bound bound;
+    bound.most =
+        static_cast<diagnosis::Work>(seconds * static_cast<double>(diagnosis::kWorkPerSecond));
+    return bound;
+}
+
+std::vector<report::Diagnosis> diagnoses_of(const report::Run& run, const EachCase& each_case,
+                                            const diagnosis::Bound& bound) {
     std::map<std::string_view, const cases::Case*> by_id;
     each_case([&](const cases::Case& c) { by_id.emplace(c.id, &c); });
-    return diagnosis::diagnose(run, [&](const std::string& id) {
-        const auto found = by_id.find(id);
-        return found == by_id.end() ? nullptr : found->second;
-    });
+    return diagnosis::diagnose(
+        run,
+        [&](const std::string& id) {
+            const auto found = by_id.find(id);
+            return found == by_id.end() ? nullptr : found->second;
+        },
+        bound);
 }
 
 EachCase each_of(const LoadedSuite& suite) {
@@ -56,7 +71,9 @@ OrStop<LoadedSuite> cases_of(const Program& program, const report::Run& run,
 }  // namespace
 
 void diagnose(report::Run& run, const EachCase& each_case) {
-    run.diagnoses = diagnoses_of(run, each_case);
+    // Times of years, as a clock that was set may give, shall not be counted in samples.
+    const double share = std::clamp(kShareAtEnd * run.seconds, 0.0, 3600.0);
+    run.diagnoses = diagnoses_of(run, each_case, bound_of(std::max(kSecondsAtEnd, share)));
 }
 
 void diagnose_again(const Program& program, report::Run& run) {
@@ -105,8 +122,28 @@ int diagnose_command(const Program& program, const DiagnoseOptions& options) {
                         options.known ? "" : "; --known diagnoses expected failures, too"));
         return report::kExitOk;
     }
-    const std::vector<report::Diagnosis> list = diagnoses_of(*run, each_of(*loaded));
+    diagnosis::Bound bound = bound_of(kSecondsOfCommand);
+    std::optional<Progress> progress;
+    bound.progress = [&](size_t done, size_t total) {
+        if (!progress) {
+            progress.emplace(ProgressStyle::automatic, total, "failed cases looked at");
+        }
+        progress->show(done - 1, std::nullopt);
+    };
+    run->diagnoses = diagnoses_of(*run, each_of(*loaded), bound);
+    if (progress) {
+        progress->clear();
+    }
+    const std::vector<report::Diagnosis>& list = run->diagnoses;
+    const report::Repeated repeated(*run);
     for (const report::Diagnosis& d : list) {
+        if (repeated.is_partial(static_cast<size_t>(&d - list.data()))) {
+            say(fmt::format("some cases look as if: {}\n  {}; {}\n  in {}{}\n",
+                            report::what_it_does(d), report::limits_of(d), report::evidence_for(d),
+                            cases::printable(fmt::format("{}", fmt::join(d.examples, ", "))),
+                            d.cases > d.examples.size() ? ", ..." : ""));
+            continue;
+        }
         say(fmt::format("{}\n  {}\n  in {}{}\n", report::what_it_does(d), report::evidence_for(d),
                         cases::printable(fmt::format("{}", fmt::join(d.examples, ", "))),
                         d.cases > d.examples.size() ? ", ..." : ""));

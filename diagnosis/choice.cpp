@@ -7,17 +7,11 @@
 #include <tuple>
 #include <utility>
 
+#include "diagnosis/work.hpp"
+
 namespace diagnosis {
 
 using report::CaseRecord;
-
-uint64_t cost_of(const cases::Case& c) {
-    uint64_t cost = uint64_t{c.target.width} * c.target.rows() * c.target.samples;
-    for (const cases::Draw& d : c.draws) {
-        cost += 8 * (d.indices ? d.indices->size() : d.positions.size());
-    }
-    return cost;
-}
 
 namespace {
 

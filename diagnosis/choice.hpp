@@ -17,7 +17,6 @@ namespace diagnosis {
 
 // Of one case: samples and vertices; those that cost more are not looked at.
 inline constexpr uint64_t kMaxCost = 1U << 14U;
-uint64_t cost_of(const cases::Case& c);
 
 struct Choice {
     const report::CaseRecord* record = nullptr;

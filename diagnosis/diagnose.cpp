@@ -16,6 +16,7 @@
 #include "diagnosis/match.hpp"
 #include "diagnosis/partly.hpp"
 #include "diagnosis/tally.hpp"
+#include "diagnosis/work.hpp"
 #include "rasterizers/strength/recorded.hpp"
 #include "rasterizers/strength/strength.hpp"
 
@@ -30,8 +31,8 @@ constexpr uint64_t kMaxSeedCost = 1U << 14U;  // of all seeds: some seconds of o
 
 class Diagnoser {
   public:
-    Diagnoser(const report::Run& run, const CaseOf& case_of)
-        : bits_(static_cast<int>(run.device.subpixel_bits)), profile_(run.profile) {
+    Diagnoser(const report::Run& run, const CaseOf& case_of, const Bound& bound)
+        : bound_(bound), bits_(static_cast<int>(run.device.subpixel_bits)), profile_(run.profile) {
         // A known failure that fails otherwise, too, shows two errors at once: such cases are
         // looked at where there are no others.
         const bool has_news = std::any_of(run.cases.begin(), run.cases.end(), [](const auto& r) {
@@ -44,10 +45,16 @@ class Diagnoser {
         more_failed_ = by_turn(run, case_of, is_failed, family_and_rule, run.cases.size());
         failed_ = more_failed_.size();
         more_failed_.resize(std::min(failed_, kMaxSubjects + kMaxMore));
-        const size_t tried = std::min(more_failed_.size(), kMaxSubjects);
+        size_t tried = std::min(more_failed_.size(), kMaxSubjects);
         std::set<std::string> families;
         for (size_t k = 0; k < tried; ++k) {
             const Choice& choice = more_failed_[k];
+            // Most of what may be drawn is left for the errors.
+            if (!subjects_.empty() && work_ > bound_.most / 4) {
+                tried = k;
+                break;
+            }
+            work_ += work_of_subject(*choice.data);
             if (auto subject = make_subject(*choice.data, *choice.record, bits_, profile_)) {
                 subjects_.push_back(std::move(*subject));
                 families.insert(family_of(*choice.record));
@@ -81,10 +88,16 @@ class Diagnoser {
             }
             ++seeds;
             cost += more;
+            if (bound_.progress) {
+                bound_.progress(seeds, std::min(kMaxSeeds, subjects_.size()));
+            }
             std::vector<Tally> best = best_for(s);
             if (best.empty() && part_seeds < kMaxPartSeeds) {
                 ++part_seeds;
                 best = best_part_for(s);
+            }
+            if (is_spent()) {
+                break;  // the best of what was drawn need not be the best
             }
             if (best.empty()) {
                 continue;
@@ -144,6 +157,13 @@ class Diagnoser {
         return out;
     }
 
+    bool is_spent() const { return work_ > bound_.most; }
+
+    // Adds what asking subject `s` costs, if that was not asked.
+    void spend_for(size_t h, size_t s) {
+        work_ += answers_[h][s] ? 0 : work_of_picture(*subjects_[s].data);
+    }
+
     // What a hypothesis says of a subject; each is asked once.
     const Answer& ask(size_t h, size_t subject) {
         std::optional<Answer>& answer = answers_[h][subject];
@@ -171,12 +191,21 @@ class Diagnoser {
     // The plausible hypotheses that explain subject `seed` and most others, all that are alike.
     std::vector<Tally> best_for(size_t seed) {
         at_seed_.assign(known_.size(), {});
+        for (size_t h = 0; h < known_.size(); ++h) {
+            spend_for(h, seed);
+        }
         cases::for_each_index(known_.size(),
                               [&](size_t h) { at_seed_[h] = ask_in_short(h, seed); });
         std::vector<Tally> plausible;
         for (size_t h = 0; h < known_.size(); ++h) {
             if (at_seed_[h].says != Says::explains) {
                 continue;
+            }
+            for (size_t k = 0; k < subjects_.size(); ++k) {
+                spend_for(h, k);
+            }
+            if (is_spent()) {
+                return {};
             }
             Tally tally{h, {}, std::vector<Answer>(subjects_.size()), 0, 0};
             cases::for_each_index(subjects_.size(),
@@ -254,7 +283,13 @@ class Diagnoser {
                     passed.push_back(&*subject);
                 }
             }
-            for (Tally& tally : partial_tallies(known_[h], h, subjects_, seed, passed)) {
+            if (is_spent()) {
+                return {};
+            }
+            for (Tally& tally : partial_tallies(known_[h], h, subjects_, seed, passed, work_)) {
+                for (const Subject& subject : more_failed()) {
+                    work_ += work_of_picture(*subject.data);
+                }
                 if (is_contradicted(known_[h], *tally.only, more_failed())) {
                     continue;
                 }
@@ -275,6 +310,7 @@ class Diagnoser {
     // Failed cases that are not tried one by one.
     const std::vector<Subject>& more_failed() {
         for (const Choice& choice : std::exchange(more_failed_, {})) {
+            work_ += work_of_subject(*choice.data);
             if (auto subject = make_subject(*choice.data, *choice.record, bits_, profile_)) {
                 more_subjects_.push_back(std::move(*subject));
             }
@@ -304,10 +340,11 @@ class Diagnoser {
     // Cases that passed would have failed.
     void try_passed(Tally& tally) {
         for (const cases::Case* c : passed_cases(tally.hypothesis)) {
-            if (!tally.stands(failed_)) {
+            if (!tally.stands(failed_) || is_spent()) {
                 return;
             }
             ++tally.passed_tried;
+            work_ += work_of_picture(*c);
             const std::optional<capture::Capture> drawn = draw(known_[tally.hypothesis], *c);
             const std::optional<Subject>& subject = drawn ? passed_subject(*c) : nothing_;
             if (subject && is_against(*subject, *drawn)) {
@@ -320,6 +357,7 @@ class Diagnoser {
         static const CaseRecord kNone;
         const auto [at, is_new] = passed_subjects_.try_emplace(&c);
         if (is_new) {
+            work_ += work_of_subject(c);
             at->second = make_subject(c, kNone, bits_, profile_);
         }
         return at->second;
@@ -356,6 +394,8 @@ class Diagnoser {
         return out;
     }
 
+    Bound bound_;
+    Work work_ = 0;
     int bits_;
     cases::Profile profile_;
     std::vector<Subject> subjects_;
@@ -375,8 +415,8 @@ class Diagnoser {
 
 }  // namespace
 
-std::vector<Diagnosis> diagnose(const report::Run& run, const CaseOf& case_of) {
-    return Diagnoser(run, case_of).run();
+std::vector<Diagnosis> diagnose(const report::Run& run, const CaseOf& case_of, const Bound& bound) {
+    return Diagnoser(run, case_of, bound).run();
 }
 
 }  // namespace diagnosis

@@ -5,7 +5,10 @@
 // those that fail in the same samples with the same values, and in no other.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,11 +21,23 @@ namespace diagnosis {
 // The run's case with that id, or nothing if it is not at hand.
 using CaseOf = std::function<const cases::Case*(const std::string& id)>;
 
+// How much is drawn at most. It is counted in samples and vertices that are drawn and judged, not
+// in time, so that the same records have the same diagnosis on every machine; on a core of a server
+// of 2020 kWorkPerSecond of them take about a second (lavapipe's known failures: 1.0 s).
+using Work = uint64_t;
+inline constexpr Work kWorkPerSecond = 1'000'000;
+struct Bound {
+    Work most = std::numeric_limits<Work>::max();
+    // Called now and then with how many of the failed cases that errors are tried on are done.
+    std::function<void(size_t done, size_t total)> progress = {};
+};
+
 // Diagnoses the unexpected failures of a run (status fail), what explains most of them first; what
 // no error explains is left out. The answer depends on the records alone, not on time or order:
 // at most kMaxSubjects small failed cases are looked at, of as many families as there are, and as
-// many that passed.
-std::vector<report::Diagnosis> diagnose(const report::Run& run, const CaseOf& case_of);
+// many that passed. What was found before the bound is reached is told.
+std::vector<report::Diagnosis> diagnose(const report::Run& run, const CaseOf& case_of,
+                                        const Bound& bound = {});
 
 inline constexpr size_t kMaxSubjects = 64;
 inline constexpr size_t kMaxNearby = 256;   // cases that passed, of the families that fail

@@ -9,6 +9,7 @@
 
 #include "cases/base/parallel.hpp"
 #include "diagnosis/choice.hpp"
+#include "diagnosis/work.hpp"
 
 namespace diagnosis {
 
@@ -43,9 +44,12 @@ struct Tried {
 };
 
 void leave_out_what_passed(const Hypothesis& hypothesis, std::span<const Subject* const> passed,
-                           std::vector<Tried>& all) {
+                           std::vector<Tried>& all, uint64_t& work) {
     for (size_t first = 0; first < passed.size() && !all.empty(); first += kAtOnce) {
         const auto some = passed.subspan(first, std::min(kAtOnce, passed.size() - first));
+        for (const Subject* subject : some) {
+            work += work_of_picture(*subject->data) * (1 + all.size());
+        }
         std::vector<std::vector<uint8_t>> against(some.size(), std::vector<uint8_t>(all.size()));
         std::vector<uint8_t> needs(some.size());
         cases::for_each_index(some.size(), [&](size_t k) {
@@ -67,9 +71,12 @@ void leave_out_what_passed(const Hypothesis& hypothesis, std::span<const Subject
 }
 
 void leave_out_what_fails_otherwise(const Hypothesis& hypothesis, std::span<const Subject> subjects,
-                                    size_t seed, std::vector<Tried>& all) {
+                                    size_t seed, std::vector<Tried>& all, uint64_t& work) {
     for (size_t first = 0; first < subjects.size() && !all.empty(); first += kAtOnce) {
         const size_t count = std::min(kAtOnce, subjects.size() - first);
+        for (const Subject& subject : subjects.subspan(first, count)) {
+            work += work_of_picture(*subject.data) * (1 + all.size());
+        }
         std::vector<std::vector<uint8_t>> against(count, std::vector<uint8_t>(all.size()));
         cases::for_each_index(count, [&](size_t k) {
             const size_t s = first + k;
@@ -126,13 +133,15 @@ bool is_needed_in_a_case(const Hypothesis& hypothesis, std::span<const Subject> 
 
 std::vector<Tally> partial_tallies(const Hypothesis& hypothesis, size_t number,
                                    std::span<const Subject> subjects, size_t seed,
-                                   std::span<const Subject* const> passed) {
+                                   std::span<const Subject* const> passed, uint64_t& work) {
     std::vector<Tried> all;
+    work += work_of_picture(*subjects[seed].data);
     const std::optional<capture::Capture> at_seed = draw(hypothesis, *subjects[seed].data);
     if (!at_seed) {
         return {};
     }
     for (Condition& condition : conditions_at(subjects[seed], *at_seed)) {
+        work += work_of_picture(*subjects[seed].data);
         const Answer answer =
             answer_of(subjects[seed], restricted(condition, subjects[seed], at_seed));
         if (answer.says == Says::explains) {
@@ -142,10 +151,10 @@ std::vector<Tally> partial_tallies(const Hypothesis& hypothesis, size_t number,
         }
     }
     const std::span<const Subject* const> first = passed.first(std::min(kFirst, passed.size()));
-    leave_out_what_passed(hypothesis, first, all);
-    leave_out_what_fails_otherwise(hypothesis, subjects, seed, all);
+    leave_out_what_passed(hypothesis, first, all, work);
+    leave_out_what_fails_otherwise(hypothesis, subjects, seed, all, work);
     std::erase_if(all, [&](const Tried& tried) { return !is_founded(subjects, tried.tally); });
-    leave_out_what_passed(hypothesis, passed.subspan(first.size()), all);
+    leave_out_what_passed(hypothesis, passed.subspan(first.size()), all, work);
     std::set<Condition::Kind> kinds;
     std::vector<Tally> out;
     for (Tried& tried : all) {

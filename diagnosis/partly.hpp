@@ -17,10 +17,11 @@ namespace diagnosis {
 // no case fail that passed. This is stricter than for an error without a condition, since there are
 // many conditions. The condition has to be needed, too: without it something would be wrong that
 // the device drew right. And no subject may be wrong as the error has it where the condition does
-// not hold. Of those of one kind the narrowest is kept.
+// not hold. Of those of one kind the narrowest is kept. What is drawn is added to `work`
+// (diagnosis/work.hpp).
 std::vector<Tally> partial_tallies(const Hypothesis& hypothesis, size_t number,
                                    std::span<const Subject> subjects, size_t seed,
-                                   std::span<const Subject* const> passed);
+                                   std::span<const Subject* const> passed, uint64_t& work);
 
 // Whether some of these failed cases are wrong as the error has it, though the condition holds
 // nowhere in them.

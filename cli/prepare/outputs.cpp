@@ -236,14 +236,28 @@ void print_errors(const cases::Errors& errors) {
     }
 }
 
+namespace {
+
+bool has_failed(const report::Run& run) {
+    return std::any_of(run.cases.begin(), run.cases.end(),
+                       [](const auto& record) { return record.status == report::Status::fail; });
+}
+
+}  // namespace
+
 int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,
-             std::FILE* console, const report::ConsoleStyle& style, const Ending& ending) {
+             std::FILE* console, report::ConsoleStyle style, const Ending& ending) {
     cases::Expected<report::Run> run = report::load_journal(folder);
     if (!run) {
         print_errors({run.error()});
         return report::kExitInternal;
     }
     if (ending.complete) {
+        if (!options.quiet && has_failed(*run)) {
+            style.totals_are_told = true;
+            std::fputs(report::console_totals(*run, style).c_str(), console);
+            std::fflush(console);
+        }
         ending.complete(*run);
     }
     const ReportFiles files{folder, options.json, options.junit, options.html};
@@ -324,8 +338,8 @@ std::string progress_line(size_t done, size_t total, std::optional<size_t> unexp
     return text.substr(0, width);
 }
 
-Progress::Progress(ProgressStyle style, size_t total)
-    : total_(total), begin_(steady_seconds()), last_(begin_) {
+Progress::Progress(ProgressStyle style, size_t total, std::string_view what)
+    : total_(total), what_(what), begin_(steady_seconds()), last_(begin_) {
     if (style == ProgressStyle::automatic && is_ci()) {
         kind_ = Kind::none;
     } else if (style == ProgressStyle::automatic) {
@@ -354,7 +368,7 @@ void Progress::show(size_t done, std::optional<size_t> unexpected) {
         shown_ = true;
     } else {
         const size_t percent = total_ == 0 ? 100 : done * 100 / total_;
-        std::fprintf(stderr, "%zu of %zu cases (%zu%%)%s\n", done, total_, percent,
+        std::fprintf(stderr, "%zu of %zu %s (%zu%%)%s\n", done, total_, what_.c_str(), percent,
                      unexpected ? fmt::format(", {} unexpected", *unexpected).c_str() : "");
     }
 }

@@ -61,12 +61,13 @@ struct Ending {
     std::string stopped;      // that in few words, for the summary
     std::string summary;      // printed before the summary
     std::string interrupted;  // printed if the run was interrupted
-    // What is found out of the records when all are there, and kept in the journal.
+    // What is found out of the records when all are there, and kept in the journal. It may take a
+    // while, so the totals are printed before it.
     std::function<void(report::Run&)> complete = {};
 };
 // Writes reports from the journal alone, prints the summary, and returns the exit code.
 int conclude(const std::filesystem::path& folder, const RunOptions& options, Ci ci,
-             std::FILE* console, const report::ConsoleStyle& style, const Ending& ending);
+             std::FILE* console, report::ConsoleStyle style, const Ending& ending);
 
 // The exit code of a command that ends with `code`: what standard output did not take (a full disk)
 // is told and makes it kExitInternal; a reader that has read enough is no error.
@@ -84,7 +85,8 @@ std::string progress_line(size_t done, size_t total, std::optional<size_t> unexp
 // nothing in continuous integration.
 class Progress {
   public:
-    Progress(ProgressStyle style, size_t total);
+    // `what` is counted: "cases".
+    Progress(ProgressStyle style, size_t total, std::string_view what = "cases");
     void show(size_t done, std::optional<size_t> unexpected);
     // Removes the line, so that something else can be printed.
     void clear();
@@ -92,6 +94,7 @@ class Progress {
   private:
     enum class Kind { none, line, plain } kind_ = Kind::none;
     size_t total_ = 0;
+    std::string what_;
     double begin_ = 0, last_ = 0;  // seconds of the steady clock
     bool shown_ = false;
 };

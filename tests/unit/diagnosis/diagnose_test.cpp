@@ -77,15 +77,19 @@ report::Run run_of(const Hypothesis& h, cases::Profile profile = cases::Profile:
     return run;
 }
 
-std::vector<report::Diagnosis> diagnose(const report::Run& run) {
+std::vector<report::Diagnosis> diagnose(const report::Run& run,
+                                        const diagnosis::Bound& bound = {}) {
     std::map<std::string, const cases::Case*> by_id;
     for (const cases::Case& c : small_suite()) {
         by_id.emplace(c.id, &c);
     }
-    return diagnosis::diagnose(run, [&](const std::string& id) {
-        const auto found = by_id.find(id);
-        return found == by_id.end() ? nullptr : found->second;
-    });
+    return diagnosis::diagnose(
+        run,
+        [&](const std::string& id) {
+            const auto found = by_id.find(id);
+            return found == by_id.end() ? nullptr : found->second;
+        },
+        bound);
 }
 
 const Hypothesis& named(const std::string& name) {
@@ -486,6 +490,28 @@ TEST(Diagnose, NothingIsToldOfWrongSamplesHereAndThere) {
     }
     ASSERT_GT(failed, 20U);
     EXPECT_TRUE(diagnose(run).empty());
+}
+
+// A bound is counted in what is drawn, not in time: what is told is the same on every machine, and
+// what was found before it.
+TEST(Diagnose, EndsAtItsBound) {
+    const report::Run run = run_of(named("cull-none"));
+    const std::vector<report::Diagnosis> list = diagnose(run);
+    size_t calls = 0;
+    diagnosis::Bound bound;
+    bound.progress = [&](size_t done, size_t total) {
+        ++calls;
+        EXPECT_GE(done, 1U);
+        EXPECT_LE(done, total);
+    };
+    EXPECT_EQ(diagnose(run, bound), list);
+    EXPECT_GT(calls, 0U);
+    bound.most = 1;
+    EXPECT_TRUE(diagnose(run, bound).empty());
+    // One error that explains most needs less than the second that a run's end has.
+    bound.most = diagnosis::kWorkPerSecond;
+    ASSERT_FALSE(diagnose(run, bound).empty());
+    EXPECT_EQ(diagnose(run, bound).front().what, list.front().what);
 }
 
 // The records alone decide: another order of the cases changes nothing.
