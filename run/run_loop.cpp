@@ -363,7 +363,10 @@ void RunLoop::on_result(Slot& slot, CaseResult& result) {
 
 void RunLoop::on_judged(size_t k, CaseRecord record) {
     const bool unexpected = record.status != Status::pass && is_unexpected(k, record);
-    if (schedule_.judged(k, unexpected)) {
+    const auto as = unexpected                      ? Schedule::Judged::unexpected_failure
+                    : record.status == Status::fail ? Schedule::Judged::known_failure
+                                                    : Schedule::Judged::good;
+    if (schedule_.judged(k, as)) {
         settle(k, std::move(record));
     } else {
         judged_[k] = std::move(record);

@@ -97,15 +97,15 @@ Schedule::Drawn Schedule::drawn(size_t k, uint64_t bits) {
     return *state.bits == bits ? Drawn::same : Drawn::differs;
 }
 
-bool Schedule::judged(size_t k, bool is_unexpected_failure) {
+bool Schedule::judged(size_t k, Judged as) {
     State& state = states_[k];
-    if (is_unexpected_failure) {
+    if (as != Judged::good) {
         state.needed = std::max(state.needed, 1 + options_.retries);
     }
     if (state.drawn >= state.needed) {
         return true;
     }
-    (is_unexpected_failure ? retry_ : again_).push_back(k);
+    (as == Judged::unexpected_failure ? retry_ : again_).push_back(k);
     return false;
 }
 

@@ -6,7 +6,7 @@
 // Cases are first rendered in batches. When a batch dies, its cases without a result are rendered
 // one by one in fresh workers, so that only the culprit is charged, confirmed alone; if none of
 // them dies alone, the first of them is charged as a flake, because the death must not be
-// lost. Unexpected failures are rendered again alone; different bits make a flake.
+// lost. Failures are rendered again, unexpected ones alone; different bits make a flake.
 //
 // Each worker has a lane of cases that follow each other in the suite: neighbours share pipelines,
 // and what one worker has compiled no other compiles again. A worker whose lane is empty takes over
@@ -37,7 +37,7 @@ class Schedule {
         size_t batch = 16;                         // cases at most
         uint64_t batch_bytes = uint64_t{8} << 20;  // of captures, a case alone may be larger
         uint32_t repeat = 1;                       // renderings of each case
-        uint32_t retries = 1;                      // more renderings of an unexpected failure
+        uint32_t retries = 1;                      // more renderings of a failure
         size_t lanes = 1;                          // workers
         bool suspects_first = false;  // settle failures and deaths before new cases are drawn
     };
@@ -59,8 +59,10 @@ class Schedule {
     // A case was drawn; `bits` is a hash of its capture.
     enum class Drawn { judge, same, differs };
     Drawn drawn(size_t k, uint64_t bits);
-    // A drawn case was judged: true if it is finished, false if it has been queued again.
-    bool judged(size_t k, bool is_unexpected_failure);
+    // A drawn case was judged: true if it is finished, false if it has been queued again. An
+    // unexpected failure is drawn again alone, a known one with others, which costs little.
+    enum class Judged { good, known_failure, unexpected_failure };
+    bool judged(size_t k, Judged as);
     // A case drawn again with the same bits: true if it is finished, false if it has been queued
     // again.
     bool confirmed(size_t k);

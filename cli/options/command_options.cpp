@@ -126,7 +126,8 @@ void define_run(CLI::App& app, RunOptions& o) {
     add_shard(run, o.shard, "the I-th of N parts, by a hash of the id; 1 <= I <= N");
     add_value(run, "--doors", o.doors,
               "draw each case through other ways of the API, too: all, default (each door with "
-              "each family), or names of 'edgecase doors', separated by commas [none]",
+              "each family), all,-NAME (without this one), or names of 'edgecase doors', separated "
+              "by commas [none]",
               "NAMES", "Selection");
     run->add_flag("--shuffle", o.shuffle, "in an order that depends on the seed")
         ->group("Selection");
@@ -160,7 +161,7 @@ void define_run(CLI::App& app, RunOptions& o) {
               "MS", "Isolation")
         ->check(in_range(1U, 600000U));
     add_value(run, "--retries", o.retries,
-              "how often an unexpected failure is drawn again, alone [1]", "N", "Isolation")
+              "how often a failure is drawn again, an unexpected one alone [1]", "N", "Isolation")
         ->check(in_range(0U, 1000U));
     add_value(run, "--debugger", o.debugger,
               "run the worker of one case under 'gdb', 'lldb' or other words, on this terminal",
@@ -507,6 +508,9 @@ void define(CLI::App& app, AllOptions& all) {
     define_others(app, all);
     for (CLI::App* command : app.get_subcommands({})) {
         command->set_help_flag("-h,--help", "this help");
+        if (command->get_name() != "run") {
+            command->footer("");  // the program's is about run
+        }
         for (const Examples& e : kExamples) {
             if (command->get_name() == e.command) {
                 command->footer(std::string("Examples:\n") + e.text);

@@ -117,11 +117,32 @@ TEST(Schedule, AFailureIsDrawnAgainAloneAndAPassIsNot) {
     schedule.next();
     EXPECT_EQ(schedule.drawn(0, 7), Schedule::Drawn::judge);
     EXPECT_EQ(schedule.drawn(1, 7), Schedule::Drawn::judge);
-    EXPECT_TRUE(schedule.judged(0, false));
-    EXPECT_FALSE(schedule.judged(1, true));
+    EXPECT_TRUE(schedule.judged(0, Schedule::Judged::good));
+    EXPECT_FALSE(schedule.judged(1, Schedule::Judged::unexpected_failure));
     EXPECT_EQ(schedule.next()->cases, (Ids{1}));
     EXPECT_EQ(schedule.drawn(1, 7), Schedule::Drawn::same);
     EXPECT_TRUE(schedule.confirmed(1));
+}
+
+TEST(Schedule, KnownFailuresAreDrawnAgainTogether) {
+    Schedule schedule = make(3);
+    schedule.next();
+    for (size_t k = 0; k < 3; ++k) {
+        schedule.drawn(k, 7);
+    }
+    EXPECT_FALSE(schedule.judged(0, Schedule::Judged::known_failure));
+    EXPECT_FALSE(schedule.judged(1, Schedule::Judged::known_failure));
+    EXPECT_TRUE(schedule.judged(2, Schedule::Judged::good));
+    EXPECT_EQ(schedule.next()->cases, (Ids{0, 1}));
+    EXPECT_EQ(schedule.drawn(0, 7), Schedule::Drawn::same);
+    EXPECT_TRUE(schedule.confirmed(0));
+    EXPECT_EQ(schedule.drawn(1, 8), Schedule::Drawn::differs);
+    Schedule::Options options;
+    options.retries = 0;
+    Schedule once = make(1, options);
+    once.next();
+    once.drawn(0, 7);
+    EXPECT_TRUE(once.judged(0, Schedule::Judged::known_failure));
 }
 
 TEST(Schedule, SuspectsComeFirstOnDemand) {
@@ -132,7 +153,7 @@ TEST(Schedule, SuspectsComeFirstOnDemand) {
         Schedule schedule = make(4, options);
         EXPECT_EQ(schedule.next()->cases, (Ids{0}));
         schedule.drawn(0, 1);
-        EXPECT_FALSE(schedule.judged(0, true));
+        EXPECT_FALSE(schedule.judged(0, Schedule::Judged::unexpected_failure));
         EXPECT_EQ(schedule.next()->cases, first ? (Ids{0}) : (Ids{1}));
         const Batch batch = *schedule.next();
         EXPECT_EQ(batch.cases, first ? (Ids{1}) : (Ids{2}));
@@ -147,7 +168,7 @@ TEST(Schedule, OtherBitsDiffer) {
     Schedule schedule = make(1);
     schedule.next();
     schedule.drawn(0, 7);
-    schedule.judged(0, true);
+    schedule.judged(0, Schedule::Judged::unexpected_failure);
     schedule.next();
     EXPECT_EQ(schedule.drawn(0, 8), Schedule::Drawn::differs);
 }
@@ -158,7 +179,7 @@ TEST(Schedule, RepeatCountsRenderings) {
     Schedule schedule = make(1, options);
     EXPECT_EQ(schedule.next()->attempt, 1U);
     schedule.drawn(0, 7);
-    EXPECT_FALSE(schedule.judged(0, false));
+    EXPECT_FALSE(schedule.judged(0, Schedule::Judged::good));
     EXPECT_EQ(schedule.next()->attempt, 2U);
     EXPECT_EQ(schedule.drawn(0, 7), Schedule::Drawn::same);
     EXPECT_FALSE(schedule.confirmed(0));
