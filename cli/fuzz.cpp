@@ -107,6 +107,10 @@ class FuzzCommand {
                 is_endless ? "; end it with ctrl-c" : ""));
         }
         run::Session session(config, std::move(first->client), first->device, signals);
+        // From here on the hunt can go on, whatever ends it.
+        if (auto written = write_ledger(); !written) {
+            return report_stop(stop_with(report::kExitInternal, written.error().message));
+        }
         if (const std::optional<int> ended = know(*expected, session)) {
             return *ended;
         }
@@ -238,33 +242,33 @@ class FuzzCommand {
             std::fflush(stdout);
         }
         const double begin = status_.seconds();
-        KnownCauses known = reduce_known(expected, ledger_.entries, session, [this] {
-            status_.show_words("reducing what expectation files explain");
-        });
+        std::error_code none;
+        fs::create_directories(folder_ / "known", none);
+        const KnownCauses known = reduce_known(
+            expected, ledger_.entries, session,
+            [this] { status_.show_words("reducing what expectation files explain"); },
+            [this](const Entry& entry) { return keep_known(entry); });
         status_.clear();
         if (!known.failure.empty()) {
             return report_stop(stop_with(report::kExitInternal, known.failure));
         }
         if (known.is_interrupted) {
-            say("interrupted while known causes were reduced; nothing was kept\n");
+            say("interrupted while known causes were reduced; go on with 'edgecase fuzz --resume " +
+                folder_.string() + "'\n");
             return report::kExitInterrupted;
         }
-        std::error_code none;
-        fs::create_directories(folder_ / "known", none);
-        for (Entry& entry : known.entries) {
-            name_file(entry, "known", ledger_.entries, folder_);
-            if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
-                !written) {
-                return report_stop(stop_with(report::kExitInternal, written.error().message));
-            }
-            ledger_.entries.push_back(std::move(entry));
-        }
         ledger_.expectations = expected.checksum;
+        if (auto written = write_ledger(); !written) {
+            return report_stop(stop_with(report::kExitInternal, written.error().message));
+        }
+        const auto causes = static_cast<size_t>(std::count_if(
+            ledger_.entries.begin(), ledger_.entries.end(),
+            [](const Entry& entry) { return entry.is_known && entry.file.starts_with("known/"); }));
         if (!options_.run.quiet) {
             say(fmt::format("known by {}: {} that {} as expected, by {}{}, reduced in {:.0f} s\n",
                             counted(expected.files, "expectation file"),
                             counted(known.failing, "case"), known.failing == 1 ? "fails" : "fail",
-                            counted(known.entries.size(), "cause"),
+                            counted(causes, "cause"),
                             options_.known.empty() ? "" : " that no --known explains",
                             status_.seconds() - begin));
             std::fflush(stdout);
@@ -277,6 +281,22 @@ class FuzzCommand {
                             counted(known.left, "finding")));
         }
         return std::nullopt;
+    }
+
+    // A cause that expectation files explain, as soon as it is reduced: a hunt that is ended before
+    // all are goes on with it.
+    cases::Expected<void> keep_known(Entry entry) {
+        name_file(entry, "known", ledger_.entries, folder_);
+        if (auto written = replace_text(folder_ / entry.file, found_text(entry, ledger_));
+            !written) {
+            return written;
+        }
+        ledger_.entries.push_back(std::move(entry));
+        return write_ledger();
+    }
+
+    cases::Expected<void> write_ledger() const {
+        return replace_text(folder_ / fuzz::kLedgerFile, fuzz::to_json(ledger_));
     }
 
     int hunt(run::Session& session) {
@@ -341,8 +361,7 @@ class FuzzCommand {
         ledger_.counts = sum_of(before, hunter.counts());
         ledger_.seconds = seconds_before_ + status_.seconds();
         ledger_.is_finished = is_finished;
-        if (auto written = replace_text(folder_ / fuzz::kLedgerFile, fuzz::to_json(ledger_));
-            !written) {
+        if (auto written = write_ledger(); !written) {
             return written;
         }
         for (const std::string& file : stale) {
@@ -429,7 +448,11 @@ class FuzzCommand {
             return report::kExitInternal;
         }
         if (c.drawn == 0) {
-            complain("no case was judged, so nothing was proven");
+            complain(fmt::format("no case was judged, so nothing was proven: {}",
+                                 c.unsupported > 0
+                                     ? fmt::format("{} supports none of the {} that were made",
+                                                   ledger_.device, counted(c.unsupported, "case"))
+                                     : "none was drawn"));
             return report::kExitAllSkipped;
         }
         // Nothing new may be said only of a hunt whose failures are all explained.

@@ -145,12 +145,21 @@ std::vector<std::string> passing(const Document& document, const Draw& draw) {
     return sentences(all, judged, passes);
 }
 
+// "with 1 sample" of "not with 1 sample", of which a sentence would make a double negative.
+std::string without_not(const std::string& need) {
+    constexpr std::string_view kNot = "not ";
+    return need.starts_with(kNot) ? need.substr(kNot.size()) : need;
+}
+
 }  // namespace
 
 std::string need_text(const Entry& entry) {
     std::string text;
     for (const std::string& need : entry.needs) {
-        text += "# It passes, or fails otherwise: " + need + ".\n";
+        text += "# It passes, or fails otherwise, " + without_not(need) + ".\n";
+    }
+    for (const std::string& other : entry.undrawn) {
+        text += "# The device draws nothing " + other + ".\n";
     }
     for (const std::string& other : entry.passes) {
         text += "# It passes " + other + ".\n";
@@ -278,12 +287,16 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
     const bool is_sound = can_fail_everywhere(*original);
     std::optional<CaseRecord> last;  // of the smallest text that shows it
     std::string last_text;
+    std::set<std::string> unsupported;  // texts that the device cannot draw
     const Shows shown = [&](const std::vector<std::string>& texts) {
         std::vector<bool> out(texts.size(), false);
         const auto [cases, of] = load_all(texts);
         const std::vector<CaseRecord> records =
             cases.empty() ? std::vector<CaseRecord>() : draw(cases);
         for (size_t k = 0; k < of.size(); ++k) {
+            if (records[k].status == Status::unsupported) {
+                unsupported.insert(texts[of[k]]);
+            }
             out[of[k]] = shows(records[k], symptom) && (!is_sound || can_fail_everywhere(cases[k]));
             if (out[of[k]] && (!last || texts[of[k]].size() <= last_text.size())) {
                 last = records[k];
@@ -312,7 +325,13 @@ std::optional<Entry> reduce_case(const std::string& text, const Symptom& symptom
             "# At profile vulkan no sample must be covered: a suite wants one triangle more.\n" +
             entry.text;
     }
-    entry.needs = reduced.needs;
+    for (size_t k = 0; k < reduced.needs.size(); ++k) {
+        if (unsupported.contains(reduced.need_texts[k])) {
+            entry.undrawn.push_back(without_not(reduced.needs[k]));
+        } else {
+            entry.needs.push_back(reduced.needs[k]);
+        }
+    }
     entry.passes = passing(reduced.document, draw);
     entry.is_minimal = reduced.is_minimal;
     entry.count = 1;

@@ -26,11 +26,12 @@ struct Entry {
     std::set<std::string> essentials;
     // What else the reduced case breaks: in a case with the same essentials that is no news.
     std::set<std::pair<diff::FindingKind, std::string>> also;
-    std::string text;                 // of the reduced case
-    std::vector<std::string> needs;   // "not with 1 sample": simpler cases that do not show it
-    std::vector<std::string> passes;  // "with 2 samples in place of 4": other ones that pass
-    std::string shown_first;          // what a run of the text leads with, if not with the symptom
-    bool is_reduced = true;           // false: the text is as it was drawn, and explains no other
+    std::string text;                  // of the reduced case
+    std::vector<std::string> needs;    // "not with 1 sample": simpler cases that do not show it
+    std::vector<std::string> undrawn;  // "with 2 samples": simpler ones that the device cannot draw
+    std::vector<std::string> passes;   // "with 2 samples in place of 4": other ones that pass
+    std::string shown_first;           // what a run of the text leads with, if not with the symptom
+    bool is_reduced = true;            // false: the text is as it was drawn, and explains no other
     bool is_minimal = false;
     bool is_known = false;    // from an earlier hunt, or from expectation files
     std::string bug;          // what an expectation file refers to

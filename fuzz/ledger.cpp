@@ -45,6 +45,7 @@ Json to_json(const Entry& entry) {
             {"count", entry.count},
             {"essentials", entry.essentials},
             {"needs", entry.needs},
+            {"undrawn", entry.undrawn},
             {"passes", entry.passes},
             {"bug", entry.bug},
             {"also", also_of(entry)}};
@@ -81,6 +82,7 @@ Entry entry_of(const Json& json, const fs::path& folder) {
     entry.count = json.at("count");
     entry.essentials = json.at("essentials").get<std::set<std::string>>();
     entry.needs = json.at("needs").get<std::vector<std::string>>();
+    entry.undrawn = json.value("undrawn", std::vector<std::string>());
     entry.passes = json.value("passes", std::vector<std::string>());
     entry.bug = json.value("bug", "");
     for (const Json& also : json.at("also")) {

@@ -47,6 +47,9 @@ void tell_cause(const Entry& entry, const fs::path& folder) {
     for (size_t k = 0; k < std::min<size_t>(entry.needs.size(), 6); ++k) {
         say("      " + entry.needs[k] + "\n");
     }
+    for (size_t k = 0; k < std::min<size_t>(entry.undrawn.size(), 3); ++k) {
+        say("      the device draws nothing " + entry.undrawn[k] + "\n");
+    }
     for (size_t k = 0; k < std::min<size_t>(entry.passes.size(), 3); ++k) {
         say("      passes " + entry.passes[k] + "\n");
     }

@@ -158,12 +158,14 @@ OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOpti
 }
 
 KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<Entry>& known,
-                         run::Session& session, const std::function<void()>& on_progress) {
+                         run::Session& session, const std::function<void()>& on_progress,
+                         const KeepEntry& keep) {
     KnownCauses out;
     Reducer reducer(session, out, on_progress);
     const std::vector<Open> all = failing_cases(expected, reducer);
     out.failing = all.size();
     std::vector<Entry> entries = known;
+    size_t reduced = 0;
     for (const Open& open : all) {
         for (const Symptom& symptom : open.symptoms) {
             if (reducer.is_over()) {
@@ -172,7 +174,7 @@ KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<Ent
             if (is_explained(entries, symptom, open)) {
                 continue;
             }
-            if (out.entries.size() >= kMostCauses) {
+            if (reduced >= kMostCauses) {
                 ++out.left;
                 continue;
             }
@@ -183,8 +185,11 @@ KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<Ent
             entry->is_known = true;
             entry->bug = open.bug;
             entry->count = 0;
-            entries.push_back(*entry);
-            out.entries.push_back(std::move(*entry));
+            ++reduced;
+            if (auto kept = keep(*entry); !kept) {
+                out.failure = kept.error().message;
+            }
+            entries.push_back(std::move(*entry));
         }
     }
     return out;

@@ -37,14 +37,17 @@ OrStop<ExpectedFailures> expected_failures(const Program& program, const RunOpti
                                            const report::Device& device);
 
 struct KnownCauses {
-    std::vector<fuzz::Entry> entries;  // known, without a file yet
-    size_t failing = 0;                // cases that fail as expected
-    size_t left = 0;                   // symptoms that were not reduced: too many causes
+    size_t failing = 0;  // cases that fail as expected
+    size_t left = 0;     // symptoms that were not reduced: too many causes
     bool is_interrupted = false;
     std::string failure;
 };
-// Draws the cases, and reduces of what they show what neither `known` nor an earlier one explains.
+// Keeps a known cause, which has no file yet.
+using KeepEntry = std::function<cases::Expected<void>(const fuzz::Entry&)>;
+// Draws the cases, and reduces of what they show what neither `known` nor an earlier one explains;
+// each cause is kept at once.
 KnownCauses reduce_known(const ExpectedFailures& expected, const std::vector<fuzz::Entry>& known,
-                         run::Session& session, const std::function<void()>& on_progress);
+                         run::Session& session, const std::function<void()>& on_progress,
+                         const KeepEntry& keep);
 
 }  // namespace cli

@@ -247,9 +247,9 @@ class Reducer {
             std::erase_if(steps, [](const Step& step) { return step.need.empty(); });
             for (Candidate& c : candidates(out_.document, steps)) {
                 const auto answer = answers_.find(key_of(c.text));
-                if (answer != answers_.end() && !answer->second &&
-                    told.insert(std::move(c.text)).second) {
+                if (answer != answers_.end() && !answer->second && told.insert(c.text).second) {
                     out_.needs.push_back(c.step->need);
+                    out_.need_texts.push_back(std::move(c.text));
                 }
             }
         }

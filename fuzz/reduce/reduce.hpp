@@ -40,10 +40,11 @@ struct Reduced {
     // What the finding needs: the neighbours of the document that do not show it, in words ("not
     // with 1 sample", "not without blend").
     std::vector<std::string> needs;
-    std::vector<std::string> steps;  // that were taken, in words, in this order
-    size_t tried = 0;                // texts that were asked about
-    size_t rounds = 0;               // calls of Shows
-    bool is_minimal = false;         // nothing in simpler(document) shows the finding
+    std::vector<std::string> need_texts;  // what was asked about for each of them
+    std::vector<std::string> steps;       // that were taken, in words, in this order
+    size_t tried = 0;                     // texts that were asked about
+    size_t rounds = 0;                    // calls of Shows
+    bool is_minimal = false;              // nothing in simpler(document) shows the finding
 };
 
 // The document must show the finding itself, which is not asked. Is a function of its arguments and

@@ -364,6 +364,31 @@ class Known(FuzzTest):
                                     "EDGECASE_BREAK": fault, "EDGECASE_BREAK_COUNT": str(self.folder / "altered")}
         return self.edgecase("fuzz", *words, env=env, check=check)
 
+    def test_a_hunt_that_is_killed_while_it_reduces_known_failures_goes_on(self):
+        # A worker hangs over a known failure, so that the reduction does not end by itself.
+        hanging = self.environment() | {"EDGECASE_FAULT": "hang@scissor/*"}
+        program = subprocess.Popen([PROGRAM, "fuzz", "scissor/**", "--timeout=3000", "-o", "hunt"], cwd=self.folder, env=hanging,
+                                   stdout=subprocess.DEVNULL)
+        try:
+            for _ in range(1200):
+                if (self.folder / "hunt/fuzz.json").exists():
+                    break
+                time.sleep(0.05)
+        finally:
+            program.kill()
+            program.wait()
+        self.assertEqual((self.ledger()["next_case"], self.ledger()["expectations"]), (0, ""))
+        done = self.edgecase("fuzz", "--resume", "hunt", "--cases=16", check=0)
+        self.assertIn("known by ", done.stdout)
+        known = [c for c in self.ledger()["causes"] if c["is_known"]]
+        self.assertTrue(known)
+        # Those that were reduced before it was killed are not reduced again.
+        ledger = self.folder / "hunt/fuzz.json"
+        text = json.loads(ledger.read_text())
+        ledger.write_text(json.dumps(text | {"expectations": ""}))
+        self.edgecase("fuzz", "--resume", "hunt", "--cases=16", check=0)
+        self.assertEqual([c["file"] for c in self.ledger()["causes"] if c["is_known"]], [c["file"] for c in known])
+
     def test_known_defects_are_known_and_others_are_told(self):
         start = ["scissor/**", "multisample/**"]
         # Without expectation files lavapipe's defects are news.

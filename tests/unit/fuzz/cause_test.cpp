@@ -135,6 +135,7 @@ TEST_F(LedgerTest, IsReadBack) {
     entry.also = {{FindingKind::value, "interp.hull"}, {FindingKind::extra, "cover.outside"}};
     entry.text = "format = 1\n";
     entry.needs = {"not with 1 sample"};
+    entry.undrawn = {"with 8 samples"};
     entry.passes = {"with 2 samples in place of 4"};
     entry.file = "found/001-interp.hull.toml";
     entry.count = 7;
@@ -152,7 +153,8 @@ TEST_F(LedgerTest, IsReadBack) {
     EXPECT_EQ(to_json(*read), to_json(ledger));
     EXPECT_EQ(read->entries.front().also, entry.also);
     EXPECT_TRUE(read->entries.front().text.ends_with(
-        "# It passes, or fails otherwise: not with 1 sample.\n"
+        "# It passes, or fails otherwise, with 1 sample.\n"
+        "# The device draws nothing with 8 samples.\n"
         "# It passes with 2 samples in place of 4.\n"
         "# The reduction ended early: it may be larger than it has to be.\nformat = 1\n"));
     EXPECT_THAT(read->entries.front().text,
@@ -166,7 +168,7 @@ TEST_F(LedgerTest, IsReadBack) {
     // What an older ledger lacks is nothing.
     std::string older = to_json(ledger);
     for (const char* key : {"selectors", "suite", "cases_checksum", "expectations", "passes", "bug",
-                            "refused_changes", "numbers_without_case"}) {
+                            "undrawn", "refused_changes", "numbers_without_case"}) {
         const std::string name = "\"" + std::string(key) + "\":";
         for (size_t at = older.find(name); at != std::string::npos; at = older.find(name)) {
             older.replace(at, name.size(), "\"x\":");

@@ -185,6 +185,30 @@ TEST(ReduceCase, ALikeFailureIsNoLessGrave) {
                 testing::ElementsAre("draw.depth.clamp=true", "several samples", "sloping depth"));
 }
 
+// Of a neighbour that the device does not support nobody knows whether it passes.
+TEST(ReduceCase, TellsWhatTheDeviceDoesNotDraw) {
+    const Draw draw = [](const std::vector<cases::Case>& all) {
+        std::vector<CaseRecord> records = draw_sample_depth(all);
+        for (size_t k = 0; k < all.size(); ++k) {
+            if (all[k].target.samples == 2) {
+                records[k] = {};
+                records[k].status = Status::unsupported;
+            }
+        }
+        return records;
+    };
+    const auto entry =
+        reduce_case(kClamped, *parse_symptom("value of depth.clamp [vulkan]"), draw, 400);
+    ASSERT_TRUE(entry);
+    EXPECT_THAT(entry->undrawn, testing::ElementsAre("with 2 samples"));
+    EXPECT_THAT(entry->needs, testing::Not(testing::Contains("not with 2 samples")));
+    EXPECT_THAT(
+        need_text(*entry),
+        testing::AllOf(testing::HasSubstr("# The device draws nothing with 2 samples.\n"),
+                       testing::HasSubstr("# It passes, or fails otherwise, with 1 sample.\n"),
+                       testing::Not(testing::HasSubstr("not "))));
+}
+
 TEST(Essentials, KnowATriangleThatIsThinOnTheGrid) {
     const auto words = [](const std::string& draw) {
         return essentials_of(
