@@ -80,6 +80,9 @@ OrStop<probe::Datasheet> measure(const Program& program, const ProbeOptions& opt
         return tl::unexpected(stop_with(report::kExitInternal, failure));
     }
     sheet.device = device_lines(device);
+    if (!options.device.renderer.empty()) {
+        sheet.device.emplace_back("renderer", options.device.renderer);
+    }
     return sheet;
 }
 
@@ -122,7 +125,7 @@ int compare(const Program& program, const ProbeOptions& options, run::SignalFd& 
     if (!b) {
         return report_stop(b.error());
     }
-    say(probe::comparison_text(*a, *b));
+    say(probe::comparison_text(*a, *b, options.compared[0], options.compared[1]));
     return probe::differences(*a, *b).empty() ? report::kExitOk : report::kExitUnexpected;
 }
 

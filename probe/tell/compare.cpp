@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cases/base/counted.hpp"
+#include "cases/base/printable.hpp"
 
 namespace probe {
 
@@ -17,7 +18,7 @@ constexpr const char* kNotAsked = "not asked";
 std::string name_of(const Datasheet& sheet) {
     std::string out;
     for (const auto& [name, value] : sheet.device) {
-        if (name == "device" || name == "driver") {
+        if (name == "device" || name == "driver" || name == "renderer") {
             out += (out.empty() ? "" : ", ") + value;
         }
     }
@@ -43,9 +44,11 @@ std::vector<Difference> differences(const Datasheet& a, const Datasheet& b) {
     return out;
 }
 
-std::string comparison_text(const Datasheet& a, const Datasheet& b) {
+std::string comparison_text(const Datasheet& a, const Datasheet& b, const std::string& from_a,
+                            const std::string& from_b) {
     const std::vector<Difference> all = differences(a, b);
-    std::string out = fmt::format("A: {}\nB: {}\n", name_of(a), name_of(b));
+    std::string out = fmt::format("A: {} ({})\nB: {} ({})\n", name_of(a), cases::printable(from_a),
+                                  name_of(b), cases::printable(from_b));
     for (const Difference& d : all) {
         out += fmt::format("\n  {}  [{}]\n    A: {}\n    B: {}\n", d.question, d.id, d.a, d.b);
     }

@@ -20,7 +20,8 @@ struct Difference {
 // compared: they differ with every driver.
 std::vector<Difference> differences(const Datasheet& a, const Datasheet& b);
 
-// For a terminal.
-std::string comparison_text(const Datasheet& a, const Datasheet& b);
+// For a terminal. Each is told with where it comes from, a file or a device as it was asked for.
+std::string comparison_text(const Datasheet& a, const Datasheet& b, const std::string& from_a,
+                            const std::string& from_b);
 
 }  // namespace probe

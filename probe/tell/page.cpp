@@ -57,7 +57,7 @@ std::string star(const Picture& p) {
                            owns ? "own" : "other", 95 * x / length, 95 * y / length);
     }
     return out +
-           "<text x=\"-148\" y=\"-106\">solid: a triangle that lies there owns its edge</text>"
+           "<text x=\"-148\" y=\"-106\">solid: the triangle there owns the edge</text>"
            "</svg>";
 }
 

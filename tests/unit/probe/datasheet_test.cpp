@@ -183,7 +183,8 @@ TEST(Compare, TellsOtherAnswersAlone) {
     EXPECT_EQ(all[0].id, "ties.rule");
     EXPECT_EQ(all[0].a, "top-left");
     EXPECT_EQ(all[0].b, "top-right");
-    EXPECT_THAT(comparison_text(a, b), HasSubstr("1 other answers, 0 answers the same"));
+    EXPECT_THAT(comparison_text(a, b, "a.json", "gpu"),
+                HasSubstr("1 other answers, 0 answers the same"));
     // A property that one of them lacks.
     EXPECT_EQ(differences(a, {}).at(0).b, "not asked");
     EXPECT_EQ(differences({}, a).at(0).a, "not asked");
