@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import pty
 import re
 import shutil
 import subprocess
@@ -55,6 +56,49 @@ class RunSuite(unittest.TestCase):
         (self.root / "scripts/build").write_text('#!/bin/sh\n[ "$2" != --only-configure ]\n')
         done = subprocess.run([self.root / "scripts/run-suite"], capture_output=True, timeout=60, check=False)
         self.assertEqual((done.returncode, done.stdout), (7, b""))
+
+
+class Build(unittest.TestCase):
+    """What scripts/build tells, with a CMake that ends when it is told to."""
+
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp(prefix="edgecase-e2e-"))
+        self.addCleanup(shutil.rmtree, self.root, ignore_errors=True)
+        for folder in ("scripts", "bin", "build/release"):
+            (self.root / folder).mkdir(parents=True)
+        shutil.copy(SOURCE / "scripts/build", self.root / "scripts/build")
+        cmake = self.root / "bin/cmake"
+        cmake.write_text(f"""#!/bin/sh
+if [ "$1" = --build ]; then
+    echo '[3/7] compiling'
+    until [ -e {self.root}/go ]; do sleep 0.1; done
+    echo 'the error'
+    [ ! -e {self.root}/fail ]
+fi
+""")
+        cmake.chmod(0o755)
+        self.env = os.environ | {"PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"}
+
+    def test_on_a_terminal_it_tells_how_far_it_is(self):
+        ours, theirs = pty.openpty()
+        program = subprocess.Popen([self.root / "scripts/build", "release"], env=self.env, stdout=theirs, stderr=theirs)
+        os.close(theirs)
+        text = b""
+        while b"[3/7]" not in text:
+            text += os.read(ours, 1000)
+        (self.root / "go").touch()
+        self.assertEqual(program.wait(timeout=60), 0)
+        self.assertIn(b"building preset release for the first time, which takes some minutes", text)
+        os.close(ours)
+
+    def test_elsewhere_it_is_quiet_but_for_errors(self):
+        (self.root / "go").touch()
+        (self.root / "build/release/.ninja_log").touch()
+        done = subprocess.run([self.root / "scripts/build", "release"], env=self.env, capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "building preset release\n", ""))
+        (self.root / "fail").touch()
+        done = subprocess.run([self.root / "scripts/build", "release"], env=self.env, capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (1, "building preset release\n", "the error\n"))
 
 
 class CompareSpeed(unittest.TestCase):
