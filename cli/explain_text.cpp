@@ -11,6 +11,7 @@
 #include "cases/model/sample.hpp"
 #include "diff/verdict.hpp"
 #include "ref/blit/blit.hpp"
+#include "ref/exercise/exercise.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/expectation/explain.hpp"
 #include "ref/reason/reason.hpp"
@@ -74,8 +75,9 @@ std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::S
             text += fmt::format("        {:<14} {} {}, bit for bit\n", to_text(v),
                                 cases::number_text(v.nearest), v.also.empty() ? "exactly" : v.also);
         } else {
-            text += fmt::format("        {:<14} {} = {}{}{}{}\n", to_text(v),
-                                cases::number_text(v.nearest), shortened(v.exact),
+            const std::string nearest = cases::number_text(v.nearest), exact = shortened(v.exact);
+            text += fmt::format("        {:<14} {}{}{}{}{}\n", to_text(v), nearest,
+                                exact == nearest ? "" : " = " + exact,
                                 accepted_text(values, triangle, sample, v),
                                 v.also.empty() ? "" : ", ", v.also);
         }
@@ -181,6 +183,8 @@ std::string rule_text(const cases::Rule& rule, const std::vector<cases::Case>& s
     if (!rule.direct3d.empty()) {
         text += fmt::format("    Direct3D  {} (11.3 functional specification)\n", rule.direct3d);
     }
+    text += report::wrapped(
+        fmt::format("    exercised by a sample {}\n", ref::exercise_of(rule.id)), 100);
     text += fmt::format("    code      {}\n", rule.code);
     std::vector<std::string> ids;
     size_t leaves = 0;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/base/counted.hpp"
 #include "cases/model/float_bits.hpp"
 
 namespace cases {
@@ -43,7 +44,7 @@ std::optional<ExactVertex> read_vertex(LeafContext& context, const TomlValue& va
     if (space == Space::clip ? size != 4 : size < 2 || size > 4) {
         context.error(
             value.where,
-            fmt::format("{} has {} numbers; write {}", what, size,
+            fmt::format("{} has {}; write {}", what, counted(size, "number"),
                         space == Space::clip ? "[x,y,z,w]" : "[x,y], [x,y,z] or [x,y,z,w]"));
         return std::nullopt;
     }
@@ -131,7 +132,11 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
                                               const std::vector<ExactVertex>& vertices, Space space,
                                               const Viewport& viewport, const SourceLocation& where,
                                               const std::string& name,
-                                              std::vector<std::string>& notes) {
+                                              std::vector<std::string>& notes,
+                                              const TomlValue* list) {
+    const bool is_listed = list != nullptr && list->is(TomlValue::Kind::array) &&
+                           list->array.size() == vertices.size();
+    const auto place_of = [&](size_t v) { return is_listed ? list->array[v].where : where; };
     const Scale sx = scale(viewport.x, viewport.width);
     const Scale sy = scale(viewport.y, viewport.height);
     std::vector<glm::vec4> result;
@@ -155,7 +160,7 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
         const Rounded w = round_to_binary32(given.xyzw[3]);
         if ((std::isinf(w.value) && !w.exact) ||
             (space != Space::clip && std::fpclassify(w.value) == FP_ZERO)) {
-            context.error(where,
+            context.error(place_of(v),
                           fmt::format("w of vertex {} is not a binary32 other than zero", v));
             return std::nullopt;
         }
@@ -186,9 +191,9 @@ std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
         for (size_t i = 0; i < 4; ++i) {
             const Rounded rounded = i == 3 ? w : round_to_binary32(clip(i));
             if (std::isinf(rounded.value) && !rounded.exact) {
-                context.error(where, fmt::format("{} of vertex {} is larger than the largest "
-                                                 "binary32 in clip space",
-                                                 kComponent.at(i), v));
+                context.error(place_of(v), fmt::format("{} of vertex {} is larger than the largest "
+                                                       "binary32 in clip space",
+                                                       kComponent.at(i), v));
                 return std::nullopt;
             }
             bits.at(i) = rounded.value;

@@ -49,11 +49,13 @@ std::optional<PixelPosition> pixel_position(const ExactVertex& vertex, Space spa
 
 // What reaches the device. In pixels x_c = ((x_f - o_x) / (p_x / 2)) * w, z_c = z * w with w
 // rounded first; in ndc x_c = x * w. Each is rounded once to nearest. A conversion that rounds adds
-// a sentence that starts with `name` to `notes`; a result too large for binary32 is an error.
+// a sentence that starts with `name` to `notes`; a result too large for binary32 is an error, told
+// at the vertex in `list`, the array that the vertices come from, if there is one, else at `where`.
 std::optional<std::vector<glm::vec4>> to_clip(LeafContext& context,
                                               const std::vector<ExactVertex>& vertices, Space space,
                                               const Viewport& viewport, const SourceLocation& where,
                                               const std::string& name,
-                                              std::vector<std::string>& notes);
+                                              std::vector<std::string>& notes,
+                                              const TomlValue* list = nullptr);
 
 }  // namespace cases

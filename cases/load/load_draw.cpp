@@ -88,7 +88,8 @@ class DrawLoader {
             return std::move(draw_);
         }
         std::optional<std::vector<glm::vec4>> positions =
-            to_clip(context_, vertices_, space_, draw_.viewport, table_.where, name, notes);
+            to_clip(context_, vertices_, space_, draw_.viewport, table_.where, name, notes,
+                    table_.find("vertices"));
         if (!positions || !order) {
             return std::move(draw_);
         }

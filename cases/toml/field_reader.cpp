@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 
+#include "cases/base/counted.hpp"
 #include "cases/model/selector.hpp"
 
 namespace cases {
@@ -112,6 +113,13 @@ std::optional<Number> LeafContext::number(const TomlValue& value, const std::str
         }
         return from_double(value.floating);
     }
+    if (value.is(Kind::string) && value.string.starts_with("bits(")) {
+        error(value.where,
+              fmt::format("{}: \"{}\" may stand in positions of space \"clip\" and in attributes "
+                          "only",
+                          what, value.string));
+        return std::nullopt;
+    }
     if (value.is(Kind::string)) {
         tl::expected<Number, std::string> n = evaluate(value.string, names);
         if (!n) {
@@ -213,11 +221,11 @@ std::optional<size_t> LeafContext::word(const TomlValue& value, const std::strin
 std::optional<std::vector<Number>> LeafContext::numbers(const TomlValue& value,
                                                         const std::string& what, size_t count) {
     if (!value.is(Kind::array) || value.array.size() != count) {
-        error(value.where,
-              value.is(Kind::array)
-                  ? fmt::format("{} has {} numbers instead of {}", what, value.array.size(), count)
-                  : fmt::format("{} is {}; write an array of {} numbers", what, describe(value),
-                                count));
+        error(value.where, value.is(Kind::array)
+                               ? fmt::format("{} has {} instead of {}", what,
+                                             counted(value.array.size(), "number"), count)
+                               : fmt::format("{} is {}; write an array of {} numbers", what,
+                                             describe(value), count));
         return std::nullopt;
     }
     std::vector<Number> result;
@@ -268,8 +276,8 @@ bool LeafContext::array_of(const TomlValue& value, const std::string& what, size
         return false;
     }
     if (value.array.size() != count) {
-        error(value.where,
-              fmt::format("{} has {} numbers; write {}", what, value.array.size(), form));
+        error(value.where, fmt::format("{} has {}; write {}", what,
+                                       counted(value.array.size(), "number"), form));
         return false;
     }
     return true;

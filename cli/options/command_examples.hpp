@@ -34,6 +34,7 @@ inline constexpr Examples kExamples[] = {
     {"list",
      "  edgecase list --long 'ties/**'            one family with descriptions and rules\n"
      "  edgecase list --ids '@rule:tie.*'         the cases of some rules\n"},
+    {"doors", "  edgecase doors                            what each of them does, and takes\n"},
     {"lint",
      "  edgecase lint my-case.toml                is a file of your own well formed\n"
      "  edgecase lint --strength my-case.toml     which known faults does it catch\n"},

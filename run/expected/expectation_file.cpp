@@ -220,10 +220,12 @@ class Parser {
             fail("an expected " + words[1] +
                  " needs a reference to a bug in its third column ('-' is for skip)");
         }
+        bool is_understood = true;  // else what a line says is not what it lacks
         for (size_t k = 3; k < words.size(); ++k) {
             if (is_cause_word(words[k])) {
                 if (auto added = add_cause_word(entry.cause, words[k]); !added) {
                     fail(added.error().message);
+                    is_understood = false;
                 }
             } else if (words[k].starts_with("until=") && is_date(words[k].substr(6))) {
                 entry.until = words[k].substr(6);
@@ -232,9 +234,12 @@ class Parser {
                 fail("'" + words[k] +
                      "' is not understood; after the bug may stand causes, like "
                      "'extra:cover.outside@vulkan<=3', and 'until=YYYY-MM-DD'");
+                is_understood = false;
             }
         }
-        check_cause(entry);
+        if (is_understood) {
+            check_cause(entry);
+        }
         if (entry.note.empty()) {
             fail("the expectation of '" + entry.glob +
                  "' gives no reason; add one sentence after ' # '");

@@ -16,6 +16,7 @@
 #include "cases/model/rule.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/selector.hpp"
+#include "run/process/process.hpp"
 
 namespace run {
 
@@ -171,6 +172,12 @@ cases::Expected<void> add_cause_word(ExpectedCause& cause, std::string_view word
     }
     for (const auto& [name, member] : kTexts) {
         if (word.starts_with(name)) {
+            if (const std::string value(word.substr(name.size()));
+                member == &ExpectedCause::signal && !value.empty() && !is_signal_name(value)) {
+                return cases::failure(
+                    "'{}' is no signal{}", value,
+                    cases::did_you_mean(value, signal_names(), "; write its name, like SIGSEGV"));
+            }
             return add_text(cause.*member, word, word.substr(name.size()));
         }
     }

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cases/base/printable.hpp"
 #include "run/process/frame.hpp"
 #include "run/process/process.hpp"
 
@@ -49,7 +50,8 @@ Manifest read_manifest(const fs::path& file) {
             manifest.path = fs::absolute(file.parent_path() / manifest.path, ignored);
         }
         if (!fs::exists(manifest.path, ignored)) {
-            manifest.problem = "names a library that does not exist";
+            manifest.problem = "names a library that does not exist, '" +
+                               cases::printable(manifest.path.string()) + "'";
         }
     }
     return manifest;

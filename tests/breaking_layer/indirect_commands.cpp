@@ -5,6 +5,7 @@
 // is about them, the parameters are read from the application's mapped memory, as a driver that
 // does so itself would do, and drawn directly.
 #include <algorithm>
+#include <vector>
 
 #include "altering.hpp"
 #include "memory_map.hpp"
@@ -28,14 +29,16 @@ void draw_directly(VkCommandBuffer commands, const IndirectDraw& from) {
     draw_call(commands, call, from.instances);
 }
 
-// The draws that a call finds in its buffer.
-void draw_from(VkCommandBuffer commands, VkBuffer buffer, IndirectCall call,
-               VkBuffer count_buffer = VK_NULL_HANDLE) {
-    alter(hooks().indirect, call);
+// The draws that a call finds in its buffer, one by one, if the fault alters some of it. Else
+// nothing is drawn: the driver's own command is another one, with defects of its own.
+bool draw_altered(VkCommandBuffer commands, VkBuffer buffer, IndirectCall call,
+                  VkBuffer count_buffer = VK_NULL_HANDLE) {
+    bool is_altered = alter(hooks().indirect, call);
     uint32_t count = call.count;
     if (call.count_offset) {
         count = std::min(count, word_at(count_buffer, *call.count_offset).value_or(0));
     }
+    std::vector<IndirectDraw> draws;
     for (uint32_t k = 0; k < count; ++k) {
         const VkDeviceSize at = call.offset + VkDeviceSize{k} * call.stride;
         const auto word = [&](uint32_t n) { return word_at(buffer, at + 4 * n).value_or(0); };
@@ -46,15 +49,21 @@ void draw_from(VkCommandBuffer commands, VkBuffer buffer, IndirectCall call,
         draw.first = word(2);
         draw.vertex_offset = call.indexed ? static_cast<int32_t>(word(3)) : 0;
         draw.first_instance = word(call.indexed ? 4 : 3);
-        alter(hooks().indirect_draw, draw);
-        draw_directly(commands, draw);
+        is_altered = alter(hooks().indirect_draw, draw) || is_altered;
+        draws.push_back(draw);
     }
+    for (const IndirectDraw& draw : draws) {
+        if (is_altered) {
+            draw_directly(commands, draw);
+        }
+    }
+    return is_altered;
 }
 
 VKAPI_ATTR void VKAPI_CALL draw_indirect(VkCommandBuffer commands, VkBuffer buffer,
                                          VkDeviceSize offset, uint32_t count, uint32_t stride) {
-    if (is_about_indirect()) {
-        draw_from(commands, buffer, {false, offset, count, stride, std::nullopt});
+    if (is_about_indirect() &&
+        draw_altered(commands, buffer, {false, offset, count, stride, std::nullopt})) {
         return;
     }
     recording_of(commands).draw([=] {
@@ -65,8 +74,8 @@ VKAPI_ATTR void VKAPI_CALL draw_indirect(VkCommandBuffer commands, VkBuffer buff
 VKAPI_ATTR void VKAPI_CALL draw_indexed_indirect(VkCommandBuffer commands, VkBuffer buffer,
                                                  VkDeviceSize offset, uint32_t count,
                                                  uint32_t stride) {
-    if (is_about_indirect()) {
-        draw_from(commands, buffer, {true, offset, count, stride, std::nullopt});
+    if (is_about_indirect() &&
+        draw_altered(commands, buffer, {true, offset, count, stride, std::nullopt})) {
         return;
     }
     recording_of(commands).draw([=] {
@@ -78,8 +87,8 @@ VKAPI_ATTR void VKAPI_CALL draw_indirect_count(VkCommandBuffer commands, VkBuffe
                                                VkDeviceSize offset, VkBuffer count_buffer,
                                                VkDeviceSize count_offset, uint32_t most,
                                                uint32_t stride) {
-    if (is_about_indirect()) {
-        draw_from(commands, buffer, {false, offset, most, stride, count_offset}, count_buffer);
+    if (is_about_indirect() &&
+        draw_altered(commands, buffer, {false, offset, most, stride, count_offset}, count_buffer)) {
         return;
     }
     recording_of(commands).draw([=] {
@@ -92,8 +101,8 @@ VKAPI_ATTR void VKAPI_CALL draw_indexed_indirect_count(VkCommandBuffer commands,
                                                        VkDeviceSize offset, VkBuffer count_buffer,
                                                        VkDeviceSize count_offset, uint32_t most,
                                                        uint32_t stride) {
-    if (is_about_indirect()) {
-        draw_from(commands, buffer, {true, offset, most, stride, count_offset}, count_buffer);
+    if (is_about_indirect() &&
+        draw_altered(commands, buffer, {true, offset, most, stride, count_offset}, count_buffer)) {
         return;
     }
     recording_of(commands).draw([=] {

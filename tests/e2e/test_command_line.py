@@ -141,7 +141,7 @@ class Usage(ProgramTest):
         (self.folder / "junk.so").write_text("junk")
         (self.folder / "junk.json").write_text('{"file_format_version": "1.0.0", "ICD": {"library_path": "./junk.so", "api_version": "1.3.0"}}')
         for file, sentence in (("text.json", "(--icd) is no driver manifest (no ICD.library_path)"), (".", "(--icd) is a folder; name the JSON file"),
-                               ("gone.json", "(--icd) names a library that does not exist"),
+                               ("gone.json", f"(--icd) names a library that does not exist, '{self.folder}/./gone.so'"),
                                ("junk.json", "the driver library './junk.so' does not load: ")):
             done = self.edgecase("run", "--icd", file, check=5)
             self.assertIn(sentence, done.stderr)
@@ -280,6 +280,9 @@ class Usage(ProgramTest):
         for command in COMMANDS:
             done = self.edgecase(command, "--help", check=0)
             self.assertIn("--help", done.stdout)
+            # Examples are those of the command: "run" has some of its own.
+            examples = done.stdout.split("Examples:")[1:]
+            self.assertTrue(all(f"edgecase {command}" in text for text in examples), done.stdout)
         self.assertIn("130", self.edgecase("--help", check=0).stdout)
 
     def test_exit_codes_are_those_of_the_manual(self):

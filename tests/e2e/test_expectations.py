@@ -88,6 +88,12 @@ class Statuses(ExpectationTest):
     def test_flake_is_no_expected_fail_when_asked_twice(self):
         self.outcome("flake", "flake", "xfail", 0)
 
+    def test_a_flaky_known_failure_is_a_flake(self):
+        # What is expected is drawn again, too: a failure that comes and goes is no expected one.
+        self.outcome("fail", "flake", "flake", 1)
+        self.run_suite("--retries", "0", fault="flake@fam/c3", check=0)
+        self.assertEqual(self.statuses()["fam/c3"], "xfail")
+
     def test_skip(self):
         self.expectations("fam/c3  skip  -  # Too slow here.\n")
         self.run_suite(fault="segv@fam/c3", check=0)
@@ -332,10 +338,14 @@ class Causes(ExpectationTest):
                 ("bits=", "'bits=' does not name pictures; write each as 16 digits"),
                 ("bits=0123456789abcdeF", "does not name pictures"),
                 ("bits=0123456789abcdef,012", "does not name pictures"),
-                ("signal=A signal=B " + FLIPPED, "'signal=B' stands beside another one")):
+                ("signal=SIGBUS signal=SIGFPE " + FLIPPED, "'signal=SIGFPE' stands beside another one"),
+                ("signal=SIGSEVG " + FLIPPED, "'SIGSEVG' is no signal; did you mean 'SIGSEGV'?"),
+                ("signal=SIGFOOBAR " + FLIPPED, "'SIGFOOBAR' is no signal")):
             path = self.expectations(f"fam/c3 fail bug#1 {cause}  # Known.\n")
             done = self.edgecase("expect", path, check=3)
             self.assertIn(sentence, done.stderr)
+            # One mistake is told once: a line that is not understood does not lack what it says.
+            self.assertEqual(done.stderr.count(": error: "), 1, done.stderr)
         for text, sentence in (("fam/c3 crash bug#1  # Known.\n", "does not say how it crashes; write signal=NAME or step=NAME"),
                                (f"fam/c3 skip - {FLIPPED}  # Slow.\n", "a case that is not drawn has no cause")):
             self.assertIn(sentence, self.edgecase("expect", self.expectations(text), check=3).stderr)

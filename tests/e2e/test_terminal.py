@@ -95,7 +95,7 @@ class Explain(TerminalTest):
     def test_a_rule(self):
         text = self.edgecase("explain", "--rule", "tie.top-left", check=0).stdout
         self.assertTrue(text.startswith("tie.top-left: "))
-        for part in ("    profile   direct3d", "    text      ", "    Direct3D  ", "    code      ref/",
+        for part in ("    profile   direct3d", "    text      ", "    Direct3D  ", "    exercised by a sample ", "    code      ref/",
                      "    cases     0 in 0 files ('edgecase run @rule:tie.top-left')"):
             self.assertIn(part, text)
         self.assertIn("    cases     10 in 10 files", self.edgecase("explain", "--rule", "cover.inside", check=0).stdout)

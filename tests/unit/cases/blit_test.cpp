@@ -45,7 +45,7 @@ TEST(LoadBlit, ReadsRegionsAndDefaults) {
 TEST(LoadBlit, EverySentence) {
     const std::vector<std::pair<std::string, std::string>> table = {
         {blit_file(""), "f:7:1: error: [blit] has no size; write size = [width, height]"},
-        {blit_file("size = [1]"), "f:8:8: error: size has 1 numbers; write [width, height]"},
+        {blit_file("size = [1]"), "f:8:8: error: size has 1 number; write [width, height]"},
         {blit_file("size = [5, 4]\nfrom = [1, 1, 1, 2]"),
          "f:9:8: error: from is an empty region; move a corner"},
         {blit_file("size = [5, 4]\nto = [1, 1, 2]"),

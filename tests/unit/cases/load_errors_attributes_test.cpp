@@ -121,7 +121,7 @@ offset = [0, 0.5])~"),
     {attribute(R"~(constant = 1
 probe = "at-offset"
 offset = [0])~"),
-     R"~(f:11:10: error: offset has 1 numbers instead of 2)~"},
+     R"~(f:11:10: error: offset has 1 number instead of 2)~"},
     {attribute(R"~(constant = 1
 probe = "at-sample")~"),
      R"~(f:8:1: error: probe = "at-sample" needs the key sample)~"},
@@ -145,7 +145,7 @@ texture = 4)~"),
     {attribute(R"~(constant = [1, 2]
 probe = "query-lod"
 texture = [4])~"),
-     R"~(f:11:11: error: texture has 1 numbers; write [width, height])~"},
+     R"~(f:11:11: error: texture has 1 number; write [width, height])~"},
     {attribute(R"~(constant = [1, 2]
 probe = "query-lod"
 texture = [4, 5000])~"),

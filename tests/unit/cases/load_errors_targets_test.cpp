@@ -15,7 +15,7 @@ const Row kTargetsRows[] = {
     {target(R"~(size = 8)~"),
      R"~(f:5:8: error: size is the number 8; write an array)~"},
     {target(R"~(size = [8])~"),
-     R"~(f:5:8: error: size has 1 numbers; write [width, height])~"},
+     R"~(f:5:8: error: size has 1 number; write [width, height])~"},
     {target(R"~(size = [0, 8])~"),
      R"~(f:5:9: error: the target's width is not an integer from 1 to 16384)~"},
     {target(R"~(size = [8, 16385])~"),
@@ -67,7 +67,7 @@ sample_locations = [[1, 2]])~"),
     {target(R"~(size = [8, 8]
 samples = 2
 sample_locations = [[1, 2], [3]])~"),
-     R"~(f:7:29: error: a sample location has 1 numbers; write [x, y] in sixteenths of a pixel)~"},
+     R"~(f:7:29: error: a sample location has 1 number; write [x, y] in sixteenths of a pixel)~"},
     {target(R"~(size = [8, 8]
 samples = 2
 sample_locations = [[1, 2], [16, 0]])~"),

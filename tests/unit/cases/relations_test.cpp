@@ -80,7 +80,7 @@ TEST(Relations, EverySentence) {
         {relation_file(R"([{ tiles = [1, 2] }])"),
          R"(f:4:16: error: a relation has no key "tiles"; its keys are scissor-tiles, doors)"},
         {relation_file(R"([{ scissor-tiles = [1] }])"),
-         "f:4:32: error: scissor-tiles has 1 numbers; write [width, height]"},
+         "f:4:32: error: scissor-tiles has 1 number; write [width, height]"},
         {relation_file(R"([{ scissor-tiles = [0, 1] }])"),
          "f:4:33: error: a tile's side is not an integer from 1 to 16384"},
         {relation_file(R"(["same-twice", "same-twice"])"),
