@@ -27,7 +27,7 @@ TEST(headline, counts_of_what_was_judged) {
     report::Run run = run_of({fail, pass, pass, unsupported, skip});
     EXPECT_EQ(headline(run), "1 of 3 judged cases fails");
     run.cases[0].counts.at(0) = 1;
-    EXPECT_TRUE(levels_line(run).find("of 3 cases") != std::string::npos) << levels_line(run);
+    EXPECT_TRUE(levels_line(run).find("in 3 cases") != std::string::npos) << levels_line(run);
     // A crash is no judgement.
     EXPECT_EQ(headline(run_of({fail, crash, unsupported})), "1 of 2 cases fails, 1 crashes");
 }
