@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <csignal>
 #include <cstddef>
+#include <cstring>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -16,7 +18,6 @@
 #include "cases/model/rule.hpp"
 #include "cases/model/rule_ids.hpp"
 #include "cases/model/selector.hpp"
-#include "run/process/process.hpp"
 
 namespace run {
 
@@ -101,6 +102,22 @@ cases::Expected<void> add_bits(std::vector<std::string>& to, std::string_view wo
     } while (!rest.empty());
     sort_bits(to);
     return {};
+}
+
+// The names that a crash can have (run/process/process.cpp).
+std::vector<std::string> signal_names() {
+    std::vector<std::string> names;
+    for (int signal = 1; signal < NSIG; ++signal) {
+        const char* name = ::sigabbrev_np(signal);
+        names.push_back(name != nullptr ? "SIG" + std::string(name)
+                                        : "signal " + std::to_string(signal));
+    }
+    return names;
+}
+
+bool is_signal_name(const std::string& text) {
+    const std::vector<std::string> names = signal_names();
+    return std::find(names.begin(), names.end(), text) != names.end();
 }
 
 // What is wrong with the door that a group names, or does not name; empty if nothing is.

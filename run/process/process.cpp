@@ -70,25 +70,6 @@ std::string signal_name(int signal) {
     return name != nullptr ? "SIG" + std::string(name) : "signal " + std::to_string(signal);
 }
 
-std::vector<std::string> signal_names() {
-    std::vector<std::string> names;
-    for (int signal = 1; signal < NSIG; ++signal) {
-        if (::sigabbrev_np(signal) != nullptr) {
-            names.push_back(signal_name(signal));
-        }
-    }
-    return names;
-}
-
-bool is_signal_name(std::string_view text) {
-    for (int signal = 1; signal < NSIG; ++signal) {
-        if (text == signal_name(signal)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 namespace {
 
 struct Pipe {

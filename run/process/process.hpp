@@ -56,9 +56,6 @@ struct ExitStatus {
 
 // "SIGSEGV", ...
 std::string signal_name(int signal);
-// The names of all signals that have one; and whether signal_name() may give this text.
-std::vector<std::string> signal_names();
-bool is_signal_name(std::string_view text);
 
 // What starts a child.
 struct Command {

@@ -33,7 +33,7 @@ class FirstSight(PageTest):
         self.assertEqual([(c["level"], len(c["cases"])) for c in causes], [("vulkan", 1), ("vulkan", 1), ("direct3d", 2)])
         page = self.open()
         shown = page.run("[...document.querySelectorAll('#causes tr[data-cause]')].map((r) => r.dataset.cause)")
-        self.assertEqual(shown, ["|".join((c["status"], c["family"], c["rule"], c["kind"])) for c in causes])
+        self.assertEqual(shown, ["|".join((c["status"], c["family"], c["rule"], c["kind"], c["level"], *filter(None, [c["door"]]))) for c in causes])
         levels = page.run("[...document.querySelectorAll('#causes .level')].map((e) => e.innerText)")
         self.assertEqual(levels, [c["level"] for c in causes])
         examples = page.run("[...document.querySelectorAll('#causes td:last-child a')].map((a) => a.innerText)")
