@@ -62,10 +62,16 @@ std::string accepted_text(ref::ValueReference& values, uint32_t triangle, cases:
     std::string text = fmt::format(", accepted within {:.4g} x {:.3g}", v.factor, v.budget);
     const ref::ValueRange all =
         v.part.empty() ? values.range(triangle, sample, v.quantity) : ref::ValueRange{};
-    return all.is_promised
-               ? text + fmt::format(", of all bases {} to {}", cases::number_text(all.low),
-                                    cases::number_text(all.high))
-               : text;
+    if (!all.is_promised) {
+        return text;
+    }
+    text += fmt::format(", of all bases {} to {}", cases::number_text(all.low),
+                        cases::number_text(all.high));
+    if (all.has_biased) {
+        text += fmt::format(", or with the bias {} to {}", cases::number_text(all.biased_low),
+                            cases::number_text(all.biased_high));
+    }
+    return text;
 }
 
 std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::SampleId sample) {

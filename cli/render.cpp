@@ -63,6 +63,10 @@ Json values_json(Reference& r, uint32_t triangle, size_t index) {
             values.back()["low"] = number(all.low);
             values.back()["high"] = number(all.high);
         }
+        if (all.is_promised && all.has_biased) {
+            values.back()["biased_low"] = number(all.biased_low);
+            values.back()["biased_high"] = number(all.biased_high);
+        }
         if (!v.also.empty()) {
             values.back()["also"] = v.also;
         }

@@ -307,7 +307,7 @@ constexpr std::array kRules = {
          "m lies between the larger gradient and their Euclidean norm (Direct3D: the larger). r is "
          "2^(e-23) with binary32 depth, e the exponent of the primitive's largest z, clipped or "
          "not; at most 2 2^-n with n bits of fixed point, 2^-n with depthBiasExact, 1 with the "
-         "representation float. The clamp is exact. FragCoord.z may have the bias or not.",
+         "representation float. The clamp is exact. FragCoord.z has all of the bias or none.",
          "primsrast-depthbias-computation", "15.10", "ref/value/fragment/depth_path.hpp"},
     Rule{rule::depth_distinct, Profile::vulkan, "Planes that are r apart stay distinct",
          "Polygons with the same vertices, biased apart by one r (fixed point: two, as r may be a "

@@ -189,16 +189,22 @@ class Tables {
     // The first of the ranges of a triangle's values at a sample.
     size_t ranges_of(uint32_t t, size_t index) {
         const cases::SampleId id = cases::sample_at(case_.target, index);
-        const auto& attributes = case_.draws[expectation_.triangles[t].draw].attributes;
-        std::string row = range_text(values_.range(t, id, ref::QuantityId::of_frag_coord(2))) +
+        const cases::Draw& draw = case_.draws[expectation_.triangles[t].draw];
+        const ref::ValueRange z = values_.range(t, id, ref::QuantityId::of_frag_coord(2));
+        std::string row = range_text(z) +
                           range_text(values_.range(t, id, ref::QuantityId::of_frag_coord(3))) +
                           depth_text(t, index);
+        if (draw.depth.bias) {
+            row +=
+                range_text(z.has_biased ? ref::ValueRange{true, z.biased_low, z.biased_high} : z);
+        }
+        const auto& attributes = draw.attributes;
         for (size_t a = 0; a < attributes.size(); ++a) {
             for (const ref::ValueRange& range : attribute_ranges(t, id, a)) {
                 row += range_text(range);
             }
         }
-        return ranges_.number(row, 3 + 4 * attributes.size());
+        return ranges_.number(row, 3 + size_t{draw.depth.bias.has_value()} + 4 * attributes.size());
     }
 
     std::array<ref::ValueRange, 4> attribute_ranges(uint32_t t, cases::SampleId id, size_t a) {

@@ -226,6 +226,9 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         coord_z = planes.depth(static_cast<float>(i) + 1 - static_cast<float>(samples_[0].x) * unit,
                                static_cast<float>(j) + static_cast<float>(samples_[0].y) * unit);
     }
+    if (fault == Fault::bias_halved_in_frag_coord) {
+        coord_z += bias / 2;
+    }
     const glm::vec4 older_frag_coord = out_.frag_coord[at];
     out_.frag_coord[at] = {invocation.frag_coord.x + corner_xy, invocation.frag_coord.y + corner_xy,
                            coord_z, fault == Fault::frag_coord_w ? 1.0F / inverse_w : inverse_w};

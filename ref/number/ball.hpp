@@ -86,6 +86,12 @@ inline Answer both(Answer a, Answer b) {
                                                   : Answer::unknown;
 }
 
+inline Answer either(Answer a, Answer b) {
+    return a == Answer::yes || b == Answer::yes ? Answer::yes
+           : a == Answer::no && b == Answer::no ? Answer::no
+                                                : Answer::unknown;
+}
+
 // Whether a <= b.
 inline Answer is_at_most(const mpq_class& a, const mpq_class& b) {
     return a <= b ? Answer::yes : Answer::no;

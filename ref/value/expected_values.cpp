@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "ref/number/rational.hpp"
 #include "ref/value/accept/reach.hpp"
@@ -55,6 +56,46 @@ void store_depth(const value::Store& store, cases::DepthFormat format, ValueRang
     };
     range.low = depth_of(first);
     range.high = depth_of(last);
+}
+
+double low_of(const Ball& a) {
+    return a.v - a.e;
+}
+double high_of(const Ball& a) {
+    return a.v + a.e;
+}
+double low_of(const mpq_class& a) {
+    return a.get_d();
+}
+double high_of(const mpq_class& a) {
+    return a.get_d();
+}
+
+// Outwards: a subtraction rounds by half an ulp, get_d truncates by less than one.
+template <class T>
+std::pair<double, double> outwards(const value::Range<T>& range) {
+    return {std::nextafter(std::nextafter(low_of(range.low), -HUGE_VAL), -HUGE_VAL),
+            std::nextafter(std::nextafter(high_of(range.high), HUGE_VAL), HUGE_VAL)};
+}
+
+template <class T>
+ValueRange told(const value::AcceptedRange<T>& accepted) {
+    const auto [low, high] = outwards(accepted.range);
+    ValueRange out{!accepted.is_free && std::isfinite(low) && std::isfinite(high), low, high};
+    if (!out.is_promised || !accepted.biased) {
+        return out;
+    }
+    const auto [biased_low, biased_high] = outwards(*accepted.biased);
+    out.is_promised = std::isfinite(biased_low) && std::isfinite(biased_high);
+    if (biased_low <= high && low <= biased_high) {
+        out.low = std::min(low, biased_low);
+        out.high = std::max(high, biased_high);
+    } else {
+        out.has_biased = true;
+        out.biased_low = biased_low;
+        out.biased_high = biased_high;
+    }
+    return out;
 }
 
 }  // namespace
@@ -125,8 +166,7 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
     for (size_t k = 0; k < only.size(); ++k) {
         ValueRange& range = out.at(component_of[k]);
         if (wide[k].is_known) {
-            range = {!wide[k].is_free, wide[k].range.low.v - wide[k].range.low.e,
-                     wide[k].range.high.v + wide[k].range.high.e};
+            range = told(wide[k]);
         } else {
             const auto exact = value::accepted_ranges(
                                    impl_->candidates<mpq_class>(t, impl_->profile),
@@ -134,13 +174,8 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
                                        impl_->fragment(t, sample, impl_->profile), impl_->profile),
                                    asked.of(std::span(only).subspan(k, 1)))
                                    .front();
-            range = {!exact.is_free, exact.range.low.get_d(), exact.range.high.get_d()};
+            range = told(exact);
         }
-        // Outwards: a subtraction rounds by half an ulp, get_d truncates by less than one.
-        range.low = std::nextafter(std::nextafter(range.low, -HUGE_VAL), -HUGE_VAL);
-        range.high = std::nextafter(std::nextafter(range.high, HUGE_VAL), HUGE_VAL);
-        range.is_promised =
-            range.is_promised && std::isfinite(range.low) && std::isfinite(range.high);
         if (range.is_promised && all[only[k]].id.is_depth()) {
             store_depth(value::store_of(balls, all[only[k]]), primitive.depth_format, range);
         }
@@ -194,6 +229,11 @@ std::vector<ExpectedValue> ValueReference::expected(uint32_t t, cases::SampleId 
                 const mpq_class stored = nominal_depth(primitive, basis, v.value, impl_->profile);
                 e.exact = stored.get_str();
                 e.nearest = stored.get_d();
+            }
+            if (value::is_frag_coord_z(q) && primitive.draw->depth.bias) {
+                e.also = fmt::format(
+                    "or {:.9g} with the bias",
+                    value::biased_depth(primitive, basis, v.value, impl_->profile).get_d());
             }
         }
         out.push_back(std::move(e));

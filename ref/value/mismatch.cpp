@@ -11,6 +11,7 @@
 
 #include "cases/model/rule_ids.hpp"
 #include "ref/number/rational.hpp"
+#include "ref/value/accept/reach.hpp"
 #include "ref/value/describe.hpp"
 #include "ref/value/reference.hpp"
 
@@ -53,12 +54,16 @@ std::optional<ReasonKind> depth_reason(const value::Primitive& primitive, const 
 
 }  // namespace
 
+mpq_class value::biased_depth(const Primitive& primitive, const Basis<mpq_class>& basis,
+                              const mpq_class& z, Profile profile) {
+    return z + value::nominal_bias(value::make_depth_path<mpq_class>(primitive, profile), basis);
+}
+
 mpq_class value::nominal_depth(const Primitive& primitive, const Basis<mpq_class>& basis,
                                const mpq_class& z, Profile profile) {
     const auto path = value::make_depth_path<mpq_class>(primitive, profile);
-    const mpq_class biased = z + value::nominal_bias(path, basis);
-    const mpq_class out =
-        std::clamp(biased, mpq_class(path.viewport.low), mpq_class(path.viewport.high));
+    const mpq_class out = std::clamp(biased_depth(primitive, basis, z, profile),
+                                     mpq_class(path.viewport.low), mpq_class(path.viewport.high));
     const double steps = cases::depth_steps(path.format);
     const mpq_class half(1, 2);
     return steps > 0
@@ -298,8 +303,14 @@ std::string ValueReference::Impl::expected_text(uint32_t t, cases::SampleId id, 
                            nominal_depth(primitive, basis, v.value, profile).get_d(),
                            v.value.get_d(), factor, v.budget.get_d());
     }
-    return fmt::format("{} within {:.4g} x {:.3g}", value::number_text(v.value.get_d(), v.value),
-                       factor, v.budget.get_d());
+    std::string text =
+        fmt::format("{} within {:.4g} x {:.3g}", value::number_text(v.value.get_d(), v.value),
+                    factor, v.budget.get_d());
+    if (value::is_frag_coord_z(q) && primitive.draw->depth.bias) {
+        text += fmt::format(", or {:.9g} or near it with the bias",
+                            value::biased_depth(primitive, basis, v.value, profile).get_d());
+    }
+    return text;
 }
 
 void ValueReference::Impl::describe(uint32_t t, cases::SampleId id, const FragmentValues& device,

@@ -107,6 +107,10 @@ inline float provoking_value(const Primitive& primitive, const Quantity& q) {
     return values[primitive.triangle.provoking][component];
 }
 
+// The depth of a plane with the bias of nominal_bias().
+mpq_class biased_depth(const Primitive& primitive, const Basis<mpq_class>& basis,
+                       const mpq_class& z, cases::Profile profile);
+
 // The depth that a device most likely stores, from the exact one of its plane: with the bias of
 // nominal_bias(), clamped, and in fixed point the nearest step.
 mpq_class nominal_depth(const Primitive& primitive, const Basis<mpq_class>& basis,

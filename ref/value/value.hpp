@@ -75,7 +75,12 @@ inline std::string to_text(const ExpectedValue& value) {
 struct ValueRange {
     bool is_promised = false;  // false: nothing is claimed of the value
     double low = 0, high = 0;
+    // FragCoord.z of a draw with a bias may also be what it is with the bias, and nothing between
+    // the two.
+    bool has_biased = false;
+    double biased_low = 0, biased_high = 0;
 };
+
 // The values that somebody delivered; the others of a FragmentValues mean nothing then.
 struct ValueSelection {
     bool frag_coord = true, depth = true;

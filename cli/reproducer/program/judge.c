@@ -168,7 +168,11 @@ static int judge_values(uint32_t at, const struct Writer* w, int is_told) {
         if (k < 4) {
             range = r[k - 2];
             got = number(FRAG_ZW, at, k - 2);
-            sprintf(name, "FragCoord.%s", kComponents[k]);
+            if (k == 2 && d->has_bias && is_within(&r[3], got)) {
+                continue;
+            }
+            sprintf(name, "FragCoord.%s%s", kComponents[k],
+                    k == 2 && d->has_bias ? " without bias" : "");
         } else if (k < 4 + HAS_DEPTH) {
             if (!d->depth_write) {
                 continue;
@@ -178,7 +182,7 @@ static int judge_values(uint32_t at, const struct Writer* w, int is_told) {
             sprintf(name, "depth");
         } else {
             const uint32_t n = k - 4 - HAS_DEPTH;
-            range = r[3 + n];
+            range = r[3 + d->has_bias + n];
             is_flat = d->flat >> n / 4 & 1;
             got = number(FIRST_ATTRIBUTE + n / 4, at, n % 4);
             sprintf(name, "attribute %u.%s", n / 4, kComponents[n % 4]);

@@ -86,7 +86,8 @@ struct Range {
 };
 
 // A triangle that may have written last. Its ranges begin at kRanges[ranges]: FragCoord.z,
-// FragCoord.w, depth, then four for each attribute.
+// FragCoord.w, depth, FragCoord.z with the bias if the draw has one (which is the other answer:
+// what lies between the two is wrong), then four for each attribute.
 struct Writer {
     uint32_t draw, provoking_vertex, ranges;
 };

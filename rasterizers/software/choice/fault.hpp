@@ -192,6 +192,7 @@ enum class Fault : uint16_t {
     bias_slope_x_only,
     bias_slope_signed,
     bias_slope_sum,
+    bias_halved_in_frag_coord,
     bias_clamp_ignored,
     bias_clamp_both_ends,
     // the colour target

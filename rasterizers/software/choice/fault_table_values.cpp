@@ -186,6 +186,8 @@ constexpr FaultInfo kValuesFaults[] = {
      "depth.bias"},
     {Fault::bias_slope_sum, "bias_slope_sum", "The slope of the bias is the sum of both.",
      "depth.bias"},
+    {Fault::bias_halved_in_frag_coord, "bias_halved_in_frag_coord",
+     "FragCoord.z has half of the bias, and the depth all of it.", "depth.linear depth.bias"},
     {Fault::bias_clamp_ignored, "bias_clamp_ignored", "depthBiasClamp does nothing.", "depth.bias"},
     {Fault::bias_clamp_both_ends, "bias_clamp_both_ends",
      "depthBiasClamp limits the bias from both ends.", "depth.bias"},

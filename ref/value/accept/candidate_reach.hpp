@@ -87,11 +87,11 @@ void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
         const bool free_plane =
             q.kind == Kind::linear && q.id.is_attribute() && !asked.is_projectable;
         if (is_judged(asked, i) && (free_plane || candidate.is_unbounded)) {
-            if (set.depth.bias && (is_depth(q) || is_frag_coord_z(q))) {
+            if (takes_bias(set, q)) {
                 reaches[i].is_free = true;  // of a gradient without bounds
                 continue;
             }
-            add_hull(set.hulls[i], widest[i], asked.got(i), reaches[i]);
+            add_hull(set.hulls[i], widest[i], asked.got(i), reaches[i].all);
         }
     }
 }

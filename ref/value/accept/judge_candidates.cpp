@@ -219,22 +219,23 @@ AcceptedRange<T> reach_of_depth(const CandidateSet<T>& set, const Quantity& dept
     }
     const Reach<T>& reach = reaches.front();
     out.is_known = reach.is_known;
-    out.is_free = reach.is_free || reach.is_undefined || reach.is_first;
-    out.range = reach.range;
+    const Range<T>& all = reach.all.range;
+    out.is_free = reach.is_free || reach.is_undefined || reach.all.is_first;
+    out.range = all;
     if (out.is_free) {
         return out;
     }
-    const Range<T> inside = clamped(reach.range, set.depth.viewport);
+    const Range<T> inside = clamped(all, set.depth.viewport);
     if (set.depth.is_clamped) {
         out.range = inside;
     } else if (set.any_of_all) {
         // Undefined as soon as a device's value may lie outside of the viewport's range.
-        const Answer low = is_at_most(T(set.depth.viewport.low), reach.range.low);
-        const Answer high = is_at_most(reach.range.high, T(set.depth.viewport.high));
+        const Answer low = is_at_most(T(set.depth.viewport.low), all.low);
+        const Answer high = is_at_most(all.high, T(set.depth.viewport.high));
         out.is_known = low != Answer::unknown && high != Answer::unknown;
         out.is_free = low != Answer::yes || high != Answer::yes;
     } else {
-        out.range = {smaller(inside.low, reach.range.low), larger(inside.high, reach.range.high)};
+        out.range = {smaller(inside.low, all.low), larger(inside.high, all.high)};
     }
     return out;
 }
@@ -261,8 +262,11 @@ std::vector<AcceptedRange<T>> accepted_ranges(const CandidateSet<T>& set,
     std::vector<AcceptedRange<T>> out;
     for (const size_t index : asked.only) {
         const Reach<T>& reach = reaches[index];
-        out.push_back(
-            {reach.is_known, reach.is_free || reach.is_undefined || reach.is_first, reach.range});
+        out.push_back({reach.is_known, reach.is_free || reach.is_undefined || reach.all.is_first,
+                       reach.all.range, std::nullopt});
+        if (!reach.biased.is_first) {
+            out.back().biased = reach.biased.range;
+        }
     }
     return out;
 }

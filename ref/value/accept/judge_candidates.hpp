@@ -65,6 +65,7 @@ struct AcceptedRange {
     bool is_known = true;  // false: T cannot tell; use rationals
     bool is_free = false;  // nothing is claimed of it
     Range<T> range;
+    std::optional<Range<T>> biased;  // the other answer of a FragCoord.z (Reach::biased)
 };
 
 // All depths that the set's devices may compare and store at a point, after bias and clamp.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,13 +45,11 @@ Answer is_near(const Basis<T>& basis, const Point<T>& p, const T& margin) {
     return all;
 }
 
+// A stretch of numbers, all of which are accepted.
 template <class T>
-struct Reach {
+struct Stretch {
     Range<T> range;
-    bool is_first = true;
-    bool is_free = false;       // nothing is claimed but a finite value
-    bool is_undefined = false;  // nothing at all
-    bool is_known = true;
+    bool is_first = true;  // nothing is in it yet
     // Rounded, for reports: hull of the values alone, and the budget of the one nearest to the
     // device.
     double low = 0, high = 0, budget = 0;
@@ -71,6 +70,22 @@ struct Reach {
     bool noted = false;
 };
 
+template <class T>
+struct Reach {
+    Stretch<T> all;
+    // FragCoord.z of a draw with a bias has two answers, since the Vulkan specification says only
+    // that it is "the interpolated depth value of the primitive" (interfaces-builtin-variables)
+    // and of the bias that it is computed for a polygon and added to its fragments' depths
+    // (primsrast-depthbias), not which of the two comes first; Direct3D's texts disagree with each
+    // other, too: added to "each vertex before interpolator setup" (functional specification,
+    // 15.10), or by the output merger. So a device's FragCoord.z has no bias (`all`), or it has
+    // the bias (this): no text has a part of it, and what lies between the two is neither.
+    Stretch<T> biased;
+    bool is_free = false;       // nothing is claimed but a finite value
+    bool is_undefined = false;  // nothing at all
+    bool is_known = true;
+};
+
 inline bool is_depth(const Quantity& q) {
     return q.id.is_depth();
 }
@@ -78,14 +93,10 @@ inline bool is_frag_coord_z(const Quantity& q) {
     return q.id.of == QuantityId::Of::frag_coord && q.plane == kPlaneDepth;
 }
 
-// What bias may add to a quantity; FragCoord.z may have it or not.
+// Whether bias is added to a quantity, or may be.
 template <class T>
-Range<T> bias_for(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity& q) {
-    if (!set.depth.bias || !(is_depth(q) || is_frag_coord_z(q))) {
-        return {};
-    }
-    const Range<T> bias = bias_of(set.depth, basis, set.factor);
-    return is_depth(q) ? bias : Range<T>{smaller(bias.low, T(0.0)), larger(bias.high, T(0.0))};
+bool takes_bias(const CandidateSet<T>& set, const Quantity& q) {
+    return set.depth.bias && (is_depth(q) || is_frag_coord_z(q));
 }
 
 // Whether the whole of a range lies outside of another one.
@@ -100,7 +111,7 @@ Answer is_beyond(const T& low, const T& high, const Range<double>& range) {
 }
 
 template <class T>
-void add_hull(const Range<T>& hull, const T& widest, double device, Reach<T>& out) {
+void add_hull(const Range<T>& hull, const T& widest, double device, Stretch<T>& out) {
     out.note(device, nearest_double(hull.low), nearest_double(widest));
     out.note(device, nearest_double(hull.high), nearest_double(widest));
     widen(out.range, out.is_first, T(hull.low - widest), T(hull.high + widest));
@@ -120,8 +131,32 @@ void add_unsafe(const CandidateSet<T>& set, const Site<T>& site, const Plane<T>&
     } else {
         const T most = larger(T(magnitude(hull.low)), T(magnitude(hull.high)));
         add_hull(hull, hull_reach(site, inv_w, plane, set.least_inv_w, most, set.factor), device,
-                 out);
+                 out.all);
     }
+}
+
+// Adds what is accepted around a value; nothing if the bias is not added.
+template <class T>
+void add_value(const CandidateSet<T>& set, const Quantity& q, const Valued<T>& v,
+               const std::optional<Range<T>>& bias, double device, Reach<T>& reach,
+               Stretch<T>& out) {
+    const T least = bias ? T(v.value + bias->low) : v.value;
+    const T most = bias ? T(v.value + bias->high) : v.value;
+    out.note(device, nearest_double(least), nearest_double(v.budget));
+    out.note(device, nearest_double(most), nearest_double(v.budget));
+    // Adding the bias is one more rounding.
+    const T sum =
+        bias ? T(set.factor * T(kUnitRoundoff) * larger(magnitude(least), magnitude(most))) : T{};
+    const T low = least - v.reach - sum;
+    const T high = most + v.reach + sum;
+    if (is_depth(q) && set.any_of_all && !set.depth.is_clamped) {
+        // Vulkan: depth outside of the viewport's range is undefined unless it is clamped.
+        const Answer beyond =
+            is_beyond(T(least - v.budget), T(most + v.budget), set.depth.viewport);
+        reach.is_known = reach.is_known && beyond != Answer::unknown;
+        reach.is_undefined = reach.is_undefined || beyond == Answer::yes;
+    }
+    widen(out.range, out.is_first, low, high);
 }
 
 // Adds what one basis accepts for a quantity at the sites; `widest` is the largest reach.
@@ -131,7 +166,10 @@ void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity
                std::span<const Site<T>> sites, const Range<T>& hull, bool at_sample,
                bool is_covered, double device, T& widest, Reach<T>& out) {
     const T& factor = set.factor;
-    const Range<T> bias = bias_for(set, basis, q);
+    std::optional<Range<T>> bias;
+    if (takes_bias(set, q)) {
+        bias = bias_of(set.depth, basis, factor);
+    }
     for (const Site<T>& site : sites) {
         const Valued<T> v =
             value_at(site, basis.planes[q.plane], q.kind == Kind::perspective, factor);
@@ -148,25 +186,15 @@ void add_reach(const CandidateSet<T>& set, const Basis<T>& basis, const Quantity
             }
             continue;
         }
-        const T least = v.value + bias.low;
-        const T most = v.value + bias.high;
-        out.note(device, nearest_double(least), nearest_double(v.budget));
-        out.note(device, nearest_double(most), nearest_double(v.budget));
         widest = larger(widest, v.reach);
-        // Adding the bias is one more rounding.
-        const T sum = set.depth.bias
-                          ? T(factor * T(kUnitRoundoff) * larger(magnitude(least), magnitude(most)))
-                          : T{};
-        const T low = least - v.reach - sum;
-        const T high = most + v.reach + sum;
-        if (is_depth(q) && set.any_of_all && !set.depth.is_clamped) {
-            // Vulkan: depth outside of the viewport's range is undefined unless it is clamped.
-            const Answer beyond =
-                is_beyond(T(least - v.budget), T(most + v.budget), set.depth.viewport);
-            out.is_known = out.is_known && beyond != Answer::unknown;
-            out.is_undefined = out.is_undefined || beyond == Answer::yes;
+        if (is_frag_coord_z(q)) {
+            add_value<T>(set, q, v, std::nullopt, device, out, out.all);
+            if (bias) {
+                add_value(set, q, v, bias, device, out, out.biased);
+            }
+        } else {
+            add_value(set, q, v, bias, device, out, out.all);
         }
-        widen(out.range, out.is_first, low, high);
     }
 }
 
@@ -219,6 +247,31 @@ Answer may_store(const Range<T>& range, double device, const Store& store) {
     return both(is_positive(T(T(code + 1) - low)), is_positive(T(high - T(code - 1))));
 }
 
+// Whether the number may come from a stretch, and how many budgets it is from the values there.
+template <class T>
+Fit fit(const Stretch<T>& stretch, double device, const Store& store) {
+    if (stretch.is_first) {
+        return {};
+    }
+    const double step = store.steps > 0 ? store.rounding / store.steps : 0;
+    const double distance =
+        std::max(0.0, Stretch<T>::distance(device, stretch.low, stretch.high) - step);
+    const double ratio = stretch.budget > 0 ? distance / stretch.budget
+                         : distance > 0     ? std::numeric_limits<double>::infinity()
+                                            : 0.0;
+    Answer answer = store.must_clamp ? Answer::no : may_store(stretch.range, device, store);
+    if (answer != Answer::yes && store.may_clamp) {
+        const Answer other = may_store(clamped(stretch.range, store.viewport), device, store);
+        if (other == Answer::yes) {
+            // A clamped value says nothing of the plane's error.
+            const bool is_inside = answer != Answer::no;
+            return {Answer::yes, is_inside || ratio <= 1 ? ratio : 0};
+        }
+        answer = other == Answer::unknown ? other : answer;
+    }
+    return {answer, ratio};
+}
+
 template <class T>
 Fit fit(const Reach<T>& reach, double device, const Store& store) {
     const bool is_outside =
@@ -239,25 +292,9 @@ Fit fit(const Reach<T>& reach, double device, const Store& store) {
     if (reach.is_free) {
         return {is_outside ? Answer::no : Answer::yes, 0};
     }
-    if (reach.is_first) {
-        return {};
-    }
-    const double step = store.steps > 0 ? store.rounding / store.steps : 0;
-    const double distance = std::max(0.0, Reach<T>::distance(device, reach.low, reach.high) - step);
-    const double ratio = reach.budget > 0 ? distance / reach.budget
-                         : distance > 0   ? std::numeric_limits<double>::infinity()
-                                          : 0.0;
-    Answer answer = store.must_clamp ? Answer::no : may_store(reach.range, device, store);
-    if (answer != Answer::yes && store.may_clamp) {
-        const Answer other = may_store(clamped(reach.range, store.viewport), device, store);
-        if (other == Answer::yes) {
-            // A clamped value says nothing of the plane's error.
-            const bool is_inside = answer != Answer::no;
-            return {Answer::yes, is_inside || ratio <= 1 ? ratio : 0};
-        }
-        answer = other == Answer::unknown ? other : answer;
-    }
-    return {answer, ratio};
+    const Fit all = fit(reach.all, device, store);
+    const Fit biased = fit(reach.biased, device, store);
+    return {either(all.answer, biased.answer), std::min(all.ratio, biased.ratio)};
 }
 
 inline bool is_judged(const Asked& asked, size_t index) {

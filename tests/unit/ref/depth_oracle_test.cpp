@@ -161,6 +161,12 @@ TEST(DepthOracle, VerdictsAgree) {
                 const double size = sizes[noise() % 5];
                 const double off = static_cast<double>(noise() % 9) - 4;
                 device.depth = static_cast<float>(static_cast<double>(device.depth) + off * size);
+                // FragCoord.z between its plane and what the bias makes of it, or a little off.
+                const double shares[] = {0, 0, 0.5, 1, 1};
+                const double share = shares[noise() % 5];
+                const double z = static_cast<double>(device.frag_coord.z);
+                device.frag_coord.z = static_cast<float>(
+                    z + share * (static_cast<double>(device.depth) - z) + off * size * share);
                 for (const FragmentPart part :
                      {FragmentPart::all, FragmentPart::all_but_depth, FragmentPart::depth}) {
                     const FragmentVerdict a = fast.judge(t, id, device, part);
