@@ -95,8 +95,9 @@ constexpr std::array kRules = {
     Rule{rule::clip_complement, Profile::vulkan,
          "A clip distance and its negative share out a triangle",
          "Drawn with d and again with -d, otherwise alike, a triangle that the plane cuts has each "
-         "of its samples hit exactly once along the cut, samples on the plane included.",
-         "vertexpostproc-clipping", "", "ref/expectation/narrowing.cpp"},
+         "of its samples hit exactly once along the cut, samples on the plane included, and where "
+         "it crosses an edge that two such triangles share, these hit together once.",
+         "vertexpostproc-clipping", "", "ref/expectation/narrowing_complements.cpp"},
     Rule{rule::cull_distance, Profile::vulkan,
          "A triangle whose cull distances are all negative is not drawn",
          "It is discarded if one of the cull distances is negative at all three vertices, and "

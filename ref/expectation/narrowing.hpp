@@ -17,10 +17,15 @@
 //
 // Complementary clip distances (ref/expectation/complement.hpp). Of a triangle and the same one
 // with negated distances never both cover p; with a single distance one of them does, if p lies so
-// deep in the triangle that only the distance leaves it open.
+// deep in the triangle that only the distance leaves it open. Near an edge the two hold together
+// what the triangle would cover by itself, so they stand for it in a set K: "primitives must not be
+// missing any pixels, and pixels must not be drawn twice" is said of the whole "series of
+// primitives", and the border of chain sum(K) has no cut, since a triangle and its complement run
+// along it in opposite directions.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -149,6 +154,15 @@ class Narrowing {
     // Whether a triangle covers p but for its clip distances, whatever the device's freedom, and no
     // edge of the triangle or border of the viewport is near.
     bool is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const;
+    // Where a cut crosses edges that its triangles share: sets of such pairs of which exactly one
+    // triangle covers p, in place of the pairs.
+    void join_pairs(const FixedPoint& p, std::span<const Hit> hits, std::vector<Fixed>& pairs);
+    std::optional<Fixed> joined_set(const FixedPoint& p, std::span<const Hit> hits, uint32_t first);
+    // As add_sides(), of a triangle and its complement: the edges of the triangle that they cut.
+    bool add_whole_sides(const FixedPoint& p, uint32_t whole, uint32_t member,
+                         std::vector<Side>& sides);
+    // How often triangles cover p that no clip distance cuts; -1 if it depends on the outline.
+    int count_of_wholes(const FixedPoint& p, std::span<const uint32_t> wholes) const;
     DepthResolution resolve_depth(const FixedPoint& p, std::span<const Hit> hits,
                                   const std::vector<Fixed>& sets);
     FixedSet told_set(const FixedPoint& p, std::span<const Hit> hits, const Fixed& set) const;

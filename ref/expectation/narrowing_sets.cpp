@@ -49,53 +49,11 @@ std::span<const Narrowing::EdgeOwner> Narrowing::triangles_at(uint64_t edge) {
     return {begin, end};
 }
 
-bool Narrowing::is_inside_whole(const FixedPoint& p, const TriangleSetup& setup) const {
-    if (setup.kind != TriangleSetup::Kind::outlines || setup.may_be_culled ||
-        setup.tested.empty() || !setup.window.must_touch(p)) {
-        return false;
-    }
-    constexpr EdgeLabel kFirstUserEdge = kFirstClipEdge + static_cast<EdgeLabel>(ClipPlane::user_0);
-    for (const Outline* const outline : setup.outlines()) {
-        const Outline& o = *outline;
-        for (uint32_t i = 0; i < o.count; ++i) {
-            const std::array<Box, 2> ends{o.boxes[i], o.boxes[(i + 1) % o.count]};
-            if (o.edge[i] < kFirstUserEdge && predicates_.is_in_hull(ends, p)) {
-                return false;
-            }
-        }
-    }
-    return std::all_of(setup.tested.begin(), setup.tested.end(),
-                       [&](const Outline& o) { return predicates_.is_inside_whole(setup, o, p); });
-}
-
-std::vector<Narrowing::Fixed> Narrowing::complementary_pairs(const FixedPoint& p,
-                                                             std::span<const Hit> hits,
-                                                             std::vector<bool>& is_paired) const {
-    std::vector<Fixed> out;
-    if (complements_.empty()) {
-        return out;
-    }
-    for (uint32_t m = 0; m < hits.size(); ++m) {
-        const Complement& c = complements_[hits[m].triangle];
-        for (uint32_t n = m + 1; n < hits.size() && c.partner != kNoPartner; ++n) {
-            if (hits[n].triangle != c.partner) {
-                continue;
-            }
-            const auto is_must = [&](uint32_t k) { return hits[k].coverage == Coverage::must; };
-            const bool is_hit = is_must(m) || is_must(n) ||
-                                (c.fills && is_inside_whole(p, setups_[hits[m].triangle]) &&
-                                 is_inside_whole(p, setups_[hits[n].triangle]));
-            out.push_back({{m, n}, 1, is_hit ? 1U : 0U, true});
-            is_paired[m] = is_paired[n] = true;
-        }
-    }
-    return out;
-}
-
 std::vector<Narrowing::Fixed> Narrowing::fixed_sets(const FixedPoint& p,
                                                     std::span<const Hit> hits) {
     std::vector<bool> is_paired(hits.size(), false);
     std::vector<Fixed> out = complementary_pairs(p, hits, is_paired);
+    join_pairs(p, hits, out);
     std::vector<bool> is_open(hits.size());
     for (size_t m = 0; m < hits.size(); ++m) {
         is_open[m] = hits[m].coverage == Coverage::either && !is_paired[m];
