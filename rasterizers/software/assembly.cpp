@@ -78,9 +78,19 @@ class Assembler {
         if (is_last_ && fault_ == Fault::provoking_turns) {
             std::swap(vertex[0], vertex[2]);
         }
-        out_.push_back({vertex, provoking, next_id_});
+        out_.push_back({vertex, provoking, next_id_, values_of(vertex)});
         ++next_id_;
         ++run_;
+    }
+
+    std::array<uint32_t, 3> values_of(std::array<uint32_t, 3> vertex) const {
+        if (fault_ == Fault::strip_values_exchanged && odd_) {
+            std::swap(vertex[0], vertex[1]);
+        } else if (fault_ == Fault::fan_values_exchanged && run_ % 2 == 1 &&
+                   topology_ == cases::Topology::triangle_fan) {
+            std::swap(vertex[1], vertex[2]);
+        }
+        return vertex;
     }
 
     cases::Topology topology_;

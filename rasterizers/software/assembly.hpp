@@ -14,8 +14,9 @@ namespace software {
 // Three vertex numbers in the order that the topology gives them, and where flat values come from.
 struct Primitive {
     std::array<uint32_t, 3> vertex{};
-    uint32_t provoking = 0;  // vertex number
-    uint32_t id = 0;         // gl_PrimitiveID
+    uint32_t provoking = 0;            // vertex number
+    uint32_t id = 0;                   // gl_PrimitiveID
+    std::array<uint32_t, 3> values{};  // whose values that vary the three vertices have
 };
 
 // The triangles of a draw, as an input assembler walks the index stream: a window of the last

@@ -121,6 +121,7 @@ void DrawCommand::rasterize(const Primitive& primitive) {
     std::array<ClipVertex, 3> triangle;
     for (size_t k = 0; k < 3; ++k) {
         const uint32_t v = cached_vertex(primitive.vertex[k]);
+        const uint32_t value_vertex = cached_vertex(primitive.values[k]);
         triangle[k].position = draw_.positions[v];
         triangle[k].source = v;
         triangle[k].distance = distances_of(v, primitive, k);
@@ -142,7 +143,8 @@ void DrawCommand::rasterize(const Primitive& primitive) {
                 triangle[k].values[a][static_cast<glm::vec4::length_type>(number)] = 1;
             }
             if (draw_.attributes[a].source == cases::Source::vertex) {
-                triangle[k].values[a] = draw_.attributes[a].values[flat ? primitive.provoking : v];
+                triangle[k].values[a] =
+                    draw_.attributes[a].values[flat ? primitive.provoking : value_vertex];
             }
         }
     }

@@ -23,6 +23,8 @@ enum class Fault : uint16_t {
     indices_ignored,
     strip_batch_parity,
     fan_batch_hub,
+    strip_values_exchanged,
+    fan_values_exchanged,
     vertex_cache_aliased,
     primitive_id_restarts,
     primitive_id_skips_culled,
