@@ -207,6 +207,17 @@ bool enlarge_bias(Case& c) {
     });
 }
 
+bool turn_bias(Case& c) {
+    return change_draws(c, [](Draw& draw) {
+        if (!draw.depth.bias) {
+            return false;
+        }
+        draw.depth.bias->constant = -draw.depth.bias->constant;
+        draw.depth.bias->slope = -draw.depth.bias->slope;
+        return true;
+    });
+}
+
 bool level_depths(Case& c) {
     return change_draws(c, [](Draw& draw) {
         const glm::vec4 first = draw.positions.front();

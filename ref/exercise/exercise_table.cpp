@@ -202,9 +202,10 @@ constexpr ExerciseRow kRows[] = {
     {rule::door_recording, kOfRelation, {at_all(goes_through_door)}},
     {rule::depth_store, "of a target with fixed-point depth", {at_all(is_depth_rounded)}},
     {rule::depth_bias,
-     "whose depth, or depth test, would come out otherwise without the bias, or with 256 times as "
-     "much of it",
-     {by(drop_bias, Differ::depths), by(enlarge_bias, Differ::depths)}},
+     "whose depth, or depth test, would come out otherwise without the bias, with its sign turned "
+     "or with 256 times as much of it",
+     {by(drop_bias, Differ::depths), by(turn_bias, Differ::depths),
+      by(enlarge_bias, Differ::depths)}},
     {rule::depth_distinct,
      "where the depth test is decided by planes that are r apart",
      {at_all(is_compared)}},

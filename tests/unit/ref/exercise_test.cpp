@@ -181,6 +181,18 @@ TEST(Exercise, ABiasThatRoundsToNothingDecidesNothing) {
     EXPECT_EQ(biased("d16-unorm", "constant = 100 }"), 28U);
 }
 
+// A bias that takes a triangle behind its own equal: without it, or with more of it, the test fails
+// as well, but with the other sign it passes, in all 28 samples.
+TEST(Exercise, TheSignOfABiasCounts) {
+    const std::string plane = "[[draw]]\nvertices = [[0,0,0.5], [8,0,0.5], [0,8,0.5]]\n";
+    const Exercise found =
+        exercise_of_text("[target]\nsize = [8, 8]\ndepth = \"d32-float\"\ndepth_clear = 1\n" +
+                             plane + "depth = { compare = \"less\" }\n" + plane +
+                             "depth = { compare = \"less\", bias = { constant = 1000 } }\n",
+                         {"depth.bias"});
+    EXPECT_EQ(found.rules[0].samples, 28U);
+}
+
 TEST(Exercise, AConstantShowsNoInterpolation) {
     const auto attribute = [](const std::string& keys) { return "[[draw.attribute]]\n" + keys; };
     const std::string constant = attribute("constant = 0.5\n");
