@@ -53,7 +53,7 @@ class LastFragment {
     Outcome judge(size_t index, cases::SampleId id);
 
     // Judges the depth of a sample that nothing hit, if fragments that are discarded may have
-    // stored theirs (cases/model/discard.hpp).
+    // stored theirs (cases/model/sample.hpp).
     std::optional<Finding> judge_unhit(size_t index, cases::SampleId id);
 
     // Whether anybody will read the texts of a wrong value that is judged now, given what has been

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "capture/blank_capture.hpp"
-#include "cases/model/discard.hpp"
 #include "cases/model/sample.hpp"
 #include "diff/consistency.hpp"
 #include "rasterizers/captures.hpp"

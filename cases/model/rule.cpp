@@ -65,12 +65,12 @@ constexpr std::array kRules = {
         "A fragment that its shader discards leaves no trace",
         "It changes no colour, no depth and no stencil, unless depth and stencil are tested before "
         "the shader; its neighbours, and the same pixel's other fragments, are drawn as ever.",
-        "fragops-shader", "", "cases/model/discard.hpp"},
+        "fragops-shader", "", "cases/model/sample.hpp"},
     Rule{rule::discard_early_tests, Profile::vulkan,
          "With early tests a discarded fragment has stored its depth and stencil",
          "EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader "
          "is executed, so what it discards then takes back its colours alone.",
-         "fragops-early-mode", "", "cases/model/discard.hpp"},
+         "fragops-early-mode", "", "cases/model/sample.hpp"},
     Rule{rule::clip_volume, Profile::vulkan, "Nothing is drawn outside the clip volume",
          "-w <= x <= w, -w <= y <= w, 0 <= z <= w; what lies behind the eye does not show.",
          "vertexpostproc-clipping", "15.4", "ref/position/clip.hpp"},

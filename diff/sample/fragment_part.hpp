@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cases/model/case.hpp"
-#include "cases/model/discard.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/value.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/model/discard.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/coverage/distance_cut.hpp"
 #include "ref/coverage/facing.hpp"
 #include "ref/coverage/outline.hpp"

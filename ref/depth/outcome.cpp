@@ -10,7 +10,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "cases/model/discard.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/depth/compare.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
 

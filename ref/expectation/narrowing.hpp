@@ -30,8 +30,8 @@
 #include <vector>
 
 #include "cases/model/case.hpp"
-#include "cases/model/discard.hpp"
 #include "cases/model/profile.hpp"
+#include "cases/model/sample.hpp"
 #include "cases/model/triangle.hpp"
 #include "ref/coverage/setup.hpp"
 #include "ref/coverage/triangle_setups.hpp"

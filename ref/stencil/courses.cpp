@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "cases/model/discard.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/stencil/outcome.hpp"
 
 namespace ref::stencil {

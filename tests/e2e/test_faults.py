@@ -321,7 +321,7 @@ class Order(ProgramTest):
         text = "\n".join(printed[0])
         self.assertEqual(re.findall(r"^(?:FAIL|CRASH) (\S+)", text, re.M), ["fam/c2", "fam/c0"])
         # Settings of the machine's own driver, if there are any, stand above the causes.
-        self.assertRegex(text, r"\nmore unexpected results: their causes follow; -v tells each\n"
+        self.assertRegex(text, r"\nmore unexpected results: their causes follow; -v tells each\n\d+ cases .*\n"
                          r"causes, the worst first(:|; put the settings in front of each rerun:\n  settings: .*)\n"
                          r"  crash: SIGSEGV during submit in fam, 1 case   rerun: ")
         self.assertIn("\n  fail: cover.outside double in fam, 9 cases [vulkan]   rerun: ", text)

@@ -3,12 +3,11 @@
 //
 // Fragments that their shader discards: random cases against the oracle, and against cases without
 // discards that must come to the same.
-#include "cases/model/discard.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "cases/model/sample.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "tests/unit/ref/same_expectations.hpp"
 #include "tests/unit/ref/value_case.hpp"

@@ -102,7 +102,8 @@ TriangleSetup set_up(const Scene& s, bool is_told) {
 Coverage answer(const Scene& s, cases::SampleId at) {
     const cases::Draw& draw = s.c.draws[0];
     const FixedPoint p = sample_position(at.x, at.y, at.sample, s.c.target);
-    if (draw.layer != at.layer || !cases::is_in_mask(draw.multisample, at.sample)) {
+    if (draw.layer != at.layer || !cases::is_in_mask(draw.multisample, at.sample) ||
+        cases::takes_away_pixel(draw, at.x, at.y)) {
         return Coverage::must_not;
     }
     const TriangleSetup setup = set_up(s, false);
@@ -228,9 +229,14 @@ void take_away(Scene& s, Reason reason, int orientation) {
         case ReasonKind::discarded:
             draw.rasterizer_discard = false;
             return;
+        case ReasonKind::fragment_discarded:
+        case ReasonKind::discarded_late:
+            draw.discard = cases::Discard::none;
+            return;
         case ReasonKind::culled:
         case ReasonKind::open_facing:
             draw.cull = cases::CullMode::none;
+            draw.discard = cases::Discard::none;
             return;
         case ReasonKind::cull_distance:
             set_distances(draw.distances.cull, reason.which, 0);
@@ -363,8 +369,10 @@ class LeafReasons {
         VertexBoxes boxes(case_, Limits{}, profile_);
         const TriangleSetup setup = ref::set_up(case_, t.triangle, Limits{}, profile_, boxes,
                                                 window_of(case_, draw, profile_));
-        const bool is_drawn =
-            draw.layer == at.layer && cases::is_in_mask(draw.multisample, at.sample);
+        const bool is_discarded_late = t.fate && t.fate->is_discarded && !t.fate->passes;
+        const bool is_drawn = draw.layer == at.layer &&
+                              cases::is_in_mask(draw.multisample, at.sample) &&
+                              !cases::takes_away_pixel(draw, at.x, at.y) && !is_discarded_late;
         const FixedPoint p = sample_position(at.x, at.y, at.sample, case_.target);
         const Coverage fast = is_drawn ? fast::classify(setup, p) : Coverage::must_not;
         EXPECT_EQ(t.decision.coverage, fast) << where << ": " << words(t);
