@@ -117,7 +117,7 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
         text += "        a vertex lies outside the view volume: the clipped polygon counts too\n";
     }
     text += report::wrapped(fmt::format("        {}\n", t.sentence), 100);
-    if (t.fate) {
+    if (!t.stencil_text.empty()) {
         text += fmt::format("        {}\n", t.stencil_text);
     }
     return t.depth ? text + fmt::format("        {}\n", t.depth_text) : text;

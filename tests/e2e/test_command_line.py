@@ -345,6 +345,12 @@ class Listing(ProgramTest):
     def test_a_program_reads_a_line_a_case(self):
         self.assertEqual(self.edgecase("list", "fam/c1", check=0).stdout, "fam/c1  A square of two triangles, number 1.\n")
 
+    def test_explain_tells_what_is_discarded(self):
+        case = "discard/early-unwritten:samples=1"
+        told = self.edgecase("explain", "--suite", SOURCE / "cases" / "suite", case, "--pixel", "1,0", check=0).stdout
+        self.assertIn("\n        the fragment shader of the draw discards pixels whose x + y is odd, once depth and stencil\n"
+                      "          are stored\n        passes the depth test LESS", told)
+
     def test_draws_are_counted_from_zero_everywhere(self):
         vertices = "[[draw]]\nvertices = [[1,1], [7,1], [1,7],  [7,1], [7,7], [1,7]]\n"
         self.write_case("fam/two", CASE.format(n=1) + vertices.replace("7]]", "7], [0.1, 0.3, 0.7, 3], [3, 1], [1, 3]]"))
