@@ -30,9 +30,6 @@ class Random {
 // Triangles of some draws, half of which discard; `early`: whether shaders may have early tests.
 cases::Case random_case(uint64_t seed, bool early) {
     Random random(seed);
-    const auto place = [&](bool is_coarse) {
-        return is_coarse ? random.below(9) : random.below(8 * 64 + 1) / 64.0;
-    };
     cases::Case c;
     c.id = "random discard";
     c.target = {8, 8, random.one_in(3) ? 4U : 1U};
@@ -54,15 +51,7 @@ cases::Case random_case(uint64_t seed, bool early) {
             d.stencil.front.reference = random.below(3);
             d.stencil.back.fail = static_cast<cases::StencilOp>(random.below(8));
         }
-        const uint32_t triangles = 1 + random.below(3);
-        for (uint32_t t = 0; t < triangles; ++t) {
-            const bool is_coarse = random.one_in(2);
-            const double z = random.below(5) / 4.0;
-            for (int v = 0; v < 3; ++v) {
-                d.positions.push_back(
-                    value_test::clip_of(place(is_coarse), place(is_coarse), z, 1, 8));
-            }
-        }
+        value_test::add_random_triangles(d, random, 8, 64);
         c.draws.push_back(d);
     }
     return c;

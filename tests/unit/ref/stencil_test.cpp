@@ -185,9 +185,6 @@ TEST(Stencil, TooManyCoursesClaimNothing) {
 
 cases::Case random_case(uint64_t seed) {
     RandomQuestions random(seed);
-    const auto place = [&random](bool is_coarse) {
-        return is_coarse ? random.below(9) : random.below(8 * 128 + 1) / 128.0;
-    };
     cases::Case c;
     c.id = "random stencil";
     c.target = {8, 8, random.one_in(3) ? 4U : 1U};
@@ -208,15 +205,7 @@ cases::Case random_case(uint64_t seed) {
         d.depth.compare =
             random.one_in(2) ? CompareOp::always : static_cast<CompareOp>(random.below(8));
         d.depth.write = !random.one_in(4);
-        const uint32_t triangles = 1 + random.below(3);
-        for (uint32_t t = 0; t < triangles; ++t) {
-            const bool is_coarse = random.one_in(2);
-            const double z = random.below(5) / 4.0;
-            for (int v = 0; v < 3; ++v) {
-                d.positions.push_back(
-                    value_test::clip_of(place(is_coarse), place(is_coarse), z, 1, 8));
-            }
-        }
+        value_test::add_random_triangles(d, random, 8, 128);
         c.draws.push_back(d);
     }
     return c;

@@ -52,6 +52,24 @@ inline glm::vec4 clip_of(double x, double y, double z, double w, uint32_t size) 
             static_cast<float>(z * w), static_cast<float>(w)};
 }
 
+// Adds one to three triangles to a draw over a square target, each at one of five depths; their
+// vertices lie on corners of pixels or, as often, on 1/units of a pixel.
+template <class Random>
+void add_random_triangles(cases::Draw& draw, Random& random, uint32_t size, uint32_t units) {
+    const auto place = [&](bool is_coarse) {
+        return is_coarse ? random.below(size + 1)
+                         : random.below(size * units + 1) / static_cast<double>(units);
+    };
+    const uint32_t triangles = 1 + random.below(3);
+    for (uint32_t t = 0; t < triangles; ++t) {
+        const bool is_coarse = random.one_in(2);
+        const double z = random.below(5) / 4.0;
+        for (int v = 0; v < 3; ++v) {
+            draw.positions.push_back(clip_of(place(is_coarse), place(is_coarse), z, 1, size));
+        }
+    }
+}
+
 // The device that rounds every exact value once.
 inline ref::FragmentValues rounded(const std::vector<ref::ExpectedValue>& all) {
     ref::FragmentValues out;
