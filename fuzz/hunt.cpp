@@ -187,8 +187,9 @@ void Hunt::keep_unjudged(const std::string& text, const std::string& reason) {
 
 void Hunt::draw_chunk(Chunk chunk) {
     const Clock::time_point begin = Clock::now();
+    std::vector<size_t> triangles;
     for (const cases::Case& c : chunk.cases) {
-        counts_.triangles += cases::assemble(c).size();
+        triangles.push_back(cases::assemble(c).size());
     }
     const run::Session::Results results = draw(std::move(chunk.cases));
     counts_.drawing_seconds += seconds_since(begin);
@@ -220,6 +221,7 @@ void Hunt::draw_chunk(Chunk chunk) {
                 break;
         }
         ++counts_.drawn;
+        counts_.triangles += triangles[k];
         std::vector<Symptom> symptoms = symptoms_of(record);
         if (!symptoms.empty()) {
             ++counts_.failed;

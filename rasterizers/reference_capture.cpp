@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "rasterizers/captures.hpp"
 #include "rasterizers/color_plane.hpp"
 #include "ref/blit/blit.hpp"
+#include "ref/color/color.hpp"
 #include "ref/expectation/expectation.hpp"
 #include "ref/value/fragment/shading_rate.hpp"
 #include "ref/value/value.hpp"
@@ -20,16 +22,24 @@ namespace rasterizers {
 
 namespace {
 
-// The first allowed pair of hits, fewest first.
-std::pair<uint32_t, uint32_t> pick_hits(const ref::HitBounds& bounds) {
-    for (uint32_t total = bounds.total_min; total <= bounds.total_max; ++total) {
+using Hits = std::pair<uint32_t, uint32_t>;  // by front and back faces
+
+// The pairs of hits that a sample may have, fewest first.
+std::vector<Hits> allowed_hits(const ref::Expectation& expectation,
+                               const ref::SampleExpectation& sample) {
+    std::vector<Hits> out;
+    for (const ref::stencil::Outcome& outcome : expectation.stencils_of(sample)) {
+        out.emplace_back(outcome.front, outcome.back);
+    }
+    const ref::HitBounds& bounds = sample.hits;
+    for (uint32_t total = bounds.total_min; out.empty() && total <= bounds.total_max; ++total) {
         for (uint32_t front = 0; front <= total; ++front) {
             if (bounds.allows(front, total - front)) {
-                return {front, total - front};
+                out.emplace_back(front, total - front);
             }
         }
     }
-    return {0, 0};
+    return out;
 }
 
 // A triangle and what it writes at a sample. The values are kept beside it, since the reference
@@ -41,7 +51,7 @@ struct Writer {
 
 // The least stencil that goes with these hits.
 uint32_t pick_stencil(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
-                      const std::pair<uint32_t, uint32_t>& hits) {
+                      const Hits& hits) {
     const ref::stencil::Values values = stencils_at(expectation, sample, hits);
     uint32_t value = 0;
     while (!values[value]) {
@@ -50,29 +60,48 @@ uint32_t pick_stencil(const ref::Expectation& expectation, const ref::SampleExpe
     return value;
 }
 
-// The last triangle that may have written the sample and of whose values the reference knows a
-// nearest one; of one without area it knows bounds only, and need not draw it.
-Writer pick_writer(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
-                   ref::ValueReference& reference, const cases::SampleId& id) {
-    const auto writer = [&](uint32_t k) {
-        const uint32_t t = expectation.writers[sample.writers_begin + k];
-        return Writer{t, reference.expected(t, id)};
-    };
-    Writer last = writer(sample.writers_count - 1);
-    const auto has_nearest = [](const Writer& w) {
-        return std::any_of(w.values.begin(), w.values.end(), [](const ref::ExpectedValue& value) {
-            return value.part.empty() && value.quantity == ref::QuantityId::of_frag_coord(2);
-        });
-    };
-    if (has_nearest(last)) {
-        return last;
-    }
-    for (uint32_t k = sample.writers_count - 1; k > 0; --k) {
-        if (Writer earlier = writer(k - 1); has_nearest(earlier)) {
-            return earlier;
+// Whether the reference knows a nearest value; of a triangle without area it knows bounds only, and
+// need not draw it.
+bool has_nearest(const Writer& writer) {
+    return std::ranges::any_of(writer.values, [](const ref::ExpectedValue& value) {
+        return value.part.empty() && value.quantity == ref::QuantityId::of_frag_coord(2);
+    });
+}
+
+// What became of a sample: its hits, and whose fragment was the last one.
+struct Event {
+    Hits hits{0, 0};
+    std::optional<Writer> writer;  // nothing if there are no hits
+};
+
+// One event for a sample that may happen as a whole: a writer that is open is one hit more than
+// those that are certain. `colors`: knows which go together, if the target has a colour.
+Event pick_event(const ref::Expectation& expectation, const ref::SampleExpectation& sample,
+                 size_t index, const cases::SampleId& id, ref::ValueReference& values,
+                 const ref::ColorReference* colors) {
+    const std::span<const uint32_t> writers = expectation.writers_of(sample);
+    const std::vector<Hits> all = allowed_hits(expectation, sample);
+    std::vector<Writer> known;  // of `writers`, as far as they were asked for
+    for (const Hits& hits : all) {
+        if (hits.first + hits.second == 0 || writers.empty()) {
+            return {hits, std::nullopt};
+        }
+        // The first writer goes with the fewest hits: all that must hit the sample, and no more.
+        for (size_t k = 0; k < writers.size(); ++k) {
+            if (colors != nullptr &&
+                !colors->may_have_left(index, hits.first + hits.second, writers[k])) {
+                continue;
+            }
+            while (known.size() <= k) {
+                const uint32_t t = writers[known.size()];
+                known.push_back({t, values.expected(t, id)});
+            }
+            if (has_nearest(known[k])) {
+                return {hits, std::move(known[k])};
+            }
         }
     }
-    return last;
+    return {all.front(), Writer{writers.back(), values.expected(writers.back(), id)}};
 }
 
 capture::Capture blit_by_reference(const cases::Case& c) {
@@ -97,19 +126,23 @@ capture::Capture draw_by_reference(const cases::Case& c) {
     const ref::Expectation expectation = ref::expect(c, limits, cases::Profile::direct3d);
     ref::ValueReference values(c, limits, cases::Profile::direct3d);
 
+    std::optional<ref::ColorReference> colors;
+    if (c.target.color) {
+        colors.emplace(c, expectation);
+    }
+
     const bool stores_discarded = cases::stores_discarded(c);
     capture::Capture capture = capture::blank_capture(c);
     const size_t n = capture.sample_count();
     for (size_t index = 0; index < n; ++index) {
         const ref::SampleExpectation& sample = expectation.samples[index];
-        const std::span<const ref::stencil::Outcome> stencils = expectation.stencils_of(sample);
-        const auto [front, back] = stencils.empty()
-                                       ? pick_hits(sample.hits)
-                                       : std::pair(stencils[0].front, stencils[0].back);
-        if (ref::stencil::is_needed(c)) {
-            capture.stencil.push_back(pick_stencil(expectation, sample, {front, back}));
-        }
         const cases::SampleId id = cases::sample_at(c.target, index);
+        const Event event =
+            pick_event(expectation, sample, index, id, values, colors ? &*colors : nullptr);
+        const auto [front, back] = event.hits;
+        if (ref::stencil::is_needed(c)) {
+            capture.stencil.push_back(pick_stencil(expectation, sample, event.hits));
+        }
         const auto leave_older_depth = [&] {
             if (sample.depth_count == 0) {
                 return;
@@ -122,7 +155,7 @@ capture::Capture draw_by_reference(const cases::Case& c) {
                 }
             }
         };
-        if (front + back == 0 || sample.writers_count == 0) {
+        if (!event.writer) {
             if (stores_discarded) {
                 leave_older_depth();
             }
@@ -131,7 +164,7 @@ capture::Capture draw_by_reference(const cases::Case& c) {
         capture.hits[index].x = static_cast<float>(front);
         capture.hits[index].y = static_cast<float>(back);
         capture.hits[index].w += static_cast<float>(front + back);
-        const Writer writer = pick_writer(expectation, sample, values, id);
+        const Writer& writer = *event.writer;
         const cases::Triangle& triangle = expectation.triangles[writer.triangle];
         capture.writers[index] = {triangle.draw, triangle.primitive, triangle.provoking,
                                   capture::kClearId};

@@ -328,6 +328,13 @@ std::array<uint32_t, 4> ColorReference::codes(size_t index, cases::SampleId id,
     return unit_.codes_of(sets.empty() ? cleared_ : color_of(sets.front(), id, last));
 }
 
+bool ColorReference::may_have_left(size_t index, uint32_t hits, uint32_t writer) const {
+    const auto open = std::ranges::count_if(hits_at(index),
+                                            [](const PossibleHit& hit) { return !hit.is_certain; });
+    return static_cast<size_t>(open) > kMaxOpen ||
+           !allowed(index, ColorWitness{hits, writer, nullptr}).empty();
+}
+
 std::vector<uint32_t> ColorReference::drawn(size_t index) const {
     std::vector<Sequence> sets = allowed(index, std::nullopt);
     return sets.empty() ? Sequence() : std::move(sets.front());

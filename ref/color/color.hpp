@@ -62,6 +62,9 @@ class ColorReference {
     // is none.
     std::array<uint32_t, 4> codes(size_t index, cases::SampleId id,
                                   const std::optional<ColorWitness>& witness);
+    // Whether some allowed set has so many fragments (at least one), the triangle's the last of
+    // them; where there are too many open ones to try out, everything may be.
+    bool may_have_left(size_t index, uint32_t hits, uint32_t writer) const;
     // The triangles of the first allowed set of fragments, in drawing order; none if there is none.
     std::vector<uint32_t> drawn(size_t index) const;
     // Codes that the fragments of these triangles leave, whether or not they are allowed there.

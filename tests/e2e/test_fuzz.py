@@ -35,6 +35,14 @@ class FuzzTest(ProgramTest):
 
 
 class Hunts(FuzzTest):
+    def test_what_was_not_judged_is_not_counted(self):
+        """Quads draw no target of the fuzzer's: no triangle of such a case was judged."""
+        done = self.fuzz("--renderer=quads", "--cases=128", check=6)
+        ledger = self.ledger()
+        self.assertEqual(ledger["unsupported_cases"], 128)
+        self.assertEqual((ledger["judged_cases"], ledger["triangles"]), (0, 0))
+        self.assertIn("0 cases and 0 triangles judged in ", done.stdout)
+
     def test_causes_are_reduced_and_kept(self):
         done = self.fuzz("--cases=6144", check=1)
         ledger, found = self.ledger(), self.found()

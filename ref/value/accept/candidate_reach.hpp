@@ -86,6 +86,7 @@ void add_candidate(const CandidateSet<T>& set, const Candidate<T>& candidate,
         // with the vertices: only their hull is claimed.
         const bool free_plane =
             q.kind == Kind::linear && q.id.is_attribute() && !asked.is_projectable;
+        reaches[i].is_free = reaches[i].is_free || (is_judged(asked, i) && candidate.is_free);
         if (is_judged(asked, i) && (free_plane || candidate.is_unbounded)) {
             if (takes_bias(set, q)) {
                 reaches[i].is_free = true;  // of a gradient without bounds

@@ -330,11 +330,17 @@ CandidateSet<T> make_candidates(const Primitive& primitive, std::span<const Quan
         } else if (has_area) {
             set.is_known = set.is_known && add_pieces(inputs, polygon, T{}, true, set) &&
                            add_pieces(inputs, polygon, set.margin, false, set);
-        } else {
-            // Its pieces have an area by the rounding of the device's cut points alone, and their
-            // planes may lie anyhow between the values there.
-            set.candidates.push_back({ref::BasisKind::clipped_piece, {}, true, false});
         }
+    }
+    const bool may_gain_area =
+        primitive.needs_clipping ||
+        std::ranges::any_of(set.candidates, [](const auto& known) { return !known.bases.empty(); });
+    if (!has_area && may_gain_area) {
+        // A device covers the sample by the positions that it snaps, and may set its planes up from
+        // those before: these have an area by roundings alone, of any size and sign, and the
+        // sample need not lie between them. So such a plane has any value there; the weights of
+        // the specification have the area for a denominator ("Basic Polygon Rasterization").
+        set.candidates.push_back({ref::BasisKind::unsnapped, {}, false, false, true});
     }
     if (set.candidates.empty()) {
         set.candidates.push_back({ref::BasisKind::unsnapped, {}, true, false});

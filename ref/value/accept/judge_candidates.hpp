@@ -27,6 +27,8 @@ struct Candidate {
     bool is_unbounded = false;
     // It is a clipped piece, which explains points inside its triangle or within `margin` of it.
     bool is_piece = false;
+    // Nothing bounds its values, the vertex values included: only a finite one is claimed.
+    bool is_free = false;
 };
 
 template <class T>

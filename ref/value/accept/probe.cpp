@@ -33,7 +33,7 @@ Accepted<T> value_over(const CandidateSet<T>& set, std::span<const Candidate<T>>
     Accepted<T> out;
     for (const Candidate<T>& candidate : candidates) {
         // Between positions of different orientation a plane may be as steep as one likes.
-        out.is_undefined = out.is_undefined || candidate.is_unbounded;
+        out.is_undefined = out.is_undefined || candidate.is_unbounded || candidate.is_free;
         for (const Basis<T>& basis : candidate.bases) {
             for (const Point<T>& p : points) {
                 const Site<T> site = make_site(basis, basis.planes[kPlaneInvW], p, set.factor);

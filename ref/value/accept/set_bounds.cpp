@@ -51,7 +51,9 @@ SetBounds::SetBounds(const CandidateSet<Ball>& set, const PixelBox& box)
       steps_(cases::depth_steps(set.depth.format)) {
     const std::array<Point<Ball>, 4> corners = corners_of(box);
     const Basis<Ball>* first = nullptr;
+    bool is_free = false;
     for (const Candidate<Ball>& candidate : set.candidates) {
+        is_free = is_free || candidate.is_free;
         has_unbounded_ = has_unbounded_ || candidate.is_unbounded;
         for (const Basis<Ball>& basis : candidate.bases) {
             Site<Ball> most;  // each term of a budget at its largest in the box
@@ -87,7 +89,7 @@ SetBounds::SetBounds(const CandidateSet<Ball>& set, const PixelBox& box)
                 is_first ? depth_budget : std::min(least_depth_budget_, depth_budget);
         }
     }
-    is_usable_ = first != nullptr && set.is_known;
+    is_usable_ = first != nullptr && set.is_known && !is_free;
     if (is_usable_) {
         first_ = make_filter(*first);
     }

@@ -229,4 +229,44 @@ TEST(ValueFreedom, LevelIsThatOfTheWholeFragment) {
     }
 }
 
+// The vertices lie on the line from (2, -3) to (11, 20), whose slope is 23/9: it leaves the target
+// at x = 2 + 27/23 and x = 2 + 171/23, which no binary32 number is. What a device makes of these
+// cut points is a triangle with the area of their roundings, and of their snapping, 812.5 and
+// 2415.3 of 1/256, one of another area that has the middle vertex on its border.
+TEST(ValueFreedom, CutTriangleWithoutAreaClaimsAFiniteValueOnly) {
+    cases::Case c = make_case(16, {clip_of(2, -3, 0.5, 1, 16), clip_of(6.5, 8.5, 0.5, 1, 16),
+                                   clip_of(11, 20, 0.5, 1, 16)});
+    add_attribute(c, Interpolation::smooth, 1,
+                  {glm::vec4(0.1875F), glm::vec4(0.6875F), glm::vec4(0.5F)});
+    for (const Profile profile : cases::kProfiles) {
+        ref::ValueReference reference(c, {}, profile);
+        ref::FragmentValues v;
+        v.frag_coord = {6.5F, 8.5F, 0.5F, 1.0F};
+        v.depth = 0.5F;
+        for (const float value : {0.6875F, 0.75F, -104857.0F}) {
+            v.attributes[0].x = value;
+            EXPECT_TRUE(reference.judge(0, {6, 8, 0}, v).ok) << value;
+            EXPECT_TRUE(reference.judge_exact(0, {6, 8, 0}, v).ok) << value;
+        }
+        v.attributes[0].x = std::numeric_limits<float>::quiet_NaN();
+        const ref::FragmentVerdict verdict = reference.judge(0, {6, 8, 0}, v);
+        ASSERT_EQ(verdict.mismatches.size(), 1U);
+        EXPECT_EQ(verdict.mismatches[0].rule, "interp.hull");
+    }
+}
+
+// The diagonal again, between the points of the grid: rounded up in x and down in y, as profile
+// practice lets a device do, a vertex leaves it.
+TEST(ValueFreedom, SnappingThatMakesAnAreaClaimsAFiniteValueOnly) {
+    cases::Case c =
+        make_case(8, {clip_of(2.001, 2.001, 0.5, 1, 8), clip_of(4.001, 4.001, 0.5, 1, 8),
+                      clip_of(7.003, 7.003, 0.5, 1, 8)});
+    add_attribute(c, Interpolation::smooth, 1, {glm::vec4(1.0F), glm::vec4(2.0F), glm::vec4(3.0F)});
+    ref::FragmentValues v;
+    v.frag_coord = {4.5F, 4.5F, 0.5F, 1.0F};
+    v.depth = 0.5F;
+    v.attributes[0].x = 3.5F;
+    EXPECT_TRUE(ref::ValueReference(c, {}, Profile::practice).judge(0, {4, 4, 0}, v).ok);
+}
+
 }  // namespace
