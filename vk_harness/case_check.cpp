@@ -64,8 +64,11 @@ std::optional<Rejection> check_depth_format(const Capabilities& c, const cases::
     if (t.depth_format == cases::DepthFormat::d32_float) {
         return std::nullopt;
     }
-    const std::string_view name = row_of(t.depth_format).vulkan_name;
-    const VkSampleCountFlags counts = c.depth_sample_counts.at(static_cast<size_t>(t.depth_format));
+    const std::string_view name = t.has_stencil ? row_of(t.depth_format).with_stencil_name
+                                                : row_of(t.depth_format).vulkan_name;
+    // Depth with stencil is asked for by check_resolve_and_stencil().
+    const VkSampleCountFlags counts =
+        t.has_stencil ? t.samples : c.depth_sample_counts.at(static_cast<size_t>(t.depth_format));
     if (counts == 0) {
         return unsupported("the device cannot draw to and read back format {}", name);
     }

@@ -20,12 +20,14 @@ struct DepthFormatRow {
     std::string_view vulkan_name;
     uint32_t bytes;  // of a copied texel
     double steps;    // the code that means 1; 0: floating point
+    uint32_t with_stencil;  // VkFormat of the same depth with 8 bits of stencil in one image
+    std::string_view with_stencil_name;
 };
 
 inline constexpr std::array<DepthFormatRow, 3> kDepthFormats = {{
-    {"d32-float", 126, "D32_SFLOAT", 4, 0.0},
-    {"d24-unorm", 125, "X8_D24_UNORM_PACK32", 4, 16777215.0},
-    {"d16-unorm", 124, "D16_UNORM", 2, 65535.0},
+    {"d32-float", 126, "D32_SFLOAT", 4, 0.0, 130, "D32_SFLOAT_S8_UINT"},
+    {"d24-unorm", 125, "X8_D24_UNORM_PACK32", 4, 16777215.0, 129, "D24_UNORM_S8_UINT"},
+    {"d16-unorm", 124, "D16_UNORM", 2, 65535.0, 128, "D16_UNORM_S8_UINT"},
 }};
 
 constexpr const DepthFormatRow& row_of(DepthFormat format) {

@@ -110,10 +110,6 @@ void read_resolves(LeafContext& context, const TomlValue& table, Target& target)
 
 void read_stencil(LeafContext& context, const TomlValue& table, Target& target) {
     context.read(table, "stencil", target.has_stencil);
-    if (target.has_stencil && target.has_depth && target.depth_format != DepthFormat::d32_float) {
-        context.error(table.find("stencil")->where,
-                      "stencil lies beside d32-float; leave out depth, or stencil");
-    }
     context.read(table, "stencil_clear", target.stencil_clear, 0, kStencilBits);
     if (const TomlValue* clear = table.find("stencil_clear"); clear && !target.has_stencil) {
         context.error(clear->where, "the target has no stencil; write stencil = true");

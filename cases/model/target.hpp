@@ -37,7 +37,7 @@ struct Target {
     float depth_clear = kDepthClear;  // what the depth attachment is cleared to, 0..1
     // With several samples: average of numbers, sample_zero of integers; any of depth.
     Resolve color_resolve = Resolve::none, depth_resolve = Resolve::none;
-    bool has_stencil = false;    // 8 bits, beside D32 if there is depth
+    bool has_stencil = false;    // 8 bits, in one image with the depth if there is one
     uint32_t stencil_clear = 0;  // what the stencil is cleared to, 0..255
     // Rows of pixels of all layers, stacked: row y of layer k is row k * height + y of every plane.
     uint32_t rows() const { return height * layers; }

@@ -42,7 +42,7 @@ RESOLVES = {"SAMPLE_ZERO": 1, "AVERAGE": 2, "MIN": 4, "MAX": 8}
 
 def lavapipe_alone_lacks(device, reason):
     """Whether the class has what the reason misses: then it is lavapipe that lacks it."""
-    if found := re.search(r"does not draw (\d+) samples a pixel|target of format \S+ with (\d+) samples|D32_SFLOAT_S8_UINT at sample count (\d+)",
+    if found := re.search(r"does not draw (\d+) samples a pixel|target of format \S+ with (\d+) samples|_S8_UINT at sample count (\d+)",
                           reason):
         return int(next(group for group in found.groups() if group)) in device["samples"] and "at sample count 1" not in reason
     if found := re.search(r"resolve depth by (\w+)", reason):

@@ -306,6 +306,10 @@ void query_depth_formats(Capabilities& c) {
             VK_SAMPLE_COUNT_1_BIT |
             (read.samples & l.framebufferDepthSampleCounts & l.sampledImageDepthSampleCounts);
     }
+    if (!has_features(c, depth_stencil_format(c.beside_lone_stencil),
+                      VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT)) {
+        c.beside_lone_stencil = cases::DepthFormat::d24_unorm;
+    }
 }
 
 }  // namespace

@@ -49,6 +49,9 @@ struct Capabilities {
     // By cases::DepthFormat: sample counts that can be drawn and read back; 0 if the device has not
     // got the format.
     std::array<VkSampleCountFlags, 3> depth_sample_counts{VK_SAMPLE_COUNT_1_BIT};
+    // What a stencil without depth lies beside: every device draws to D32_SFLOAT_S8_UINT or to
+    // D24_UNORM_S8_UINT ("Required Format Support").
+    cases::DepthFormat beside_lone_stencil = cases::DepthFormat::d32_float;
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
     DepthBiasSupport depth_bias;
     PortabilitySupport portability;
@@ -84,9 +87,11 @@ Capabilities query_capabilities(VkPhysicalDevice physical, uint32_t index);
 // Formats of the attachments (capture/capture.hpp).
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
-inline constexpr VkFormat kDepthStencilFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
 constexpr VkFormat depth_format(cases::DepthFormat format) {
     return static_cast<VkFormat>(cases::row_of(format).vulkan);
+}
+constexpr VkFormat depth_stencil_format(cases::DepthFormat format) {
+    return static_cast<VkFormat>(cases::row_of(format).with_stencil);
 }
 // The format of attachments that hold two numbers a sample, if the device has it.
 inline constexpr VkFormat kTwoNumbers = VK_FORMAT_R32G32_SFLOAT;

@@ -200,11 +200,19 @@ VkImageCreateFlags color_flags(uint32_t samples) {
     return samples > 1 ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0;
 }
 
+namespace {
+
+bool is_depth_format(VkFormat format, uint32_t cases::DepthFormatRow::*column) {
+    return std::any_of(cases::kDepthFormats.begin(), cases::kDepthFormats.end(),
+                       [&](const auto& row) { return row.*column == uint32_t{format}; });
+}
+
+}  // namespace
+
 Result<Image> Image::create(const Device& device, VkFormat format, VkExtent2D extent,
                             uint32_t samples, uint32_t layers, VkImageCreateFlags flags) {
-    const bool stencil = format == kDepthStencilFormat;
-    const bool depth = stencil || format == VK_FORMAT_D32_SFLOAT ||
-                       format == VK_FORMAT_X8_D24_UNORM_PACK32 || format == VK_FORMAT_D16_UNORM;
+    const bool stencil = is_depth_format(format, &cases::DepthFormatRow::with_stencil);
+    const bool depth = stencil || is_depth_format(format, &cases::DepthFormatRow::vulkan);
     const bool multisampled = samples > 1;
     const VkImageUsageFlags attachment =
         depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;

@@ -187,9 +187,9 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     rendering.colorAttachmentCount = static_cast<uint32_t>(color.formats.size());
     rendering.pColorAttachmentFormats = color.formats.data();
     rendering.depthAttachmentFormat = !key.has_depth    ? VK_FORMAT_UNDEFINED
-                                      : key.has_stencil ? kDepthStencilFormat
+                                      : key.has_stencil ? key.layout.stencil_format
                                                         : depth_format(key.depth_format);
-    rendering.stencilAttachmentFormat = key.has_stencil ? kDepthStencilFormat : VK_FORMAT_UNDEFINED;
+    rendering.stencilAttachmentFormat = key.layout.stencil_format;
 
     VkGraphicsPipelineCreateInfo info = Typed{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.pNext = &rendering;

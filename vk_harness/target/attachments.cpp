@@ -112,7 +112,7 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
             c.variation.other_depth_clear ? capture::kOtherClearDepth : c.target.depth_clear,
             c.target.stencil_clear};
         const VkFormat format =
-            c.target.has_stencil ? kDepthStencilFormat : depth_format(c.target.depth_format);
+            c.target.has_stencil ? layout.stencil_format : depth_format(c.target.depth_format);
         out.push_back({Role::depth, format, clear, row_of(c.target.depth_format).bytes, 4});
         if (c.target.has_stencil) {
             out.push_back({Role::stencil, format, clear, 1, 4, 1, false, true});
@@ -120,7 +120,7 @@ std::vector<Attachment> attachments_of(const cases::Case& c, const InstrumentLay
     } else if (c.target.has_stencil) {
         VkClearValue clear{};
         clear.depthStencil.stencil = c.target.stencil_clear;
-        out.push_back({Role::stencil, kDepthStencilFormat, clear, 1, 4});
+        out.push_back({Role::stencil, layout.stencil_format, clear, 1, 4});
     }
     append_resolved(c.target, out);
     return out;

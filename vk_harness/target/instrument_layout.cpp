@@ -53,8 +53,15 @@ VkFormat InstrumentLayout::attribute_format(uint32_t attribute) const {
     return numbers(attribute) == 2 ? kTwoNumbers : kColorFormat;
 }
 
+VkFormat stencil_format(const Capabilities& c, const cases::Target& target) {
+    return depth_stencil_format(target.has_depth ? target.depth_format : c.beside_lone_stencil);
+}
+
 InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test) {
     InstrumentLayout layout;
+    if (test.target.has_stencil) {
+        layout.stencil_format = stencil_format(c, test.target);
+    }
     layout.halves = test.target.has_instruments && !c.blends_wide;
     if (!test.target.has_instruments || !ids_fit(test) ||
         (c.narrow_sample_counts & test.target.samples) == 0) {

@@ -21,6 +21,8 @@ struct InstrumentLayout {
     // The attachment that counts hits holds binary16: that of hits if the layout is split, else
     // writer_and_hits, whose ids are then below kMaxHalfId.
     bool halves = false;
+    // Of the image that holds the stencil, and the depth if there is one; UNDEFINED: no stencil.
+    VkFormat stencil_format = VK_FORMAT_UNDEFINED;
     // 2 or 4 by attribute: numbers that are drawn and read back; the others are 0 at every vertex
     // and 0 in the capture. One number costs as much as two, and would be one shader more.
     std::array<uint8_t, cases::kMaxAttributes> components = {4, 4, 4, 4};
@@ -43,6 +45,9 @@ inline constexpr uint32_t kMaxSplitAttachments =
 
 // Integers up to this are exact in binary16.
 inline constexpr uint32_t kMaxHalfId = 2048;
+
+// Of the image of a target with a stencil.
+VkFormat stencil_format(const Capabilities& c, const cases::Target& target);
 
 // The narrowest layout that the device has.
 InstrumentLayout instrument_layout(const Capabilities& c, const cases::Case& test);

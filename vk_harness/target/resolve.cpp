@@ -51,14 +51,14 @@ std::optional<Rejection> check_resolve_and_stencil(const Capabilities& c, const 
     if (t.has_stencil) {
         const VkImageUsageFlags read =
             t.samples > 1 ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-        if (!has_image(kDepthStencilFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read,
-                       t.samples) ||
+        const cases::DepthFormat beside = t.has_depth ? t.depth_format : c.beside_lone_stencil;
+        if (!has_image(depth_stencil_format(beside),
+                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read, t.samples) ||
             (c.limits.framebufferStencilSampleCounts & t.samples) == 0 ||
             (t.samples > 1 && (c.limits.sampledImageStencilSampleCounts & t.samples) == 0)) {
             return unsupported(
-                fmt::format("the device cannot draw to and read back format D32_SFLOAT_S8_UINT at "
-                            "sample count {}",
-                            t.samples));
+                fmt::format("the device cannot draw to and read back format {} at sample count {}",
+                            cases::row_of(beside).with_stencil_name, t.samples));
         }
     }
     if (capture::resolves_color(t) && !has_image(to_vulkan(t.color->format), color_usage(1), 1)) {

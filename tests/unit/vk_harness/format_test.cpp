@@ -80,6 +80,7 @@ TEST(Formats, VulkanHasEachRowUnderTheNameOfItsLayout) {
     }
     for (const cases::DepthFormatRow& row : cases::kDepthFormats) {
         EXPECT_EQ(names[row.vulkan], row.vulkan_name) << row.word;
+        EXPECT_EQ(names[row.with_stencil], row.with_stencil_name) << row.word;
     }
 }
 
