@@ -46,6 +46,33 @@ bool may_break(const Expectation& right, const Expectation& wrong, size_t index)
            !std::ranges::includes(depths_of(right, one), depths_of(wrong, other));
 }
 
+// Whether no number of hits that `wrong` allows is one that `right` does.
+bool are_apart(const HitBounds& right, const HitBounds& wrong) {
+    return right.total_max < wrong.total_min || wrong.total_max < right.total_min ||
+           right.front_max < wrong.front_min || wrong.front_max < right.front_min ||
+           right.back_max < wrong.back_min || wrong.back_max < right.back_min ||
+           right.signed_max < wrong.signed_min || wrong.signed_max < right.signed_min;
+}
+
+// Whether all that `wrong` allows at a sample is a finding, whatever an undecided sample of `right`
+// may show: each course of events of `wrong` has a number of hits that `right` forbids, or a
+// stencil that does not go with that number.
+bool must_break(const Expectation& right, const Expectation& wrong, size_t index) {
+    const SampleExpectation& one = right.samples[index];
+    const SampleExpectation& other = wrong.samples[index];
+    const std::span<const stencil::Outcome> courses = wrong.stencils_of(other);
+    if (courses.empty()) {
+        return are_apart(one.hits, other.hits);
+    }
+    return !one.is_stencil_free && !other.is_stencil_free &&
+           std::ranges::all_of(courses, [&](const stencil::Outcome& course) {
+               return !one.hits.allows(course.front, course.back) ||
+                      (stencils_at(right, one, std::pair(course.front, course.back)) &
+                       course.values)
+                          .none();
+           });
+}
+
 }  // namespace
 
 Shown& Original::shown() {
@@ -168,7 +195,7 @@ bool Difference::shows_colors_of(size_t index, cases::SampleId id) {
 bool Difference::shows(size_t index) {
     const SampleExpectation& sample = original_.expected().samples[index];
     if (!sample.hits.is_decided()) {
-        return false;
+        return differ_ == Differ::hits && must_break(original_.expected(), *without_, index);
     }
     const cases::SampleId id = cases::sample_at(original_.of().target, index);
     if (differ_ == Differ::hits && original_.of().target.has_stencil &&

@@ -232,7 +232,9 @@ constexpr ExerciseRow kRows[] = {
     {rule::derivative_coarse, kLevel, {by(level_attributes, Differ::values)}},
     {rule::derivative_plain, kLevel, {by(level_attributes, Differ::values)}},
     {rule::lod_query, kLevel, {by(level_attributes, Differ::values)}},
-    {rule::stencil_count, "that may be hit, with a stencil", {at_all(is_counted_by_stencil)}},
+    {rule::stencil_count,
+     "that may be hit, with a stencil that only counts the hits",
+     {at_all(is_counted_by_stencil)}},
     {rule::stencil_compare,
      "that would come out otherwise if every fragment passed the stencil test, or if less were "
      "greater",
