@@ -27,13 +27,14 @@ class Comparison {
   public:
     Comparison(const cases::Case& c, const ref::Expectation& expectation,
                const capture::CaptureView& capture, const ref::ValueSelection& selection,
-               bool is_by_sample)
+               bool is_by_sample, std::span<const SampleMark> marks = {})
         : case_(c),
           expectation_(expectation),
           capture_(capture),
           attribution_(c, expectation),
           values_(c, expectation.limits, expectation.profile),
           selection_(selection),
+          marks_(marks),
           last_fragment_(c, expectation, capture_, selection_, attribution_, values_),
           has_pixel_rules_(selection.is_all() && c.target.has_instruments && has_pixel_rules(c)),
           has_discards_(std::ranges::any_of(
@@ -297,13 +298,19 @@ class Comparison {
     }
 
     void judge_color(size_t index, cases::SampleId id, std::optional<uint32_t> writer) {
-        if (!color_) {
+        if (!color_ || has_wrong_hits(index)) {
             return;
         }
         ++verdict_.compared_values;
         if (std::optional<Finding> finding = color_->judge(index, id, writer)) {
             add(std::move(*finding));
         }
+    }
+
+    // By the marks of the verdict on other planes.
+    bool has_wrong_hits(size_t index) const {
+        return index < marks_.size() && marks_[index] > SampleMark::either &&
+               marks_[index] != SampleMark::value;
     }
 
     static FindingKind kind_of(const ref::HitBounds& bounds, uint32_t front, uint32_t back) {
@@ -340,6 +347,7 @@ class Comparison {
     Attribution attribution_;
     ref::ValueReference values_;
     ref::ValueSelection selection_;
+    std::span<const SampleMark> marks_;
     LastFragment last_fragment_;
     bool has_pixel_rules_ = false;
     bool has_discards_ = false;
@@ -356,6 +364,13 @@ class Comparison {
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                 const capture::CaptureView& capture, const ref::ValueSelection& selection) {
     return Comparison(c, expectation, capture, selection, false).run();
+}
+
+Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
+                       const capture::CaptureView& capture, std::span<const SampleMark> marks) {
+    const bool has_wrong = std::ranges::any_of(
+        marks, [](SampleMark mark) { return mark > SampleMark::either; });  // in no run of samples
+    return Comparison(c, expectation, capture, {}, has_wrong, marks).run();
 }
 
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,

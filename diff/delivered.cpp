@@ -85,7 +85,8 @@ class Completion {
           expectation_(expectation),
           planes_(planes),
           values_(c, expectation.limits, expectation.profile),
-          selection_(selection_of(planes)) {
+          selection_(selection_of(planes)),
+          stores_discarded_(cases::stores_discarded(c)) {
         values_.judge_only(selection_);
     }
 
@@ -108,7 +109,8 @@ class Completion {
     bool may_be_empty() {
         out_.attribute_count = cases::attributes_of(case_);
         for (size_t index = 0; index < expectation_.samples.size(); ++index) {
-            if (expectation_.samples[index].hits.total_min > 0 && !is_covered(index)) {
+            if ((expectation_.samples[index].hits.total_min > 0 && !is_covered(index)) ||
+                !may_have_depth(index)) {
                 return false;
             }
         }
@@ -137,6 +139,21 @@ class Completion {
         out_.writers[index] = is_unwritten ? capture::Writer{} : writer_of(index, values);
     }
 
+    // Whether the delivered depth is one that may be stored, where draws test or keep depths.
+    bool may_have_depth(size_t index) {
+        const ref::SampleExpectation& expected = expectation_.samples[index];
+        if (planes_.depth.empty() || expected.depth_count == 0) {
+            return true;
+        }
+        const std::span<const uint32_t> writers = expectation_.depth_writers_of(expected);
+        const ref::FragmentValues values = values_of(index);
+        return (expected.depth_may_be_clear &&
+                capture::is_clear_depth(case_.target, planes_.depth[index])) ||
+               std::ranges::any_of(writers, [&](uint32_t t) {
+                   return values_.judge(t, id_of(index), values, ref::FragmentPart::depth).ok;
+               });
+    }
+
     // What planes hold of a sample that others call clear: the comparison tells of it. A depth is
     // what is stored; the other values are a fragment's, and there is none.
     void keep_contradictions(size_t index) {
@@ -161,11 +178,17 @@ class Completion {
         }
         const bool is_depth_clear =
             planes_.depth.empty() || capture::is_clear_depth(case_.target, planes_.depth[index]);
-        bool all_clear =
-            is_depth_clear && (planes_.frag_coord.empty() || is_clear(planes_.frag_coord[index].x));
+        bool all_clear = planes_.frag_coord.empty() || is_clear(planes_.frag_coord[index].x);
+        bool has_values = !planes_.frag_coord.empty();
         for (const auto& attribute : planes_.attributes) {
             all_clear = all_clear && (attribute.empty() || is_clear(attribute[index].x));
+            has_values = has_values || !attribute.empty();
         }
+        if (all_clear && !is_depth_clear && stores_discarded_) {
+            // The depth may be that of a discarded fragment, which is no hit.
+            return !has_values && expectation_.samples[index].hits.total_min > 0;
+        }
+        all_clear = all_clear && is_depth_clear;
         if (!all_clear || expectation_.samples[index].hits.total_min == 0) {
             return !all_clear;
         }
@@ -267,6 +290,7 @@ class Completion {
     const capture::Delivered& planes_;
     ref::ValueReference values_;
     ref::ValueSelection selection_;
+    bool stores_discarded_ = false;
     capture::Capture out_;
 };
 
@@ -278,7 +302,8 @@ Verdict compare_instruments(const cases::Case& c, const ref::Expectation& expect
 }
 
 Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,
-                      const std::vector<capture::ColorCodes>& color) {
+                      const std::vector<capture::ColorCodes>& color,
+                      std::span<const SampleMark> marks) {
     const cases::Case plain = with_color_only(c);
     capture::Capture capture;
     capture.target = plain.target;
@@ -287,7 +312,7 @@ Verdict compare_color(const cases::Case& c, const ref::Expectation& expectation,
     for (size_t k = 0; plain.target.has_stencil && k < expectation.samples.size(); ++k) {
         capture.stencil.push_back(likely_stencil(expectation, k, std::nullopt));
     }
-    return compare(plain, expectation, capture);
+    return compare_colors(plain, expectation, capture, marks);
 }
 
 // Adds what the colour showed to what the other planes did.
@@ -350,12 +375,11 @@ Verdict compare_planes(const cases::Case& c, const ref::Expectation& expectation
     if (planes.color.empty()) {
         return compare_instruments(c, expectation, planes);
     }
-    Verdict color = compare_color(c, expectation, planes.color);
     if (!has_instrument_planes(planes)) {
-        return color;
+        return compare_color(c, expectation, planes.color, {});
     }
     Verdict verdict = compare_instruments(c, expectation, planes);
-    join(verdict, color);
+    join(verdict, compare_color(c, expectation, planes.color, verdict.marks));
     return verdict;
 }
 

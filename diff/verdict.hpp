@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -176,6 +177,10 @@ struct Verdict : Outcome {
 // unless all are.
 Verdict compare(const cases::Case& c, const ref::Expectation& expectation,
                 const capture::CaptureView& capture, const ref::ValueSelection& selection = {});
+// Judges the colours alone of a target without instruments, but for samples whose hits or writer
+// are wrong by the marks of another verdict, as compare() does where it sees both.
+Verdict compare_colors(const cases::Case& c, const ref::Expectation& expectation,
+                       const capture::CaptureView& capture, std::span<const SampleMark> marks);
 // The same, one sample after another: the oracle of compare(), which judges runs of samples that
 // are plainly right at once.
 Verdict compare_by_sample(const cases::Case& c, const ref::Expectation& expectation,

@@ -8,7 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cases/load/loader.hpp"
 #include "perfect_capture.hpp"
+#include "rasterizers/strength/strength.hpp"
 
 namespace {
 
@@ -88,6 +90,35 @@ TEST(Delivered, EverySubsetOfARightCapturePasses) {
             const diff::Verdict v = diff::compare_delivered(f.c, f.e, take(f.right, planes));
             EXPECT_TRUE(v.ok()) << planes << ' ' << v.error
                                 << (v.findings.empty() ? "" : v.findings[0].expected);
+        }
+    }
+}
+
+// A depth may be that of a discarded fragment, and then is no hit.
+TEST(Delivered, EverySubsetOfDiscardsThatStorePasses) {
+    const auto loaded = cases::load_text(
+        "format = 1\ndescription = \"A case.\"\nrules = [\"cover.inside\"]\n"
+        "[target]\nsize = [8, 8]\nstencil = true\ncolor = { format = \"rgba8-unorm\" }\n"
+        "[[draw]]\ndiscard = \"checker\"\nearly_tests = true\n"
+        "color = { value = [1, 0, 0, 1] }\n"
+        "vertices = [[0,0,0.25], [8,0,0.25], [0,8,0.125]]\n"
+        "[[draw]]\ndepth = { compare = \"less\" }\nstencil = { pass = \"invert\" }\n"
+        "color = { value = [0, 1, 0, 1] }\n"
+        "vertices = [[2,2,0.375], [8,2,0], [2,8,0.375]]\n",
+        "case.toml", "case");
+    ASSERT_TRUE(loaded) << loaded.error().front().message;
+    const cases::Case& c = loaded->front();
+    const ref::Expectation e = ref::expect(c, ref::Limits{8}, Profile::direct3d);
+    const capture::Capture right = software::captured(c, software::Device{});
+    for (uint32_t planes = 1; planes < kAttribute0; ++planes) {
+        for (const bool has_color : {false, true}) {
+            if (is_possible(planes)) {
+                capture::Delivered delivered = take(right, planes);
+                delivered.color = has_color ? right.color : delivered.color;
+                const diff::Verdict v = diff::compare_delivered(c, e, delivered);
+                EXPECT_TRUE(v.ok()) << planes << ' ' << v.error
+                                    << (v.findings.empty() ? "" : v.findings[0].expected);
+            }
         }
     }
 }
@@ -244,6 +275,26 @@ TEST(Delivered, ColourAloneIsJudged) {
     EXPECT_EQ(diff::compare_delivered(f.c, f.e, planes).findings.size(), 1U);
     planes.color.assign(64, {});
     EXPECT_FALSE(diff::compare_delivered(f.c, f.e, planes).ok());
+    // Where the hits are wrong the colour tells nothing more, elsewhere it is judged.
+    const auto drawn = [&](size_t k) { return f.e.samples[k].hits.total_min > 0; };
+    planes.detail = capture::HitDetail::total;
+    for (size_t k = 0; k < 64; ++k) {
+        planes.front.push_back(f.e.samples[k].hits.total_min);
+        planes.color[k] = drawn(k) ? capture::ColorCodes{255, 0, 0, 255} : capture::ColorCodes{};
+    }
+    EXPECT_TRUE(diff::compare_delivered(f.c, f.e, planes).ok());
+    const size_t missing = 3 * 8 + 3, wrong = 3 * 8 + 2, extra = 63;
+    ASSERT_TRUE(drawn(missing) && drawn(wrong) && !drawn(extra));
+    planes.front[missing] = 0;
+    planes.color[missing] = {};
+    planes.front[extra] = 1;
+    planes.color[extra] = {255, 0, 0, 255};
+    planes.color[wrong] = {254, 0, 0, 255};
+    const diff::Verdict verdict = diff::compare_delivered(f.c, f.e, planes);
+    EXPECT_EQ(verdict.finding_total(), 3U);
+    EXPECT_EQ(verdict.marks[wrong], diff::SampleMark::value);
+    planes = {};
+    planes.color.assign(64, {});
     // A colour that is the clear colour tells nothing of what was drawn.
     f.c.draws[0].color.value = {0, 0, 0, 0};
     EXPECT_THAT(diff::compare_delivered(f.c, f.e, planes).error,
