@@ -3,6 +3,7 @@
 #include "cli/explain_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -47,6 +48,24 @@ std::string allowed_hits(const ref::HitBounds& b) {
     return text;
 }
 
+// "is 3", "is 3 or 4", "is one of 17 values".
+std::string stencil_text(const ref::stencil::Values& values) {
+    constexpr size_t kShown = 8;
+    if (values.all()) {
+        return "may be anything";
+    }
+    if (values.count() > kShown) {
+        return fmt::format("is one of {} values", values.count());
+    }
+    std::vector<size_t> numbers;
+    for (size_t k = 0; k < values.size(); ++k) {
+        if (values[k]) {
+            numbers.push_back(k);
+        }
+    }
+    return fmt::format("is {}", fmt::join(numbers, " or "));
+}
+
 // Fractions get long where w is not a power of two; the tail helps nobody.
 std::string shortened(const std::string& exact) {
     constexpr size_t kLimit = 48;
@@ -74,10 +93,13 @@ std::string accepted_text(ref::ValueReference& values, uint32_t triangle, cases:
     return text;
 }
 
-std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::SampleId sample) {
+std::string values_text(ref::ValueReference& values, uint32_t triangle, cases::SampleId sample,
+                        bool writes_depth) {
     std::string text;
     for (const ref::ExpectedValue& v : values.expected(triangle, sample)) {
-        if (v.is_flat) {
+        if (v.quantity.is_depth() && !writes_depth) {
+            text += fmt::format("        {:<14} is not written by the draw\n", to_text(v));
+        } else if (v.is_flat) {
             text += fmt::format("        {:<14} {} {}, bit for bit\n", to_text(v),
                                 cases::number_text(v.nearest), v.also.empty() ? "exactly" : v.also);
         } else {
@@ -250,7 +272,8 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     for (size_t i = 0; i < std::min(order.size(), kShown); ++i) {
         text += triangle_text(*order[i]);
         if (order[i]->decision.coverage != ref::Coverage::must_not) {
-            text += values_text(values, order[i]->index, sample);
+            text += values_text(values, order[i]->index, sample,
+                                c.draws[order[i]->triangle.draw].depth.write);
         }
     }
     if (order.size() > kShown) {
@@ -265,6 +288,9 @@ std::string explain_text(const cases::Case& c, const ref::Limits& limits, cases:
     text += drawing(c, limits, profile, sample);
     text += "\n" + conclusion(s.hits) + "\n";
     text += allowed_hits(s.hits) + "\n";
+    if (s.stencils) {
+        text += "the stencil then " + stencil_text(*s.stencils) + "\n";
+    }
     for (const cases::Profile looser : cases::kProfiles) {
         if (looser < profile) {
             const ref::SampleExplanation other = ref::explain_sample(c, limits, looser, sample);

@@ -38,10 +38,12 @@ struct Tally {
     // A device may have other errors, too, and choices that the software device has not: of the
     // cases that a hypothesis speaks of a few may end otherwise. It stands while those are a half
     // of what it explains, and those that passed against it an eighth of what it would explain if
-    // all failed cases were subjects.
+    // all failed cases were subjects, and a quarter of those tried, where these are many enough.
     bool is_plausible() const { return 2 * count(Says::otherwise) <= count(Says::explains); }
     bool stands(size_t failed) const {
-        return 8 * passed_against * answers.size() <= count(Says::explains) * failed;
+        constexpr uint64_t kMany = 16;
+        return 8 * passed_against * answers.size() <= count(Says::explains) * failed &&
+               (passed_tried < kMany || 4 * passed_against <= passed_tried);
     }
     std::pair<size_t, int64_t> score() const {
         return {count(Says::explains), -static_cast<int64_t>(count(Says::otherwise))};

@@ -265,8 +265,10 @@ OrStop<std::string> parse(CLI::App& app, AllOptions& all, std::vector<std::strin
         return tl::unexpected(usage_error("a command is missing, for example 'edgecase run'", ""));
     }
     if (!is_command && first.front() != '-') {
-        return tl::unexpected(usage_error(
-            "unknown command '" + first + "'" + cases::did_you_mean(first, commands), ""));
+        const std::string hint = first == "help"    ? "; did you mean '--help'?"
+                                 : first == "merge" ? "; did you mean 'report --merge'?"
+                                                    : cases::did_you_mean(first, commands);
+        return tl::unexpected(usage_error("unknown command '" + first + "'" + hint, ""));
     }
     if (!is_command && first != "-h" && first != "--help" && first != "--version") {
         return tl::unexpected(usage_error(

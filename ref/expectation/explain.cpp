@@ -307,7 +307,8 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
         }
     }
     for (size_t m = 0; m < reasons.depth.outcomes.size(); ++m) {
-        if (explained[m] == kUntold) {
+        const bool is_reached = m >= reasons.fates.size() || reasons.fates[m].gets_to_depth();
+        if (explained[m] == kUntold || !is_reached) {
             continue;
         }
         TriangleExplanation& t = out.triangles[explained[m]];

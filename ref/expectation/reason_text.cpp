@@ -117,6 +117,29 @@ std::string triangles_text(const std::vector<uint32_t>& members,
 constexpr std::array<std::string_view, 6> kDiscarded = {
     "nothing", "odd columns", "odd rows", "pixels whose x + y is odd", "front faces", "back faces"};
 
+// Some numbers, as "3" or "3 or 4"; "stencil" for more, or where nothing is known of them.
+std::string values_text(const stencil::Values& values) {
+    constexpr size_t kShown = 3;
+    if (values.none() || values.count() > kShown) {
+        return "stencil";
+    }
+    std::string text;
+    for (size_t k = 0; k < values.size(); ++k) {
+        if (values[k]) {
+            text += fmt::format("{}{}", text.empty() ? "" : " or ", k);
+        }
+    }
+    return text;
+}
+
+// What the comparison has of a number: with the mask, unless that keeps all bits.
+std::string masked(const std::string& number, const cases::StencilFace& face) {
+    const std::string shown = number.find(' ') == std::string::npos ? number : "(" + number + ")";
+    return face.compare_mask == cases::kStencilBits
+               ? shown
+               : fmt::format("({} & {})", shown, face.compare_mask);
+}
+
 }  // namespace
 
 std::string sentence_of(Reason reason, const TriangleExplanation& t, const cases::Case& c,
@@ -162,7 +185,7 @@ std::string sentence_of(ReasonKind depth_reason, DepthOutcome outcome, cases::Co
 
 std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& state,
                         bool can_be_front, bool can_be_back) {
-    const bool passes = fate.passes || fate.fails_depth;
+    const bool passes = fate.passes || fate.fails_depth || fate.is_discarded;
     const std::string_view told = passes && !fate.fails   ? "passes"
                                   : fate.fails && !passes ? "fails"
                                                           : "may pass or fail";
@@ -175,8 +198,8 @@ std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& st
         out += out.empty() ? "" : ", or ";
         out += fmt::format(fmt::runtime(text_of(ReasonKind::stencil_test)),
                            fmt::arg("outcome", told), fmt::arg("face", front ? "front" : "back"),
-                           fmt::arg("reference", face.reference),
-                           fmt::arg("mask", fmt::format("{:#x}", face.compare_mask)),
+                           fmt::arg("reference", masked(std::to_string(face.reference), face)),
+                           fmt::arg("stencil", masked(values_text(fate.met), face)),
                            fmt::arg("compare", kCompareNames[static_cast<size_t>(face.compare)]));
     }
     return out;

@@ -137,8 +137,7 @@ constexpr std::array kRows = {
         "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before, biased "
         "apart by whole units of r"},
     Row{stencil_test, rule::stencil_compare,
-        "{outcome} the stencil test of {face} faces, ({reference} & {mask}) {compare} (stencil & "
-        "{mask})"},
+        "{outcome} the stencil test of {face} faces, {reference} {compare} {stencil}"},
     Row{stencil_compared, rule::stencil_compare,
         "it is the stencil of fragments whose stencil test comes out otherwise"},
     Row{stencil_operated, rule::stencil_operation,

@@ -122,6 +122,7 @@ class Courses {
         const Fragment& fragment = question_.fragments[m];
         const cases::StencilFace& face = front ? fragment.state->front : fragment.state->back;
         Fate& fate = out_.fates[m];
+        fate.met.set(course.value);
         Course next = course;
         if (!passes(face, course.value)) {
             fate.fails = true;

@@ -144,7 +144,9 @@ class Walk {
         const Fragment& fragment = question_.fragments[m];
         const auto go_on = [&](Deed deed, uint32_t next, int next_stored) {
             deeds_.push_back(deed);
+            met_.push_back(value);
             follow(next, next_stored);
+            met_.pop_back();
             deeds_.pop_back();
         };
         if (!fragment.is_sure) {
@@ -214,6 +216,9 @@ class Walk {
             fate.fails_depth = fate.fails_depth || deed == Deed::failed_depth;
             fate.passes = fate.passes || is_passed;
             fate.is_discarded = fate.is_discarded || deed == Deed::discarded;
+            if (deed != Deed::absent) {
+                fate.met.set(met_[m]);
+            }
             outcome.front += deed == Deed::passed_front ? 1 : 0;
             outcome.back += deed == Deed::passed_back ? 1 : 0;
             last = is_passed ? static_cast<int>(m) : last;
@@ -240,6 +245,7 @@ class Walk {
     const Question& question_;
     Resolution out_;
     std::vector<Deed> deeds_;
+    std::vector<uint32_t> met_;  // the stencil before each deed
     uint64_t steps_ = 0;
 };
 

@@ -62,6 +62,9 @@ struct Fate {
     bool is_absent = false;    // it does not cover the sample
     // Having passed both, it is discarded by its shader.
     bool is_discarded = false;
+    Values met = {};  // the stencils that its test compares with in some course
+    // Whether it gets to the depth test.
+    bool gets_to_depth() const { return passes || fails_depth || is_discarded; }
     bool always_passes() const {
         return passes && !fails && !fails_depth && !is_absent && !is_discarded;
     }

@@ -43,7 +43,7 @@ std::string advice(int error) {
     switch (error) {
         case ENOSPC:
         case EDQUOT:
-            return "; free some space and go on with --resume";
+            return "; free some space and do it again, a run or a hunt with --resume";
         case ENOENT:
             return "; create the directory first";
         case EACCES:
