@@ -83,6 +83,7 @@ class DrawLoader {
         if (const TomlValue* value = table_.find("attribute")) {
             draw_.attributes = read_attributes(context_, *value, source);
         }
+        check_discard();
         read_color();
         if (!context_.errors().empty()) {
             return std::move(draw_);
@@ -108,6 +109,18 @@ class DrawLoader {
     size_t word(const char* key, std::span<const std::string_view> words) {
         const TomlValue* value = table_.find(key);
         return value == nullptr ? 0 : context_.word(*value, key, words).value_or(0);
+    }
+
+    // No shader is built that discards and has these (cmake/Shaders.cmake).
+    void check_discard() {
+        const bool has_other = std::ranges::any_of(draw_.attributes, [](const Attribute& a) {
+            return a.source != Source::vertex || a.probe != Probe::value;
+        });
+        if (draw_.discard != Discard::none && (has_other || draw_.multisample.shader_mask)) {
+            context_.error(table_.find("discard")->where,
+                           "a shader that discards has plain values and writes no gl_SampleMask "
+                           "here; leave out discard, or every source, probe and shader_mask");
+        }
     }
 
     static std::vector<glm::vec4> ordered(std::vector<glm::vec4> values,

@@ -348,6 +348,45 @@ description = "d"
 rules = ["cover.inside"]
 [target]
 size = [2, 1]
+samples = 4
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+shader_mask = 1
+discard = "checker"
+)~"),
+     R"~(f:10:11: error: a shader that discards has plain values and writes no gl_SampleMask here; leave out discard, or every source, probe and shader_mask)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 4
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+discard = "front"
+[[draw.attribute]]
+source = "sample-mask-in"
+)~"),
+     R"~(f:9:11: error: a shader that discards has plain values and writes no gl_SampleMask here; leave out discard, or every source, probe and shader_mask)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
+samples = 4
+[[draw]]
+vertices = [[0,0],[8,0],[0,8]]
+discard = "back"
+[[draw.attribute]]
+probe = "dfdx"
+values = [1,2,3]
+)~"),
+     R"~(f:9:11: error: a shader that discards has plain values and writes no gl_SampleMask here; leave out discard, or every source, probe and shader_mask)~"},
+    {whole(R"~(format = 1
+description = "d"
+rules = ["cover.inside"]
+[target]
+size = [2, 1]
 [[draw]]
 vertices = [[0,0],[8,0],[0,8]]
 min_sample_shading = 1.5
