@@ -139,6 +139,9 @@ std::string triangle_text(const ref::TriangleExplanation& t) {
         text += "        a vertex lies outside the view volume: the clipped polygon counts too\n";
     }
     text += report::wrapped(fmt::format("        {}\n", t.sentence), 100);
+    if (!t.bounds_text.empty()) {
+        text += fmt::format("        {}\n", t.bounds_text);
+    }
     if (!t.stencil_text.empty()) {
         text += fmt::format("        {}\n", t.stencil_text);
     }

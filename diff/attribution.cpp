@@ -162,6 +162,10 @@ void Attribution::explain_hits(Finding& finding, const ref::HitBounds& asked, ui
         }
         return;
     }
+    if (const std::optional<Cause> bounds = causes.of_bounds(total < asked.total_min)) {
+        tell(finding, *bounds);
+        return;
+    }
     if (const std::optional<Cause> stencil = causes.of_stencil(total < asked.total_min)) {
         tell(finding, *stencil);
         return;

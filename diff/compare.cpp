@@ -240,7 +240,9 @@ class Comparison {
                 if (!stores_discarded_ || expected.depth_count == 0) {
                     add_contradiction(index, id,
                                       has_discards_ ? ref::ReasonKind::depth_of_taken
-                                                    : ref::ReasonKind::planes_contradict);
+                                      : cases::tests_bounds(case_) && expected.depth_may_be_clear
+                                          ? ref::ReasonKind::depth_of_bounded
+                                          : ref::ReasonKind::planes_contradict);
                     return;
                 }
                 break;

@@ -125,6 +125,7 @@ std::optional<Finding> LastFragment::judge_older_depth(cases::SampleId id,
     }
     finding.got = cases::number_text(device.depth);
     tell(finding, cases::stores_discarded(case_) ? ref::ReasonKind::depth_of_discarded
+                  : cases::tests_bounds(case_)   ? ref::ReasonKind::depth_of_bounded
                                                  : ref::ReasonKind::depth_unwritten);
     return finding;
 }

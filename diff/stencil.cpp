@@ -22,6 +22,7 @@ struct Change {
 
 // From the particular to the general: a device that exchanges faces has other operations as well.
 constexpr std::array kChanges = {
+    Change{ref::drop_bounds, ReasonKind::stencil_bounded},
     Change{ref::exchange_stencil_faces, ReasonKind::stencil_faced},
     Change{ref::ignore_stencil_masks, ReasonKind::stencil_masked},
     Change{ref::take_depth_fail_as_pass, ReasonKind::stencil_by_depth},

@@ -245,7 +245,8 @@ std::optional<Rejection> check_depth(const Capabilities& c, const cases::DepthSt
     for (const auto& [lacks, feature] :
          {std::pair(depth.clamp && !c.depth_clamp, "depthClamp"),
           {depth.clip && !c.depth_clip_enable, "depthClipEnable of VK_EXT_depth_clip_enable"},
-          {clamps_bias && !c.depth_bias_clamp, "depthBiasClamp"}}) {
+          {clamps_bias && !c.depth_bias_clamp, "depthBiasClamp"},
+          {depth.bounds && !c.depth_bounds, "depthBounds"}}) {
         if (lacks) {
             return unsupported("the device lacks the feature {}", feature);
         }

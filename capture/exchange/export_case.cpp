@@ -286,6 +286,7 @@ class Needs {
         add(d.depth.bias.has_value(), "depth-bias");
         add(d.depth.bias && d.depth.bias->is_controlled(), "depth-bias-control");
         add(d.depth.clamp || d.depth.clip.value_or(true) != true, "depth-clamp");
+        add(d.depth.bounds.has_value(), "depth-bounds");
         add(d.depth.negative_one_to_one, "depth-volume");
         add(d.distances.clip_count > 0, "clip-distance");
         add(d.distances.cull_count > 0, "cull-distance");

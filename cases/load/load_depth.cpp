@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
 #include <utility>
 
 #include "cases/load/parts.hpp"
@@ -20,6 +21,30 @@ DepthBias read_bias(LeafContext& context, const TomlValue& value) {
     context.read(value, "representation", bias.representation);
     context.read(value, "exact", bias.is_exact);
     return bias;
+}
+
+// "minDepthBounds must be between 0.0 and 1.0, inclusive" (Vulkan specification,
+// vkCmdSetDepthBounds), as maxDepthBounds must.
+std::optional<DepthBounds> read_bounds(LeafContext& context, const TomlValue& value) {
+    const auto numbers = context.numbers(value, "bounds", 2);
+    if (!numbers) {
+        return std::nullopt;
+    }
+    for (size_t k = 0; k < 2; ++k) {
+        if ((*numbers)[k].value < 0 || (*numbers)[k].value > 1) {
+            context.error(value.array[k].where,
+                          "a depth bound is outside 0..1, which Vulkan does not allow");
+            return std::nullopt;
+        }
+    }
+    const DepthBounds out{round_to_binary32((*numbers)[0]).value,
+                          round_to_binary32((*numbers)[1]).value};
+    if (out.min > out.max) {
+        context.error(value.where,
+                      "no depth lies in bounds whose minimum is larger than their maximum; write "
+                      "[minimum, maximum]");
+    }
+    return out;
 }
 
 // Masks may have more bits than the attachment, which count for nothing. "The reference value used
@@ -48,7 +73,7 @@ DepthState read_depth_state(LeafContext& context, const TomlValue& value) {
     if (!context.table(value, "depth")) {
         return state;
     }
-    context.known_keys(value, "depth", {"compare", "write", "bias", "clamp", "clip"});
+    context.known_keys(value, "depth", {"compare", "write", "bias", "clamp", "clip", "bounds"});
     context.read(value, "compare", state.compare);
     context.read(value, "write", state.write);
     if (const TomlValue* bias = value.find("bias")) {
@@ -56,6 +81,9 @@ DepthState read_depth_state(LeafContext& context, const TomlValue& value) {
     }
     context.read(value, "clamp", state.clamp);
     context.read(value, "clip", state.clip);
+    if (const TomlValue* bounds = value.find("bounds")) {
+        state.bounds = read_bounds(context, *bounds);
+    }
     return state;
 }
 

@@ -39,7 +39,7 @@ bool depth_is_only_written(const Case& c) {
                           c.target.depth_clear >= kDepthClear &&
                           c.target.depth_clear <= kDepthClear;
     return is_usual && std::all_of(c.draws.begin(), c.draws.end(), [](const Draw& draw) {
-               return draw.depth.compare == CompareOp::always;
+               return draw.depth.compare == CompareOp::always && !draw.depth.bounds;
            });
 }
 

@@ -159,15 +159,26 @@ struct DepthBias {
     friend bool operator==(const DepthBias&, const DepthBias&) = default;
 };
 
+// As vkCmdSetDepthBounds: what a stored depth lies in, the ends included. 0..1, min <= max.
+struct DepthBounds {
+    float min = 0, max = 1;
+    static void fields(auto&& visit, auto&... b) {
+        visit("min", b.min...);
+        visit("max", b.max...);
+    }
+    friend bool operator==(const DepthBounds&, const DepthBounds&) = default;
+};
+
 // Depth state of a draw. The defaults are what the capture of single-draw cases needs: every
 // fragment passes and writes.
 struct DepthState {
     CompareOp compare = CompareOp::always;
     bool write = true;
-    std::optional<DepthBias> bias = {};  // depthBiasEnable
-    bool clamp = false;                  // depthClampEnable
-    std::optional<bool> clip = {};       // VK_EXT_depth_clip_enable; nothing: !clamp
-    bool negative_one_to_one = false;    // VK_EXT_depth_clip_control
+    std::optional<DepthBias> bias = {};      // depthBiasEnable
+    bool clamp = false;                      // depthClampEnable
+    std::optional<bool> clip = {};           // VK_EXT_depth_clip_enable; nothing: !clamp
+    bool negative_one_to_one = false;        // VK_EXT_depth_clip_control
+    std::optional<DepthBounds> bounds = {};  // depthBoundsTestEnable
     static void fields(auto&& visit, auto&... d) {
         visit("compare", d.compare...);
         visit("write", d.write...);
@@ -175,6 +186,7 @@ struct DepthState {
         visit("clamp", d.clamp...);
         visit("clip", d.clip...);
         visit("volume", d.negative_one_to_one...);
+        visit("bounds", d.bounds...);
     }
     friend bool operator==(const DepthState&, const DepthState&) = default;
 };

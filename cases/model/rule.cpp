@@ -314,6 +314,15 @@ constexpr std::array kRules = {
          "Polygons with the same vertices, biased apart by one r (fixed point: two, as r may be a "
          "little less than a step), never compare equal or the wrong way round.",
          "primsrast-depthbias-computation", "", "ref/depth/outcome.hpp"},
+    Rule{rule::depth_bounds, Profile::vulkan,
+         "A fragment is drawn only where the stored depth lies in the depth bounds",
+         "minDepthBounds <= z <= maxDepthBounds, of the depth that is stored, not the fragment's. "
+         "It "
+         "is tested before the stencil: a fragment that fails leaves no trace, not even of a "
+         "stencil "
+         "operation. Exact with binary32 depth; fixed-point bounds and depths may be either "
+         "neighbour.",
+         "fragops-dbt", "", "ref/stencil/courses.cpp"},
     Rule{rule::depth_clamp, Profile::vulkan, "Depth clamp limits depth to the viewport's range",
          "With depthClampEnable z is clamped to [min, max] of the viewport's depths, whichever is "
          "the smaller, after the bias; near and far planes clip nothing.",

@@ -85,6 +85,14 @@ inline bool stores_discarded(const Case& c) {
     return std::ranges::any_of(c.draws, [](const Draw& draw) { return stores_discarded(draw); });
 }
 
+// Whether a draw tests what is stored by its depth bounds ("If ... there is no depth attachment,
+// the coverage mask is unmodified by this operation": Vulkan specification, "Depth Bounds Test").
+inline bool tests_bounds(const Case& c) {
+    return c.target.has_depth && std::ranges::any_of(c.draws, [](const Draw& draw) {
+               return draw.depth.bounds.has_value();
+           });
+}
+
 // Whether a fragment is as if it had never been.
 inline bool takes_away_pixel(const Draw& draw, uint32_t x, uint32_t y) {
     return !draw.early_tests && discards_pixel(draw.discard, x, y);

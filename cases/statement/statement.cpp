@@ -303,6 +303,10 @@ constexpr Statement kStatements[] = {
     {120, "discarded fragments", exact, exact,
      "What the fragment shader discards leaves no trace; with early tests its depth and stencil are stored.",
      {"discard.fragment", "discard.early-tests"}, ""},
+    {121, "depth bounds", exact, exact,
+     "The bounds belong to what lies in them; what fails changes neither depth nor stencil. On D16 and D24 a stored "
+     "depth within a step of a bound is open.",
+     {"depth.bounds"}, ""},
     {94, "what names the vertices of a draw: indices of any type, none, the largest one without restart", exact, not_spoken,
      "The picture has the bits of the plain one; where restart is switched on for nothing, from practice on.",
      {"door.index", "door.restart"}, ""},

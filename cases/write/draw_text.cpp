@@ -129,6 +129,9 @@ void add_depth(TableText& table, const DepthState& depth) {
     if (depth.clip) {
         inner.add_flag("clip", *depth.clip, !*depth.clip);
     }
+    if (depth.bounds) {
+        inner.add("bounds", numbers({depth.bounds->min, depth.bounds->max}));
+    }
     if (!inner.is_empty()) {
         table.add("depth", inner.in_line());
     }

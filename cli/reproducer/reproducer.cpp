@@ -78,6 +78,9 @@ std::string_view missing_of(const cases::Draw& d) {
     }
     return first_of({
         {d.viewport_index != 0, "several viewports"},
+        {d.discard != cases::Discard::none || d.early_tests,
+         "fragments that the shader discards, or early tests"},
+        {d.depth.bounds.has_value(), "a depth bounds test"},
         {d.depth.bias && d.depth.bias->is_controlled(), "a bias by VK_EXT_depth_bias_control"},
     });
 }

@@ -115,6 +115,22 @@ std::optional<Cause> Causes::of_depth(bool is_missing) const {
                  }};
 }
 
+std::optional<Cause> Causes::of_bounds(bool is_missing) const {
+    const auto& triangles = reasons_.triangles;
+    const auto it =
+        std::find_if(triangles.rbegin(), triangles.rend(), [&](const TriangleExplanation& t) {
+            return t.fate && case_.target.has_depth && case_.draws[t.triangle.draw].depth.bounds &&
+                   (is_missing ? t.fate->always_passes()
+                               : t.fate->fails_bounds && !t.fate->is_tested());
+        });
+    if (it == triangles.rend()) {
+        return std::nullopt;
+    }
+    return Cause{ref::rule_of(ReasonKind::bounds_test, cases::Profile::vulkan), [this, &t = *it] {
+                     return fmt::format("{} {}", name_of(t), explainer_.bounds_sentence(t));
+                 }};
+}
+
 std::optional<Cause> Causes::of_stencil(bool is_missing) const {
     const auto& triangles = reasons_.triangles;
     const auto is_tested = [&](const TriangleExplanation& t) {

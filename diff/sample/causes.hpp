@@ -40,6 +40,7 @@ class Causes {
     // Of a hit too many of a triangle that must fail the depth test, or one too few of a triangle
     // that must pass it; the number alone does not tell which, so the last one that fits is named.
     // A fragment that is missing, or too many, by the stencil test.
+    std::optional<Cause> of_bounds(bool is_missing) const;
     std::optional<Cause> of_stencil(bool is_missing) const;
     std::optional<Cause> of_depth(bool is_missing) const;
     // Of a sample that was written last by a triangle that must not cover it; nothing if one of

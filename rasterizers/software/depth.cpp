@@ -95,6 +95,21 @@ float fragment_depth(float z, float bias, const cases::Draw& draw, cases::DepthF
     return stored_depth(z, format, device);
 }
 
+bool lies_within(float z, const cases::DepthBounds& bounds, const Device& device) {
+    switch (device.fault) {
+        case Fault::bounds_ignored:
+            return true;
+        case Fault::bounds_exclusive:
+            return z > bounds.min && z < bounds.max;
+        case Fault::bounds_without_max:
+            return z >= bounds.min;
+        case Fault::bounds_halved:
+            return z * 2 >= bounds.min && z * 2 <= bounds.max;
+        default:
+            return z >= bounds.min && z <= bounds.max;
+    }
+}
+
 bool passes_depth_test(const cases::Draw& draw, float z, float stored, const Device& device) {
     using cases::CompareOp;
     if (device.fault == Fault::depth_test_ignored) {

@@ -21,6 +21,9 @@ float fragment_depth(float z, float bias, const cases::Draw& draw, cases::DepthF
 // The nearest depth that the format holds.
 float stored_depth(float z, cases::DepthFormat format, const Device& device);
 
+// Whether the stored depth, or what a fault compares instead, lies in the bounds.
+bool lies_within(float z, const cases::DepthBounds& bounds, const Device& device);
+
 bool passes_depth_test(const cases::Draw& draw, float z, float stored, const Device& device);
 
 }  // namespace software

@@ -95,6 +95,7 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
     : draw_(effective(c, number, device)),
       number_(number),
       first_discard_(c.draws[0].discard),
+      first_bounds_(c.draws[0].depth.bounds),
       device_(device),
       out_(out),
       attachments_(attachments),

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -62,6 +63,7 @@ class DrawCommand {
                bool front, int64_t i, int64_t j, uint32_t s, uint32_t covered);
     // The same in one layer of the target.
     bool is_discarded(int64_t i, int64_t j, uint32_t s, bool front) const;
+    bool is_in_bounds(float z, size_t at) const;
     void shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
                   const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
                   uint32_t covered);
@@ -70,7 +72,8 @@ class DrawCommand {
 
     const cases::Draw draw_;
     uint32_t number_;
-    cases::Discard first_discard_;  // of the first draw
+    cases::Discard first_discard_;                    // of the first draw,
+    std::optional<cases::DepthBounds> first_bounds_;  // as these
     const Device& device_;
     capture::Capture& out_;
     Attachments& attachments_;

@@ -161,6 +161,19 @@ bool DrawCommand::is_discarded(int64_t i, int64_t j, uint32_t s, bool front) con
     return false;
 }
 
+// Whether a fragment of depth z passes the depth bounds test against what sample `at` holds.
+bool DrawCommand::is_in_bounds(float z, size_t at) const {
+    const Fault fault = device_.fault;
+    const std::optional<cases::DepthBounds>& bounds =
+        fault == Fault::bounds_of_first_draw ? first_bounds_ : draw_.depth.bounds;
+    if (!bounds) {
+        return true;
+    }
+    const size_t tested = fault == Fault::bounds_of_sample_zero ? at - at % samples_.size() : at;
+    return lies_within(fault == Fault::bounds_of_fragment ? z : out_.depth[tested], *bounds,
+                       device_);
+}
+
 void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
                            const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
                            uint32_t covered) {
@@ -198,6 +211,14 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         depth_bias(draw_, format, planes.depth_dx(), planes.depth_dy(), largest, device_);
     z = fragment_depth(z, bias, draw_, format, device_);
     const size_t tested = fault == Fault::layer_depth_of_first ? index_in(0, i, j, s) : at;
+    if (out_.target.has_depth && !is_in_bounds(z, tested)) {
+        if (fault == Fault::bounds_after_stencil) {
+            attachments_.stencil.test(at, number_, front, false);
+        } else if (fault == Fault::bounds_fail_writes_depth && draw_.depth.write) {
+            out_.depth[at] = z;
+        }
+        return;
+    }
     const bool passes =
         !out_.target.has_depth || passes_depth_test(draw_, z, out_.depth[tested], device_);
     const bool is_left = attachments_.stencil.test(at, number_, front, passes);

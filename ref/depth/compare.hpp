@@ -131,6 +131,25 @@ Outcome compare(CompareOp op, const DepthRange<T>& fragment, const DepthRange<T>
     }
 }
 
+// Whether low <= stored <= high.
+template <class T>
+Outcome within(const DepthRange<T>& stored, const DepthRange<T>& low, const DepthRange<T>& high) {
+    if (stored.is_free) {
+        return DepthOutcome::open;
+    }
+    const Outcome is_below = is_less(stored, low);
+    const Outcome is_above = is_less(high, stored);
+    if (is_below == DepthOutcome::passes || is_above == DepthOutcome::passes) {
+        return DepthOutcome::fails;
+    }
+    if (!is_below || !is_above) {
+        return std::nullopt;
+    }
+    return *is_below == DepthOutcome::fails && *is_above == DepthOutcome::fails
+               ? DepthOutcome::passes
+               : DepthOutcome::open;
+}
+
 // The outcome if the sign of fragment - stored is known.
 inline DepthOutcome compare_sign(CompareOp op, int sign) {
     const bool passes =

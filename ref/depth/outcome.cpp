@@ -250,6 +250,22 @@ struct DepthTest::Impl {
         return span && !span->is_free;
     }
 
+    template <class T>
+    Outcome is_within(const cases::DepthBounds& bounds, int stored, const FixedPoint& p) {
+        const auto range_of = [&](float bound) {
+            const mpq_class value(static_cast<double>(bound));
+            const auto exact = *with_neighbours<mpq_class>({value, value}, steps);
+            return DepthRange<T>{false, value::from_exact<T>(exact.low),
+                                 value::from_exact<T>(exact.high)};
+        };
+        const auto span = span_of<T>(stored, p);
+        if (!span) {
+            return std::nullopt;
+        }
+        return value::within(*span, range_of(bounds.min), range_of(bounds.max));
+    }
+    DepthOutcome bounds(int stored, uint32_t fragment, const FixedPoint& p);
+
     DepthOutcome outcome(int stored, uint32_t fragment, const FixedPoint& p, ReasonKind& reason) {
         const CompareOp op = draw_of(fragment).depth.compare;
         if (op == CompareOp::always || op == CompareOp::never) {
@@ -286,6 +302,22 @@ struct DepthTest::Impl {
     }
 };
 
+// Of what is stored.
+DepthOutcome DepthTest::Impl::bounds(int stored, uint32_t fragment, const FixedPoint& p) {
+    const std::optional<cases::DepthBounds>& asked = draw_of(fragment).depth.bounds;
+    if (!asked) {
+        return DepthOutcome::passes;
+    }
+    Outcome known;
+    if (!exact_only) {
+        known = is_within<Ball>(*asked, stored, p);
+    }
+    if (!known) {
+        known = is_within<mpq_class>(*asked, stored, p);
+    }
+    return known.value_or(DepthOutcome::open);
+}
+
 DepthTest::DepthTest(const cases::Case& c, const std::vector<cases::Triangle>& triangles,
                      const Limits& limits, cases::Profile profile, bool exact_only)
     : impl_(std::make_unique<Impl>(c, triangles, limits, profile, exact_only)) {}
@@ -298,6 +330,7 @@ bool DepthTest::is_needed(const cases::Case& c) {
     return c.target.has_depth &&
            std::any_of(c.draws.begin(), c.draws.end(), [](const cases::Draw& draw) {
                return draw.depth.compare != CompareOp::always || !draw.depth.write ||
+                      draw.depth.bounds ||
                       stores_discarded(draw);  // the last fragment is not the last that shows
            });
 }
@@ -388,6 +421,11 @@ DepthResolution DepthTest::resolve(const FixedPoint& p,
 DepthOutcome DepthTest::outcome(std::optional<uint32_t> stored, uint32_t fragment,
                                 const FixedPoint& p, ReasonKind& reason) {
     return impl_->outcome(stored ? static_cast<int>(*stored) : kClear, fragment, p, reason);
+}
+
+DepthOutcome DepthTest::bounds(std::optional<uint32_t> stored, uint32_t fragment,
+                               const FixedPoint& p) {
+    return impl_->bounds(stored ? static_cast<int>(*stored) : kClear, fragment, p);
 }
 
 bool DepthTest::is_same(uint32_t first, uint32_t next) {

@@ -21,6 +21,11 @@
 // precision during a render pass: with fixed point each side of a comparison may be the value
 // itself or either neighbour. Direct3D converts a depth to the format before it compares it
 // (Direct3D 11.3 functional specification, 17.10 and 17.11), so a depth is equal to itself there.
+// The depth bounds test compares the stored depth with two numbers ("Depth Bounds Test": inside is
+// minDepthBounds <= z_a <= maxDepthBounds). The text says neither whether z_a is quantised during a
+// render pass nor whether the bounds are converted to a fixed-point format as other numbers are
+// ("Conversion From Floating-Point to Normalized Fixed-Point"), so each of the three may be itself
+// or either neighbour; with binary32 depth, and at the bounds 0 and 1, all is exact.
 #pragma once
 
 #include <cstdint>
@@ -68,8 +73,8 @@ class DepthTest {
     ~DepthTest();
     DepthTest(DepthTest&&) noexcept;
 
-    // Whether some draw tests depth or leaves it unwritten; otherwise everything passes, and the
-    // last fragment's depth is stored.
+    // Whether some draw tests depth or what is stored, or leaves it unwritten; otherwise everything
+    // passes, and the last fragment's depth is stored.
     static bool is_needed(const cases::Case& c);
 
     // Resolves the depth test of candidates, which stand in drawing order.
@@ -79,6 +84,8 @@ class DepthTest {
     // clear value. `reason` becomes how two triangles are related, if that decides.
     DepthOutcome outcome(std::optional<uint32_t> stored, uint32_t fragment, const FixedPoint& p,
                          ReasonKind& reason);
+    // Whether that depth lies in the depth bounds of a triangle's draw; without any it does.
+    DepthOutcome bounds(std::optional<uint32_t> stored, uint32_t fragment, const FixedPoint& p);
     // Whether a triangle is the same as an earlier one: covered together or not at all.
     bool is_same(uint32_t first, uint32_t next);
 

@@ -191,6 +191,22 @@ bool compare_always(Case& c) {
         c, [](Draw& draw) { return set(draw.depth.compare, cases::CompareOp::always); });
 }
 
+bool drop_bounds(Case& c) {
+    return change_draws(
+        c, [](Draw& draw) { return set(draw.depth.bounds, std::optional<cases::DepthBounds>()); });
+}
+
+bool narrow_bounds(Case& c) {
+    return change_draws(c, [](Draw& draw) {
+        if (!draw.depth.bounds) {
+            return false;
+        }
+        draw.depth.bounds->min = std::nextafter(draw.depth.bounds->min, 2.0F);
+        draw.depth.bounds->max = std::nextafter(draw.depth.bounds->max, -1.0F);
+        return true;
+    });
+}
+
 bool drop_bias(Case& c) {
     return change_draws(
         c, [](Draw& draw) { return set(draw.depth.bias, std::optional<cases::DepthBias>()); });

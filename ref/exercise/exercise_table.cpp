@@ -209,6 +209,10 @@ constexpr ExerciseRow kRows[] = {
     {rule::depth_distinct,
      "where the depth test is decided by planes that are r apart",
      {at_all(is_compared)}},
+    {rule::depth_bounds,
+     "that would come out otherwise without the depth bounds test, or if the bounds did not belong "
+     "to what lies in them",
+     {by(drop_bounds), by(narrow_bounds)}},
     {rule::depth_clamp, "whose depth is clamped", {at_all(is_clamped)}},
     {rule::depth_compare,
      "where the depth test is decided by the numbers compared",

@@ -201,6 +201,10 @@ std::string Explainer::depth_sentence(const TriangleExplanation& t, cases::Sampl
                        scene_.depth->range_text(t.index, p));
 }
 
+std::string Explainer::bounds_sentence(const TriangleExplanation& t) {
+    return sentence_of(t.fate.value(), scene_.c.draws[t.triangle.draw].depth.bounds.value());
+}
+
 std::string Explainer::stencil_sentence(const TriangleExplanation& t) {
     const TriangleSetup& setup = scene_.setups[t.index];
     return sentence_of(t.fate.value(), scene_.c.draws[t.triangle.draw].stencil, setup.can_be_front,
@@ -301,7 +305,11 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
                 refuse(t.decision, ReasonKind::discarded_late);
                 t.sentence = detail == Detail::all ? sentence(t, sample) : std::string();
             }
-            if (stencil::is_needed(scene_.c)) {
+            if (detail == Detail::all && scene_.c.target.has_depth &&
+                scene_.c.draws[t.triangle.draw].depth.bounds) {
+                t.bounds_text = bounds_sentence(t);
+            }
+            if (stencil::is_needed(scene_.c) && t.fate->is_tested()) {
                 t.stencil_text = detail == Detail::all ? stencil_sentence(t) : std::string();
             }
         }
@@ -312,6 +320,9 @@ SampleExplanation Explainer::explain(cases::SampleId sample, Detail detail) {
             continue;
         }
         TriangleExplanation& t = out.triangles[explained[m]];
+        if (t.fate && !t.fate->is_tested()) {
+            continue;  // it does not get to the depth test
+        }
         t.depth = reasons.depth.outcomes[m];
         t.depth_reason = reasons.depth.reasons[m];
         if (detail == Detail::all) {

@@ -56,7 +56,7 @@ struct TriangleExplanation {
     std::string depth_text;  // one sentence
     // The same, if the case needs a stencil test.
     std::optional<stencil::Fate> fate;
-    std::string stencil_text;
+    std::string bounds_text, stencil_text;  // of the tests that it gets to
 
     ReasonKind why() const { return decision.reasons.front().kind; }
     bool has(ReasonKind kind) const;
@@ -100,6 +100,7 @@ class Explainer {
     // the same triangle's depth and stencil test, and of one of its sets.
     std::string sentence(const TriangleExplanation& t, cases::SampleId sample);
     std::string depth_sentence(const TriangleExplanation& t, cases::SampleId sample);
+    std::string bounds_sentence(const TriangleExplanation& t);
     std::string stencil_sentence(const TriangleExplanation& t);
     std::string sentence(const FixedSet& set);
 

@@ -83,9 +83,10 @@ struct Predicates {
 };
 
 // Whether what a sample shows hangs on the whole course of its fragments (ref/stencil/outcome.hpp):
-// the stencil of each fragment chooses, or some store depth or stencil and do not show.
+// the stencil of each fragment or the depth that is stored chooses, or some store depth or stencil
+// and do not show.
 inline bool follows_courses(const cases::Case& c) {
-    return stencil::is_needed(c) || stores_discarded(c);
+    return stencil::is_needed(c) || stores_discarded(c) || tests_bounds(c);
 }
 
 // Keeps the hits of a sample for the colour target, if the case has one. `fates`: of each hit, if

@@ -52,6 +52,13 @@ HitBounds any_of(const std::vector<stencil::Fragment>& fragments) {
     return out;
 }
 
+// The triangle whose depth is stored, or none: the clear value.
+std::optional<uint32_t> triangle_of(std::span<const Hit> hits, int stored) {
+    return stored == stencil::kClearDepth
+               ? std::nullopt
+               : std::optional(hits[static_cast<size_t>(stored)].triangle);
+}
+
 // What depth tests came to, where they were reached.
 DepthOutcome depth_of(const stencil::Fate& fate) {
     const bool passes = fate.passes || fate.is_discarded;
@@ -95,17 +102,24 @@ stencil::Question Narrowing::stencil_question(const FixedPoint& p, std::span<con
         }
     }
     depth_reasons.assign(hits.size(), ReasonKind::depth_ranges);
+    if (depth_ != nullptr && tests_bounds(case_)) {
+        out.bounds = [this, p, hits, known = std::map<std::pair<int, uint32_t>, DepthOutcome>()](
+                         int stored, uint32_t m) mutable {
+            const auto [at, is_new] = known.try_emplace({stored, m}, DepthOutcome::open);
+            if (is_new) {
+                at->second = depth_->bounds(triangle_of(hits, stored), hits[m].triangle, p);
+            }
+            return at->second;
+        };
+    }
     if (depth_ != nullptr) {
         out.depth = [this, p, hits, &depth_reasons,
                      known = std::map<std::pair<int, uint32_t>, DepthOutcome>()](
                         int stored, uint32_t m) mutable {
             const auto [at, is_new] = known.try_emplace({stored, m}, DepthOutcome::open);
             if (is_new) {
-                at->second =
-                    depth_->outcome(stored == stencil::kClearDepth
-                                        ? std::nullopt
-                                        : std::optional(hits[static_cast<size_t>(stored)].triangle),
-                                    hits[m].triangle, p, depth_reasons[m]);
+                at->second = depth_->outcome(triangle_of(hits, stored), hits[m].triangle, p,
+                                             depth_reasons[m]);
             }
             return at->second;
         };
@@ -126,7 +140,7 @@ SampleExpectation Narrowing::judge_by_stencil(const FixedPoint& p, std::span<con
         resolution.is_last.assign(hits.size(), true);
         resolution.is_stored.assign(hits.size(), true);
         resolution.may_be_clear = true;
-        resolution.fates.assign(hits.size(), {true, true, true, true, true});
+        resolution.fates.assign(hits.size(), {true, true, true, true, true, tests_bounds(case_)});
         resolution.outcomes.clear();
     } else {
         out.hits = bounds_of(resolution);

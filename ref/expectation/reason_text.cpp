@@ -183,6 +183,17 @@ std::string sentence_of(ReasonKind depth_reason, DepthOutcome outcome, cases::Co
                        fmt::arg("depths", depths));
 }
 
+std::string sentence_of(const stencil::Fate& fate, const cases::DepthBounds& bounds) {
+    const bool may_pass = fate.is_tested();
+    const auto pick = [&](std::string_view passes, std::string_view fails, std::string_view open) {
+        return !fate.fails_bounds ? passes : may_pass ? open : fails;
+    };
+    return fmt::format(fmt::runtime(text_of(ReasonKind::bounds_test)),
+                       fmt::arg("outcome", pick("passes", "fails", "may pass or fail")),
+                       fmt::arg("lies", pick("lies", "does not lie", "may or may not lie")),
+                       fmt::arg("bounds", fmt::format("{} to {}", bounds.min, bounds.max)));
+}
+
 std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& state,
                         bool can_be_front, bool can_be_back) {
     const bool passes = fate.passes || fate.fails_depth || fate.is_discarded;

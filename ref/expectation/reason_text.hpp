@@ -28,6 +28,9 @@ std::string sentence_of(const FixedSet& set, const std::vector<cases::Triangle>&
 std::string sentence_of(ReasonKind depth_reason, DepthOutcome outcome, cases::CompareOp compare,
                         const std::string& depths);
 
+// How a fragment fares in the depth bounds test.
+std::string sentence_of(const stencil::Fate& fate, const cases::DepthBounds& bounds);
+
 // How a fragment fares in the stencil test of the faces that it may show.
 std::string sentence_of(const stencil::Fate& fate, const cases::StencilState& state,
                         bool can_be_front, bool can_be_back);

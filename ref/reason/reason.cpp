@@ -120,6 +120,9 @@ constexpr std::array kRows = {
         "the last fragment's draw does not write depth; no older one left this"},
     Row{depth_of_discarded, rule::discard_early_tests,
         "the depth is none of those that fragments stored, the discarded ones among them"},
+    Row{depth_of_bounded, rule::depth_bounds,
+        "the depth is none of those that fragments left where the stored depth was in their "
+        "bounds"},
     Row{depth_of_taken, rule::discard_fragment,
         "a depth without a hit, where the fragment shader discards fragments"},
     Row{depth_of_none, rule::depth_linear,
@@ -136,6 +139,8 @@ constexpr std::array kRows = {
     Row{depth_apart, rule::depth_distinct,
         "{outcome} the depth test {compare}, {depths}: the same triangle was drawn before, biased "
         "apart by whole units of r"},
+    Row{bounds_test, rule::depth_bounds,
+        "{outcome} the depth bounds test: the depth that is stored here {lies} in {bounds}"},
     Row{stencil_test, rule::stencil_compare,
         "{outcome} the stencil test of {face} faces, {reference} {compare} {stencil}"},
     Row{stencil_compared, rule::stencil_compare,
@@ -147,6 +152,8 @@ constexpr std::array kRows = {
         "it is the stencil that is left if front and back faces exchange their state"},
     Row{stencil_by_depth, rule::stencil_depth_outcome,
         "it is the stencil that is left if the depth test chooses another operation"},
+    Row{stencil_bounded, rule::depth_bounds,
+        "it is the stencil that is left without the depth bounds test"},
     Row{value_set_up, {}, "no set-up from snapped or unsnapped vertices explains the fragment"},
     Row{value_hull, rule::interp_hull, "the value lies outside all that the vertices' values span"},
     Row{value_flat, rule::interp_flat, "a flat input has the bits of the provoking vertex"},

@@ -69,6 +69,7 @@ enum class ReasonKind : uint8_t {
     writer_none_last,    // by a draw whose provoking vertex is the first, or the last
     depth_unwritten,     // its depth is none of those that were written before
     depth_of_discarded,  // the same, where fragments are discarded once theirs is stored
+    depth_of_bounded,    // the same, where fragments are tested by depth bounds
     depth_of_taken,      // its depth is that of a fragment that leaves no trace
     depth_of_none,       // its depth is none of the fragments' that its colour allows
     color_order,         // its colour is that of another order of blending
@@ -78,6 +79,7 @@ enum class ReasonKind : uint8_t {
     depth_ranges,  // by the numbers that its depth and the stored one may be
     depth_same,    // the same triangle was drawn before by the same state
     depth_apart,   // the same triangle was drawn before, biased apart
+    bounds_test,   // a fragment lies in its depth bounds or not, by what is stored
     // A fragment fails the stencil test, or passes it, or may do either; and what the stencil of a
     // sample would be otherwise.
     stencil_test,      // by its reference, its mask and the stencil
@@ -86,6 +88,7 @@ enum class ReasonKind : uint8_t {
     stencil_masked,    // without the masks
     stencil_faced,     // with the state of the other face
     stencil_by_depth,  // if the depth test chose another operation
+    stencil_bounded,   // without the depth bounds test
     // A fragment must not have a value.
     value_set_up,         // no basis explains the fragment
     value_hull,           // the value is outside all that interpolation can make

@@ -90,7 +90,7 @@ class Courses {
         }
         if (forced.value_or(true)) {
             Course present = course;
-            if (count(present, fragment, m, true)) {
+            if (count(present, fragment, m, true) && tests_within_bounds(present, m)) {
                 if (fragment.can_be_front) {
                     test(present, m, true);
                 }
@@ -116,6 +116,18 @@ class Courses {
         const bool fits = number <= set.most && number + left_[k] >= set.least;
         number = left_[k] > 0 ? number : 0;
         return fits;
+    }
+
+    // The depth bounds test, which leaves everything as it is where it fails: whether it may pass.
+    bool tests_within_bounds(const Course& course, size_t m) {
+        const DepthOutcome bounds = question_.bounds
+                                        ? question_.bounds(course.stored, static_cast<uint32_t>(m))
+                                        : DepthOutcome::passes;
+        if (bounds != DepthOutcome::passes) {
+            out_.fates[m].fails_bounds = true;
+            now_.insert(course);
+        }
+        return bounds != DepthOutcome::fails;
     }
 
     void test(const Course& course, size_t m, bool front) {

@@ -105,7 +105,15 @@ uint32_t written(StencilOp op, const StencilFace& face, uint32_t stored) {
 }
 
 // What one course did with each fragment.
-enum class Deed : uint8_t { absent, failed, failed_depth, discarded, passed_front, passed_back };
+enum class Deed : uint8_t {
+    absent,
+    failed_bounds,
+    failed,
+    failed_depth,
+    discarded,
+    passed_front,
+    passed_back
+};
 
 class Walk {
   public:
@@ -151,6 +159,15 @@ class Walk {
         };
         if (!fragment.is_sure) {
             go_on(Deed::absent, value, stored);
+        }
+        if (question_.bounds) {
+            const DepthOutcome bounds = question_.bounds(stored, static_cast<uint32_t>(m));
+            if (bounds != DepthOutcome::passes) {
+                go_on(Deed::failed_bounds, value, stored);
+            }
+            if (bounds == DepthOutcome::fails) {
+                return;
+            }
         }
         for (const bool front : {true, false}) {
             if (front ? !fragment.can_be_front : !fragment.can_be_back) {
@@ -216,7 +233,8 @@ class Walk {
             fate.fails_depth = fate.fails_depth || deed == Deed::failed_depth;
             fate.passes = fate.passes || is_passed;
             fate.is_discarded = fate.is_discarded || deed == Deed::discarded;
-            if (deed != Deed::absent) {
+            fate.fails_bounds = fate.fails_bounds || deed == Deed::failed_bounds;
+            if (deed != Deed::absent && deed != Deed::failed_bounds) {
                 fate.met.set(met_[m]);
             }
             outcome.front += deed == Deed::passed_front ? 1 : 0;

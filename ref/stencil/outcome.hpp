@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the stencil of a sample may hold in the end, and which of its fragments are left of the
-// stencil and depth tests. Sources: Vulkan specification, "Stencil Test", VkStencilOp, VkCompareOp;
+// depth bounds, stencil and depth tests, which come in this order. Sources: Vulkan specification,
+// "Fragment Operations", "Depth Bounds Test", "Stencil Test", VkStencilOp, VkCompareOp;
 // docs/rules.md. The stencil is an unsigned integer of eight bits, and all arithmetic on it exact.
 //
 // Where it is open whether a triangle covers the sample, which face it shows or whether it passes
@@ -49,6 +50,9 @@ struct Question {
     uint32_t clear = 0;  // of the stencil
     std::vector<Fragment> fragments;
     std::vector<FragmentSet> sets;
+    // Whether the depth that another one stored, or the clear value, lies in the depth bounds of a
+    // fragment's draw, which is tested first; empty: it does.
+    std::function<DepthOutcome(int stored, uint32_t fragment)> bounds = {};
     // The depth test of a fragment against the depth that another one stored, or against the clear
     // value; empty: every fragment passes.
     std::function<DepthOutcome(int stored, uint32_t fragment)> depth;
@@ -62,11 +66,13 @@ struct Fate {
     bool is_absent = false;    // it does not cover the sample
     // Having passed both, it is discarded by its shader.
     bool is_discarded = false;
-    Values met = {};  // the stencils that its test compares with in some course
-    // Whether it gets to the depth test.
+    bool fails_bounds = false;  // the depth bounds test, before all others
+    Values met = {};            // the stencils that its test compares with in some course
+    // Whether it gets to the stencil test, and to the depth test.
+    bool is_tested() const { return fails || gets_to_depth(); }
     bool gets_to_depth() const { return passes || fails_depth || is_discarded; }
     bool always_passes() const {
-        return passes && !fails && !fails_depth && !is_absent && !is_discarded;
+        return passes && !fails && !fails_depth && !is_absent && !is_discarded && !fails_bounds;
     }
     friend bool operator==(const Fate&, const Fate&) = default;
 };

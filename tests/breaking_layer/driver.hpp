@@ -33,6 +33,8 @@ namespace breaking {
     X(CmdSetRasterizerDiscardEnable) \
     X(CmdSetDepthCompareOp) \
     X(CmdSetDepthWriteEnable) \
+    X(CmdSetDepthBoundsTestEnable) \
+    X(CmdSetDepthBounds) \
     X(CmdSetDepthBiasEnable) \
     X(CmdSetDepthBias) \
     X(CmdSetBlendConstants) \

@@ -106,6 +106,10 @@ struct DepthBias {
     float constant, clamp, slope;
 };
 
+struct DepthBounds {
+    float min, max;
+};
+
 // One call of vkCmdSetStencilOp, or of one of the commands that set a mask or the reference.
 struct StencilOps {
     VkStencilFaceFlags faces;
@@ -164,6 +168,8 @@ struct Hooks {
     bool (*multi_draw)(MultiDraw&) = nullptr;
     bool (*depth_compare)(VkCompareOp&) = nullptr;
     bool (*depth_write)(VkBool32&) = nullptr;
+    bool (*depth_bounds_enable)(VkBool32&) = nullptr;
+    bool (*depth_bounds)(DepthBounds&) = nullptr;
     bool (*depth_bias_enable)(VkBool32&) = nullptr;
     bool (*depth_bias)(DepthBias&) = nullptr;
     bool (*blend_constants)(std::span<float, 4>) = nullptr;

@@ -27,6 +27,7 @@ FOCUS = [  # families that are about the faults whose names match
     ("clip-distance", ["clip-distance/**", "complement/**"]),
     ("cull-distance", ["cull-distance/**", "clip-distance/**"]),
     ("depth-bias", ["depth-bias/**", "depth/**"]),
+    ("depth-bounds", ["depth-bounds/**", "combination/**"]),
     ("depth-cl", ["depth-clip/**", "depth-clamp/**", "depth/**", "clip/**"]),
     ("depth-c|depth-w|clear-depth", ["depth-test/**", "depth-bias/**", "depth/**", "order/**"]),
     ("depth-range", ["depth/**", "viewport/**", "depth-bias/**", "depth-clamp/**"]),

@@ -89,6 +89,19 @@ VKAPI_ATTR void VKAPI_CALL set_depth_write(VkCommandBuffer commands, VkBool32 en
               driver_of_handle(commands).CmdSetDepthWriteEnable);
 }
 
+VKAPI_ATTR void VKAPI_CALL set_depth_bounds_enable(VkCommandBuffer commands, VkBool32 enable) {
+    set_value(commands, "depth bounds enable", enable, hooks().depth_bounds_enable,
+              driver_of_handle(commands).CmdSetDepthBoundsTestEnable);
+}
+
+VKAPI_ATTR void VKAPI_CALL set_depth_bounds(VkCommandBuffer commands, float min, float max) {
+    DepthBounds bounds{min, max};
+    alter(hooks().depth_bounds, bounds);
+    set_dynamic(commands, {"depth bounds", 0}, [=] {
+        driver_of_handle(commands).CmdSetDepthBounds(commands, bounds.min, bounds.max);
+    });
+}
+
 VKAPI_ATTR void VKAPI_CALL set_depth_bias_enable(VkCommandBuffer commands, VkBool32 enable) {
     set_value(commands, "depth bias enable", enable, hooks().depth_bias_enable,
               driver_of_handle(commands).CmdSetDepthBiasEnable);
@@ -273,6 +286,8 @@ const OwnCommand kCommands[] = {
     BREAKING_OWN(CmdSetRasterizerDiscardEnable, set_discard),
     BREAKING_OWN(CmdSetDepthCompareOp, set_depth_compare),
     BREAKING_OWN(CmdSetDepthWriteEnable, set_depth_write),
+    BREAKING_OWN(CmdSetDepthBoundsTestEnable, set_depth_bounds_enable),
+    BREAKING_OWN(CmdSetDepthBounds, set_depth_bounds),
     BREAKING_OWN(CmdSetDepthBiasEnable, set_depth_bias_enable),
     BREAKING_OWN(CmdSetDepthBias, set_depth_bias),
     BREAKING_OWN(CmdSetBlendConstants, set_blend_constants),

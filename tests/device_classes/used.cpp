@@ -101,6 +101,9 @@ void check_pipeline(const VkGraphicsPipelineCreateInfo& info) {
         need(info.pRasterizationState->depthClampEnable == VK_TRUE, "depthClamp");
         need(info.pRasterizationState->polygonMode != VK_POLYGON_MODE_FILL, "fillModeNonSolid");
     }
+    need(info.pDepthStencilState != nullptr &&
+             info.pDepthStencilState->depthBoundsTestEnable == VK_TRUE,
+         "depthBounds");
     need(info.pViewportState != nullptr && info.pViewportState->viewportCount > 1, "multiViewport");
     const auto most = shown.limits.find("maxColorAttachments");
     for (auto* s = static_cast<const VkBaseInStructure*>(info.pNext); s != nullptr; s = s->pNext) {
@@ -180,6 +183,7 @@ constexpr CoreCommand kCore[] = {
     {"vkCmdSetRasterizerDiscardEnable", VK_API_VERSION_1_3},
     {"vkCmdSetDepthTestEnable", VK_API_VERSION_1_3},
     {"vkCmdSetDepthCompareOp", VK_API_VERSION_1_3},
+    {"vkCmdSetDepthBoundsTestEnable", VK_API_VERSION_1_3},
     {"vkCmdSetDepthWriteEnable", VK_API_VERSION_1_3},
     {"vkCmdSetDepthBiasEnable", VK_API_VERSION_1_3},
     {"vkCmdSetStencilTestEnable", VK_API_VERSION_1_3},

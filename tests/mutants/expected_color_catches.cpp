@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults of the colour target, of the stencil and of resolves.
+// Faults of the colour target, of depth bounds, of the stencil and of resolves.
 #include "mutants/expected_catches.hpp"
 
 namespace mutants {
@@ -229,6 +229,33 @@ std::vector<ExpectedCatch> expected_color_catches() {
         {Fault::discard_tests_late,
          Profile::vulkan,
          {"discard/early-depth", "combination/discard-states"}},
+        {Fault::bounds_ignored,
+         Profile::vulkan,
+         {"depth-bounds/bounds", "combination/depth-bounds"}},
+        {Fault::bounds_exclusive,
+         Profile::vulkan,
+         {"depth-bounds/ends", "combination/depth-bounds"}},
+        {Fault::bounds_without_max,
+         Profile::vulkan,
+         {"depth-bounds/bounds", "combination/depth-bounds"}},
+        {Fault::bounds_halved,
+         Profile::vulkan,
+         {"depth-bounds/bounds", "combination/depth-bounds"}},
+        {Fault::bounds_of_fragment,
+         Profile::vulkan,
+         {"depth-bounds/bounds", "combination/depth-bounds"}},
+        {Fault::bounds_of_first_draw,
+         Profile::vulkan,
+         {"depth-bounds/draws", "combination/depth-bounds"}},
+        {Fault::bounds_of_sample_zero,
+         Profile::vulkan,
+         {"depth-bounds/samples", "combination/depth-bounds"}},
+        {Fault::bounds_after_stencil,
+         Profile::vulkan,
+         {"depth-bounds/stencil", "combination/depth-bounds"}},
+        {Fault::bounds_fail_writes_depth,
+         Profile::vulkan,
+         {"depth-bounds/bounds", "combination/depth-bounds"}},
         {Fault::stencil_fail_draws,
          Profile::vulkan,
          {"stencil/compare", "combination/stencil-states"}},

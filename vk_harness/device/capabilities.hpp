@@ -53,6 +53,7 @@ struct Capabilities {
     // D24_UNORM_S8_UINT ("Required Format Support").
     cases::DepthFormat beside_lone_stencil = cases::DepthFormat::d32_float;
     bool depth_clamp = false, depth_bias_clamp = false, depth_clip_enable = false;
+    bool depth_bounds = false;
     DepthBiasSupport depth_bias;
     PortabilitySupport portability;
     CoreSupport core;

@@ -136,6 +136,7 @@ void use_extension_names(VolkDeviceTable& table) {
     use(table.vkCmdSetPrimitiveRestartEnable, table.vkCmdSetPrimitiveRestartEnableEXT);
     use(table.vkCmdSetRasterizerDiscardEnable, table.vkCmdSetRasterizerDiscardEnableEXT);
     use(table.vkCmdSetDepthCompareOp, table.vkCmdSetDepthCompareOpEXT);
+    use(table.vkCmdSetDepthBoundsTestEnable, table.vkCmdSetDepthBoundsTestEnableEXT);
     use(table.vkCmdSetDepthWriteEnable, table.vkCmdSetDepthWriteEnableEXT);
     use(table.vkCmdSetDepthBiasEnable, table.vkCmdSetDepthBiasEnableEXT);
 }

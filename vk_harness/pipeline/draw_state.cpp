@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "cases/model/sample.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
 namespace vk_harness {
@@ -109,6 +110,10 @@ DrawState draw_state(const cases::Case& c, const cases::Draw& own, bool has_rest
     const cases::DepthBias bias = own.depth.bias.value_or(cases::DepthBias{});
     out.bias =
         std::bit_cast<std::array<uint32_t, 3>>(std::array{bias.constant, bias.clamp, bias.slope});
+    out.tests_bounds = cases::tests_bounds(c);
+    out.has_bounds = vulkan_of(own.depth.bounds.has_value());
+    const cases::DepthBounds bounds = own.depth.bounds.value_or(cases::DepthBounds{});
+    out.bounds = std::bit_cast<std::array<uint32_t, 2>>(std::array{bounds.min, bounds.max});
     const glm::vec4 blend = own.color.blend ? own.color.blend->constants : glm::vec4(0);
     out.blend_constants = std::bit_cast<std::array<uint32_t, 4>>(blend);
     out.has_stencil = c.target.has_stencil;
@@ -150,6 +155,10 @@ DrawState other_state(const DrawState& state, Leaves leaves) {
     // A clamp needs a feature.
     const std::array<float, 3> bias = floats(state.bias);
     out.bias = std::bit_cast<std::array<uint32_t, 3>>(std::array{bias[0] + 64, 0.0F, bias[2] + 1});
+    out.has_bounds = vulkan_of(state.has_bounds == VK_FALSE);
+    out.bounds = std::bit_cast<std::array<uint32_t, 2>>(floats(state.bounds)[0] > 0.5F
+                                                            ? std::array{0.03125F, 0.0625F}
+                                                            : std::array{0.9375F, 0.96875F});
     for (uint32_t& constant : out.blend_constants) {
         constant = std::bit_cast<uint32_t>(std::bit_cast<float>(constant) > 0.5F ? 0.25F : 0.75F);
     }
@@ -182,6 +191,11 @@ void set_state(const Device& device, VkCommandBuffer commands, const DrawState& 
     } else {
         const auto [constant, clamp, slope] = floats(state.bias);
         vk.vkCmdSetDepthBias(commands, constant, clamp, slope);
+    }
+    if (state.tests_bounds) {
+        vk.vkCmdSetDepthBoundsTestEnable(commands, state.has_bounds);
+        const auto [min, max] = floats(state.bounds);
+        vk.vkCmdSetDepthBounds(commands, min, max);
     }
     const std::array<float, 4> blend = floats(state.blend_constants);
     vk.vkCmdSetBlendConstants(commands, blend.data());

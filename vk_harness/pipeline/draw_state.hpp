@@ -28,6 +28,9 @@ struct DrawState {
     VkBool32 depth_write = VK_TRUE;
     VkBool32 has_bias = VK_FALSE;
     std::array<uint32_t, 3> bias{};  // constant, clamp, slope
+    bool tests_bounds = false;       // some draw of the case has depth bounds
+    VkBool32 has_bounds = VK_FALSE;
+    std::array<uint32_t, 2> bounds{};  // min, max
     std::array<uint32_t, 4> blend_constants{};
     bool has_stencil = false;
     std::array<StencilFace, 2> stencil{};  // front, back

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "cases/format/color_format.hpp"
+#include "cases/model/sample.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -75,6 +76,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.depth_format = c.target.depth_format;
     key.depth_clamp = draw.depth.clamp;
     key.depth_clip = draw.depth.clip;
+    key.tests_bounds = cases::tests_bounds(c);
     key.has_depth = c.target.has_depth;
     key.has_stencil = c.target.has_stencil;
     key.instruments = c.target.has_instruments;

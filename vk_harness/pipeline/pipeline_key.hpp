@@ -58,6 +58,7 @@ struct PipelineKey {
     cases::DepthFormat depth_format = cases::DepthFormat::d32_float;
     bool depth_clamp = false;
     std::optional<bool> depth_clip = {};
+    bool tests_bounds = false;  // some draw of the case
     bool has_depth = true;
     bool has_stencil = false;
     // Colour output.

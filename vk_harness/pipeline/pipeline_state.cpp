@@ -132,6 +132,12 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const PipelineKey& key) {
         depth.depthCompareOp = key.fixed->compare;
         depth.depthWriteEnable = key.fixed->depth_write;
     }
+    if (key.fixed && key.tests_bounds) {
+        const auto [min, max] = std::bit_cast<std::array<float, 2>>(key.fixed->bounds);
+        depth.depthBoundsTestEnable = key.fixed->has_bounds;
+        depth.minDepthBounds = min;
+        depth.maxDepthBounds = max;
+    }
     return depth;
 }
 
@@ -239,6 +245,10 @@ std::vector<VkDynamicState> dynamic_states(const PipelineKey& key) {
         out.insert(out.end(),
                    {VK_DYNAMIC_STATE_STENCIL_OP, VK_DYNAMIC_STATE_STENCIL_COMPARE_MASK,
                     VK_DYNAMIC_STATE_STENCIL_WRITE_MASK, VK_DYNAMIC_STATE_STENCIL_REFERENCE});
+    }
+    if (!key.fixed && key.tests_bounds) {
+        out.insert(out.end(),
+                   {VK_DYNAMIC_STATE_DEPTH_BOUNDS_TEST_ENABLE, VK_DYNAMIC_STATE_DEPTH_BOUNDS});
     }
     if (key.way.dynamic_stride) {
         out.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);

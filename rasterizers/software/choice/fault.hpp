@@ -276,6 +276,16 @@ enum class Fault : uint16_t {
     discard_of_first_draw,
     discard_tests_early,
     discard_tests_late,
+    // depth bounds
+    bounds_ignored,
+    bounds_exclusive,
+    bounds_without_max,
+    bounds_halved,
+    bounds_of_fragment,
+    bounds_of_first_draw,
+    bounds_of_sample_zero,
+    bounds_after_stencil,
+    bounds_fail_writes_depth,
     // stencil
     stencil_faces_exchanged,
     stencil_front_only,

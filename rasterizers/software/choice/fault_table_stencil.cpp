@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults of the stencil, and of fragments that the shader discards before or after it is stored.
+// Faults of the depth bounds, of the stencil, and of fragments that the shader discards before or
+// after it is stored.
 #include "rasterizers/software/choice/fault.hpp"
 
 namespace software {
@@ -9,6 +10,24 @@ namespace software {
 namespace {
 
 constexpr FaultInfo kFaults[] = {
+    {Fault::bounds_ignored, "bounds_ignored", "There is no depth bounds test.", "depth.bounds"},
+    {Fault::bounds_exclusive, "bounds_exclusive", "A depth on one of the depth bounds is outside.",
+     "depth.bounds"},
+    {Fault::bounds_without_max, "bounds_without_max", "The upper depth bound is ignored.",
+     "depth.bounds"},
+    {Fault::bounds_halved, "bounds_halved", "The depth bounds count half.", "depth.bounds"},
+    {Fault::bounds_of_fragment, "bounds_of_fragment",
+     "The fragment's own depth is tested by the depth bounds, not the stored one.", "depth.bounds"},
+    {Fault::bounds_of_first_draw, "bounds_of_first_draw",
+     "Every draw has the depth bounds of the first one.", "depth.bounds"},
+    {Fault::bounds_of_sample_zero, "bounds_of_sample_zero",
+     "The depth bounds test the depth of sample 0, whatever sample is drawn.", "depth.bounds"},
+    {Fault::bounds_after_stencil, "bounds_after_stencil",
+     "A fragment that fails the depth bounds test does what one does that fails the depth test.",
+     "depth.bounds stencil.operation stencil.depth-outcome stencil.compare"},
+    {Fault::bounds_fail_writes_depth, "bounds_fail_writes_depth",
+     "A fragment that fails the depth bounds test writes its depth.",
+     "depth.bounds write.consistent depth.store depth.linear interp.hull"},
     {Fault::stencil_faces_exchanged, "stencil_faces_exchanged",
      "The stencil operations of front and back are exchanged.",
      "stencil.count stencil.faces stencil.compare stencil.operation"},

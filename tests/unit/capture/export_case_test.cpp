@@ -118,6 +118,10 @@ std::vector<Change> draw_changes() {
         {"rasterizer_discard", [](Case& c) { draw(c).rasterizer_discard = true; }},
         {"discard", [](Case& c) { draw(c).discard = cases::Discard::odd_rows; }},
         {"early_tests", [](Case& c) { draw(c).early_tests = true; }},
+        {"depth.bounds",
+         [](Case& c) {
+             draw(c).depth.bounds = cases::DepthBounds{0.25F, 1};
+         }},
         {"stencil",
          [](Case& c) {
              c.target.has_stencil = true;
@@ -132,7 +136,7 @@ std::vector<Change> draw_changes() {
 }
 
 std::vector<Change> depth_changes() {
-    [[maybe_unused]] const auto& [compare, write, bias, clamp, clip, negative_one_to_one] =
+    [[maybe_unused]] const auto& [compare, write, bias, clamp, clip, negative_one_to_one, bounds] =
         cases::DepthState{};
     [[maybe_unused]] const auto& [constant, limit, slope, representation, is_exact] =
         cases::DepthBias{};

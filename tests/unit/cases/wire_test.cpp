@@ -43,6 +43,7 @@ Case sample() {
     draw.early_tests = true;
     draw.depth.compare = CompareOp::less_or_equal;
     draw.depth.write = false;
+    draw.depth.bounds = DepthBounds{0.125F, 0.75F};
     draw.depth.bias = DepthBias{2, -0.25F, 1.5F, DepthBiasRepresentation::force_unorm, true};
     draw.depth.clamp = true;
     draw.depth.clip = true;

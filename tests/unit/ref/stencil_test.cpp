@@ -113,6 +113,13 @@ class RandomQuestions {
                 fragment.twin = -1;
             }
         }
+        if (one_in(3)) {
+            const uint64_t salt = engine_();
+            out.bounds = [salt](int stored, uint32_t m) {
+                std::mt19937_64 of(salt + m * 64 + static_cast<uint64_t>(stored + 1));
+                return static_cast<DepthOutcome>(of() % 3);
+            };
+        }
         if (!one_in(3)) {
             const uint64_t salt = engine_();
             out.depth = [salt](int stored, uint32_t m) {
