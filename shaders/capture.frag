@@ -6,7 +6,7 @@
 //
 // Defined by the build is only what changes capabilities or what is statically used: ATTRIBUTES (0..4),
 // PROBES (interpolateAt*, derivatives), LOD (textureQueryLod), BARYCENTRICS, MASK_IN (gl_SampleMaskIn),
-// SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), DISCARD, COLOR (0 none, 1 float, 2 uint),
+// SAMPLE (gl_SampleID, gl_SamplePosition), MASK_OUT (gl_SampleMask), DISCARD, DEPTH (gl_FragDepth), COLOR (0 none, 1 float, 2 uint),
 // INSTRUMENTS (0: the colour output alone), SPLIT (the instruments as four small outputs), PAIRS (with them
 // each attribute as two). What an attribute holds is chosen by specialization
 // constants (shaders.hpp). All inputs are smooth here: Flat, NoPerspective, Centroid and Sample are
@@ -28,6 +28,10 @@ layout(push_constant) uniform Draw {
     layout(offset = 64) ivec4 sample_numbers;
     layout(offset = 80) uint sample_mask;
     layout(offset = 84) uint discarded;  // numbered as cases::Discard
+    layout(offset = 88) float depth;
+    layout(offset = 92) float other_depth;
+    layout(offset = 96) uint other_where;  // numbered as cases::Discard
+    layout(offset = 100) uint depth_is_coord;
 }
 draw;
 
@@ -170,6 +174,21 @@ layout(location = COLOR_LOCATION) out uvec4 out_color;
 #define CHOOSE(value, choice, k, result) result = value;
 #endif
 
+#if DISCARD || DEPTH
+// Whether cases::Discard of this number picks the fragment.
+bool is_picked(uint which) {
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    switch (which) {
+        case 0u: return false;
+        case 1u: return pixel.x % 2u == 1u;
+        case 2u: return pixel.y % 2u == 1u;
+        case 3u: return (pixel.x + pixel.y) % 2u == 1u;
+        case 4u: return gl_FrontFacing;
+        default: return !gl_FrontFacing;
+    }
+}
+#endif
+
 void main() {
 #if INSTRUMENTS
     // in_primitive is 2^32 - 2 if the device has no gl_PrimitiveID: written as -2.
@@ -221,18 +240,12 @@ void main() {
 #if MASK_OUT
     gl_SampleMask[0] = int(draw.sample_mask);
 #endif
+#if DEPTH
+    gl_FragDepth = draw.depth_is_coord != 0u ? gl_FragCoord.z : is_picked(draw.other_where) ? draw.other_depth : draw.depth;
+#endif
 #if DISCARD
     // At the end, so that derivatives see every fragment.
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
-    bool is_discarded;
-    switch (draw.discarded) {
-        case 1u: is_discarded = pixel.x % 2u == 1u; break;
-        case 2u: is_discarded = pixel.y % 2u == 1u; break;
-        case 3u: is_discarded = (pixel.x + pixel.y) % 2u == 1u; break;
-        case 4u: is_discarded = gl_FrontFacing; break;
-        default: is_discarded = !gl_FrontFacing; break;
-    }
-    if (is_discarded) {
+    if (is_picked(draw.discarded)) {
         discard;
     }
 #endif

@@ -36,8 +36,9 @@ struct FragmentVariant {
     bool sample = false;  // gl_SampleID, gl_SamplePosition: turn sample shading on
     bool mask_out = false;
     bool discards = false;
-    bool split = false;  // instruments as four small outputs instead of two of four numbers
-    bool pairs = false;  // split: each attribute as two outputs of two numbers
+    bool depth_out = false;  // gl_FragDepth
+    bool split = false;      // instruments as four small outputs instead of two of four numbers
+    bool pairs = false;      // split: each attribute as two outputs of two numbers
     ColorKind color = ColorKind::none;
     bool instruments = true;  // false: the colour output alone, at location 0
     friend auto operator<=>(const FragmentVariant&, const FragmentVariant&) = default;
@@ -74,9 +75,14 @@ struct DrawConstants {
     int32_t sample_numbers[kMaxAttributes] = {};
     uint32_t sample_mask = 0xffffffffU;  // gl_SampleMask, if the shader writes it
     uint32_t discarded = 0;              // numbered as cases::Discard, if the shader discards
+    // gl_FragDepth, if the shader writes it: gl_FragCoord.z, or other_depth where that would
+    // discard.
+    float depth = 0, other_depth = 0;
+    uint32_t other_where = 0;
+    uint32_t depth_is_coord = 0;
 };
 // Below maxPushConstantsSize, which is at least 128.
-static_assert(sizeof(DrawConstants) == 88);
+static_assert(sizeof(DrawConstants) == 104);
 
 // The module of a variant; empty if the build made none of that combination.
 std::span<const uint32_t> capture_vertex(const VertexVariant& variant);

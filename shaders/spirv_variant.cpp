@@ -33,7 +33,6 @@ enum Decoration : uint32_t {
     kLocation = 30,
 };
 enum Capability : uint32_t { kGeometry = 2, kSampleRateShading = 35 };
-constexpr uint32_t kEarlyFragmentTests = 9;  // an execution mode
 constexpr uint32_t kStorageInput = 1;
 constexpr uint32_t kBuiltInPrimitiveId = 7;
 
@@ -217,8 +216,8 @@ tl::expected<std::vector<uint32_t>, std::string> change_inputs(
     return out;
 }
 
-tl::expected<std::vector<uint32_t>, std::string> with_early_tests(
-    std::span<const uint32_t> module) {
+tl::expected<std::vector<uint32_t>, std::string> with_modes(std::span<const uint32_t> module,
+                                                            std::span<const uint32_t> modes) {
     auto code = split(module);
     if (!code) {
         return Error(code.error());
@@ -231,9 +230,10 @@ tl::expected<std::vector<uint32_t>, std::string> with_early_tests(
     }
     std::vector<uint32_t> out(module.begin(), module.begin() + kHeaderWords);
     for (auto i = code->begin(); i != code->end(); ++i) {
-        if (i == mode) {
-            out.insert(out.end(),
-                       {first_word(kOpExecutionMode, 3), entry->words[2], kEarlyFragmentTests});
+        for (const uint32_t added : modes) {
+            if (i == mode) {
+                out.insert(out.end(), {first_word(kOpExecutionMode, 3), entry->words[2], added});
+            }
         }
         out.insert(out.end(), i->words.begin(), i->words.end());
     }

@@ -38,8 +38,17 @@ inline constexpr uint32_t kBuiltInBaryCoord = 5286, kBuiltInBaryCoordNoPersp = 5
 tl::expected<std::vector<uint32_t>, std::string> change_inputs(
     std::span<const uint32_t> module, std::span<const InputChange> changes);
 
-// The module of a fragment shader with one entry point, with the execution mode EarlyFragmentTests.
-// Errors: as above, and no entry point or execution mode.
-tl::expected<std::vector<uint32_t>, std::string> with_early_tests(std::span<const uint32_t> module);
+// Execution modes of fragment shaders (3.6 "Execution Mode").
+enum ExecutionMode : uint32_t {
+    kEarlyFragmentTests = 9,
+    kDepthGreater = 14,
+    kDepthLess = 15,
+    kDepthUnchanged = 16,
+};
+
+// The module of a fragment shader with one entry point, with more execution modes. Errors: as
+// above, and no entry point or execution mode.
+tl::expected<std::vector<uint32_t>, std::string> with_modes(std::span<const uint32_t> module,
+                                                            std::span<const uint32_t> modes);
 
 }  // namespace shaders

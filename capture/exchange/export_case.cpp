@@ -280,6 +280,7 @@ class Needs {
         add(d.rasterizer_discard, "rasterizer-discard");
         add(d.discard != cases::Discard::none, "discard");
         add(d.early_tests, "early-tests");
+        add(d.frag_depth.has_value(), "frag-depth");
         add(d.depth.compare != cases::CompareOp::always, "depth-test");
         add(!d.depth.write, "depth-write-mask");
         add(t.has_stencil && !(d.stencil == cases::StencilState{}), "stencil-test");

@@ -1,6 +1,12 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "cases/load/parts.hpp"
@@ -114,6 +120,144 @@ StencilState read_stencil_state(LeafContext& context, const TomlValue& value,
         read_face(context, *own, *face);
     }
     return state;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 1> kFragDepthSources = {"frag-coord"};
+
+void read_written(LeafContext& context, const TomlValue& table, const char* key, float& out) {
+    context.read(table, key, out);
+    if (const TomlValue* value = table.find(key)) {
+        if (!std::isfinite(out)) {
+            context.error(
+                value->where,
+                fmt::format("{} is no finite number, of which Vulkan does not say what is "
+                            "stored",
+                            key));
+        } else if (std::fpclassify(out) == FP_SUBNORMAL) {
+            context.error(value->where,
+                          fmt::format("{} is a denormal number, which a shader may take for 0; "
+                                      "write 0 or at least 2^-126",
+                                      key));
+        }
+    }
+}
+
+// The depths that a draw's triangles may have before the shader replaces them; nothing if a vertex
+// says too little of them.
+std::optional<std::array<double, 2>> depths_of(const Draw& draw) {
+    const auto near = static_cast<double>(draw.viewport.min_depth);
+    const auto far = static_cast<double>(draw.viewport.max_depth);
+    std::array<double, 2> out = {HUGE_VAL, -HUGE_VAL};
+    for (const glm::vec4& p : draw.positions) {
+        if (!(p.w > 0) || !std::isfinite(p.z) || !std::isfinite(p.w)) {
+            return std::nullopt;
+        }
+        const double ndc = static_cast<double>(p.z) / static_cast<double>(p.w);
+        const double z = draw.depth.negative_one_to_one ? (far - near) / 2 * ndc + (far + near) / 2
+                                                        : (far - near) * ndc + near;
+        out = {std::min(out[0], z), std::max(out[1], z)};
+    }
+    return out;
+}
+
+// "per-fragment tests may assume that any FragDepth ... value written by the shader is
+// greater-than-or-equal to the fragment's interpolated depth value" (SPIR-V specification,
+// DepthGreater): a promise that is not kept leaves all of it open.
+void check_layout(LeafContext& context, const TomlValue& where, const Draw& draw) {
+    constexpr double kMargin = 0x1p-16;  // far beyond what a device may be off
+    const FragDepth& d = *draw.frag_depth;
+    if (d.layout == DepthLayout::any) {
+        return;
+    }
+    if (draw.depth.bias) {
+        context.error(where.where,
+                      "a layout promises something of the fragment's own depth, and this draw has "
+                      "a bias; leave one of them out");
+        return;
+    }
+    if (d.is_coord) {
+        return;  // the depth itself, which every layout allows
+    }
+    const float least = d.where == Discard::none ? d.value : std::min(d.value, d.other);
+    const float most = d.where == Discard::none ? d.value : std::max(d.value, d.other);
+    const auto own = depths_of(draw);
+    if (d.layout == DepthLayout::unchanged) {
+        context.error(where.where,
+                      "the layout \"unchanged\" promises the fragment's own depth; write from = "
+                      "\"frag-coord\"");
+    } else if (!own) {
+        context.error(where.where,
+                      "a vertex is behind the eye or has no finite depth, so that it is not known "
+                      "whether the layout's promise is kept; leave layout out");
+    } else if (d.layout == DepthLayout::greater &&
+               static_cast<double>(least) < (*own)[1] + kMargin) {
+        context.error(where.where,
+                      fmt::format("the layout \"greater\" promises depths above the draw's own, "
+                                  "which reach {:.9g}; write larger ones or leave layout out",
+                                  (*own)[1]));
+    } else if (d.layout == DepthLayout::less && static_cast<double>(most) > (*own)[0] - kMargin) {
+        context.error(where.where,
+                      fmt::format("the layout \"less\" promises depths below the draw's own, which "
+                                  "begin at {:.9g}; write smaller ones or leave layout out",
+                                  (*own)[0]));
+    }
+}
+
+}  // namespace
+
+FragDepth read_frag_depth(LeafContext& context, const TomlValue& value) {
+    FragDepth d;
+    if (!context.table(value, "frag_depth")) {
+        return d;
+    }
+    context.known_keys(value, "frag_depth", {"value", "other", "where", "from", "layout"});
+    read_written(context, value, "value", d.value);
+    read_written(context, value, "other", d.other);
+    context.read(value, "where", d.where);
+    context.read(value, "layout", d.layout);
+    if (const TomlValue* from = value.find("from")) {
+        d.is_coord = true;
+        context.word(*from, "from", kFragDepthSources);
+    }
+    const bool has_value = value.find("value") != nullptr;
+    const bool has_other = value.find("other") != nullptr;
+    if (has_value == d.is_coord) {
+        context.error(value.where, has_value ? "frag_depth has both value and from; keep one"
+                                             : "frag_depth has no number; write value, or from = "
+                                               "\"frag-coord\"");
+    } else if (has_other != (d.where != Discard::none) || (has_other && d.is_coord)) {
+        context.error(value.where,
+                      "other is written where the pattern `where` says: they need value and each "
+                      "other");
+    } else if (d.where == Discard::front || d.where == Discard::back) {
+        context.error(value.find("where")->where,
+                      "a depth is written by the pixel; where is \"odd-columns\", \"odd-rows\" or "
+                      "\"checker\"");
+    }
+    return d;
+}
+
+void check_frag_depth(LeafContext& context, const TomlValue& value, const Draw& draw) {
+    const FragDepth& d = *draw.frag_depth;
+    const auto [low, high] = std::minmax(draw.viewport.min_depth, draw.viewport.max_depth);
+    const auto is_outside = [low = low, high = high](float z) { return z < low || z > high; };
+    if (d.is_coord && draw.depth.bias) {
+        context.error(
+            value.where,
+            "gl_FragCoord.z of a draw with a bias has the bias or not; leave out bias, or "
+            "write a value");
+    } else if (!d.is_coord && !draw.depth.clamp &&
+               (is_outside(d.value) || (d.where != Discard::none && is_outside(d.other)))) {
+        context.error(value.where,
+                      fmt::format("without depth clamp Vulkan leaves undefined what becomes of a "
+                                  "depth beyond the viewport's, {} to {}; write depth = {{ clamp = "
+                                  "true }} or another number",
+                                  low, high));
+    } else {
+        check_layout(context, value, draw);
+    }
 }
 
 }  // namespace cases

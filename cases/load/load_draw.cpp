@@ -41,7 +41,7 @@ class DrawLoader {
                              "cull_distance", "attribute",   "mirror",       "rotate",
                              "offset",        "winding",     "first",        "order",
                              "color",         "sample_mask", "shader_mask",  "min_sample_shading",
-                             "stencil",       "discard",     "early_tests"});
+                             "stencil",       "discard",     "early_tests",  "frag_depth"});
         draw_.where = table_.where;
         context_.read(table_, "topology", draw_.topology);
         context_.read(table_, "cull", draw_.cull);
@@ -63,6 +63,9 @@ class DrawLoader {
         if (const TomlValue* depth = table_.find("depth")) {
             draw_.depth = read_depth_state(context_, *depth);
         }
+        if (const TomlValue* written = table_.find("frag_depth")) {
+            draw_.frag_depth = read_frag_depth(context_, *written);
+        }
         if (const TomlValue* stencil = table_.find("stencil")) {
             draw_.stencil = read_stencil_state(context_, *stencil, target_);
         }
@@ -73,6 +76,7 @@ class DrawLoader {
         check_space(name, notes);
         if (!draw_.positions.empty()) {
             refuse_with_surface();
+            check_written_depth();
             return std::move(draw_);
         }
         move_vertices(context_, table_, space_, target_, vertices_);
@@ -96,6 +100,7 @@ class DrawLoader {
         }
         read_clipping(source, *positions, *order);
         draw_.positions = ordered(std::move(*positions), *order);
+        check_written_depth();
         for (Attribute& attribute : draw_.attributes) {
             if (attribute.source == Source::vertex) {
                 attribute.values = ordered(std::move(attribute.values), *order);
@@ -120,6 +125,12 @@ class DrawLoader {
             context_.error(table_.find("discard")->where,
                            "a shader that discards has plain values and writes no gl_SampleMask "
                            "here; leave out discard, or every source, probe and shader_mask");
+        }
+    }
+
+    void check_written_depth() {
+        if (draw_.frag_depth) {
+            check_frag_depth(context_, *table_.find("frag_depth"), draw_);
         }
     }
 

@@ -29,6 +29,11 @@ void read_depth_target(LeafContext& context, const TomlValue& table, Target& tar
 // Reads the table `depth` of a draw.
 DepthState read_depth_state(LeafContext& context, const TomlValue& value);
 
+// Reads the table `frag_depth` of a draw. What it must be beside the rest of the draw is checked
+// once that is known.
+FragDepth read_frag_depth(LeafContext& context, const TomlValue& value);
+void check_frag_depth(LeafContext& context, const TomlValue& value, const Draw& draw);
+
 // Reads the table `stencil` of a draw: keys of both faces, and those of one in `front` and `back`.
 StencilState read_stencil_state(LeafContext& context, const TomlValue& value, const Target& target);
 

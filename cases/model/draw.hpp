@@ -27,6 +27,8 @@ enum class ProvokingVertex : uint8_t { first, last };
 // Which of a draw's fragments the fragment shader discards: those in every second column, row or
 // both, pixel (0, 0) not among them, or those of one face.
 enum class Discard : uint8_t { none, odd_columns, odd_rows, checker, front, back };
+// What a fragment shader promises of the depth that it writes, beside the fragment's own.
+enum class DepthLayout : uint8_t { any, greater, less, unchanged };
 // How the depth test and the stencil test compare.
 enum class CompareOp : uint8_t {  // numbered as VkCompareOp
     never,
@@ -248,6 +250,23 @@ struct Multisample {
     friend bool operator==(const Multisample&, const Multisample&) = default;
 };
 
+// gl_FragDepth: gl_FragCoord.z, or `value`, and of the pixels that `where` would discard `other`.
+// Numbers are finite, 0 or no denormals.
+struct FragDepth {
+    bool is_coord = false;
+    float value = 0, other = 0;
+    Discard where = Discard::none;
+    DepthLayout layout = DepthLayout::any;
+    static void fields(auto&& visit, auto&... d) {
+        visit("coord", d.is_coord...);
+        visit("value", d.value...);
+        visit("other", d.other...);
+        visit("where", d.where...);
+        visit("layout", d.layout...);
+    }
+    friend bool operator==(const FragDepth&, const FragDepth&) = default;
+};
+
 // One draw command and the state it needs.
 struct Draw {
     Topology topology = Topology::triangle_list;
@@ -265,6 +284,7 @@ struct Draw {
     // EarlyFragmentTests: depth and stencil are tested and stored before the fragment shader, and
     // what it discards has been stored.
     bool early_tests = false;
+    std::optional<FragDepth> frag_depth = {};  // nothing: the shader writes no depth
     DepthState depth;
     StencilState stencil;  // if the target has a stencil
     ClipDistances distances;
@@ -288,6 +308,7 @@ struct Draw {
         visit("rasterizer_discard", d.rasterizer_discard...);
         visit("discard", d.discard...);
         visit("early_tests", d.early_tests...);
+        visit("frag_depth", d.frag_depth...);
         visit("depth", d.depth...);
         visit("stencil", d.stencil...);
         visit("multisample", d.multisample...);

@@ -314,6 +314,14 @@ constexpr std::array kRules = {
          "Polygons with the same vertices, biased apart by one r (fixed point: two, as r may be a "
          "little less than a step), never compare equal or the wrong way round.",
          "primsrast-depthbias-computation", "", "ref/depth/outcome.hpp"},
+    Rule{rule::depth_written, Profile::vulkan,
+         "A depth that the fragment shader writes replaces the fragment's own",
+         "It is what is tested and stored, in all samples of the fragment alike: clamped if depth "
+         "is, "
+         "not biased, bit for bit with binary32 depth, either neighbour in fixed point. A layout "
+         "(depth_greater, depth_less, depth_unchanged) whose promise is kept changes nothing. With "
+         "early tests the fragment's own depth counts.",
+         "fragops-shader-depthreplacement", "17.10", "ref/value/sample_values.hpp"},
     Rule{rule::depth_bounds, Profile::vulkan,
          "A fragment is drawn only where the stored depth lies in the depth bounds",
          "minDepthBounds <= z <= maxDepthBounds, of the depth that is stored, not the fragment's. "

@@ -72,6 +72,7 @@ inline constexpr char door_recording[] = "door.recording";
 inline constexpr char depth_store[] = "depth.store";
 inline constexpr char depth_bias[] = "depth.bias";
 inline constexpr char depth_distinct[] = "depth.distinct";
+inline constexpr char depth_written[] = "depth.written";
 inline constexpr char depth_bounds[] = "depth.bounds";
 inline constexpr char depth_clamp[] = "depth.clamp";
 inline constexpr char depth_compare[] = "depth.compare";

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -83,6 +84,28 @@ inline bool stores_discarded(const Draw& draw) {
 }
 inline bool stores_discarded(const Case& c) {
     return std::ranges::any_of(c.draws, [](const Draw& draw) { return stores_discarded(draw); });
+}
+
+// Depths that the fragment shader writes (Vulkan specification, "Depth Replacement": they replace
+// the fragment's own in each of its samples, and are what is tested; no bias is added to them).
+// With early tests the depth has been tested and stored before, and nothing that is written counts.
+inline bool replaces_depth(const Draw& draw) {
+    return draw.frag_depth && !draw.early_tests;
+}
+// Whether it is gl_FragCoord.z.
+inline bool replaces_depth_by_coord(const Draw& draw) {
+    return replaces_depth(draw) && draw.frag_depth->is_coord;
+}
+// The number that every fragment of the pixel then has, clamped if depth is; nothing if it is not
+// written or gl_FragCoord.z.
+inline std::optional<float> written_depth(const Draw& draw, uint32_t x, uint32_t y) {
+    if (!replaces_depth(draw) || draw.frag_depth->is_coord) {
+        return std::nullopt;
+    }
+    const FragDepth& d = *draw.frag_depth;
+    const float z = discards_pixel(d.where, x, y) ? d.other : d.value;
+    const auto [low, high] = std::minmax(draw.viewport.min_depth, draw.viewport.max_depth);
+    return draw.depth.clamp ? std::clamp(z, low, high) : z;
 }
 
 // Whether a draw tests what is stored by its depth bounds ("If ... there is no depth attachment,

@@ -232,8 +232,9 @@ constexpr Statement kStatements[] = {
      "of statement 70 leaves it open but at direct3d.",
      {"depth.repeat"}, ""},
     {72, "writing FragCoord.z to FragDepth", Strictness::free, exact,
-     "",
-     {}, "Not checked: no shader here writes FragDepth. Vulkan only relates shaders that do so to each other (Rule 5), not to the depth that fixed functions compute."},
+     "The stored depth is the FragCoord.z that the same invocation wrote elsewhere, exactly; that it is the depth which "
+     "fixed functions compute is not asked: Vulkan only relates shaders that do so to each other (Rule 5).",
+     {"depth.written"}, ""},
     {73, "storing UNORM", tolerance, tolerance,
      "Either code next to the value; whole codes exactly.",
      {"store.unorm", "store.srgb"}, ""},
@@ -303,6 +304,10 @@ constexpr Statement kStatements[] = {
     {120, "discarded fragments", exact, exact,
      "What the fragment shader discards leaves no trace; with early tests its depth and stencil are stored.",
      {"discard.fragment", "discard.early-tests"}, ""},
+    {122, "depths that the fragment shader writes", exact, exact,
+     "They are tested and stored as they are, clamped if depth is, not biased, the same in all samples of a fragment; on "
+     "D16 and D24 as either neighbour.",
+     {"depth.written", "depth.clamp"}, ""},
     {121, "depth bounds", exact, exact,
      "The bounds belong to what lies in them; what fails changes neither depth nor stencil. On D16 and D24 a stored "
      "depth within a step of a bound is open.",

@@ -140,6 +140,22 @@ void add_depth(TableText& table, const DepthState& depth) {
     }
 }
 
+std::string frag_depth_text(const FragDepth& d) {
+    const FragDepth usual;
+    TableText table;
+    if (d.is_coord) {
+        table.add("from", string_toml("frag-coord"));
+    } else {
+        table.add("value", number_toml(d.value, Reading::nearest));
+    }
+    if (d.where != Discard::none) {
+        table.add("other", number_toml(d.other, Reading::nearest));
+        add_word(table, "where", d.where, usual.where);
+    }
+    add_word(table, "layout", d.layout, usual.layout);
+    return table.in_line();
+}
+
 // A bit mask; hexadecimal digits show the bits of a large one.
 std::string mask_text(uint32_t mask) {
     return mask < 10 ? std::to_string(mask) : fmt::format("{:#x}", mask);
@@ -327,6 +343,9 @@ std::string draw_text(const Draw& draw, const Target& target) {
     table.add_flag("rasterizer_discard", draw.rasterizer_discard, usual.rasterizer_discard);
     add_word(table, "discard", draw.discard, usual.discard);
     table.add_flag("early_tests", draw.early_tests, usual.early_tests);
+    if (draw.frag_depth) {
+        table.add("frag_depth", frag_depth_text(*draw.frag_depth));
+    }
     add_depth(table, draw.depth);
     add_stencil(table, draw.stencil);
     add_multisample(table, draw.multisample);

@@ -96,6 +96,7 @@ DrawCommand::DrawCommand(const cases::Case& c, uint32_t number, const Device& de
       number_(number),
       first_discard_(c.draws[0].discard),
       first_bounds_(c.draws[0].depth.bounds),
+      first_depth_(c.draws[0].frag_depth),
       device_(device),
       out_(out),
       attachments_(attachments),

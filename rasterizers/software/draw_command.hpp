@@ -15,6 +15,7 @@
 #include "rasterizers/software/assembly.hpp"
 #include "rasterizers/software/choice/device.hpp"
 #include "rasterizers/software/clipper.hpp"
+#include "rasterizers/software/multisample.hpp"
 #include "rasterizers/software/planes.hpp"
 #include "rasterizers/software/target/blend_unit.hpp"
 #include "rasterizers/software/target/resolve_unit.hpp"
@@ -63,6 +64,8 @@ class DrawCommand {
                bool front, int64_t i, int64_t j, uint32_t s, uint32_t covered);
     // The same in one layer of the target.
     bool is_discarded(int64_t i, int64_t j, uint32_t s, bool front) const;
+    std::optional<float> written_depth(const TrianglePlanes& planes, const Invocation& invocation,
+                                       int64_t i, int64_t j, uint32_t s) const;
     bool is_in_bounds(float z, size_t at) const;
     void shade_in(uint32_t layer, const Primitive& primitive, const TrianglePlanes& planes,
                   const WindowVertex& first, bool front, int64_t i, int64_t j, uint32_t s,
@@ -74,6 +77,7 @@ class DrawCommand {
     uint32_t number_;
     cases::Discard first_discard_;                    // of the first draw,
     std::optional<cases::DepthBounds> first_bounds_;  // as these
+    std::optional<cases::FragDepth> first_depth_;
     const Device& device_;
     capture::Capture& out_;
     Attachments& attachments_;

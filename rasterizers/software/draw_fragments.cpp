@@ -161,6 +161,38 @@ bool DrawCommand::is_discarded(int64_t i, int64_t j, uint32_t s, bool front) con
     return false;
 }
 
+// What the fragment shader writes to gl_FragDepth, if that replaces the fragment's own depth.
+std::optional<float> DrawCommand::written_depth(const TrianglePlanes& planes,
+                                                const Invocation& invocation, int64_t i, int64_t j,
+                                                uint32_t s) const {
+    const Fault fault = device_.fault;
+    const std::optional<cases::FragDepth>& asked =
+        fault == Fault::frag_depth_of_first_draw ? first_depth_ : draw_.frag_depth;
+    const bool is_early = draw_.early_tests && fault != Fault::frag_depth_after_early_tests;
+    if (!asked || is_early || fault == Fault::frag_depth_ignored ||
+        (fault == Fault::frag_depth_of_sample_zero && s != 0)) {
+        return std::nullopt;
+    }
+    if (asked->is_coord) {
+        if (fault == Fault::frag_depth_coord_at_sample) {
+            const float unit = std::ldexp(1.0F, -device_.subpixel_bits);
+            return planes.depth(
+                static_cast<float>(i) + static_cast<float>(samples_[s].x) * unit + device_.place_x,
+                static_cast<float>(j) + static_cast<float>(samples_[s].y) * unit + device_.place_y);
+        }
+        return planes.depth(invocation.centre.x, invocation.centre.y);
+    }
+    const bool is_quad = fault == Fault::frag_depth_by_quad;
+    const bool has_odd_x = ((is_quad ? i >> 1 : i) & 1) != 0;
+    const bool has_odd_y = ((is_quad ? j >> 1 : j) & 1) != 0;
+    const bool is_other = (asked->where == cases::Discard::odd_columns && has_odd_x) ||
+                          (asked->where == cases::Discard::odd_rows && has_odd_y) ||
+                          (asked->where == cases::Discard::checker && has_odd_x != has_odd_y);
+    const float z = is_other ? asked->other : asked->value;
+    const cases::Viewport& v = draw_.viewport;
+    return fault == Fault::frag_depth_in_range ? v.min_depth + z * (v.max_depth - v.min_depth) : z;
+}
+
 // Whether a fragment of depth z passes the depth bounds test against what sample `at` holds.
 bool DrawCommand::is_in_bounds(float z, size_t at) const {
     const Fault fault = device_.fault;
@@ -210,6 +242,11 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
     const float bias =
         depth_bias(draw_, format, planes.depth_dx(), planes.depth_dy(), largest, device_);
     z = fragment_depth(z, bias, draw_, format, device_);
+    const float own = z;
+    if (const std::optional<float> written = written_depth(planes, invocation, i, j, s)) {
+        z = fragment_depth(*written, fault == Fault::frag_depth_biased ? bias : 0, draw_, format,
+                           device_);
+    }
     const size_t tested = fault == Fault::layer_depth_of_first ? index_in(0, i, j, s) : at;
     if (out_.target.has_depth && !is_in_bounds(z, tested)) {
         if (fault == Fault::bounds_after_stencil) {
@@ -219,8 +256,9 @@ void DrawCommand::shade_in(uint32_t layer, const Primitive& primitive, const Tri
         }
         return;
     }
-    const bool passes =
-        !out_.target.has_depth || passes_depth_test(draw_, z, out_.depth[tested], device_);
+    const bool passes = !out_.target.has_depth ||
+                        passes_depth_test(draw_, fault == Fault::frag_depth_tested_early ? own : z,
+                                          out_.depth[tested], device_);
     const bool is_left = attachments_.stencil.test(at, number_, front, passes);
     const bool is_stored = is_left || fault == Fault::stencil_fail_writes_depth;
     if ((passes && is_stored && (draw_.depth.write || fault == Fault::depth_write_ignored)) ||

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/sample.hpp"
 
 namespace ref {
 
@@ -353,7 +354,7 @@ bool ColorReference::is_constant_depth(uint32_t triangle, float depth) const {
         return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
     };
     return same(draw.viewport.min_depth, 0.0F) && same(draw.viewport.max_depth, 1.0F) &&
-           !draw.depth.negative_one_to_one &&
+           !draw.depth.negative_one_to_one && !replaces_depth(draw) &&
            std::all_of(t.vertex.begin(), t.vertex.end(), [&](uint32_t v) {
                return same(draw.positions[v].z, depth) && same(draw.positions[v].w, 1.0F);
            });

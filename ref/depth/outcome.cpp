@@ -124,10 +124,30 @@ struct DepthTest::Impl {
         }
     }
 
+    // Where the depth of a fragment at p is evaluated: in p, or, if it is gl_FragCoord.z, somewhere
+    // in the pixel. A linear function is largest at a corner.
+    template <class T>
+    std::vector<value::Point<T>> points_of(uint32_t t, const FixedPoint& p) const {
+        if (c.target.samples == 1 || !replaces_depth_by_coord(draw_of(t))) {
+            return {{T(pixels(p.x)), T(pixels(p.y))}};
+        }
+        const auto x = static_cast<double>(p.x >> kFixedBits);
+        const auto y = static_cast<double>(p.y >> kFixedBits);
+        return {{T(x), T(y)}, {T(x + 1), T(y)}, {T(x), T(y + 1)}, {T(x + 1), T(y + 1)}};
+    }
+
     // The depths of triangle t at p; nothing if T cannot tell.
     template <class T>
     std::optional<DepthRange<T>> make_span(uint32_t t, const FixedPoint& p) {
         const value::Primitive& primitive = load(t).primitive;
+        if (const auto z =
+                cases::written_depth(draw_of(t), static_cast<uint32_t>(p.x >> kFixedBits),
+                                     static_cast<uint32_t>(p.y >> kFixedBits))) {
+            const mpq_class exact(static_cast<double>(*z));
+            const auto range = *with_neighbours<mpq_class>({exact, exact}, steps);
+            return DepthRange<T>{false, value::from_exact<T>(range.low),
+                                 value::from_exact<T>(range.high)};
+        }
         if (!primitive.is_finite) {
             return DepthRange<T>{true, {}, {}};
         }
@@ -138,15 +158,20 @@ struct DepthTest::Impl {
         if (!set->is_known) {
             return std::nullopt;
         }
-        const value::Point<T> at_p{T(pixels(p.x)), T(pixels(p.y))};
-        const auto reach = value::reach_of_depth(*set, depth, primitive.is_projectable, at_p);
-        if (!reach.is_known) {
-            return std::nullopt;
+        std::optional<value::Range<T>> range;
+        for (const value::Point<T>& at_p : points_of<T>(t, p)) {
+            const auto reach = value::reach_of_depth(*set, depth, primitive.is_projectable, at_p);
+            if (!reach.is_known) {
+                return std::nullopt;
+            }
+            if (reach.is_free) {
+                return DepthRange<T>{true, {}, {}};
+            }
+            range = range ? value::Range<T>{value::smaller(range->low, reach.range.low),
+                                            value::larger(range->high, reach.range.high)}
+                          : reach.range;
         }
-        if (reach.is_free) {
-            return DepthRange<T>{true, {}, {}};
-        }
-        return with_neighbours<T>(reach.range, steps);
+        return with_neighbours<T>(*range, steps);
     }
 
     // The same, or what depth was cleared to; the last sample's answers are kept.
@@ -185,7 +210,7 @@ struct DepthTest::Impl {
                                    da.scissor == db.scissor && da.distances == db.distances &&
                                    da.multisample == db.multisample && da.stencil == db.stencil &&
                                    da.discard == db.discard && da.early_tests == db.early_tests &&
-                                   has_equal_modes(da, db);
+                                   da.frag_depth == db.frag_depth && has_equal_modes(da, db);
         if (!is_same_state || !load(first).primitive.is_finite) {
             return {};
         }
@@ -201,9 +226,11 @@ struct DepthTest::Impl {
         y.write = x.write;
         // "the smallest difference ... guaranteed to remain distinct" is said of r as the format
         // has it, without depthBiasExact.
-        const bool is_shifted = x == y && !p.is_controlled() && !q.is_controlled() &&
-                                !(p.slope < q.slope) && !(p.slope > q.slope) &&
-                                !(std::fabs(p.clamp) > 0) && !(std::fabs(q.clamp) > 0);
+        // No bias is added to a depth that the shader writes.
+        const bool is_shifted = x == y && !replaces_depth(da) && !p.is_controlled() &&
+                                !q.is_controlled() && !(p.slope < q.slope) &&
+                                !(p.slope > q.slope) && !(std::fabs(p.clamp) > 0) &&
+                                !(std::fabs(q.clamp) > 0);
         const float apart = q.constant - p.constant;
         const float least = steps > 0 ? 2.0F : 1.0F;
         if (!is_shifted || !(std::fabs(apart) >= least)) {

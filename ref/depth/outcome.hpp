@@ -21,6 +21,9 @@
 // precision during a render pass: with fixed point each side of a comparison may be the value
 // itself or either neighbour. Direct3D converts a depth to the format before it compares it
 // (Direct3D 11.3 functional specification, 17.10 and 17.11), so a depth is equal to itself there.
+// A depth that the fragment shader writes is one number, or gl_FragCoord.z, with several samples of
+// anywhere in the pixel: all samples of the fragment have it.
+//
 // The depth bounds test compares the stored depth with two numbers ("Depth Bounds Test": inside is
 // minDepthBounds <= z_a <= maxDepthBounds). The text says neither whether z_a is quantised during a
 // render pass nor whether the bounds are converted to a fixed-point format as other numbers are

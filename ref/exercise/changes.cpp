@@ -191,6 +191,11 @@ bool compare_always(Case& c) {
         c, [](Draw& draw) { return set(draw.depth.compare, cases::CompareOp::always); });
 }
 
+bool write_no_depth(Case& c) {
+    return change_draws(
+        c, [](Draw& draw) { return set(draw.frag_depth, std::optional<cases::FragDepth>()); });
+}
+
 bool drop_bounds(Case& c) {
     return change_draws(
         c, [](Draw& draw) { return set(draw.depth.bounds, std::optional<cases::DepthBounds>()); });

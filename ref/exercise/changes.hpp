@@ -37,9 +37,10 @@ bool toggle_depth_clip(cases::Case& c);
 bool toggle_volume(cases::Case& c);
 bool compare_always(cases::Case& c);
 bool drop_bias(cases::Case& c);
-bool drop_bounds(cases::Case& c);    // there is no depth bounds test
-bool narrow_bounds(cases::Case& c);  // depth bounds do not belong to what lies in them
-bool turn_bias(cases::Case& c);      // it has the other sign
+bool write_no_depth(cases::Case& c);  // fragment shaders write no depth
+bool drop_bounds(cases::Case& c);     // there is no depth bounds test
+bool narrow_bounds(cases::Case& c);   // depth bounds do not belong to what lies in them
+bool turn_bias(cases::Case& c);       // it has the other sign
 // The bias is 256 times as large, as if its steps were those of a depth with eight bits less.
 bool enlarge_bias(cases::Case& c);
 // Every depth is that of the draw's first vertex.

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cases/model/sample.hpp"
 #include "ref/exercise/tests.hpp"
 #include "ref/stencil/outcome.hpp"
 
@@ -46,6 +47,13 @@ bool is_clamped(const View& view, std::string_view) {
     return view.of().target.has_instruments && is_written_by(view, [&](uint32_t t) {
                return view.facts.draw_of(t).depth.clamp &&
                       view.facts.is_beyond_range(t, view.sample);
+           });
+}
+
+bool has_coord_depth(const View& view, std::string_view) {
+    return view.of().target.has_instruments && is_written_by(view, [&](uint32_t t) {
+               const cases::Draw& draw = view.facts.draw_of(t);
+               return draw.depth.write && replaces_depth_by_coord(draw);
            });
 }
 

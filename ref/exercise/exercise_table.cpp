@@ -209,6 +209,10 @@ constexpr ExerciseRow kRows[] = {
     {rule::depth_distinct,
      "where the depth test is decided by planes that are r apart",
      {at_all(is_compared)}},
+    {rule::depth_written,
+     "whose depth, or its test, would come out otherwise if the fragment shader wrote no depth, or "
+     "that has the gl_FragCoord.z which it wrote",
+     {at_all(has_coord_depth), by(write_no_depth, Differ::depths), by(write_no_depth)}},
     {rule::depth_bounds,
      "that would come out otherwise without the depth bounds test, or if the bounds did not belong "
      "to what lies in them",

@@ -163,6 +163,8 @@ constexpr std::array kRows = {
         "the flat input is that of another vertex than the last, which is the provoking one"},
     Row{value_other_weight, rule::barycentric_order, "this is the barycentric of another vertex"},
     Row{value_exact, {}, "the sample and its pixel leave these exact numbers only"},
+    Row{value_coord_depth, rule::depth_written,
+        "the fragment shader wrote gl_FragCoord.z to gl_FragDepth, and another depth is stored"},
     Row{value_clamped_depth, rule::depth_clamp,
         "the depth of its plane is outside the viewport's range, to which it is clamped"},
     Row{value_biased_depth, rule::depth_bias,

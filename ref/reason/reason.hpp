@@ -97,6 +97,7 @@ enum class ReasonKind : uint8_t {
     value_of_not_last,    // it is that of another vertex than the last, the provoking one
     value_other_weight,   // it is the barycentric of another vertex
     value_exact,          // it is none of a few exact numbers
+    value_coord_depth,    // it is not the gl_FragCoord.z that the shader wrote
     value_clamped_depth,  // the depth ought to have been clamped
     value_biased_depth,   // the depth ought to have been biased
     value_stored_depth    // a fixed-point format does not make that of it

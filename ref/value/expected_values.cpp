@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "cases/model/sample.hpp"
 #include "ref/number/rational.hpp"
 #include "ref/value/accept/reach.hpp"
 #include "ref/value/describe.hpp"
@@ -141,6 +142,13 @@ void ValueReference::add_ranges(uint32_t t, cases::SampleId sample, std::span<co
                 out.at(component) = {std::isfinite(v), v, v};
                 continue;
             }
+        }
+        if (const auto z = cases::written_depth(*primitive.draw, sample.x, sample.y);
+            z && id.is_depth()) {
+            const auto [low, high] =
+                value::StoredDepth(*primitive.draw, primitive.depth_format, *z).range();
+            out.at(component) = {true, low, high};
+            continue;
         }
         const auto found = std::find_if(all.begin(), all.end(), [&](const Quantity& q) {
             return q.id == id && (q.kind == Kind::linear || q.kind == Kind::perspective);

@@ -26,7 +26,7 @@ void ValueReference::Impl::judge_samples(uint32_t t, cases::SampleId id,
                                          FragmentVerdict& out) {
     std::array<std::optional<value::Fragment>, std::size(cases::kProfiles)> fragments;
     for (const Quantity& q : quantities_of(t)) {
-        if (!value::is_sample_kind(q.kind) || !selection.has(q.id)) {
+        if (!value::is_sample_kind(q.kind) || !is_part(q)) {
             continue;
         }
         // What is allowed at a profile is allowed at every looser one.
@@ -51,6 +51,27 @@ void ValueReference::Impl::judge_samples(uint32_t t, cases::SampleId id,
                 [&] { return allowed_text(*f, q, at); }, out);
             break;
         }
+    }
+}
+
+// One invocation has one gl_FragCoord: what it writes to gl_FragDepth is what it writes to the
+// capture, clamped and stored.
+void ValueReference::Impl::judge_coord_depth(uint32_t t, const FragmentValues& device,
+                                             FragmentVerdict& out) {
+    const cases::Draw& draw = c.draws[triangles[t].draw];
+    if (!replaces_depth_by_coord(draw) || part != FragmentPart::all || !selection.depth ||
+        !selection.frag_coord || !std::isfinite(device.frag_coord.z)) {
+        return;
+    }
+    const value::StoredDepth stored(draw, c.target.depth_format, device.frag_coord.z);
+    if (!stored.may_be(device.depth, profile)) {
+        const auto depth = std::ranges::find_if(quantities_of(t),
+                                                [](const Quantity& q) { return q.id.is_depth(); });
+        const Profile level =
+            stored.may_be(device.depth, Profile::vulkan) ? profile : Profile::vulkan;
+        add_mismatch(
+            value::mismatch_of(*depth, ReasonKind::value_coord_depth, level), device.depth,
+            [&] { return stored.text(); }, out);
     }
 }
 
@@ -111,9 +132,8 @@ FragmentVerdict ValueReference::Impl::judge(uint32_t t, cases::SampleId id,
             judge_flat(triangle.primitive, q, q.get(device), out);
         }
     }
-    if (part != FragmentPart::depth) {
-        judge_samples(t, id, device, exact_only, out);
-    }
+    judge_samples(t, id, device, exact_only, out);
+    judge_coord_depth(t, device, out);
     const bool is_decided = !exact_only && part == FragmentPart::all &&
                             is_plain_depth(triangle.primitive) && filter(t, id, device, out);
     // Accepted, but above one budget: another basis may explain it better.

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "cases/base/number_text.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/value/accept/filter.hpp"
 #include "ref/value/accept/filter_run.hpp"
 #include "ref/value/accept/judge_candidates.hpp"
@@ -85,7 +86,8 @@ inline std::string bits_of(float f) {
 // Depth that is stored as it is interpolated: the filters know no other.
 inline bool is_plain_depth(const Primitive& primitive) {
     const cases::DepthState& depth = primitive.draw->depth;
-    return primitive.depth_format == cases::DepthFormat::d32_float && !depth.bias && !depth.clamp;
+    return primitive.depth_format == cases::DepthFormat::d32_float && !depth.bias && !depth.clamp &&
+           !replaces_depth(*primitive.draw);
 }
 
 // What is wrong with a quantity and why, without the texts.
@@ -370,6 +372,7 @@ struct ValueReference::Impl {
                     FragmentVerdict& out) const;
     void judge_samples(uint32_t t, cases::SampleId id, const FragmentValues& device,
                        bool exact_only, FragmentVerdict& out);
+    void judge_coord_depth(uint32_t t, const FragmentValues& device, FragmentVerdict& out);
     std::vector<Profile> levels_of(uint32_t t, cases::SampleId id, const FragmentValues& device,
                                    const std::vector<size_t>& failing);
     void describe(uint32_t t, cases::SampleId id, const FragmentValues& device,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/model/float_bits.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/number/fixed_point.hpp"
 
 namespace ref::value {
@@ -144,9 +145,76 @@ std::string others(std::span<const Pair> pairs, uint32_t c, float nominal) {
 
 }  // namespace
 
+StoredDepth::StoredDepth(const cases::Draw& draw, cases::DepthFormat format, float written)
+    : format_(format), z_(written) {
+    const auto [low, high] = std::minmax(draw.viewport.min_depth, draw.viewport.max_depth);
+    is_free_ = !draw.depth.clamp && (written < low || written > high);
+    z_ = draw.depth.clamp ? std::clamp(written, low, high) : written;
+}
+
+float StoredDepth::low_code() const {
+    // Exact: 24 bits times at most 24.
+    const double code = std::floor(static_cast<double>(z_) * cases::depth_steps(format_));
+    return cases::depth_of_code(static_cast<uint32_t>(std::max(code, 0.0)), format_);
+}
+
+float StoredDepth::high_code() const {
+    const double steps = cases::depth_steps(format_);
+    const double code = std::ceil(static_cast<double>(z_) * steps);
+    return cases::depth_of_code(static_cast<uint32_t>(std::min(code, steps)), format_);
+}
+
+bool StoredDepth::may_be(float stored, Profile profile) const {
+    const double steps = cases::depth_steps(format_);
+    if (is_free_ || steps <= 0) {
+        return is_free_ || (stored <= z_ && stored >= z_);  // a zero of either sign
+    }
+    const double exact = static_cast<double>(z_) * steps;
+    // Of 24 bits binary32 has the product with 2^24 - 1 to a quarter or half of a step only.
+    const bool is_any = profile != Profile::direct3d || format_ == cases::DepthFormat::d24_unorm;
+    const auto is_near = [&](double code) { return is_any || std::fabs(code - exact) <= 0.6; };
+    return (same_bits(stored, low_code()) && is_near(std::floor(exact))) ||
+           (same_bits(stored, high_code()) && is_near(std::ceil(exact)));
+}
+
+float StoredDepth::nominal() const {
+    const double steps = cases::depth_steps(format_);
+    if (steps <= 0) {
+        return z_;
+    }
+    const double exact = static_cast<double>(z_) * steps;
+    return exact - std::floor(exact) < 0.5 ? low_code() : high_code();
+}
+
+std::string StoredDepth::text() const {
+    if (is_free_) {
+        return "any depth";
+    }
+    if (cases::depth_steps(format_) <= 0) {
+        return fmt::format("{} exactly", z_);
+    }
+    return same_bits(low_code(), high_code()) ? fmt::format("{} exactly", low_code())
+                                              : fmt::format("{} or {}", low_code(), high_code());
+}
+
+std::array<double, 2> StoredDepth::range() const {
+    if (cases::depth_steps(format_) <= 0) {
+        return {static_cast<double>(z_), static_cast<double>(z_)};
+    }
+    return {static_cast<double>(low_code()), static_cast<double>(high_code())};
+}
+
+namespace {
+
+StoredDepth stored_of(const Fragment& f) {
+    return {*f.draw, f.target->depth_format, *cases::written_depth(*f.draw, f.id.x, f.id.y)};
+}
+
+}  // namespace
+
 bool is_sample_kind(Kind kind) {
-    return kind == Kind::pixel_centre || kind == Kind::sample_mask || kind == Kind::sample_id ||
-           kind == Kind::sample_position;
+    return kind == Kind::written_depth || kind == Kind::pixel_centre || kind == Kind::sample_mask ||
+           kind == Kind::sample_id || kind == Kind::sample_position;
 }
 
 bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, Profile profile) {
@@ -170,6 +238,8 @@ bool may_be(const Fragment& f, const Quantity& q, const FragmentValues& device, 
                        : whole(got) == int64_t{f.id.sample};
         case Kind::sample_mask:
             return is_mask_in(f, got, profile);
+        case Kind::written_depth:
+            return stored_of(f).may_be(got, profile);
         case Kind::linear:
         case Kind::perspective:
         case Kind::flat:
@@ -189,6 +259,8 @@ float nominal_number(const Fragment& f, const Quantity& q) {
                                  : frag_coords(f, Profile::direct3d).front());
         case Kind::sample_position:
             return component(location(f, f.id.sample));
+        case Kind::written_depth:
+            return stored_of(f).nominal();
         case Kind::sample_id:
             return static_cast<float>(f.id.sample);
         case Kind::sample_mask:
@@ -213,6 +285,8 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
             return others(frag_coords(f, profile), q.id.component, number);
         case Kind::sample_position:
             return others(sample_positions(f, profile), q.id.component, number);
+        case Kind::written_depth:
+            return {};
         case Kind::sample_id:
             return profile == Profile::vulkan && f.target->samples > 1
                        ? "or that of another sample of the pixel"
@@ -237,6 +311,9 @@ std::string also_allowed(const Fragment& f, const Quantity& q, Profile profile) 
 }
 
 std::string allowed_text(const Fragment& f, const Quantity& q, Profile profile) {
+    if (q.kind == Kind::written_depth) {
+        return stored_of(f).text() + ", which the fragment shader wrote";
+    }
     const std::string also = also_allowed(f, q, profile);
     if (!also.empty()) {
         return fmt::format("{} {}", nominal_number(f, q), also);

@@ -11,6 +11,7 @@
 // invocations than samples is free; that an invocation a sample has the sample itself is practice.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "ref/value/fragment/fragment_coverage.hpp"
@@ -19,6 +20,25 @@
 #include "ref/value/value.hpp"
 
 namespace ref::value {
+
+// What the depth attachment may hold of a number that the fragment shader wrote: itself, clamped if
+// depth is, or in fixed point either neighbour, with 16 bits at profile direct3d within 0.6 of a
+// step (Direct3D 11.3, 3.2.3.6). A depth beyond the viewport's that is not clamped is undefined.
+class StoredDepth {
+  public:
+    StoredDepth(const cases::Draw& draw, cases::DepthFormat format, float written);
+    bool may_be(float stored, cases::Profile profile) const;
+    float nominal() const;     // the likeliest
+    std::string text() const;  // "0.25 exactly", "0.24999619 or 0.25001144"
+    std::array<double, 2> range() const;
+
+  private:
+    float low_code() const;
+    float high_code() const;
+    cases::DepthFormat format_;
+    float z_;
+    bool is_free_;
+};
 
 bool is_sample_kind(Kind kind);
 

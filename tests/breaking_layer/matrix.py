@@ -21,6 +21,7 @@ FOCUS = [  # families that are about the faults whose names match
     ("blend|write-mask", ["blend/**", "store/**", "order/**", "combination/**", "resolve/**"]),
     ("sample-location", ["multisample/**", "depth-bias/**", "resolve/**"]),
     ("sample|centroid", ["multisample/**", "interpolate-at/**", "derivative/**"]),
+    ("frag-depth", ["frag-depth/**", "combination/**"]),
     ("fragment-discard|early-tests", ["discard/**", "combination/**"]),
     ("resolve", ["resolve/**"]),
     ("flat|noperspective|provoking|attributes", ["attributes/**", "provoking/**", "combination/**", "order/**"]),

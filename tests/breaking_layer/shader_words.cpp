@@ -31,7 +31,7 @@ enum Op : uint32_t {
     kOpKill = 252,
     kOpReturn = 253,
 };
-constexpr uint32_t kEarlyFragmentTests = 9;  // an execution mode
+constexpr uint32_t kEarlyFragmentTests = 9, kDepthReplacing = 12;  // execution modes
 constexpr uint32_t kVertexModel = 0;
 constexpr uint32_t kFragmentModel = 4;
 constexpr uint32_t kStorageInput = 1;
@@ -248,19 +248,34 @@ bool ShaderWords::lose_early_tests() {
     return false;
 }
 
-bool ShaderWords::test_discards_early() {
+bool ShaderWords::test_early() {
     const auto code = instructions();
     const auto is_early = [](const Instruction& i) {
         return i.op == kOpExecutionMode && i.words[2] == kEarlyFragmentTests;
     };
-    const auto is = [](uint32_t op) { return [op](const Instruction& i) { return i.op == op; }; };
-    const auto mode = std::find_if(code.begin(), code.end(), is(kOpExecutionMode));
-    if (mode == code.end() || std::any_of(code.begin(), code.end(), is_early) ||
-        std::none_of(code.begin(), code.end(), is(kOpKill))) {
+    const auto mode = std::find_if(code.begin(), code.end(),
+                                   [](const Instruction& i) { return i.op == kOpExecutionMode; });
+    if (mode == code.end() || std::any_of(code.begin(), code.end(), is_early)) {
         return false;
     }
     insert(mode->at, {first_word(kOpExecutionMode, 3), mode->words[1], kEarlyFragmentTests});
     return true;
+}
+
+bool ShaderWords::test_discards_early() {
+    const auto code = instructions();
+    return std::any_of(code.begin(), code.end(),
+                       [](const Instruction& i) { return i.op == kOpKill; }) &&
+           test_early();
+}
+
+bool ShaderWords::test_depths_early() {
+    const auto code = instructions();
+    return std::any_of(code.begin(), code.end(),
+                       [](const Instruction& i) {
+                           return i.op == kOpExecutionMode && i.words[2] == kDepthReplacing;
+                       }) &&
+           test_early();
 }
 
 }  // namespace breaking

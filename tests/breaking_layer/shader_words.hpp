@@ -41,8 +41,11 @@ class ShaderWords {
     // A fragment shader loses the execution mode EarlyFragmentTests, or one that discards gets it.
     bool lose_early_tests();
     bool test_discards_early();
+    // A fragment shader that writes a depth gets it.
+    bool test_depths_early();
 
   private:
+    bool test_early();
     struct Instruction {
         size_t at = 0;  // word
         uint32_t op = 0;

@@ -62,6 +62,12 @@ void push_constants(const Device& device, const PipelineCache& pipelines, VkComm
     }
     constants.sample_mask = draw.multisample.shader_mask.value_or(0xffffffffU);
     constants.discarded = static_cast<uint32_t>(draw.discard);
+    if (draw.frag_depth) {
+        constants.depth = draw.frag_depth->value;
+        constants.other_depth = draw.frag_depth->other;
+        constants.other_where = static_cast<uint32_t>(draw.frag_depth->where);
+        constants.depth_is_coord = draw.frag_depth->is_coord ? 1 : 0;
+    }
     device.vk().vkCmdPushConstants(commands, pipelines.layout(), kDrawStages, 0, sizeof constants,
                                    &constants);
 }

@@ -84,15 +84,15 @@ Result<PipelineCache> PipelineCache::create(const Device& device) {
 
 Result<VkShaderModule> PipelineCache::shader_module(std::span<const uint32_t> code,
                                                     std::vector<shaders::InputChange> changes,
-                                                    bool early_tests) {
-    std::tuple key(code.data(), std::move(changes), early_tests);
+                                                    std::vector<uint32_t> modes) {
+    std::tuple key(code.data(), std::move(changes), std::move(modes));
     const auto found = modules_.find(key);
     if (found != modules_.end()) {
         return found->second.get();
     }
     auto changed = shaders::change_inputs(code, std::get<1>(key));
-    if (changed && early_tests) {
-        changed = shaders::with_early_tests(*changed);
+    if (changed && !std::get<2>(key).empty()) {
+        changed = shaders::with_modes(*changed, std::get<2>(key));
     }
     if (!changed) {
         return fail(Stage::shader, changed.error());
@@ -151,7 +151,7 @@ Result<Handle<VkPipeline>> PipelineCache::make_graphics(const PipelineKey& key) 
     }
     auto fragment = shader_module(shaders::capture_fragment(fragment_variant(key)),
                                   input_changes(key, device_->capabilities().info.has_primitive_id),
-                                  key.early_tests);
+                                  execution_modes(key));
     if (!fragment) {
         return fail(fragment.error());
     }

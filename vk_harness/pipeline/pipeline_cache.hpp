@@ -32,11 +32,11 @@ class PipelineCache {
 
   private:
     explicit PipelineCache(const Device& device) : device_(&device) {}
-    // The module `code`, embedded in the program, with changes to its inputs, and with the
-    // execution mode EarlyFragmentTests.
+    // The module `code`, embedded in the program, with changes to its inputs, and with more
+    // execution modes.
     Result<VkShaderModule> shader_module(std::span<const uint32_t> code,
                                          std::vector<shaders::InputChange> changes = {},
-                                         bool early_tests = false);
+                                         std::vector<uint32_t> modes = {});
     Result<Handle<VkPipeline>> make_graphics(const PipelineKey& key);
 
     const Device* device_;
@@ -45,8 +45,8 @@ class PipelineCache {
     Handle<VkPipelineLayout> layout_;
     Handle<VkDescriptorSetLayout> copy_set_layout_;
     Handle<VkPipelineLayout> copy_layout_;
-    // By the embedded code's address, the changes and whether tests are early.
-    std::map<std::tuple<const uint32_t*, std::vector<shaders::InputChange>, bool>,
+    // By the embedded code's address, the changes and the execution modes.
+    std::map<std::tuple<const uint32_t*, std::vector<shaders::InputChange>, std::vector<uint32_t>>,
              Handle<VkShaderModule>>
         modules_;
     std::map<PipelineKey, Handle<VkPipeline>> pipelines_;

@@ -7,6 +7,7 @@
 
 #include "cases/format/color_format.hpp"
 #include "cases/model/sample.hpp"
+#include "shaders/spirv_variant.hpp"
 #include "vk_harness/device/format.hpp"
 #include "vk_harness/target/shader_interface.hpp"
 
@@ -63,6 +64,8 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
     key.writes_mask = draw.multisample.shader_mask.has_value();
     key.discards = draw.discard != cases::Discard::none;
     key.early_tests = draw.early_tests;
+    key.writes_depth = draw.frag_depth.has_value();
+    key.depth_layout = draw.frag_depth ? draw.frag_depth->layout : cases::DepthLayout::any;
     key.sample_mask = draw.multisample.sample_mask;
     if (draw.multisample.min_sample_shading) {
         key.min_shading_bits = std::bit_cast<uint32_t>(*draw.multisample.min_sample_shading);
@@ -96,11 +99,33 @@ shaders::VertexVariant vertex_variant(const PipelineKey& key) {
     return {key.attribute_count, key.clip_count, key.cull_count, key.layer, key.viewport_index};
 }
 
+std::vector<uint32_t> execution_modes(const PipelineKey& key) {
+    std::vector<uint32_t> modes;
+    if (key.early_tests) {
+        modes.push_back(shaders::kEarlyFragmentTests);
+    }
+    switch (key.depth_layout) {
+        case cases::DepthLayout::any:
+            break;
+        case cases::DepthLayout::greater:
+            modes.push_back(shaders::kDepthGreater);
+            break;
+        case cases::DepthLayout::less:
+            modes.push_back(shaders::kDepthLess);
+            break;
+        case cases::DepthLayout::unchanged:
+            modes.push_back(shaders::kDepthUnchanged);
+            break;
+    }
+    return modes;
+}
+
 shaders::FragmentVariant fragment_variant(const PipelineKey& key) {
     shaders::FragmentVariant v;
     v.attributes = key.attribute_count;
     v.mask_out = key.writes_mask;
     v.discards = key.discards;
+    v.depth_out = key.writes_depth;
     v.color = key.color;
     v.instruments = key.instruments;
     v.split = key.layout.split;

@@ -51,6 +51,8 @@ struct PipelineKey {
     // Multisampling.
     bool writes_mask = false;  // gl_SampleMask
     bool discards = false, early_tests = false;
+    bool writes_depth = false;  // gl_FragDepth
+    cases::DepthLayout depth_layout = cases::DepthLayout::any;
     uint32_t sample_mask = 0xffffffffU;
     std::optional<uint32_t> min_shading_bits = {};  // of Multisample::min_sample_shading
     std::vector<std::array<uint8_t, 2>> sample_locations = {};  // 1/16 pixel; empty: standard
@@ -82,5 +84,7 @@ PipelineKey pipeline_key(const cases::Case& c, const cases::Draw& draw,
 // What the shaders have to be compiled for.
 shaders::VertexVariant vertex_variant(const PipelineKey& key);
 shaders::FragmentVariant fragment_variant(const PipelineKey& key);
+// The execution modes that its fragment shader has besides those it was compiled with.
+std::vector<uint32_t> execution_modes(const PipelineKey& key);
 
 }  // namespace vk_harness

@@ -56,7 +56,7 @@ static void record_draw(VkCommandBuffer commands, const struct Drawing* drawing,
     const struct Draw* d = &drawing->draws[number];
     const size_t array = 16 * (size_t)d->vertices;
     const VkDeviceSize zero = 0;
-    uint32_t constants[21] = {0};  // DrawConstants of the shaders: 84 bytes
+    uint32_t constants[26] = {0};  // DrawConstants of the shaders: 104 bytes
     uint32_t k, x, y;
     if (d->count == 0) {
         return;
@@ -234,7 +234,7 @@ static void record(VkCommandBuffer commands, const struct Drawing* drawing, cons
     uint32_t k;
     CHECK(vkCreateDescriptorSetLayout(device, &set_info, NULL, &set_layout));
     layout =
-        make_layout(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 84, &set_layout);
+        make_layout(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 104, &set_layout);
     memset(attachments, 0, sizeof attachments);
     for (k = 0; k < planes_of(drawing); ++k) {
         images[k] = make_attachment(commands, drawing, k, &attachments[k]);

@@ -276,6 +276,16 @@ enum class Fault : uint16_t {
     discard_of_first_draw,
     discard_tests_early,
     discard_tests_late,
+    // depths that the fragment shader writes
+    frag_depth_ignored,
+    frag_depth_of_first_draw,
+    frag_depth_of_sample_zero,
+    frag_depth_by_quad,
+    frag_depth_biased,
+    frag_depth_in_range,
+    frag_depth_tested_early,
+    frag_depth_after_early_tests,
+    frag_depth_coord_at_sample,
     // depth bounds
     bounds_ignored,
     bounds_exclusive,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Edgecase authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults of the depth bounds, of the stencil, and of fragments that the shader discards before or
-// after it is stored.
+// Faults of depths that the shader writes, of the depth bounds, of the stencil, and of fragments
+// that the shader discards before or after it is stored.
 #include "rasterizers/software/choice/fault.hpp"
 
 namespace software {
@@ -10,6 +10,29 @@ namespace software {
 namespace {
 
 constexpr FaultInfo kFaults[] = {
+    {Fault::frag_depth_ignored, "frag_depth_ignored", "gl_FragDepth is ignored.",
+     "depth.written depth.compare"},
+    {Fault::frag_depth_of_first_draw, "frag_depth_of_first_draw",
+     "Every draw writes the depth that the first one does.",
+     "depth.written depth.compare depth.bias depth.linear"},
+    {Fault::frag_depth_of_sample_zero, "frag_depth_of_sample_zero",
+     "Sample 0 alone has the depth that the shader writes.", "depth.written depth.compare"},
+    {Fault::frag_depth_by_quad, "frag_depth_by_quad",
+     "A quad of fragments has the depth that its number asks for.", "depth.written depth.compare"},
+    {Fault::frag_depth_biased, "frag_depth_biased",
+     "The bias is added to a depth that the shader writes.", "depth.written"},
+    {Fault::frag_depth_in_range, "frag_depth_in_range",
+     "A depth that the shader writes is mapped to the viewport's range.",
+     "depth.written depth.compare stencil.compare"},
+    {Fault::frag_depth_tested_early, "frag_depth_tested_early",
+     "The fragment's own depth is tested, and the one that the shader writes is stored.",
+     "depth.written depth.compare"},
+    {Fault::frag_depth_after_early_tests, "frag_depth_after_early_tests",
+     "A depth that the shader writes replaces the fragment's own with early tests, too.",
+     "depth.written depth.linear depth.compare stencil.compare"},
+    {Fault::frag_depth_coord_at_sample, "frag_depth_coord_at_sample",
+     "A gl_FragCoord.z that the shader writes is taken at the sample, not the fragment's.",
+     "depth.written"},
     {Fault::bounds_ignored, "bounds_ignored", "There is no depth bounds test.", "depth.bounds"},
     {Fault::bounds_exclusive, "bounds_exclusive", "A depth on one of the depth bounds is outside.",
      "depth.bounds"},

@@ -37,10 +37,12 @@ std::span<const Point<T>> points_at(const Evaluation<T>& where, size_t place) {
 // The list at which a quantity is evaluated.
 template <class T>
 size_t place_of(const Quantity& q, const Evaluation<T>& where) {
-    return q.at_sample                                                          ? kSample
-           : q.at_centroid                                                      ? kCentroid
-           : q.id.of == QuantityId::Of::frag_coord && !where.frag_coord.empty() ? kFragCoord
-                                                                                : kAttributes;
+    // A depth that is not the sample's is a gl_FragCoord.z.
+    const bool is_coord = q.id.of == QuantityId::Of::frag_coord || q.id.is_depth();
+    return q.at_sample                             ? kSample
+           : q.at_centroid                         ? kCentroid
+           : is_coord && !where.frag_coord.empty() ? kFragCoord
+                                                   : kAttributes;
 }
 
 // Adds what a candidate accepts for every judged quantity.

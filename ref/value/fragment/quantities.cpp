@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cases/model/rule_ids.hpp"
+#include "cases/model/sample.hpp"
 #include "ref/number/fixed_point.hpp"
 #include "ref/number/rational.hpp"
 #include "ref/position/clip.hpp"
@@ -173,8 +174,15 @@ std::vector<Quantity> quantities(const cases::Draw& draw, const cases::Target& t
                    cases::rule::depth_linear});
     all.push_back(
         {Kind::linear, false, kPlaneInvW, QuantityId::of_frag_coord(3), cases::rule::fragcoord_w});
-    all.push_back(
-        {Kind::linear, multisampled, kPlaneDepth, QuantityId{}, cases::rule::depth_linear});
+    if (replaces_depth(draw)) {
+        // Of all samples the same: a number, or gl_FragCoord.z.
+        const Kind kind = draw.frag_depth->is_coord ? Kind::linear : Kind::written_depth;
+        const uint32_t plane = draw.frag_depth->is_coord ? kPlaneDepth : 0;
+        all.push_back({kind, false, plane, QuantityId{}, cases::rule::depth_written});
+    } else {
+        all.push_back(
+            {Kind::linear, multisampled, kPlaneDepth, QuantityId{}, cases::rule::depth_linear});
+    }
     uint32_t plane = kPlaneDepth + 1;
     for (size_t a = 0; a < draw.attributes.size(); ++a) {
         const cases::Attribute& attribute = draw.attributes[a];

@@ -33,7 +33,8 @@ enum class Kind : uint8_t {
     sample_mask,   // gl_SampleMaskIn
     sample_id,
     sample_position,
-    probe,  // made of an input by a function (probe.hpp)
+    written_depth,  // that the fragment shader writes, stored
+    probe,          // made of an input by a function (probe.hpp)
 };
 
 // A scalar of a fragment, and how it is judged.

@@ -88,9 +88,9 @@ std::vector<Change> target_changes() {
 std::vector<Change> draw_changes() {
     [[maybe_unused]] const auto& [topology, positions, indices, primitive_restart, attributes,
                                   viewport, scissor, cull, front_face, provoking,
-                                  rasterizer_discard, discard, early_tests, depth, stencil,
-                                  distances, multisample, color, layer, viewport_index, where] =
-        cases::Draw{};
+                                  rasterizer_discard, discard, early_tests, frag_depth, depth,
+                                  stencil, distances, multisample, color, layer, viewport_index,
+                                  where] = cases::Draw{};
     [[maybe_unused]] const auto& [x, y, width, height, min_depth, max_depth] = cases::Viewport{};
     [[maybe_unused]] const auto& [left, top, columns, rows] = cases::Rect{};
     [[maybe_unused]] const auto& [sample_mask, shader_mask, min_sample_shading] =
@@ -118,6 +118,7 @@ std::vector<Change> draw_changes() {
         {"rasterizer_discard", [](Case& c) { draw(c).rasterizer_discard = true; }},
         {"discard", [](Case& c) { draw(c).discard = cases::Discard::odd_rows; }},
         {"early_tests", [](Case& c) { draw(c).early_tests = true; }},
+        {"frag_depth", [](Case& c) { draw(c).frag_depth = cases::FragDepth{}; }},
         {"depth.bounds",
          [](Case& c) {
              draw(c).depth.bounds = cases::DepthBounds{0.25F, 1};

@@ -41,6 +41,7 @@ Case sample() {
     draw.rasterizer_discard = true;
     draw.discard = cases::Discard::checker;
     draw.early_tests = true;
+    draw.frag_depth = FragDepth{false, 0.25F, 0.5F, Discard::odd_rows, DepthLayout::less};
     draw.depth.compare = CompareOp::less_or_equal;
     draw.depth.write = false;
     draw.depth.bounds = DepthBounds{0.125F, 0.75F};
@@ -138,6 +139,7 @@ TEST(Wire, RoundTripKeepsEveryBit) {
         EXPECT_EQ(a.rasterizer_discard, b.rasterizer_discard);
         EXPECT_EQ(a.discard, b.discard);
         EXPECT_EQ(a.early_tests, b.early_tests);
+        EXPECT_EQ(a.frag_depth, b.frag_depth);
         EXPECT_EQ(a.depth, b.depth);
         EXPECT_EQ(a.distances, b.distances);
         EXPECT_EQ(a.multisample, b.multisample);

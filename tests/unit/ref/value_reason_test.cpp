@@ -69,6 +69,9 @@ std::optional<cases::Case> without(const cases::Case& c, const cases::Triangle& 
         case ReasonKind::value_stored_depth:
             out.target.depth_format = cases::DepthFormat::d32_float;
             return out;
+        case ReasonKind::value_coord_depth:
+            draw.frag_depth.reset();
+            return out;
         case ReasonKind::value_set_up:
         case ReasonKind::value_hull:
         case ReasonKind::value_flat:
