@@ -13,6 +13,7 @@
 #include "cases/load/loader.hpp"
 #include "fuzz/generate/dice.hpp"
 #include "fuzz/generate/geometry.hpp"
+#include "fuzz/generate/stencil.hpp"
 
 namespace fuzz {
 
@@ -110,6 +111,10 @@ class CaseWriter {
         word("depth_resolve", "depth-resolve");
         if (!pose_.is_default("stencil")) {
             line("stencil = true");
+            stencil_clear_ = stencil_clear_of(pose_, state_);
+            if (stencil_clear_ != 0) {
+                line("stencil_clear = {}", stencil_clear_);
+            }
         }
         word("attachments", "attachments");
         if (!pose_.is_default("color")) {
@@ -155,7 +160,15 @@ class CaseWriter {
                                             : pose_.is("sample-shading", "full") ? 1.0
                                                                                  : 0.0);
         }
+        word("discard", "discard");
+        if (!pose_.is_default("early-tests")) {
+            line("early_tests = true");
+        }
         write_depth(number);
+        if (const std::string stencil = stencil_of(pose_, number, stencil_clear_, state_);
+            !stencil.empty()) {
+            line("stencil = {}", stencil);
+        }
         write_viewport();
         write_scissor();
         write_color();
@@ -426,7 +439,7 @@ class CaseWriter {
     const Pose& pose_;
     Dice state_, dice_;
     std::string text_;
-    uint32_t width_ = 16, height_ = 16, samples_ = 1, layers_ = 1;
+    uint32_t width_ = 16, height_ = 16, samples_ = 1, layers_ = 1, stencil_clear_ = 0;
     bool is_integer_ = false;
 };
 

@@ -27,7 +27,7 @@ struct Need {
     std::string_view feature, other;
     size_t value;
 };
-constexpr std::array<Need, 21> kNeeds = {{
+constexpr std::array<Need, 27> kNeeds = {{
     {"resolve", "samples", 1},
     {"resolve", "color", 1},
     {"depth-resolve", "samples", 1},
@@ -39,6 +39,12 @@ constexpr std::array<Need, 21> kNeeds = {{
     {"blend", "color", 1},
     {"color-from", "color", 1},
     {"write-mask", "color", 1},
+    {"stencil-masks", "stencil", 1},
+    {"stencil-ops", "stencil", 1},
+    {"stencil-compare", "stencil", 1},
+    {"stencil-compare", "draws", 1},
+    {"stencil-clear", "stencil", 1},
+    {"early-tests", "discard", 1},
     {"compare", "draws", 1},
     {"compare", "z", 1},
     {"bias", "z", 1},
@@ -70,6 +76,12 @@ const std::vector<Feature>& features() {
         {"color-from", {"value", "attribute"}},
         {"write-mask", {"rgba", "rgb", "r", "gb", "ra"}},
         {"stencil", {"false", "true"}},
+        {"stencil-clear", {"0", "given"}},
+        {"stencil-compare",
+         {"always", "equal", "not-equal", "less", "less-or-equal", "greater", "greater-or-equal",
+          "never"}},
+        {"stencil-ops", {"count", "same", "faces"}},
+        {"stencil-masks", {"whole", "given"}},
         {"resolve", {"none", "average", "sample-zero"}},
         {"depth-resolve", {"none", "sample-zero", "min", "max", "average"}},
         {"sample-locations", {"standard", "own"}},
@@ -90,6 +102,8 @@ const std::vector<Feature>& features() {
         {"sample-mask", {"all", "given"}},
         {"shader-mask", {"all", "given"}},
         {"sample-shading", {"off", "half", "full", "least"}},
+        {"discard", {"none", "odd-columns", "odd-rows", "checker", "front", "back"}},
+        {"early-tests", {"false", "true"}},
         {"attributes", {"none", "one", "two", "three"}},
         {"interpolation", {"smooth", "noperspective", "flat", "mixed"}},
         {"auxiliary", {"none", "centroid", "sample"}},
@@ -155,6 +169,11 @@ Pose Poses::draw(size_t candidate) const {
         if (!pose.is_default(need.feature) && pose.is_default(need.other)) {
             pose.set(index_of(need.other), need.value);
         }
+    }
+    // Colours of integers are resolved so, and no others.
+    if (pose.is("resolve", "sample-zero") && !pose.value("color").ends_with("-uint")) {
+        constexpr size_t kR32Uint = 11;
+        pose.set(index_of("color"), kR32Uint);
     }
     if (!pose.is_default("relation") && pose.value("relation").ends_with("-attributes") &&
         pose.is_default("attributes")) {

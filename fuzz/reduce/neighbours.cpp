@@ -28,12 +28,16 @@ struct WordKey {
     std::string_view key, phrase;  // "{}" in the phrase stands for the word
     WordSpan words;
 };
-constexpr std::array<WordKey, 11> kKeys = {{
+constexpr std::array<WordKey, 15> kKeys = {{
     {"cull", "cull = {}", cases::kWords<cases::CullMode>},
     {"front_face", "front_face = {}", cases::kWords<cases::FrontFace>},
     {"provoking", "the {} vertex as provoking one", cases::kWords<cases::ProvokingVertex>},
     {"depth_volume", "depth_volume = {}", cases::kVolumeWords},
     {"compare", "the comparison {}", cases::kWords<cases::CompareOp>},
+    {"fail", "fail = {}", cases::kWords<cases::StencilOp>},
+    {"depth_fail", "depth_fail = {}", cases::kWords<cases::StencilOp>},
+    {"pass", "pass = {}", cases::kWords<cases::StencilOp>},
+    {"discard", "discard = {}", cases::kWords<cases::Discard>},
     {"blend", "blend = {}", kBlends},
     {"interpolation", "{} interpolation", cases::kWords<cases::Interpolation>},
     {"auxiliary", "auxiliary = {}", cases::kWords<cases::Auxiliary>},
@@ -42,7 +46,7 @@ constexpr std::array<WordKey, 11> kKeys = {{
     {"attachments", "attachments = {}", kAttachments},
 }};
 
-bool loads(const std::string& text) {
+bool is_case(const std::string& text) {
     return cases::load_text(text, "case.toml", "case").has_value();
 }
 
@@ -76,7 +80,7 @@ class Finder {
     void add(Document changed, const std::string& place, const std::string& value,
              const std::string& now) {
         std::string text = to_text(changed);
-        if (loads(text)) {
+        if (is_case(text)) {
             all_.push_back({std::move(text), place, value, now});
         }
     }

@@ -90,6 +90,17 @@ bool without_color(Document& document) {
     return true;
 }
 
+// The stencil of the target goes with what all draws say of it.
+bool without_stencil(Document& document) {
+    Document* target = find(document, "target");
+    if (target == nullptr || !erase(*target, "stencil")) {
+        return false;
+    }
+    erase(*target, "stencil_clear");
+    for_each_draw(document, [](Document& draw) { erase(draw, "stencil"); });
+    return true;
+}
+
 bool with_plain_format(Document& document) {
     Document* target = find(document, "target");
     Document* color = target == nullptr ? nullptr : find(*target, "color");
@@ -221,6 +232,12 @@ void add_feature_steps(const Document& document, std::vector<Step>& steps) {
         add_feature(
             "with " + counted(layers - 1, "layer"),
             [layers](Document& d) { return with_layers(d, layers - 1); }, steps);
+    }
+    const Document* draws = document.find("draw");
+    if (draws != nullptr && std::ranges::any_of(draws->array, [](const Document& draw) {
+            return draw.find("stencil") != nullptr;
+        })) {
+        add_feature("without a stencil", without_stencil, steps);
     }
     if (target->find("color") != nullptr) {
         add_feature("without a colour target", without_color, steps);

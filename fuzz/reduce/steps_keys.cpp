@@ -45,7 +45,11 @@ constexpr std::array<Phrase, 4> kPhrases = {{
     {"interpolation", "with smooth {}"},
 }};
 
-std::string phrase_of(const std::string& key) {
+std::string phrase_of(const Path& path, const std::string& key) {
+    const bool is_in_stencil = words_of(path).find("stencil") != std::string::npos;
+    if (is_in_stencil && key == "compare") {
+        return "without {}test";  // "stencil", or "stencil back"
+    }
     const auto phrase = std::ranges::find(kPhrases, key, &Phrase::key);
     return phrase != kPhrases.end() ? std::string(phrase->words) : "without {}" + key;
 }
@@ -76,7 +80,7 @@ void add_keys(const Document& document, const Document& value, const Path& path,
     for (const cases::TomlEntry& entry : value.table) {
         if (std::ranges::find(kNotAlone, entry.key) == kNotAlone.end()) {
             Step step;
-            name_at(document, path, phrase_of(entry.key), step);
+            name_at(document, path, phrase_of(path, entry.key), step);
             step.apply = [path, key = entry.key](Document& d) { return without_key(d, path, key); };
             steps.push_back(std::move(step));
         }

@@ -183,6 +183,42 @@ TEST(ReduceStep, TakesWhatMeansNothingAloneAlong) {
     EXPECT_EQ(plain.target.color_resolve, cases::Resolve::none);
 }
 
+TEST(ReduceStep, TakesAwayWhatDrawsSayOfTheStencilWithIt) {
+    const Document document = read(R"(
+format = 1
+description = "A stencil that is tested."
+rules = ["cover.inside"]
+[target]
+size = [8, 8]
+stencil = true
+stencil_clear = 3
+[[draw]]
+stencil = { front = { pass = "replace", reference = 5 }, back = { pass = "zero" } }
+discard = "checker"
+early_tests = true
+vertices = [[0, 0], [8, 0], [0, 8]]
+[[draw]]
+stencil = { compare = "equal", reference = 5, pass = "increment-clamp", compare_mask = 7 }
+vertices = [[0, 0], [8, 0], [0, 8]]
+)");
+    const cases::Case none = load(to_text(after(document, "without a stencil")));
+    EXPECT_FALSE(none.target.has_stencil);
+    EXPECT_EQ(none.draws[1].stencil, cases::StencilState{});
+    const cases::Case counts = load(to_text(after(document, "draw 1 without stencil")));
+    EXPECT_EQ(counts.draws[1].stencil, cases::StencilState{});
+    EXPECT_EQ(counts.draws[0].stencil.front.reference, 5U);
+    const cases::Case open = load(to_text(after(document, "draw 1 without stencil test")));
+    EXPECT_EQ(open.draws[1].stencil.front.compare, cases::CompareOp::always);
+    const cases::Case whole = load(to_text(after(document, "draw 1 without stencil compare mask")));
+    EXPECT_EQ(whole.draws[1].stencil.back.compare_mask, 0xffU);
+    const cases::Case one = load(to_text(after(document, "draw 0 without stencil back")));
+    EXPECT_EQ(one.draws[0].stencil.back, cases::StencilFace{});
+    const cases::Case drawn = load(to_text(after(document, "draw 0 without discard")));
+    EXPECT_EQ(drawn.draws[0].discard, cases::Discard::none);
+    EXPECT_TRUE(drawn.draws[0].early_tests);
+    EXPECT_FALSE(load(to_text(after(document, "draw 0 without early tests"))).draws[0].early_tests);
+}
+
 // Vertices take their values along, so that each triangle keeps what it had.
 TEST(ReduceStep, LeavesOutVerticesWithTheirValues) {
     const Case c = load(to_text(after(read(kCrowded), "draw 0 without triangle 0")));
