@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cases/model/sample.hpp"
 #include "ref/exercise/tests.hpp"
-#include "ref/stencil/outcome.hpp"
 
 namespace ref {
 
