@@ -18,8 +18,8 @@ struct DepthFormatRow {
     std::string_view word;  // in case files
     uint32_t vulkan;        // VkFormat
     std::string_view vulkan_name;
-    uint32_t bytes;  // of a copied texel
-    double steps;    // the code that means 1; 0: floating point
+    uint32_t bytes;         // of a copied texel
+    double steps;           // the code that means 1; 0: floating point
     uint32_t with_stencil;  // VkFormat of the same depth with 8 bits of stencil in one image
     std::string_view with_stencil_name;
 };
